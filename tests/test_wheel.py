@@ -48,7 +48,7 @@ def installed(wheel: Path, request: pytest.FixtureRequest) -> list[str | Path]:
     Alone it takes a second, and its dependencies are those of this environment.
     """
     folder = wheel.parent / "installed"
-    pip = ["-m", "pip", "install", "--quiet"]
+    pip = ["-m", "pip", "install", "--quiet", "--no-compile"]
     if request.param == "alone":
         run(sys.executable, *pip, "--no-deps", "--target", folder, wheel, cwd=wheel.parent)
         first = f"import sys; sys.path.insert(0, {str(folder)!r}); "

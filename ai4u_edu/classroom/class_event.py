@@ -92,7 +92,6 @@ class ClassEvents:
                 "room": each.room,
                 "state": each.state,
                 "is_here": self._live.is_here(each.number),
-                "running": self._live.host.is_running(each.room),
             }
             for each in self._live.seats.all()
         ]

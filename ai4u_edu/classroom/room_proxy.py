@@ -159,7 +159,8 @@ class RoomProxy:
             host=room.host,
             port=room.port,
             additional_headers=[
-                each for each in self._headers(room, seat, page.headers) if each[0] != "host"
+                *(each for each in self._headers(room, seat, page.headers) if each[0] != "host"),
+                (SCRIPT_KEY_HEADER, self._script_key(seat)),
             ],
             subprotocols=[Subprotocol(each) for each in page.scope["subprotocols"]] or None,
             user_agent_header=None,
@@ -212,7 +213,6 @@ class RoomProxy:
             ("authorization", f"Bearer {room.token}"),
             (ROLE_HEADER, "student" if seat else "teacher"),
             (SEAT_HEADER, str(seat)),
-            (SCRIPT_KEY_HEADER, self._script_key(seat)),
         ]
 
 

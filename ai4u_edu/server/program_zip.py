@@ -12,15 +12,13 @@ from starlette.responses import Response
 from ai4u_edu.server.web_files import ALWAYS_ASK
 
 _FOLDER = Path(__file__).resolve().parent.parent / "program"
-_TOP_MODULE = "page_package.py"
-"""File of the folder that stands for ``ai4u_edu`` itself in the browser, if it is there."""
 _DATE = (2026, 1, 1, 0, 0, 0)  # one for all files, so that the same files make the same bytes
 
 
 async def program_zip(request: Request) -> Response:
     """Return ``ai4u_edu/program`` as a ZIP file, from which Python can import it.
 
-    It has another ``ai4u_edu/__init__.py`` than ours, which would import the whole library.
+    Its ``ai4u_edu/__init__.py`` is empty, since ours would import the whole library.
     """
     content, etag = _zip()
     headers = {**ALWAYS_ASK, "ETag": etag}
@@ -31,8 +29,7 @@ async def program_zip(request: Request) -> Response:
 
 @lru_cache(maxsize=1)
 def _zip() -> tuple[bytes, str]:
-    top = _FOLDER / _TOP_MODULE
-    files = {"ai4u_edu/__init__.py": top.read_bytes() if top.is_file() else b""}
+    files = {"ai4u_edu/__init__.py": b""}
     for path in sorted(_FOLDER.glob("*.py")):
         files[f"ai4u_edu/{_FOLDER.name}/{path.name}"] = path.read_bytes()
     packed = io.BytesIO()

@@ -15,7 +15,11 @@ _MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg
 _STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
 ALWAYS_ASK = {"Cache-Control": "no-cache"}
 """Headers of what a browser may keep, but asks for each time."""
-_POLICIES = {"code_worker.js": "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'"}
+_POLICIES = {
+    "code_worker.js": (
+        "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'"
+    )
+}
 """Content security policies of workers. The one that runs a student's program connects to nobody:
 the page hands it what it needs."""
 

@@ -27,6 +27,7 @@ from ai4u_edu.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.training.prepare import prepare
+from ai4u_edu.training.program_files import load_program, program_controller, program_text
 from ai4u_edu.training.run import Config, run_of
 
 ZOO = "zoo"
@@ -66,7 +67,8 @@ def entrant(spec: str, scene: str = "") -> Entrant:
     Args:
         spec: a training's folder or a model in it (.zip); a network (.onnx,
             ``zoo:SCENE``, or ``zoo`` for the scene's own); a function from percept to action or a
-            Controller, in a Python file of one's own (FILE.py:NAME); an AI4U script by its address
+            Controller, in a Python file of one's own (FILE.py:NAME), which runs as in the page if
+            it could run there, see :mod:`ai4u_edu.program`; an AI4U script by its address
             (``ai4u://HOST:PORT``); a controller by its name; ``random``; ``scene`` for the
             controller that the scene's file names.
         scene: the name of the scene that ``zoo`` means.
@@ -89,7 +91,7 @@ def entrant(spec: str, scene: str = "") -> Entrant:
         return _model(path)
     file, _, name = spec.rpartition(":")
     if file.endswith(".py"):
-        return Entrant(name, _in_rhythm(_from_file(Path(file), name)))
+        return Entrant(name, _of_file(Path(file), name))
     controllers = {
         name: cls
         for name, cls in Block.types.items()
@@ -230,11 +232,22 @@ def _in_rhythm_of(brain: Brain) -> Callable[[BasicAgent], Brain]:
     )
 
 
+def _of_file(path: Path, name: str) -> Callable[[BasicAgent], Brain]:
+    """Return how to make a brain from a function or a controller in a user's Python file."""
+    if not path.is_file():
+        raise SetupError(f"{path}: there is no such Python file")
+    source = program_text(path)
+    if source is None:
+        return _in_rhythm(_from_file(path, name))
+    load_program(source, path, name)  # so that its mistakes are told before a world is built
+    return lambda agent: _in_rhythm(lambda: program_controller(source, path, name, agent))(agent)
+
+
 def _from_file(path: Path, name: str) -> Callable[[], Any]:
     """Run a Python file that the user named, and return a function or a controller from it."""
     called = f"own_controllers_{path.stem}"
     found = importlib.util.spec_from_file_location(called, path)
-    if found is None or found.loader is None or not path.is_file():
+    if found is None or found.loader is None:
         raise SetupError(f"{path}: there is no such Python file")
     module = sys.modules[called] = importlib.util.module_from_spec(found)
     try:

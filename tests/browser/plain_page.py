@@ -24,10 +24,12 @@ class PlainPage:
         self._root = root
         self._etag = self._html = ""
 
-    def serve(self, page: Page, url: str) -> None:
-        """Have a page show this one at a room's address, with any query."""
+    def serve(self, page: Page, url: str | re.Pattern[str]) -> None:
+        """Have a page show this one at a room's address, with any query; or wherever one fits."""
+        if isinstance(url, str):
+            url = re.compile(re.escape(url) + r"(\?.*)?$")
         # not a function: then each of the page's requests would come here to ask
-        page.route(re.compile(re.escape(url) + r"(\?.*)?$"), self._answer)
+        page.route(url, self._answer)
 
     def _answer(self, route: Route) -> None:
         headers = {**route.request.headers, "if-none-match": self._etag}

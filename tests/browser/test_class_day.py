@@ -11,14 +11,15 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
-from tests.browser.served_viser import connected
+from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.server.rooms import free_port, until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 PATIENCE_MS = 30_000
-"""Four pages with viser share two cores."""
+"""Pages with viser share two cores."""
+ANY_ROOM = re.compile(r"/r/[\w-]+/(\?.*)?$")
 
 
 class Day:
@@ -33,8 +34,15 @@ class Day:
         self.teacher.goto(f"{self.school.url}teacher?token={self.school.token}")
         expect(self.teacher.locator("#code")).to_have_text(CODE)
 
-    def join(self) -> None:
+    def join(self, *, draws_nothing: bool = False) -> None:
+        """Open a page and join.
+
+        Args:
+            draws_nothing: without viser, which takes most of a page's time.
+        """
         page = new_page(self.chromium, 700, 600)
+        if draws_nothing:
+            PLAIN.serve(page, ANY_ROOM)
         page.goto(f"{self.school.url}?code={CODE}")
         name = page.locator("#names label").first.inner_text()
         page.get_by_role("button", name="Join", exact=True).click()
@@ -63,8 +71,8 @@ def test_a_class_from_the_first_code_to_the_end(chromium: Browser, tmp_path: Pat
     with served_class(tmp_path, "--port", port) as school:
         day = Day(chromium, school)
         day.open_teachers_page()
-        for _ in range(4):
-            day.join()
+        for number in range(4):
+            day.join(draws_nothing=number >= 2)
         everybody_drives(day)
         another_scene_comes(day)
         nobody_escapes_a_blank_screen(day)

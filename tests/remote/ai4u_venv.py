@@ -12,6 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from ai4u_edu.bootstrap import PIP_INSTALL
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 FOLDER = ROOT / ".venvs" / "ai4u"
 STAMP = FOLDER / "made-of.txt"
@@ -48,7 +50,7 @@ def ensure(maker: Path) -> Path:
     STAMP.unlink(missing_ok=True)
     run([str(maker), "-m", "venv", "--clear", str(FOLDER)])
     python = FOLDER / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-    run([str(python), "-m", "pip", "install", "--quiet", "--no-input", *PACKAGES])
+    run([str(python), *PIP_INSTALL, *PACKAGES])
     STAMP.write_text(wanted(), encoding="utf-8")
     return python
 

@@ -1,6 +1,7 @@
 """Libraries of others that pages load, and the package for a student's program."""
 
 import gzip
+import hashlib
 import io
 import re
 import zipfile
@@ -26,6 +27,7 @@ KINDS = {
     "pyodide/python_stdlib.zip": "application/zip",
 }
 PACKED = sorted(set(KINDS) - {"pyodide/python_stdlib.zip"})
+VERSIONED = re.compile(r"vendor/([\w./-]+)\?v=(\w*)")
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +60,16 @@ def test_a_browser_keeps_for_good_what_has_a_version(room: Room) -> None:
     assert "immutable" in httpx.get(f"{url}?v=1").headers["Cache-Control"]
 
 
+def test_versions_in_addresses_are_those_of_the_files() -> None:
+    found = {
+        (name, version)
+        for path in web_folder().glob("*.js")
+        for name, version in VERSIONED.findall(path.read_text(encoding="utf-8"))
+    }
+    assert {name for name, _ in found} >= set(KINDS)
+    assert found == {(name, hashlib.sha256(content_of(name)).hexdigest()[:8]) for name, _ in found}
+
+
 @pytest.mark.parametrize(
     "name",
     [
@@ -80,6 +92,18 @@ def test_a_browser_keeps_for_good_what_has_a_version(room: Room) -> None:
 )
 def test_nothing_else_has_a_name(room: Room, name: str) -> None:
     assert raw_answer(f"{room.url}web/vendor/{name}", "Host: localhost")[0] in (400, 404)
+
+
+def test_the_worker_may_connect_to_nobody(room: Room) -> None:
+    policy = httpx.get(f"{room.url}web/code_worker.js").headers["Content-Security-Policy"]
+    assert policy.split("; ") == [
+        "default-src 'none'",
+        "script-src 'self' 'wasm-unsafe-eval'",
+        "worker-src 'none'",
+    ]
+    known = httpx.get(f"{room.url}web/code_worker.js").headers["ETag"]
+    again = httpx.get(f"{room.url}web/code_worker.js", headers={"If-None-Match": known})
+    assert (again.status_code, again.headers["Content-Security-Policy"]) == (304, policy)
 
 
 def test_the_program_package_has_a_package_of_its_own_around_it(room: Room) -> None:

@@ -143,7 +143,10 @@ def test_who_can_drive(tmp_path: Path) -> None:
         ("WASDController2", "did you mean 'WASDController'"),
         ("none.py:f", "none.py: there is no such Python file"),
         ("{mine}:ahed", "has no 'ahed'; did you mean 'ahead'"),
-        ("{bad}:f", "bad.py: ZeroDivisionError: division by zero"),
+        (
+            "{bad}:f",
+            r"bad.py, line 1: Your code stopped with ZeroDivisionError: division by zero\.",
+        ),
         ("none.onnx", "the network 'none.onnx' is not there"),
         ("none.zip", "holds no training"),
         ("zoo:nothing", "the zoo has no network for 'nothing'"),

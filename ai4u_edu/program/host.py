@@ -1,0 +1,116 @@
+"""Entry of the page's worker: functions that take and return JSON texts.
+
+====== ============================================= ===============================================
+call   takes                                         returns
+====== ============================================= ===============================================
+load   source, outputs, readings; optional: entry    ok
+begin                                                ok
+decide percept, decision                             ok, values, printed, lines, variables
+====== ============================================= ===============================================
+
+A mistake is returned as ``{"ok": false, "text", "line", "kind"}`` with printed, lines and variables
+as far as they are known; it is never raised. ``begin`` and ``load`` return what was printed too.
+
+- ``outputs`` is ``{name: [[low, ...], [high, ...]]}``.
+- ``readings`` is a list of the percept's keys, or ``{key: dtype}`` with the welcome's dtypes
+  (``<f4``, ``<i4``, ``|b1``, ``|u1``; empty for text). With dtypes, numbers get the type that they
+  have outside the page: JavaScript writes 1.0 as 1.
+- JSON has no infinities, and JavaScript writes -0 as 0. So such numbers are texts: ``"inf"``,
+  ``"-inf"``, ``"nan"``, ``"-0"``; infinite limits in ``outputs`` too. With dtypes, readings that
+  are text are never taken for numbers.
+"""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+from ai4u_edu.program.mistakes import ProgramError
+from ai4u_edu.program.output import Output
+from ai4u_edu.program.program import Program
+
+WORDS = {"inf": float("inf"), "-inf": float("-inf"), "nan": float("nan"), "-0": -0.0}
+"""Numbers that are written as texts."""
+CASTS: dict[str, Callable[[Any], Any]] = {"<f4": float, "<i4": int, "|u1": int, "|b1": bool}
+"""Python's types of the readings' numbers."""
+
+_program: Program | None = None
+_dtypes: dict[str, str] = {}
+
+
+def load(text: str) -> str:
+    """Load a program in place of the last one.
+
+    Args:
+        text: JSON with source, outputs and readings.
+    """
+    global _program
+    said = json.loads(text)
+    output = Output()
+    _program = None
+    _dtypes.clear()
+    if isinstance(said.get("readings"), dict):
+        _dtypes.update(said["readings"])
+    outputs = {name: (_number(low), _number(high)) for name, (low, high) in said["outputs"].items()}
+    try:
+        _program = Program.load(
+            said["source"], entry=said.get("entry", ""), outputs=outputs, output=output
+        )
+    except ProgramError as error:
+        return _failed(error, output.take())
+    return json.dumps({"ok": True, "printed": output.take()})
+
+
+def begin() -> str:
+    """Begin an episode."""
+    return _asked(lambda program: program.begin())
+
+
+def decide(text: str) -> str:
+    """Ask the program for a decision.
+
+    Args:
+        text: JSON with the percept.
+    """
+    percept = {
+        key: _reading(value, _dtypes.get(key)) for key, value in json.loads(text)["percept"].items()
+    }
+    return _asked(lambda program: program.decide(percept))
+
+
+def _asked(ask: Callable[[Program], Any]) -> str:
+    if _program is None or _program.output is None:
+        return _failed(ProgramError("no program is loaded; load one first"), "")
+    try:
+        values = ask(_program)
+    except ProgramError as error:
+        return _failed(error, _program.output.take(), _program)
+    return _told({"ok": True, "values": values}, _program.output.take(), _program)
+
+
+def _failed(error: ProgramError, printed: str, program: Program | None = None) -> str:
+    answer = {"ok": False, "text": error.text, "line": error.line, "kind": error.kind}
+    return _told(answer, printed, program)
+
+
+def _told(answer: dict[str, Any], printed: str, program: Program | None) -> str:
+    lines = program.trace.lines if program is not None else []
+    variables = program.variables() if program is not None else {}
+    return json.dumps({**answer, "printed": printed, "lines": lines, "variables": variables})
+
+
+def _number(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_number(each) for each in value]
+    return WORDS.get(value, value) if isinstance(value, str) else value
+
+
+def _reading(value: Any, dtype: str | None) -> Any:
+    """Return a reading with the type that it has outside the page."""
+    if isinstance(value, list):
+        if dtype is None and any(isinstance(each, str) and each not in WORDS for each in value):
+            return value  # texts
+        return [_reading(each, dtype) for each in value]
+    if dtype is None:
+        return _number(value)
+    cast = CASTS.get(dtype)
+    return cast(_number(value)) if cast is not None else value

@@ -1,0 +1,210 @@
+"""Errors of students' programs as sentences for beginners, with the line."""
+
+import builtins
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from ai4u_edu.program.reading import MissingReadingError, Reading, Readings
+from ai4u_edu.program.words import nearest, shorten, shown, suggest
+
+MAX_TEXT_CHARS = 500
+"""An exception's own text may be of any length."""
+NOTHING_RETURNED = "Your function returned nothing (None). Is `return` missing?"
+NO_NUMPY = (
+    "numpy is not there in the page. A reading can do without: it has .min(), .max(), .sum(), "
+    ".mean(), .argmin() and .argmax(), and `import math` has sin, cos and sqrt."
+)
+_PARAMETERS = re.compile(
+    r"(?P<name>[\w.<>]+)\(\) (?:takes (?:from )?\d+(?: to \d+)? positional arguments?"
+    r" but \d+ (?:was|were) given|missing \d+ required positional argument)"
+)
+_SYNTAX = (
+    (
+        r"expected an indented block after (?P<what>.+) on line (?P<line>\d+)",
+        "This line belongs to {what} in line {line}: begin it with four more spaces than that one.",
+    ),
+    (
+        r"unexpected indent",
+        (
+            "This line begins with more spaces than the line before it: expected "
+            "as many, unless that one ends with a colon (:)."
+        ),
+    ),
+    (
+        r"unindent does not match",
+        (
+            "This line begins with a number of spaces that no line above "
+            "has: expected as many as the line that it belongs with."
+        ),
+    ),
+    (
+        r"inconsistent use of tabs",
+        "This line begins with tabs, and others with spaces: expected spaces everywhere.",
+    ),
+    (
+        r"expected ':'",
+        "A colon (:) is missing at the end of this line, or before what stands after it.",
+    ),
+    (r"'(?P<what>[(\[{])' was never closed", "The bracket {what} in this line is never closed."),
+    (r"unmatched '(?P<what>.)'", "There is a bracket {what} in this line that was never opened."),
+    (
+        r"closing parenthesis '(?P<what>.)' does not match opening parenthesis '(?P<other>.)'",
+        "The bracket {other} is closed by {what}: expected brackets of the same kind.",
+    ),
+    (
+        r"unterminated (?:triple-quoted )?f?-?string",
+        "A text begins in this line and does not end: expected a quote (\" or ') behind it.",
+    ),
+    (r"Maybe you meant '==' or ':='", "One = stores a value, and two compare: expected == here."),
+    (r"Perhaps you forgot a comma", "Something is missing between two values: perhaps a comma."),
+    (
+        r"'return' outside function",
+        (
+            "`return` stands outside of a function: begin the line with "
+            "four spaces if it belongs to the function above."
+        ),
+    ),
+    (r"Missing parentheses in call to 'print'", "`print` needs brackets: print(...)."),
+    (
+        r"invalid character '(?P<what>.)'",
+        "Python does not know the character {what}: perhaps it was copied from a text.",
+    ),
+    (
+        r"^invalid syntax$",
+        (
+            "Python can't read this line. Is a bracket, a comma or a colon missing "
+            "in it, or in the line above?"
+        ),
+    ),
+)
+"""Python's messages, and the sentences for them."""
+
+
+class ProgramError(Exception):
+    """A mistake in a program, as a sentence.
+
+    Args:
+        text: what was expected, what came, and how to mend it.
+        line: in the program, from 1; 0 if there is none.
+        kind: name of the mistake: syntax, indentation, entry, parameters, no-return, action,
+            actuator, length, not-a-number, not-finite, wrong-key, unknown-name, attribute,
+            endless, recursion, memory, numpy, import, or error.
+    """
+
+    def __init__(self, text: str, line: int = 0, kind: str = "error") -> None:
+        super().__init__(text)
+        self.text = text
+        self.line = line
+        self.kind = kind
+
+    def __str__(self) -> str:
+        return f"line {self.line}: {self.text}" if self.line else self.text
+
+
+def syntax_mistake(error: SyntaxError) -> ProgramError:
+    r"""Return the mistake that keeps Python from reading a program.
+
+    >>> try:
+    ...     compile("def decide(percept)\n    return {}", "program.py", "exec")
+    ... except SyntaxError as error:
+    ...     print(syntax_mistake(error))
+    line 1: A colon (:) is missing at the end of this line, or before what stands after it.
+    """
+    said = str(error.msg)
+    kind = "indentation" if isinstance(error, IndentationError) else "syntax"
+    for pattern, text in _SYNTAX:
+        found = re.search(pattern, said)
+        if found:
+            return ProgramError(text.format(**found.groupdict()), error.lineno or 0, kind)
+    text = f"Python can't read this line: {shorten(said, MAX_TEXT_CHARS)}."
+    return ProgramError(text, error.lineno or 0, kind)
+
+
+def mistake_in(error: BaseException, file: str) -> ProgramError:
+    """Return the mistake behind an exception that a program raised.
+
+    Args:
+        error: with its traceback.
+        file: name of the program's file, as in the traceback.
+    """
+    if isinstance(error, SyntaxError) and error.filename == file:
+        return syntax_mistake(error)
+    line, names = _place_of(error, file)
+    if isinstance(error, ProgramError):
+        return ProgramError(error.text, error.line or line, error.kind)
+    text, kind = _sentence(error, names)
+    return ProgramError(text, line, kind)
+
+
+def _sentence(error: BaseException, names: Iterable[str]) -> tuple[str, str]:
+    """Return the sentence on an exception, and the kind of the mistake."""
+    said = _text_of(error)
+    match error:
+        case MissingReadingError():
+            return said, "wrong-key"
+        case UnboundLocalError():
+            # its name is in the text alone
+            name = found[1] if (found := re.search(r"variable '([^']+)'", said)) else "it"
+            text = f"{name!r} has no value yet in this function. To change a variable from outside"
+            return f"{text} it, write `global {name}` as the function's first line.", "unknown-name"
+        case NameError() if error.name:
+            return f"nothing is called {error.name!r}; {_near(error.name, names)}", "unknown-name"
+        case AttributeError() if error.name:
+            return _no_attribute(error.obj, error.name), "attribute"
+        case RecursionError():
+            return "A function calls itself again and again, without an end.", "recursion"
+        case MemoryError():
+            return "The program needs more memory than there is.", "memory"
+        case ImportError() if error.name == "numpy":
+            return NO_NUMPY, "numpy"
+        case ImportError():
+            return f"Your code stopped at an import: {said}.", "import"
+        case SystemExit():
+            return "Your code ended the program; expected `return` with an action.", "error"
+        case TypeError() if _PARAMETERS.search(said):
+            return f"{said}: compare the names in the brackets after `def`.", "parameters"
+    between = ": " if said else ""
+    return f"Your code stopped with {type(error).__name__}{between}{said}.", "error"
+
+
+def _near(name: str, names: Iterable[str]) -> str:
+    near = nearest(name, {*names, *vars(builtins)})
+    if near:
+        return f"did you mean {near!r}?"
+    return "a name gets its value with =, and a text stands in quotes"
+
+
+def _no_attribute(owner: Any, name: str) -> str:
+    if isinstance(owner, Readings) and name in owner:
+        return f'a reading is taken with brackets and quotes: percept["{name}"]'
+    known = [each for each in dir(type(owner)) if not each.startswith("_")]
+    if isinstance(owner, Reading):
+        return f"a reading has no {name!r}; {suggest(name, known)}"
+    if owner is None:
+        return f"None has no {name!r}: the value before the dot is nothing. Is `return` missing?"
+    near = nearest(name, known)
+    hint = f"; did you mean {near!r}?" if near else ""
+    what = type(owner).__name__ if type(owner).__name__ != "module" else shown(owner)
+    return f"{what} has no {name!r}{hint}"
+
+
+def _text_of(error: BaseException) -> str:
+    try:
+        return shorten(str(error), MAX_TEXT_CHARS).removesuffix(".")
+    except Exception:  # a text of the program's own class
+        return ""
+
+
+def _place_of(error: BaseException, file: str) -> tuple[int, list[str]]:
+    """Return the program's innermost line in a traceback, and the names that are known there."""
+    line, names = 0, list[str]()
+    trace = error.__traceback__
+    while trace is not None:
+        code, frame = trace.tb_frame.f_code, trace.tb_frame
+        # the last call of a recursion does not begin: the line that calls is the mistake's
+        is_call = isinstance(error, RecursionError) and trace.tb_lineno == code.co_firstlineno
+        if code.co_filename == file and not (line and is_call):
+            line, names = trace.tb_lineno, [*frame.f_locals, *frame.f_globals]
+        trace = trace.tb_next
+    return line, names

@@ -1,0 +1,213 @@
+"""A program that is loaded once, and then asked for one decision after another."""
+
+import ast
+import builtins
+from collections.abc import Callable, Mapping
+from typing import Any, Self
+
+from ai4u_edu.program import standins
+from ai4u_edu.program.action import Outputs, checked_action
+from ai4u_edu.program.entry import METHOD, MODULE_NAME, check_parameters, entry_name
+from ai4u_edu.program.mistakes import ProgramError, mistake_in
+from ai4u_edu.program.output import Output
+from ai4u_edu.program.portable import obstacle_in_tree
+from ai4u_edu.program.reading import plain_sum, readings_of
+from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, Trace, loop_around
+
+MAX_SOURCE_CHARS = 200_000
+
+
+class Program:
+    r"""A student's program: a function ``decide(percept)``, or a class with ``get_action``.
+
+    Its global variables are made anew by each :meth:`load`; a new episode leaves them as they are,
+    as it does for a function that drives a LocalBrain. A class is made once, and its ``reset()``
+    and a Controller's ``on_reset(agent, view)`` are called at each episode's begin; agent and view
+    are None. One thread calls all methods.
+
+    Attributes:
+        trace: what ran in the last call.
+        output: what was printed; None if the program prints as Python does.
+
+    >>> program = Program.load(
+    ...     "def decide(percept):\n    return {'move': [percept['eyes'].max(), 0]}",
+    ...     outputs={"move": ([-1, -1], [1, 1])},
+    ... )
+    >>> program.begin()
+    >>> program.decide({"eyes": [0.25, 0.5]})
+    {'move': [0.5, 0.0]}
+    """
+
+    def __init__(
+        self,
+        tree: ast.Module,
+        file: str,
+        *,
+        outputs: Outputs | None,
+        output: Output | None,
+        trace: Trace,
+    ) -> None:
+        self.trace = trace
+        self.output = output
+        self._tree = tree
+        self.file = file
+        self._outputs = outputs
+        self._is_deciding = False
+        self._controller: Any = None
+        self._function: Callable[[Any], Any] = lambda percept: None  # noqa: ARG005  # until it is loaded
+        self._names: dict[str, Any] = {}
+
+    @classmethod
+    def load(
+        cls,
+        source: str,
+        file: str = "program.py",
+        entry: str = "",
+        outputs: Outputs | None = None,
+        *,
+        output: Output | None = None,
+        limit_s: float = DECISION_LIMIT_S,
+        keeps_lines: bool = True,
+    ) -> Self:
+        """Run a program's text, and find what is to be asked for decisions.
+
+        Args:
+            source: the text.
+            file: name for tracebacks.
+            entry: name of a function, of a class with ``get_action`` or of such an object; by
+                default ``decide``, else the only class with ``get_action``.
+            outputs: lowest and highest values of the agent's actuators by name; None checks
+                neither names nor counts.
+            output: keeps what is printed; by default it is printed as Python does.
+            limit_s: longest time of a decision, and of loading, seconds.
+            keeps_lines: True records lines and variables of each decision.
+
+        Raises:
+            ProgramError: a mistake, with its line.
+        """
+        trace = Trace(file, limit_s, keeps_lines=keeps_lines)
+        tree = _parsed(source, file)
+        obstacle = obstacle_in_tree(tree)
+        if obstacle is not None:
+            raise obstacle
+        program = cls(tree, file, outputs=outputs, output=output, trace=trace)
+        program._run_module()
+        program._find_entry(entry)
+        return program
+
+    def begin(self) -> None:
+        """Begin an episode.
+
+        Raises:
+            ProgramError: a mistake in the controller's ``reset``.
+        """
+        self._call_hook("reset")
+        self._call_hook("on_reset", None, None)
+
+    def decide(self, percept: Mapping[str, Any]) -> dict[str, list[float]]:
+        """Return the program's action for a percept: numbers by the actuator's name.
+
+        Args:
+            percept: readings by key, as :func:`~ai4u_edu.program.readings_of` takes them.
+
+        Raises:
+            ProgramError: a mistake, with its line.
+        """
+        readings = readings_of(percept)
+        self._is_deciding = True
+        try:
+            self._call_hook("new_state_event", readings)
+            answer = self._call(self._function, readings)
+        finally:
+            self._is_deciding = False
+        return checked_action(answer, self._outputs, self.trace.last_line or self._first_line())
+
+    def variables(self) -> dict[str, str]:
+        """Return the variables at the end of the last call: names, and beginnings of values."""
+        return self.trace.variables(self._names)
+
+    def _run_module(self) -> None:
+        own = {"__import__": _import, "sum": plain_sum, "input": _no_input}
+        if self.output is not None:
+            own["print"] = self.output.print
+        self._names = {
+            "__builtins__": {**vars(builtins), **own},
+            "__name__": MODULE_NAME,
+            "__file__": self.file,
+        }
+        try:
+            code = compile(_CatchesLess().visit(self._tree), self.file, "exec")
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            raise mistake_in(error, self.file) from None
+        self._call(exec, code, self._names)
+
+    def _find_entry(self, entry: str) -> None:
+        value = self._names[entry_name(self._names, self._tree, self.file, entry)]
+        if isinstance(value, type):
+            value = self._call(value)
+        if hasattr(value, METHOD):
+            self._controller = value
+            self._call_hook("on_setup", None, None)
+            value = getattr(value, METHOD)
+        check_parameters(value)
+        self._function = value
+
+    def _call_hook(self, name: str, *arguments: Any) -> None:
+        """Call a method that a controller may have; the stand-in's own ones do nothing."""
+        method = getattr(self._controller, name, None)
+        if callable(method) and getattr(method, "__module__", "") != standins.__name__:
+            self._call(method, *arguments)
+
+    def _first_line(self) -> int:
+        code = getattr(self._function, "__code__", None)
+        return code.co_firstlineno if code is not None else 0
+
+    def _call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        try:
+            return self.trace.run(function, *arguments)
+        except EndlessError as error:
+            raise self._endless(error.line) from None
+        except (Exception, SystemExit) as error:
+            raise mistake_in(error, self.file) from error
+
+    def _endless(self, line: int) -> ProgramError:
+        said = f"Your code did not answer for {self.trace.limit_s:g} s."
+        loop = loop_around(self._tree, line)
+        if not isinstance(loop, ast.While):
+            text = f"{said} Something in it never ends, or takes very long."
+        elif self._is_deciding:
+            text = f"{said} The robot asks it again at each decision: use `if`, not `while`."
+        else:
+            text = f"{said} The loop never ends: its condition stays true."
+        return ProgramError(text, loop.lineno if loop else line, "endless")
+
+
+class _CatchesLess(ast.NodeTransformer):
+    """Lets a bare ``except`` catch no error that ends an endless loop."""
+
+    def visit_ExceptHandler(self, node: ast.ExceptHandler) -> ast.AST:
+        self.generic_visit(node)
+        if node.type is None or (
+            isinstance(node.type, ast.Name) and node.type.id == "BaseException"
+        ):
+            node.type = ast.copy_location(ast.Name("Exception", ast.Load()), node)
+        return node
+
+
+def _parsed(source: str, file: str) -> ast.Module:
+    if len(source) > MAX_SOURCE_CHARS:
+        raise ProgramError(f"expected a program of at most {MAX_SOURCE_CHARS:,} characters")
+    try:
+        return ast.parse(source, file)
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise mistake_in(error, file) from None
+
+
+def _import(name: str, *arguments: Any, **options: Any) -> Any:
+    if name == "ai4u_edu":
+        return standins.MODULE
+    return builtins.__import__(name, *arguments, **options)
+
+
+def _no_input(*_prompt: object) -> None:
+    raise ProgramError("input() has nobody to ask here: a decision uses only the percept")

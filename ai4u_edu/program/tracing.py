@@ -1,0 +1,136 @@
+"""Trace of what a program runs in one decision, and the time limit of that decision."""
+
+import ast
+import sys
+import time
+from collections.abc import Callable
+from types import FrameType, FunctionType, ModuleType
+from typing import Any
+
+from ai4u_edu.program.words import shown
+
+DECISION_LIMIT_S = 1.0
+"""Longest time that a program may take for a decision."""
+MAX_LINES = 500
+"""Lines that a trace keeps of one decision; the first ones."""
+MAX_VARIABLES = 40
+MAX_VALUE_CHARS = 120
+"""Length of a variable's value in a trace."""
+LINES_BETWEEN_CHECKS = 16
+"""Lines between two looks at the clock, which costs more than to count a line."""
+
+
+class EndlessError(BaseException):
+    """A call takes too long; ``except Exception`` in a program does not catch it.
+
+    Args:
+        line: of the program, that was about to run.
+    """
+
+    def __init__(self, line: int) -> None:
+        super().__init__(line)
+        self.line = line
+
+
+class Trace:
+    """The lines that one call of a program ran, and its variables at the end.
+
+    Only lines of the program's own file count. Where a debugger traces already, nothing is
+    recorded and no time limit holds.
+
+    Args:
+        file: name of the program's file, as it was compiled.
+        limit_s: longest time of a call, seconds.
+        keeps_lines: False records neither lines nor variables.
+    """
+
+    def __init__(
+        self, file: str, limit_s: float = DECISION_LIMIT_S, *, keeps_lines: bool = True
+    ) -> None:
+        self.lines: list[int] = []
+        """Numbers of the lines that ran, in order."""
+        self.last_line = 0
+        """Line at which the outermost function returned."""
+        self._file = file
+        self.limit_s = limit_s
+        self._keeps_lines = keeps_lines
+        self._deadline = 0.0
+        self._left = 0
+        self._outermost: FrameType | None = None
+        self._locals: dict[str, Any] = {}
+
+    def run(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Call a function of the program and return its result.
+
+        Raises:
+            EndlessError: it took too long.
+        """
+        self.lines = []
+        self.last_line = 0
+        self._locals = {}
+        if sys.gettrace() is not None:
+            return function(*arguments)
+        self._deadline = time.monotonic() + self.limit_s
+        self._left = LINES_BETWEEN_CHECKS
+        sys.settrace(self._on_call)
+        try:
+            return function(*arguments)
+        finally:
+            sys.settrace(None)
+            self._outermost = None
+
+    def variables(self, module: dict[str, Any]) -> dict[str, str]:
+        """Return the variables at the end of the last call: names, and beginnings of values.
+
+        Args:
+            module: the program's global variables.
+        """
+        own = self._locals.get("self")
+        memory = getattr(own, "__dict__", None) if own is not None else None
+        found: dict[str, Any] = {
+            name: value for name, value in self._locals.items() if name not in ("self", "percept")
+        }
+        if type(memory) is dict:
+            found |= {f"self.{name}": value for name, value in memory.items()}
+        found |= {
+            name: value
+            for name, value in module.items()
+            if not name.startswith("_")
+            and name not in found
+            and not issubclass(type(value), type | FunctionType | ModuleType)
+        }
+        kept = list(found.items())[:MAX_VARIABLES]
+        return {name[:MAX_VALUE_CHARS]: shown(value, MAX_VALUE_CHARS) for name, value in kept}
+
+    def _on_call(self, frame: FrameType, _event: str, _argument: Any) -> Any:
+        if frame.f_code.co_filename != self._file:
+            return None
+        if self._outermost is None:
+            self._outermost = frame
+        return self._on_event
+
+    def _on_event(self, frame: FrameType, event: str, _argument: Any) -> Any:
+        if event == "line":
+            if self._keeps_lines and len(self.lines) < MAX_LINES:
+                self.lines.append(frame.f_lineno)
+            self._left -= 1
+            if self._left <= 0:
+                self._left = LINES_BETWEEN_CHECKS
+                if time.monotonic() > self._deadline:
+                    raise EndlessError(frame.f_lineno)
+        elif event == "return" and frame is self._outermost:
+            self.last_line = frame.f_lineno
+            if self._keeps_lines:
+                self._locals = dict(frame.f_locals)
+        return self._on_event
+
+
+def loop_around(tree: ast.Module, line: int) -> ast.While | ast.For | None:
+    """Return the innermost ``while`` or ``for`` around a line; None if there is none."""
+    around = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.While | ast.For)
+        and node.lineno <= line <= (node.end_lineno or node.lineno)
+    ]
+    return max(around, key=lambda node: node.lineno, default=None)

@@ -1,0 +1,177 @@
+"""Python in a worker of the page: it decides, it is ended if it does not, and it can do no harm."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+from ai4u_edu.server import program_zip
+from tests.browser.code_page import ROOM, code_page, decide, load, run, use_stand_in
+from tests.server.rooms import Room, served
+
+pytestmark = pytest.mark.browser
+
+FORBIDDEN = [
+    *("fetch", "XMLHttpRequest", "WebSocket", "WebSocketStream", "WebTransport", "EventSource"),
+    *("Worker", "SharedWorker", "importScripts", "BroadcastChannel", "postMessage", "close"),
+    *("indexedDB", "caches", "cookieStore", "Notification", "FileReaderSync", "RTCPeerConnection"),
+    *("storage", "localStorage", "StorageManager", "createImageBitmap", "OffscreenCanvas"),
+]
+
+
+@pytest.fixture(scope="module")
+def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
+    with pytest.MonkeyPatch.context() as monkeypatch, served() as room:
+        use_stand_in(tmp_path_factory.mktemp("stand-in"), monkeypatch)
+        yield room
+    program_zip._zip.cache_clear()
+
+
+@pytest.fixture(scope="module")
+def page(chromium: Browser, room: Room) -> Iterator[Page]:
+    page = code_page(chromium, room.url)
+    page.set_default_timeout(60_000)
+    page.evaluate("engine.warm()")
+    yield page
+    page.context.close()
+
+
+def test_a_program_decides(page: Page) -> None:
+    answer = run(page, "return {'move': [percept['reading'] / 3, -0.0]}")
+    assert answer["ok"]
+    assert answer["values"] == {"move": [1 / 3, 0]}
+
+
+def test_numbers_that_json_lacks_reach_the_program(page: Page) -> None:
+    load(page, "def decide(percept):\n    return {}")
+    said = decide(page, "{reading: [0.1, -0, Infinity, -Infinity, NaN, [true, 'text']]}")["said"]
+    assert said == {
+        "percept": {"reading": [0.1, "-0", "inf", "-inf", "nan", [True, "text"]]},
+        "decision": 1,
+    }
+
+
+def test_only_a_loaded_program_is_asked(page: Page) -> None:
+    page.evaluate("window.other = new CodeEngine()")
+    answer = page.evaluate("other.begin()")
+    assert (answer["ok"], answer["kind"]) == (False, "not_loaded")
+
+
+@pytest.mark.parametrize("body", ["while True: pass", "10**10**8", "sum(range(10**12))"])
+def test_a_program_that_never_comes_back_is_ended_and_the_page_goes_on(
+    page: Page, body: str
+) -> None:
+    page.evaluate("(() => { window.beats = 0; window.beat = setInterval(() => beats++, 50); })()")
+    answer = run(page, body)
+    assert (answer["ok"], answer["kind"]) == (False, "endless")
+    assert "never ends" in answer["text"]
+    assert page.evaluate("clearInterval(beat), beats") > 10
+    assert decide(page)["kind"] == "not_loaded"
+    assert run(page, "return {'move': [1, 1]}")["values"] == {"move": [1, 1]}
+
+
+def test_a_stopped_program_gives_no_answer_later(page: Page) -> None:
+    load(page, "def decide(percept):\n    while True: pass")
+    page.evaluate("void (window.answer = engine.decide({}, 1))")
+    page.evaluate("engine.end()")
+    assert page.evaluate("answer")["kind"] == "ended"
+    assert run(page, "return {}")["ok"]
+
+
+def test_an_answer_has_a_limited_size(page: Page) -> None:
+    answer = run(page, "return 'x' * 10**7")
+    assert (answer["ok"], answer["kind"]) == (False, "too_large")
+    assert run(page, "print('x' * 10**7); return {}")["ok"]
+
+
+def test_many_programs_run_one_after_another(page: Page) -> None:
+    workers = len(page.workers)
+    for number in range(100):
+        assert run(page, f"return {number}")["values"] == number
+    assert len(page.workers) <= workers + 1
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "import js",
+        "import pyodide_js",
+        "from pyodide.code import run_js; run_js('1')",
+        "import pyodide.http; pyodide.http.open_url('healthz')",
+        "import urllib.request; urllib.request.urlopen('http://127.0.0.1:1/')",
+        "import socket; socket.create_connection(('127.0.0.1', 80), 1)",
+        "import subprocess; subprocess.run(['ls'])",
+        "import asyncio; asyncio.run(__import__('pyodide').http.pyfetch('healthz'))",
+    ],
+)
+def test_python_reaches_neither_page_nor_network(page: Page, body: str) -> None:
+    answer = run(page, body)
+    assert not answer["ok"]
+    assert "Error" in answer["text"]
+
+
+def test_no_file_of_a_program_outlives_its_worker(page: Page) -> None:
+    assert run(page, "open('/home/pyodide/kept', 'w').write('x'); return {}")["ok"]
+    page.evaluate("engine.end()")
+    assert "FileNotFoundError" in run(page, "open('/home/pyodide/kept')")["text"]
+
+
+def test_nothing_is_left_to_the_worker_that_connects_or_stores(page: Page) -> None:
+    assert run(page, "return {}")["ok"]
+    worker = page.workers[0]
+    found = worker.evaluate("(names) => names.filter((name) => name in self)", FORBIDDEN)
+    assert found == []
+    assert worker.evaluate("Object.keys(navigator)") == ["userAgent", "language"]
+    hidden = "Object.getOwnPropertyDescriptor(WorkerGlobalScope.prototype, 'navigator')"
+    assert worker.evaluate(f"self.WorkerGlobalScope === undefined || {hidden} === undefined")
+
+
+def test_the_policy_forbids_the_worker_what_it_still_has(page: Page) -> None:
+    page.evaluate(
+        """async () => {
+            window.bare = new Worker(new URL("web/code_worker.js", location), { type: "module" });
+            await new Promise((resolve) => setTimeout(resolve, 1000));
+        }"""
+    )
+    worker = page.workers[-1]
+    refused = worker.evaluate(
+        """async () => {
+            const attempts = {
+                fetch: () => fetch(new URL("../healthz", location)),
+                socket: () => new Promise((resolve, reject) => {
+                    const socket = new WebSocket(new URL("../ws/input", location));
+                    [socket.onopen, socket.onerror] = [resolve, reject];
+                }),
+                worker: () => new Promise((resolve, reject) => {
+                    const worker = new Worker(location, { type: "module" });
+                    worker.onerror = reject;
+                    setTimeout(resolve, 5000);
+                }),
+                data: () => import("data:text/javascript,1"),
+                text: () => new Function("1"),
+                scripts: () => importScripts("main.js"),
+            };
+            const refused = [];
+            for (const [name, attempt] of Object.entries(attempts)) {
+                try { await attempt(); } catch { refused.push(name); }
+            }
+            return refused;
+        }"""
+    )
+    page.evaluate("bare.terminate()")
+    assert refused == ["fetch", "socket", "worker", "data", "text", "scripts"]
+
+
+def test_a_server_that_is_gone_is_told_and_asked_again(page: Page, room: Room) -> None:
+    other = page.context.new_page()
+    other.goto(f"{room.url}healthz")
+    other.route("**/program.zip", lambda route: route.abort())
+    load_it = "(room) => engine.load('def decide(percept): return {}', room)"
+    other.evaluate("import('./web/code_engine.js').then((each) => Object.assign(window, each))")
+    other.evaluate("void (window.engine = new CodeEngine())")
+    answer = other.evaluate(load_it, ROOM)
+    assert (answer["ok"], answer["kind"]) == (False, "unavailable")
+    assert "could not be loaded" in answer["text"]
+    other.unroute("**/program.zip")
+    assert other.evaluate(load_it, ROOM)["ok"]
+    other.close()

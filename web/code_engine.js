@@ -1,0 +1,195 @@
+/** Python in the browser: starts the worker of a student's program, and ends it if it does not answer. */
+
+/** Time that a program has for one call; the program package's own limit is shorter, and names the line. */
+const CALL_TIMEOUT_MS = 2000;
+/** Time until the spare worker is started, which would slow down a program's first decisions. */
+const SPARE_DELAY_MS = 3000;
+const WASM = "./vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
+const LIBRARY = "./vendor/pyodide/python_stdlib.zip?v=fa1957e5";
+const PROGRAM = "../program.zip";
+const ENDLESS = "The program did not come back, so it was ended. Is there a loop that never ends, or a huge number?";
+const NOT_LOADED = "The program is not running. Press Run.";
+const UNAVAILABLE = "Python could not be loaded. Is the world still running? Reload the page.";
+
+/** Numbers that JSON does not have, as host.py reads them. */
+const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan"]]);
+
+/** Files that all workers share; the compiled module, too, so that only the first worker waits for it. */
+let parts = null;
+
+/** An answer in the form of host.py for what happens outside of it. */
+function problem(kind, text) {
+  return { ok: false, kind, text, line: 0, printed: "", lines: [], variables: {} };
+}
+
+/** Return JSON for host.py. */
+function json(value) {
+  return JSON.stringify(value, (_, each) => (Object.is(each, -0) ? "-0" : (NUMBER_WORDS.get(each) ?? each)));
+}
+
+export class CodeEngine {
+  /** The worker that has the program. */
+  #runtime = null;
+  /** A worker that is ready for when the other one is ended. */
+  #spare = null;
+  /** Until the spare worker is started. */
+  #timer;
+  #isLoaded = false;
+
+  /** Load Python ahead of the first program. Rejects with a sentence if it can't be loaded. */
+  async warm() {
+    this.#runtime ??= new Runtime();
+    try {
+      await this.#runtime.ready;
+    } catch (error) {
+      this.end();
+      throw error;
+    }
+  }
+
+  /**
+   * Load a program.
+   *
+   * @param {string} source
+   * @param {object} room
+   * @param {Object<string, [number[], number[]]>} room.outputs lowest and highest values by actuator
+   * @param {{key: string, dtype: string}[]} room.readings those of RemoteClient.welcome
+   * @returns {Promise<{ok: boolean, text?: string, line?: number, kind?: string}>}
+   */
+  async load(source, { outputs, readings }) {
+    this.#isLoaded = false;
+    try {
+      await this.warm();
+    } catch (error) {
+      return problem("unavailable", error.message);
+    }
+    const dtypes = Object.fromEntries(readings.map(({ key, dtype }) => [key, dtype]));
+    const answer = await this.#call("load", json({ source, outputs, readings: dtypes }));
+    this.#isLoaded = answer.ok;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), SPARE_DELAY_MS);
+    return answer;
+  }
+
+  /** Tell the program that an episode begins. */
+  begin() {
+    return this.#callLoaded("begin", "");
+  }
+
+  /**
+   * Let the program decide.
+   *
+   * @param {Object<string, any>} percept readings by key
+   * @param {number} number of the decision, which stands beside what the program prints
+   */
+  decide(percept, number) {
+    return this.#callLoaded("decide", json({ percept, decision: number }));
+  }
+
+  /** End all workers. */
+  end() {
+    clearTimeout(this.#timer);
+    this.#runtime?.end();
+    this.#spare?.end();
+    this.#runtime = this.#spare = null;
+    this.#isLoaded = false;
+  }
+
+  async #callLoaded(method, text) {
+    return this.#isLoaded ? this.#call(method, text) : problem("not_loaded", NOT_LOADED);
+  }
+
+  async #call(method, text) {
+    const runtime = this.#runtime;
+    const answer = await runtime.call(method, text);
+    if (runtime.isStuck && this.#runtime === runtime) {
+      runtime.end();
+      [this.#runtime, this.#spare] = [this.#spare ?? new Runtime(), null];
+      this.#isLoaded = false;
+    }
+    return answer;
+  }
+}
+
+const ENDLESS_ANSWER = JSON.stringify(problem("endless", ENDLESS));
+
+/** One worker. */
+class Runtime {
+  #worker = new Worker(new URL("./code_worker.js", import.meta.url), { type: "module" });
+  #lastId = 0;
+  /** Functions that take an answer's text, by the id of the call. */
+  #waiting = new Map();
+  /** True if the worker can't be called any more. */
+  isStuck = false;
+
+  constructor() {
+    this.#worker.onmessage = ({ data: { id, text } }) => {
+      const answer = this.#waiting.get(id);
+      this.#waiting.delete(id);
+      answer?.(text);
+    };
+    this.ready = this.#start();
+    this.ready.catch(() => {}); // whoever waits for it is told
+  }
+
+  /** Call a function of host.py; give up after a while. */
+  async call(method, text) {
+    let timer;
+    const late = new Promise((resolve) => {
+      timer = setTimeout(resolve, CALL_TIMEOUT_MS, ENDLESS_ANSWER);
+    });
+    const answer = await Promise.race([this.#ask({ method, text }), late]);
+    clearTimeout(timer);
+    const found = JSON.parse(answer);
+    this.isStuck ||= answer === ENDLESS_ANSWER || found.kind === "broken";
+    return found;
+  }
+
+  end() {
+    this.#worker.terminate();
+    const ended = JSON.stringify(problem("ended", NOT_LOADED));
+    for (const answer of this.#waiting.values()) answer(ended);
+    this.#waiting.clear();
+  }
+
+  async #start() {
+    const failed = new Promise((_, reject) => {
+      this.#worker.onerror = () => reject(new Error(UNAVAILABLE));
+    });
+    failed.catch(() => {}); // it may fail while the files are fetched
+    parts ??= fetchParts();
+    const given = await parts.catch((error) => {
+      parts = null; // the next worker tries again
+      throw error;
+    });
+    const answer = JSON.parse(await Promise.race([this.#ask({ method: "start", parts: given }), failed]));
+    if (answer.ok === false) throw new Error(answer.text);
+  }
+
+  #ask(message) {
+    const id = (this.#lastId += 1);
+    return new Promise((resolve) => {
+      this.#waiting.set(id, resolve);
+      this.#worker.postMessage({ id, ...message });
+    });
+  }
+}
+
+async function fetchParts() {
+  try {
+    const [wasm, library, program] = await Promise.all([
+      WebAssembly.compileStreaming(fetched(WASM)),
+      fetched(LIBRARY).then((answer) => answer.arrayBuffer()),
+      fetched(PROGRAM).then((answer) => answer.arrayBuffer()),
+    ]);
+    return { wasm, library: new Uint8Array(library), program: new Uint8Array(program) };
+  } catch {
+    throw new Error(UNAVAILABLE);
+  }
+}
+
+async function fetched(path) {
+  const answer = await fetch(new URL(path, import.meta.url));
+  if (!answer.ok) throw new Error(UNAVAILABLE);
+  return answer;
+}
