@@ -89,7 +89,7 @@ export class CodeEditor {
       hanging,
     ];
     this.#view = new EditorView({ parent, extensions });
-    this.#keepEscape();
+    this.#keepKeys();
   }
 
   get text() {
@@ -134,12 +134,12 @@ export class CodeEditor {
     this.#view.focus();
   }
 
-  /** Let Escape close the list of names and nothing else; without one, the panel ends the editing with it. */
-  #keepEscape() {
+  /** Keep keys from the panel, which ends the editing of a field at Enter; Escape ends it if it closes no list of names. */
+  #keepKeys() {
     const { dom } = this.#view;
     let hasList = false;
     dom.addEventListener("keydown", () => (hasList = dom.querySelector(".cm-tooltip-autocomplete") !== null), { capture: true });
-    dom.addEventListener("keydown", (event) => event.key === "Escape" && hasList && event.stopPropagation());
+    dom.addEventListener("keydown", (event) => (event.key !== "Escape" || hasList) && event.stopPropagation());
   }
 
   /** Return where lines begin, in order, each once; numbers that no line has are left out. */

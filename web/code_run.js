@@ -78,9 +78,9 @@ export class CodeRun extends EventTarget {
       const percept = isNext ? this.#pending : await this.#start(source, agent, "lockstep", ticket);
       this.#pending = null;
       clearInterval(this.#timer);
-      this.#set("stepping");
       const client = this.#client;
       this.#pending = await this.#decide(percept, ticket);
+      this.#set("stepping");
       // else the world would go on without an answer
       this.#timer = setInterval(() => client.wait().catch(() => {}), WAIT_MS); // the next step tells of an error
     });

@@ -28,7 +28,7 @@ MISTAKES = [
     (f'{BODY}return {{"move": [1, 0]}}', None, "4"),
     (f'{BODY}return {{"move": ["fast", 0, 0, 0]}}', None, "number"),
     (f"{BODY}cosine = 1\n    return cosin", 3, "did you mean 'cosine'?"),
-    (f"{BODY}while True:\n        pass", None, "loop"),
+    (f"{BODY}while True:\n        pass", 2, "did not answer for 1 s"),
     (f"{BODY}import numpy\n    return {{}}", 2, "numpy is not there"),
 ]
 """Programs, the lines of their mistakes (None: some line or none), and words of their sentences."""
@@ -131,7 +131,9 @@ def test_stop_gives_the_robot_back(server: Played, tab: CodeTab) -> None:
 
 
 def test_step_makes_one_decision_and_run_goes_on(server: Played, tab: CodeTab) -> None:
-    tab.write("count = 0\n" + BODY + 'global count\n    count += 1\n    print(count)\n    return {}')
+    tab.write(
+        "count = 0\n" + BODY + "global count\n    count += 1\n    print(count)\n    return {}"
+    )
     tab.press("Step")
     expect(tab.state).to_contain_text("Waits for the next step", timeout=LOADING_MS)
     log = tab.page.get_by_role("log").locator("span")

@@ -361,6 +361,8 @@ def test_typing_does_not_drive(chromium: Browser) -> None:
         expect(editor).to_contain_text("w")
         assert room.held == []
         desk.page.keyboard.up("KeyW")
+        desk.page.keyboard.press("Enter")
+        expect(editor).to_be_focused()
         desk.page.keyboard.press("Escape")
         desk.page.keyboard.down("KeyW")
         desk.until(lambda: room.held == ["KeyW"])
