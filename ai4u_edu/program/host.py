@@ -1,5 +1,8 @@
 """Entry of the page's worker: functions that take and return JSON texts.
 
+The page has the files of this package in a folder ``ai4u_edu/program`` on ``sys.path``, and no
+other file of ai4u_edu, not even its ``__init__.py``.
+
 ====== ============================================= ===============================================
 call   takes                                         returns
 ====== ============================================= ===============================================
@@ -50,10 +53,12 @@ def load(text: str) -> str:
     _dtypes.clear()
     if isinstance(said.get("readings"), dict):
         _dtypes.update(said["readings"])
-    outputs = {name: (_number(low), _number(high)) for name, (low, high) in said["outputs"].items()}
+    outputs = {
+        name: (_number(low), _number(high)) for name, (low, high) in said.get("outputs", {}).items()
+    }
     try:
         _program = Program.load(
-            said["source"], entry=said.get("entry", ""), outputs=outputs, output=output
+            said["source"], entry=said.get("entry", ""), outputs=outputs or None, output=output
         )
     except ProgramError as error:
         return _failed(error, output.take())
@@ -84,7 +89,8 @@ def _asked(ask: Callable[[Program], Any]) -> str:
         values = ask(_program)
     except ProgramError as error:
         return _failed(error, _program.output.take(), _program)
-    return _told({"ok": True, "values": values}, _program.output.take(), _program)
+    answer = {"ok": True} if values is None else {"ok": True, "values": values}
+    return _told(answer, _program.output.take(), _program)
 
 
 def _failed(error: ProgramError, printed: str, program: Program | None = None) -> str:

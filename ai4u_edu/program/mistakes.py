@@ -2,7 +2,7 @@
 
 import builtins
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any
 
 from ai4u_edu.program.reading import MissingReadingError, Reading, Readings
@@ -121,23 +121,26 @@ def syntax_mistake(error: SyntaxError) -> ProgramError:
     return ProgramError(text, error.lineno or 0, kind)
 
 
-def mistake_in(error: BaseException, file: str) -> ProgramError:
+def mistake_in(error: BaseException, file: str, quoted: Collection[str] = ()) -> ProgramError:
     """Return the mistake behind an exception that a program raised.
 
     Args:
         error: with its traceback.
         file: name of the program's file, as in the traceback.
+        quoted: names that are texts in a program: of readings and actuators.
     """
     if isinstance(error, SyntaxError) and error.filename == file:
         return syntax_mistake(error)
     line, names = _place_of(error, file)
     if isinstance(error, ProgramError):
         return ProgramError(error.text, error.line or line, error.kind)
-    text, kind = _sentence(error, names)
+    text, kind = _sentence(error, names, quoted)
     return ProgramError(text, line, kind)
 
 
-def _sentence(error: BaseException, names: Iterable[str]) -> tuple[str, str]:
+def _sentence(
+    error: BaseException, names: Iterable[str], quoted: Collection[str]
+) -> tuple[str, str]:
     """Return the sentence on an exception, and the kind of the mistake."""
     said = _text_of(error)
     match error:
@@ -148,6 +151,9 @@ def _sentence(error: BaseException, names: Iterable[str]) -> tuple[str, str]:
             name = found[1] if (found := re.search(r"variable '([^']+)'", said)) else "it"
             text = f"{name!r} has no value yet in this function. To change a variable from outside"
             return f"{text} it, write `global {name}` as the function's first line.", "unknown-name"
+        case NameError() if error.name and error.name in quoted:
+            text = f'nothing is called {error.name!r}; did you mean "{error.name}", in quotes?'
+            return text, "unknown-name"
         case NameError() if error.name:
             return f"nothing is called {error.name!r}; {_near(error.name, names)}", "unknown-name"
         case AttributeError() if error.name:
@@ -162,6 +168,8 @@ def _sentence(error: BaseException, names: Iterable[str]) -> tuple[str, str]:
             return f"Your code stopped at an import: {said}.", "import"
         case SystemExit():
             return "Your code ended the program; expected `return` with an action.", "error"
+        case TypeError() if "'Readings' object is not callable" in said:
+            return 'a reading is taken with square brackets, as in percept["name"]', "error"
         case TypeError() if _PARAMETERS.search(said):
             return f"{said}: compare the names in the brackets after `def`.", "parameters"
     between = ": " if said else ""
@@ -176,8 +184,9 @@ def _near(name: str, names: Iterable[str]) -> str:
 
 
 def _no_attribute(owner: Any, name: str) -> str:
-    if isinstance(owner, Readings) and name in owner:
-        return f'a reading is taken with brackets and quotes: percept["{name}"]'
+    if isinstance(owner, Readings):
+        near = nearest(name, owner) or "name"
+        return f'a reading is taken with brackets and quotes: percept["{near}"]'
     known = [each for each in dir(type(owner)) if not each.startswith("_")]
     if isinstance(owner, Reading):
         return f"a reading has no {name!r}; {suggest(name, known)}"

@@ -2,7 +2,7 @@
 
 import ast
 import builtins
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from typing import Any, Self
 
 from ai4u_edu.program import standins
@@ -53,6 +53,7 @@ class Program:
         self.file = file
         self._outputs = outputs
         self._is_deciding = False
+        self._quoted: Set[str] = frozenset(outputs or ())
         self._controller: Any = None
         self._function: Callable[[Any], Any] = lambda percept: None  # noqa: ARG005  # until it is loaded
         self._names: dict[str, Any] = {}
@@ -114,6 +115,7 @@ class Program:
             ProgramError: a mistake, with its line.
         """
         readings = readings_of(percept)
+        self._quoted = {*readings, *(self._outputs or ())}
         self._is_deciding = True
         try:
             self._call_hook("new_state_event", readings)
@@ -168,7 +170,7 @@ class Program:
         except EndlessError as error:
             raise self._endless(error.line) from None
         except (Exception, SystemExit) as error:
-            raise mistake_in(error, self.file) from error
+            raise mistake_in(error, self.file, self._quoted) from error
 
     def _endless(self, line: int) -> ProgramError:
         said = f"Your code did not answer for {self.trace.limit_s:g} s."

@@ -44,9 +44,10 @@ class Reading(Sequence[Any]):
     __hash__ = None  # type: ignore[assignment]  # a comparison gives a reading, as with arrays
 
     def __init__(self, values: Iterable[Any]) -> None:
-        self._parts: tuple[Any, ...] = tuple(
-            Reading(each) if isinstance(each, list | tuple) else each for each in values
-        )
+        parts = tuple(values)
+        if parts and isinstance(parts[0], list | tuple):
+            parts = tuple(map(Reading, parts))
+        self._parts: tuple[Any, ...] = parts
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -230,16 +231,44 @@ class MissingReadingError(KeyError):
         return str(self.args[0])  # KeyError's own method would quote the message
 
 
-class Readings(dict[str, Any]):
-    """The readings of one decision by perception key.
+class Readings(Mapping[str, Any]):
+    """The readings of one decision by perception key, as plain Python values.
 
-    >>> Readings(line=Reading([0.0, 1.0]))["lien"]
+    Each is converted when it is first asked for.
+
+    Args:
+        percept: numbers, bools, texts, (nested) lists of numbers or numpy arrays, by key.
+
+    >>> Readings({"line": [0.0, 1.0]})["lien"]
     Traceback (most recent call last):
     ai4u_edu.program.reading.MissingReadingError: no reading is called 'lien'; did you mean 'line'?
     """
 
-    def __missing__(self, key: object) -> NoReturn:
-        raise MissingReadingError(f"no reading is called {key!r}; {suggest(str(key), self)}")
+    __slots__ = ("_converted", "_percept")
+
+    def __init__(self, percept: Mapping[str, Any]) -> None:
+        self._percept = percept
+        self._converted: dict[str, Any] = {}
+
+    def __getitem__(self, key: str) -> Any:
+        if key not in self._converted:
+            if key not in self._percept:
+                hint = suggest(str(key), self._percept)
+                raise MissingReadingError(f"no reading is called {key!r}; {hint}")
+            self._converted[key] = _plain(self._percept[key])
+        return self._converted[key]
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._percept
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._percept)
+
+    def __len__(self) -> int:
+        return len(self._percept)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
 
 
 def readings_of(percept: Mapping[str, Any]) -> Readings:
@@ -251,7 +280,7 @@ def readings_of(percept: Mapping[str, Any]) -> Readings:
     >>> readings_of({"line": [0.0, 1.0], "done": False, "names": ["a", "b"]})
     {'line': Reading([0.0, 1.0]), 'done': False, 'names': ('a', 'b')}
     """
-    return Readings({key: _plain(percept[key]) for key in percept})
+    return Readings(percept)
 
 
 def _plain(value: Any) -> Any:

@@ -13,6 +13,20 @@ PERCEPT = {"eyes": [0.0, 0.5, 1.0], "speed": 0.25}
 IN_DECIDE = [
     # the body of decide(percept), the mistake's line, kind and text
     (
+        "return percept.speeed",
+        2,
+        "attribute",
+        'a reading is taken with brackets and quotes: percept["speed"]',
+    ),
+    ("return percept('eyes')", 2, "error", "a reading is taken with square brackets"),
+    (
+        "return percept[eyes]",
+        2,
+        "unknown-name",
+        "nothing is called 'eyes'; did you mean \"eyes\", in quotes?",
+    ),
+    ("return {move: [1, 0]}", 2, "unknown-name", 'did you mean "move", in quotes?'),
+    (
         "return {'move': percept['eys'][:2]}",
         2,
         "wrong-key",
