@@ -1,8 +1,6 @@
 """A program in the page drives a real world: Python, the connection and the page are real, too."""
 
-import re
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
@@ -10,11 +8,11 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.served_viser import ready
 from tests.browser.test_play import MIDDLE, agent, until
 from tests.chromium import new_page
+from tests.code_sheet import program_in_docs
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
 
-DOC = Path(__file__).parents[2] / "docs" / "code-in-the-page.md"
 LOADING_MS = 60_000
 """Longest time until Python is loaded on a busy machine (ms)."""
 BODY = "def decide(percept):\n    "
@@ -78,11 +76,6 @@ def opened(server: Played, chromium: Browser) -> Iterator[CodeTab]:
 def tab(server: Played, opened: CodeTab) -> CodeTab:
     server.restart(int(MIDDLE))
     return opened
-
-
-def program_in_docs() -> str:
-    (first, *_) = re.findall(r"(?:^    .*\n)+", DOC.read_text(), re.MULTILINE)
-    return "".join(line.removeprefix("    ") for line in str(first).splitlines(keepends=True))
 
 
 def test_seven_lines_reach_the_box(server: Played, tab: CodeTab) -> None:
