@@ -93,6 +93,7 @@ def _widen(page: Page) -> None:
     page.keyboard.press("Shift+Tab")  # arrow keys drive unless a key led to the control
     for _ in range(5):
         page.keyboard.press("ArrowLeft")
+    page.get_by_role("button", name="Arena").click()
 
 
 def _run(page: Page, program: str) -> None:
