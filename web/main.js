@@ -133,7 +133,7 @@ function draw() {
   keycaps.draw(!isHeld() && (isMine || held.length) ? held : (state?.held ?? []));
   const isWaiting = state?.waiting === "key";
   const isReached = dock.hasAttribute("data-touch") || keysReachPage();
-  const status = { connected, hello, control, howToDrive: howToDrive(), isWaiting, isHeld: isHeld(), isReached };
+  const status = { connected, hello: panel?.named(hello) ?? hello, control, howToDrive: howToDrive(), isWaiting, isHeld: isHeld(), isReached };
   driverStatus.draw(status);
   panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");

@@ -15,15 +15,16 @@ import { Tabs } from "./panel_tabs.js";
 import { ViewControls } from "./panel_view.js";
 import { recall, remember } from "./storage.js";
 
-const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["past", "Past"]];
+const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["code", "Code"], ["past", "Past"]];
 const MAX_FILE_NAME_CHARS = 80;
 /** Name of the part that a tab shows. */
-const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", past: "past" };
+const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", code: "agent", past: "past" };
 /** Modules of the tabs that are loaded when they are first opened. */
 const LOADERS = {
   drive: async () => DriveTab,
   build: async () => (await import("./panel_build.js")).BuildTab,
   world: async () => (await import("./panel_world.js")).WorldTab,
+  code: async () => (await import("./panel_code.js")).CodeTab,
   past: async () => (await import("./panel_past.js")).PastTab,
 };
 
@@ -42,6 +43,8 @@ export function startPanel(driving, dock) {
 export class Panel extends EventTarget {
   /** What this page looks at. */
   shown;
+  /** True while a program of this page has the agent. */
+  hasProgram = false;
   /** The person drives with it: {agent, take(), letGo()} of the page. */
   driving;
   #parts = new Map();
@@ -141,6 +144,12 @@ export class Panel extends EventTarget {
     focusWorld();
   }
 
+  /** Name this page's own program, which the server knows as a script like any other. */
+  named(hello) {
+    const rename = (driver) => (driver && this.hasProgram ? "Your program" : driver);
+    return { ...hello, others: rename(hello.others), instead: rename(hello.instead) };
+  }
+
   /** Show who drives: the arguments of DriverStatus.draw. */
   drawDriver(status) {
     this.driver = status;
@@ -185,6 +194,7 @@ export class Panel extends EventTarget {
   #onScene(scene) {
     this.#tabs.setVisible("build", scene.can_edit);
     this.#tabs.setVisible("world", scene.can_edit);
+    this.#tabs.setVisible("code", scene.agents.length > 0);
     this.#tabs.setVisible("past", scene.has_past);
     const isThere = scene.agents.some(({ id }) => id === this.shown.agent);
     if (!isThere && scene.agents.length) this.show({ agent: scene.agents[0].id });

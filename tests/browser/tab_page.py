@@ -3,6 +3,7 @@
 import json
 import socket
 import threading
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 from urllib.parse import urlencode
@@ -82,6 +83,7 @@ class TabPage:
         part: name of the part that it shows.
         size: of the page in pixels.
         scheme: ``light`` or ``dark``.
+        prepare: called with the page before it is opened.
         options: more of ``Browser.new_context``.
     """
 
@@ -95,6 +97,7 @@ class TabPage:
         size: tuple[int, int] = (340, 720),
         scheme: str = "light",
         has_details: bool = False,
+        prepare: Callable[[Page], None] = lambda _: None,
         **options: Any,
     ) -> None:
         self.part_name = part
@@ -102,6 +105,7 @@ class TabPage:
         self.errors: list[str] = []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", self._on_console)
+        prepare(self.page)
         attributes = "data-ai4u-details" if has_details else ""
         query = {"module": module, "name": name, "part": part, "scheme": scheme}
         self.page.goto(f"{_address()}?{urlencode(query | {'attributes': attributes})}")

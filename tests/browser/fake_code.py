@@ -1,0 +1,69 @@
+"""A Python and a world for the tab "Code" that answer at once, in the page itself."""
+
+import re
+
+from playwright.sync_api import Page, Route
+
+FAKE = """
+const fake = (window.fake ??= {
+  calls: [], percepts: [], closed: 0, waits: 0, load: { ok: true }, connectError: null, warm: null,
+  decide: (percept, number) => ({
+    ok: true, values: { move: [1, 0] }, printed: `decision ${number}\\n`, lines: [2, 3],
+    variables: { near: "0.94" },
+  }),
+  give(percept) { (this.taker ?? ((each) => this.percepts.push(each)))(percept); },
+});
+"""
+ENGINE = (
+    FAKE
+    + """
+export class CodeEngine {
+  async warm() { await fake.warm; }
+  async load(source, facts) { fake.calls.push(["load", source, facts]); return fake.load; }
+  async begin() { fake.calls.push(["begin"]); return { ok: true }; }
+  async decide(percept, number) {
+    fake.calls.push(["decide", percept, number]);
+    return fake.decide(percept, number);
+  }
+  end() {}
+}
+"""
+)
+CLIENT = (
+    FAKE
+    + """
+export class RemoteClient {
+  static async connect(options) {
+    fake.calls.push(["connect", options]);
+    if (fake.connectError) throw new Error(fake.connectError);
+    return new RemoteClient();
+  }
+  welcome = {
+    success: "touch",
+    readings: [{ key: "box", dtype: "<f4" }, { key: "rays", dtype: "<f4" }],
+    outputs: [{ name: "move", low: [-1, -1], high: [1, 1] }],
+  };
+  sense() {
+    if (fake.percepts.length) return Promise.resolve(fake.percepts.shift());
+    return new Promise((taker) => (fake.taker = taker)).finally(() => (fake.taker = null));
+  }
+  async act(values) { fake.calls.push(["act", values]); }
+  async reset() { fake.calls.push(["reset"]); }
+  async wait() { fake.waits += 1; }
+  close() { fake.closed += 1; }
+}
+"""
+)
+
+
+def serve_fakes(page: Page) -> None:
+    """Replace the modules that run Python and connect to the world."""
+    _replace(page, "code_engine", ENGINE)
+    _replace(page, "remote_client", CLIENT)
+
+
+def _replace(page: Page, name: str, body: str) -> None:
+    def answer(route: Route) -> None:
+        route.fulfill(body=body, content_type="text/javascript")
+
+    page.route(re.compile(rf"/web/{name}\.js"), answer)

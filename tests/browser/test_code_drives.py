@@ -1,0 +1,142 @@
+"""A program in the page drives a real world: Python, the connection and the page are real, too."""
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.browser.served_viser import ready
+from tests.browser.test_play import MIDDLE, agent, until
+from tests.chromium import new_page
+from tests.code_sheet import program_in_docs
+from tests.playing import Played, played
+
+pytestmark = pytest.mark.browser
+
+LOADING_MS = 60_000
+"""Longest time until Python is loaded on a busy machine (ms)."""
+BODY = "def decide(percept):\n    "
+MISTAKES = [
+    ("def decide(percept)\n    return {}", 1, "A colon (:) is missing"),
+    ("def decide(percept):\nreturn {}", 2, "begin it with four more spaces"),
+    (f'{BODY}return {{"move": [1, 0, 0, 0]', 2, "is never closed"),
+    (f"{BODY}percept", None, "Is `return` missing?"),
+    (f'{BODY}return {{"move": [percept["orientatoin"][0], 0, 0, 0]}}', 2, "'orientation'"),
+    (f'{BODY}return {{"mvoe": [1, 0, 0, 0]}}', None, "'move'"),
+    (f'{BODY}return {{"move": [1, 0]}}', None, "4"),
+    (f'{BODY}return {{"move": ["fast", 0, 0, 0]}}', None, "number"),
+    (f"{BODY}cosine = 1\n    return cosin", 3, "did you mean 'cosine'?"),
+    (f"{BODY}while True:\n        pass", 2, "did not answer for 1 s"),
+    (f"{BODY}import numpy\n    return {{}}", 2, "numpy is not there"),
+]
+"""Programs, the lines of their mistakes (None: some line or none), and words of their sentences."""
+
+
+class CodeTab:
+    """The tab of a real page."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        page.get_by_role("tab", name="Code").click()
+        self.editor = page.get_by_role("textbox", name="Program in Python")
+        self.mistake = page.locator(".ai4u-code-mistake")
+
+    @property
+    def state(self) -> Locator:
+        return self.page.locator(".ai4u-code-state")
+
+    def write(self, program: str) -> None:
+        self.editor.click()
+        self.page.keyboard.press("ControlOrMeta+a")
+        self.page.keyboard.insert_text(program)
+
+    def press(self, name: str) -> None:
+        self.page.get_by_role("button", name=name, exact=True).click()
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Played]:
+    with played("box_chase", "--seed", MIDDLE) as server:
+        yield server
+
+
+@pytest.fixture(scope="module")
+def opened(server: Played, chromium: Browser) -> Iterator[CodeTab]:
+    page = new_page(chromium)
+    problems: list[str] = []
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.goto(server.url)
+    ready(page)
+    yield CodeTab(page)
+    page.context.close()
+    assert problems == []
+
+
+@pytest.fixture
+def tab(server: Played, opened: CodeTab) -> CodeTab:
+    server.restart(int(MIDDLE))
+    return opened
+
+
+def test_seven_lines_reach_the_box(server: Played, tab: CodeTab) -> None:
+    program = program_in_docs()
+    assert len(program.splitlines()) == 7
+    tab.editor.click()
+    tab.page.keyboard.press("ControlOrMeta+a")
+    for line in program.splitlines():
+        tab.page.keyboard.type(line.strip())  # the editor indents, and closes brackets
+        tab.page.keyboard.press("Enter")
+        if line.strip().startswith("return"):
+            tab.page.keyboard.press("Shift+Tab")
+    tab.page.keyboard.press("ControlOrMeta+Enter")
+    driver = tab.page.locator(".ai4u-row .ai4u-driver")
+    expect(driver).to_contain_text("Your program drives", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Goal reached at decision", timeout=LOADING_MS)
+    assert agent(server)["reward_terms"]["touch"] == 100
+    expect(tab.page.get_by_role("log")).to_contain_text("cosine 0.9")
+    expect(driver).not_to_contain_text("Your program")
+
+
+@pytest.mark.parametrize(("program", "line", "words"), MISTAKES)
+def test_a_mistake_is_a_sentence_at_its_line(
+    tab: CodeTab, program: str, line: int | None, words: str
+) -> None:
+    tab.write(program)
+    tab.press("Run")
+    expect(tab.mistake).to_contain_text(words, timeout=LOADING_MS)
+    if line is not None:
+        expect(tab.mistake).to_contain_text(f"Line {line}: ")
+        marked = tab.page.locator(".ai4u-code-mistake-line")
+        expect(marked).to_have_text(program.splitlines()[line - 1])
+    expect(tab.page.get_by_role("button", name="Stop", exact=True)).to_be_disabled()
+
+
+def test_stop_gives_the_robot_back(server: Played, tab: CodeTab) -> None:
+    tab.write(BODY + 'return {"move": [0, 0.3, 0, 0]}')
+    tab.press("Run")
+    expect(tab.state).to_contain_text("Runs", timeout=LOADING_MS)
+    until(lambda: "Remote" in agent(server)["brain"])
+    tab.press("Stop")
+    until(lambda: "Remote" not in agent(server)["brain"])
+    tab.page.keyboard.down("KeyW")
+    until(lambda: abs(agent(server)["pose"][0]) > 0.3)
+    tab.page.keyboard.up("KeyW")
+
+
+def test_step_makes_one_decision_and_run_goes_on(server: Played, tab: CodeTab) -> None:
+    tab.write(
+        "count = 0\n" + BODY + "global count\n    count += 1\n    print(count)\n    return {}"
+    )
+    tab.press("Step")
+    expect(tab.state).to_contain_text("Waits for the next step", timeout=LOADING_MS)
+    log = tab.page.get_by_role("log").locator("span")
+    expect(log).to_have_text(["1"])
+    ticks = server.snapshot()["tick"]
+    tab.page.wait_for_timeout(2500)  # longer than a world waits for a script that is silent
+    assert server.snapshot()["tick"] == ticks
+    tab.press("Step")
+    expect(log).to_have_text(["1", "2"])
+    until(lambda: server.snapshot()["tick"] > ticks)
+    tab.press("Run")
+    expect(log.first).to_have_text("3")
+    tab.press("Stop")

@@ -1,0 +1,391 @@
+"""The tab "Code" with a fake Python and a fake world: editor, buttons, output, mistakes."""
+
+import hashlib
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from ai4u_edu.server.web_files import web_folder
+from tests.browser.fake_code import serve_fakes
+from tests.browser.fake_panel import PARTS
+from tests.browser.panel_page import panel_page, panel_room
+from tests.browser.tab_page import TabPage
+from tests.browser.test_panel_accessibility import findings
+from tests.chromium import new_page
+
+pytestmark = pytest.mark.browser
+
+PROGRAM = 'def decide(percept):\n    near = percept["box"][0]\n    return {"move": [near, 0]}\n'
+
+
+class CodePage(TabPage):
+    """A page with the tab, with an agent of the fake panel."""
+
+    def __init__(self, chromium: Browser, **options: Any) -> None:
+        super().__init__(chromium, "panel_code", "CodeTab", "agent", prepare=serve_fakes, **options)
+        self.give(PARTS["scene"], "scene")
+        self.give(PARTS["agent"])
+
+    @property
+    def editor(self) -> Locator:
+        return self.page.get_by_role("textbox", name="Program in Python")
+
+    @property
+    def text(self) -> str:
+        lines = self.page.locator(".cm-line").evaluate_all("all => all.map(e => e.textContent)")
+        return "\n".join(lines)
+
+    def write(self, program: str) -> None:
+        """Replace the program, as a person who pastes one does."""
+        self.editor.click()
+        self.page.keyboard.press("ControlOrMeta+a")
+        self.page.keyboard.insert_text(program)
+
+    def press(self, name: str) -> None:
+        self.page.get_by_role("button", name=name, exact=True).click()
+
+    def sense(self, step: int = 0, **changes: Any) -> None:
+        """Let the fake world send a percept."""
+        percept = {"values": {"box": [0.5, 2]}, "episode": 1, "step": step, "terms": {}}
+        ending = {"terminated": False, "truncated": False}
+        self.page.evaluate("each => fake.give(each)", percept | ending | changes)
+
+    def calls(self, name: str) -> list[Any]:
+        """Return the arguments of the calls of Python or the world with a name."""
+        script = (
+            "name => fake.calls.filter((each) => each[0] === name).map((each) => each.slice(1))"
+        )
+        found: list[Any] = self.page.evaluate(script, name)
+        return found
+
+    def fail(self, text: str, line: int, kind: str) -> None:
+        """Let the next decision be a mistake."""
+        self.page.evaluate(
+            """([text, line, kind]) => (fake.decide = () =>
+              ({ ok: false, text, line, kind, printed: "", lines: [1], variables: {} }))""",
+            [text, line, kind],
+        )
+
+    @property
+    def state(self) -> Locator:
+        return self.page.locator(".ai4u-code-state")
+
+    @property
+    def mistake(self) -> Locator:
+        return self.page.locator(".ai4u-code-mistake")
+
+
+@pytest.fixture
+def tab(chromium: Browser) -> Iterator[CodePage]:
+    tab = CodePage(chromium)
+    yield tab
+    tab.page.context.close()
+    assert tab.errors == []
+
+
+def test_it_begins_with_a_program_of_the_agents_own_senses_and_actions(tab: CodePage) -> None:
+    assert '# percept["box"]: direction, distance' in tab.text
+    assert '# "move": forward, turn' in tab.text
+    assert 'def decide(percept):\n    return {"move": [0, 0.3]}' in tab.text
+    expect(tab.state).to_contain_text("Ready")
+
+
+def test_run_senses_decides_and_acts_until_the_episode_is_over(tab: CodePage) -> None:
+    tab.write(PROGRAM)
+    tab.sense()
+    tab.press("Run")
+    expect(tab.state).to_contain_text("Runs")
+    tab.page.wait_for_function("fake.calls.filter((each) => each[0] === 'act').length === 1")
+    ((source, facts),) = tab.calls("load")
+    assert source == PROGRAM
+    assert facts == {
+        "readings": [{"key": "box", "dtype": "<f4"}, {"key": "rays", "dtype": "<f4"}],
+        "outputs": {"move": [[-1, -1], [1, 1]]},
+    }
+    assert tab.calls("connect") == [[{"agent": "0", "mode": "realtime"}]]
+    assert tab.calls("decide") == [[{"box": [0.5, 2]}, 1]]
+    assert tab.calls("act") == [[{"move": [1, 0]}]]
+    expect(tab.page.locator(".ai4u-code-ran-line")).to_have_count(2)
+    expect(tab.page.get_by_role("log")).to_have_text("1decision 1")
+    expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near0.94")
+    tab.sense(1, terminated=True, terms={"touch": 100})
+    expect(tab.state).to_contain_text("Goal reached at decision 1")
+    assert tab.page.evaluate("fake.closed") == 1
+    expect(tab.page.get_by_role("button", name="Stop")).to_be_disabled()
+
+
+def test_ctrl_enter_runs_and_stop_gives_the_agent_back(tab: CodePage) -> None:
+    tab.sense()
+    tab.editor.click()
+    tab.page.keyboard.press("ControlOrMeta+Enter")
+    expect(tab.state).to_contain_text("Runs")
+    tab.press("Stop")
+    expect(tab.state).to_contain_text("Stopped at decision 1; the robot is yours")
+    assert tab.page.evaluate("fake.closed") == 1
+    tab.sense(1)
+    tab.press("Run")
+    tab.page.wait_for_function("fake.calls.filter((each) => each[0] === 'connect').length === 2")
+    assert len(tab.calls("decide")) == 1
+
+
+def test_after_the_end_it_begins_another_episode(tab: CodePage) -> None:
+    tab.sense(9, terminated=True)
+    tab.sense(0, episode=2)
+    tab.press("Run")
+    tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'act')")
+    assert tab.sent() == [{"command": "try_again"}]
+    assert tab.calls("reset") == []
+
+
+def test_where_others_drive_it_begins_only_its_own_episode(tab: CodePage) -> None:
+    others = [*PARTS["scene"]["agents"], {"id": "1", "title": "Agent 1", "driver": ""}]
+    tab.give({**PARTS["scene"], "agents": others}, "scene")
+    for _ in range(2):
+        tab.sense(9, terminated=True)
+    tab.sense(0, episode=2)
+    tab.press("Run")
+    tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'act')")
+    assert tab.sent() == []
+    assert tab.calls("reset") == [[]]
+
+
+def test_another_episode_begins_the_program_anew(tab: CodePage) -> None:
+    tab.sense()
+    tab.press("Run")
+    tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'act')")
+    tab.sense(0, episode=2)
+    tab.page.wait_for_function("fake.calls.filter((each) => each[0] === 'begin').length === 2")
+
+
+def test_a_paused_world_goes_on(tab: CodePage) -> None:
+    tab.give({**PARTS["run"], "is_paused": True}, "run")
+    tab.sense()
+    tab.press("Run")
+    expect(tab.state).to_contain_text("Runs")
+    assert tab.sent() == [{"command": "resume"}]
+
+
+def test_step_makes_one_decision_and_the_world_waits(tab: CodePage) -> None:
+    tab.sense(0)
+    tab.sense(1)
+    tab.press("Step")
+    expect(tab.state).to_contain_text("Waits for the next step")
+    expect(tab.state).to_contain_text("decision 1")
+    assert tab.calls("connect") == [[{"agent": "0", "mode": "lockstep"}]]
+    tab.page.wait_for_function("fake.waits > 0")
+    assert len(tab.calls("decide")) == 1
+    tab.sense(2)
+    tab.press("Step")
+    expect(tab.state).to_contain_text("decision 2")
+    assert len(tab.calls("load")) == 1
+
+
+def test_from_step_to_run_the_program_remembers(tab: CodePage) -> None:
+    tab.sense(0)
+    tab.sense(1)
+    tab.press("Step")
+    expect(tab.state).to_contain_text("decision 1")
+    tab.sense(1)
+    tab.press("Run")
+    tab.page.wait_for_function("fake.calls.filter((each) => each[0] === 'act').length === 2")
+    assert [mode for ((mode,),) in [[[each[0]["mode"]]] for each in tab.calls("connect")]] == [
+        "lockstep",
+        "realtime",
+    ]
+    assert len(tab.calls("load")) == len(tab.calls("begin")) == 1
+
+
+def test_a_mistake_is_a_sentence_at_its_line(tab: CodePage) -> None:
+    tab.write(PROGRAM)
+    tab.fail("nothing is called 'neer'; did you mean 'near'?", 3, "unknown-name")
+    tab.sense()
+    tab.press("Run")
+    expect(tab.mistake).to_contain_text("Line 3: nothing is called 'neer'; did you mean 'near'?")
+    expect(tab.page.get_by_role("alert")).to_be_visible()
+    marked = tab.page.locator(".ai4u-code-mistake-line")
+    expect(marked).to_have_text('    return {"move": [near, 0]}')
+    tab.press("Go to the line")
+    expect(tab.editor).to_be_focused()
+    assert tab.page.evaluate("fake.closed") == 1
+    tab.press("Run")
+    expect(tab.mistake).to_be_hidden()
+    expect(marked).to_have_count(0)
+
+
+def test_a_mistake_that_no_line_made_has_no_button(tab: CodePage) -> None:
+    tab.page.evaluate("fake.load = { ok: false, text: 'there is no decide', line: 0, kind: '' }")
+    tab.sense()
+    tab.press("Run")
+    expect(tab.mistake).to_have_text("there is no decide")
+
+
+def test_a_world_that_refuses_is_told(tab: CodePage) -> None:
+    tab.page.evaluate("fake.connectError = 'the robot is driven by another script'")
+    tab.press("Run")
+    expect(tab.mistake).to_have_text("the robot is driven by another script")
+    expect(tab.state).to_contain_text("The run ended")
+
+
+def test_programs_are_kept_for_each_scene(tab: CodePage) -> None:
+    tab.write(PROGRAM)
+    tab.give({**PARTS["scene"], "scene": "maze"}, "scene")
+    tab.give(PARTS["agent"])
+    assert "# It senses:" in tab.text
+    tab.give(PARTS["scene"], "scene")
+    tab.give(PARTS["agent"])
+    assert tab.text == PROGRAM
+    tab.page.reload()
+    tab.page.wait_for_function("window.isReady")
+    tab.give(PARTS["scene"], "scene")
+    tab.give(PARTS["agent"])
+    assert tab.text == PROGRAM
+
+
+def test_an_earlier_run_is_taken_back(tab: CodePage) -> None:
+    runs = tab.page.get_by_label("Earlier runs")
+    tab.write(PROGRAM)
+    tab.press("Run")
+    expect(runs.locator("option")).to_have_count(3)
+    tab.write("x = 1")
+    tab.press("Run")
+    expect(runs.locator("option")).to_have_count(4)
+    runs.select_option(index=2)
+    assert tab.text == PROGRAM
+    runs.select_option(label="The first program")
+    assert "# It senses:" in tab.text
+    tab.editor.click()
+    tab.page.keyboard.press("ControlOrMeta+z")
+    assert tab.text == PROGRAM
+
+
+def test_only_the_latest_runs_are_kept(tab: CodePage) -> None:
+    script = """async () => {
+      const { KeptPrograms } = await import("./web/code_keep.js");
+      const kept = new KeptPrograms();
+      kept.open("many", "0");
+      for (let each = 0; each < 60; each += 1) kept.addRun(`x = ${each}`);
+      const count = kept.runs.length;
+      kept.addRun("#".repeat(150000));
+      kept.addRun("!".repeat(150000));
+      return [count, kept.runs.length];
+    }"""
+    assert tab.page.evaluate(script) == [50, 1]
+
+
+def test_a_program_is_saved_and_opened_as_a_file(tab: CodePage, tmp_path: Path) -> None:
+    tab.write(PROGRAM)
+    with tab.page.expect_download() as download:
+        tab.press("Download .py")
+    assert download.value.suggested_filename == "box_chase-0.py"
+    assert Path(download.value.path()).read_text() == PROGRAM
+    file = tmp_path / "mine.py"
+    file.write_text("def decide(percept):\r\n    return {}\r\n", newline="")
+    with tab.page.expect_file_chooser() as chooser:
+        tab.press("Open .py")
+    chooser.value.set_files(file)
+    expect(tab.editor).to_contain_text("return {}")
+    assert tab.text == "def decide(percept):\n    return {}\n"
+
+
+def test_output_is_bounded(tab: CodePage) -> None:
+    script = 'fake.decide = () => ({ ok: true, values: {}, printed: "spam\\n".repeat(500) })'
+    tab.page.evaluate(script)
+    tab.sense()
+    tab.press("Run")
+    expect(tab.page.get_by_role("log").locator("li")).to_have_count(200)
+
+
+def test_names_are_inserted_and_offered(tab: CodePage) -> None:
+    tab.write("x = ")
+    tab.press('percept["rays"]')
+    assert tab.text == 'x = percept["rays"]'
+    tab.write("x = ")
+    tab.page.keyboard.type('percept["r')
+    expect(tab.page.get_by_role("option", name="rays")).to_be_visible()
+    tab.page.keyboard.press("Escape")
+    expect(tab.page.get_by_role("option", name="rays")).to_have_count(0)
+    expect(tab.editor).to_be_focused()
+
+
+def test_tab_indents_and_after_escape_leaves(tab: CodePage) -> None:
+    tab.write("x")
+    tab.page.keyboard.press("Home")
+    tab.page.keyboard.press("Tab")
+    assert tab.text == "    x"
+    expect(tab.editor).to_have_accessible_description(re.compile("Escape, then Tab leaves"))
+    tab.page.keyboard.press("Escape")
+    tab.page.keyboard.press("Tab")
+    expect(tab.editor).not_to_be_focused()
+    expect(tab.page.locator("summary").filter(has_text="Output")).to_be_focused()
+    assert tab.text == "    x"
+
+
+@pytest.mark.parametrize(("is_touch", "smallest"), [(False, 28), (True, 40)])
+def test_controls_are_large_enough_and_have_names(
+    chromium: Browser, is_touch: bool, smallest: float
+) -> None:
+    tab = CodePage(chromium, size=(390, 844), has_touch=is_touch, is_mobile=is_touch)
+    tab.fail("a " + "long" * 60, 2, "error")
+    tab.sense()
+    tab.press("Run")
+    expect(tab.mistake).to_be_visible()
+    assert tab.small_controls(smallest) == []
+    assert tab.unnamed_controls() == []
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= 390
+    tab.page.context.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_has_no_grave_finding(chromium: Browser, scheme: str) -> None:
+    tab = CodePage(chromium, scheme=scheme)
+    tab.write(PROGRAM)
+    tab.fail("nothing is called 'neer'", 2, "unknown-name")
+    tab.sense()
+    tab.press("Run")
+    expect(tab.mistake).to_be_visible()
+    assert findings(tab.page, ".ai4u-panel") == []
+    tab.page.context.close()
+
+
+def test_typing_does_not_drive(chromium: Browser) -> None:
+    with panel_room() as room, panel_page(chromium, room) as desk:
+        serve_fakes(desk.page)
+        desk.tab("Code").click()
+        editor = desk.page.get_by_role("textbox", name="Program in Python")
+        editor.click()
+        desk.page.keyboard.down("KeyW")
+        expect(editor).to_contain_text("w")
+        assert room.held == []
+        desk.page.keyboard.up("KeyW")
+        desk.page.keyboard.press("Enter")
+        expect(editor).to_be_focused()
+        desk.page.keyboard.press("Escape")
+        desk.page.keyboard.down("KeyW")
+        desk.until(lambda: room.held == ["KeyW"])
+        desk.page.keyboard.up("KeyW")
+
+
+def test_the_editor_is_loaded_with_the_tab_and_kept_by_the_browser(chromium: Browser) -> None:
+    bundle = web_folder() / "vendor" / "codemirror.js"
+    version = hashlib.sha256(bundle.read_bytes()).hexdigest()[:8]
+    assert f'vendor/codemirror.js?v={version}"' in (web_folder() / "code_editor.js").read_text()
+    asked: list[str] = []
+
+    def listen(page: Page) -> None:
+        page.on("request", lambda request: asked.append(request.url))
+        serve_fakes(page)
+
+    tab = TabPage(chromium, "panel_past", "PastTab", "past", prepare=listen)
+    tab.page.context.close()
+    assert not [url for url in asked if "vendor" in url or "code_" in url]
+    with panel_room() as room:
+        page = new_page(chromium)
+        listen(page)
+        page.goto(room.url)
+        expect(page.get_by_role("tab", name="Past")).to_be_attached()
+        assert not [url for url in asked if "vendor" in url or "code_" in url]
+        page.context.close()

@@ -1,0 +1,113 @@
+"""Takes the pictures of programs in the page for the docs: ``python -m tests.code_sheet``.
+
+With ``--all DIR``, it takes them light, dark and on a phone instead, to look at. World, page and
+Python are real.
+"""
+
+import argparse
+import contextlib
+import io
+import re
+from pathlib import Path
+from typing import Any, Literal
+
+from PIL import Image
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.served_viser import ready
+from tests.chromium import browser
+from tests.playing import played
+
+ROOT = Path(__file__).parents[1]
+PICTURES = ROOT / "docs" / "pictures"
+DOC = ROOT / "docs" / "code-in-the-page.md"
+SEED = "5"
+"""A seed with which box_chase puts the box where the robot has to turn for it."""
+TIME_SCALE = "0.3"
+"""Slow enough for a machine that draws without a graphics card."""
+DESK, PHONE = (1180, 900), (390, 844)
+LOADING_MS = 60_000
+SETTLE_MS = 1200
+COLORS = 256
+Scheme = Literal["light", "dark"]
+
+
+def main() -> None:
+    """Take the pictures."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--all", type=Path, help="folder for all of them")
+    folder: Path | None = parser.parse_args().all
+    with browser() as chromium:
+        if folder is None:
+            _take(chromium, PICTURES / "code_{}.png", DESK, "light")
+            return
+        folder.mkdir(parents=True, exist_ok=True)
+        for size, name in ((DESK, "desk"), (PHONE, "phone")):
+            for scheme in ("light", "dark"):
+                _take(chromium, folder / f"{name}_{scheme}_{{}}.png", size, scheme)
+
+
+def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
+    """Take the pictures of a run and of a mistake.
+
+    Args:
+        path: of a picture, with a place for its name.
+    """
+    viewport: Any = {"width": size[0], "height": size[1]}
+    context = chromium.new_context(viewport=viewport, color_scheme=scheme)
+    program = program_in_docs()
+    with (
+        played("box_chase", "--seed", SEED, "--time-scale", TIME_SCALE) as server,
+        contextlib.closing(context),
+    ):
+        page = context.new_page()
+        page.goto(server.url)
+        ready(page)
+        if size == PHONE:
+            page.get_by_role("button", name="Open the panel").click()
+        else:
+            _widen(page)
+        page.get_by_role("tab", name="Code").click()
+        _run(page, program)
+        expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)
+        page.wait_for_timeout(SETTLE_MS)
+        _save(page.screenshot(), path, "tab")
+        _run(page, program.replace("if cosine", "if cosin"))
+        mistake = page.locator(".ai4u-code-mistake")
+        expect(mistake).to_be_visible(timeout=LOADING_MS)
+        mistake.scroll_into_view_if_needed()
+        page.wait_for_timeout(SETTLE_MS)
+        _save(page.locator(".ai4u-panel").screenshot(), path, "mistake")
+
+
+def program_in_docs() -> str:
+    """Return the first program of the page about programs."""
+    (first, *_) = re.findall(r"(?:^    .*\n)+", DOC.read_text(encoding="utf-8"), re.MULTILINE)
+    return "".join(line.removeprefix("    ") for line in str(first).splitlines(keepends=True))
+
+
+def _widen(page: Page) -> None:
+    handle = page.get_by_role("separator", name="Size of the panel")
+    handle.focus()
+    page.keyboard.press("Tab")
+    page.keyboard.press("Shift+Tab")  # arrow keys drive unless a key led to the control
+    for _ in range(5):
+        page.keyboard.press("ArrowLeft")
+    page.get_by_role("button", name="Arena").click()
+
+
+def _run(page: Page, program: str) -> None:
+    page.get_by_role("textbox", name="Program in Python").click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.insert_text(program)
+    page.keyboard.press("ControlOrMeta+Enter")
+
+
+def _save(picture: bytes, path: Path, name: str) -> None:
+    file = Path(str(path).format(name))
+    Image.open(io.BytesIO(picture)).convert("RGB").quantize(COLORS).save(file, optimize=True)
+    print(file, file.stat().st_size // 1000, "kB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,35 @@
+/** The line about a run of a program, in words. */
+
+/** Size of Python's files, which are loaded once (MB). */
+const PYTHON_MB = 13;
+
+/**
+ * Return {kind, text, count}: kind is "off", "busy", "on", "done" or "bad"; count changes too often to be announced.
+ * @param run.phase as of CodeRun
+ * @param run.isPerson true while the person drives in the program's place
+ * @param run.python "loading", "ready", or a sentence about what went wrong
+ * @param run.end the detail of the event "end"; null while there is none
+ */
+export function runWords({ phase, decision, success, isPerson, python, end }) {
+  if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);
+  if (phase === "joining") return line("busy", "The program gets the robot …");
+  if (phase === "running" && isPerson) return line("busy", "You drive; let go, and the program goes on");
+  if (phase === "running") return line("on", "Runs", `decision ${decision}`);
+  if (phase === "stepping") return line("on", "Waits for the next step", `decision ${decision}`);
+  if (end !== null) return endWords(end, decision, success);
+  if (python === "loading") return line("off", `Loading Python, once (${PYTHON_MB} MB) …`);
+  return python === "ready" ? line("off", "Ready") : line("bad", python);
+}
+
+function endWords({ reason, percept, line: number }, decision, success) {
+  const at = decision ? ` at decision ${decision}` : "";
+  if (reason === "stopped") return line("off", `Stopped${at}; the robot is yours`);
+  if (reason === "mistake") return line("bad", number === null ? `A mistake ended it${at}` : `A mistake in line ${number} ended it`);
+  if (reason === "lost") return line("bad", `The run ended${at}`);
+  const isGoal = Boolean(success && percept.terms?.[success] > 0);
+  return line(isGoal ? "done" : "off", `${isGoal ? "Goal reached" : "The episode is over"}${at}`);
+}
+
+function line(kind, text, count = "") {
+  return { kind, text, count };
+}

@@ -1,0 +1,255 @@
+/** The tab "Code": a program in Python drives the shown agent. */
+
+import { CodeConsole } from "./code_console.js";
+import { CodeEditor } from "./code_editor.js";
+import { NameList, VariableList } from "./code_facts.js";
+import { downloadText, KeptPrograms } from "./code_keep.js";
+import { CodeRun } from "./code_run.js";
+import { namesOf, startProgram } from "./code_start.js";
+import { runWords } from "./code_words.js";
+import { button, element, setAttributes, setText } from "./dom.js";
+import { freeId, section } from "./panel_parts.js";
+import { fileButton } from "./panel_scene_files.js";
+
+/** Largest program that is read from a file (bytes). */
+const MAX_FILE_BYTES = 100_000;
+const NOW = "now";
+
+export class CodeTab {
+  #panel;
+  #run;
+  #editor;
+  #kept = new KeptPrograms();
+  #console = new CodeConsole();
+  #variables = new VariableList();
+  #names = new NameList((code) => this.#editor.insert(code));
+  #key = null;
+  #agent = null;
+  /** How the latest run ended; null before the first one. */
+  #end = null;
+  /** Python: "loading", "ready", or a sentence about what went wrong. */
+  #python = "loading";
+  /** The latest decision, and the names that are shown, as text. */
+  #latest = null;
+  #latestNames = "";
+  #isDue = false;
+
+  #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: "Run (Ctrl+Enter)" });
+  #stop = button("Stop", () => this.#run.stop(), { icon: "stop", title: "Stop, and give the robot back" });
+  #step = button("Step", () => this.#go("step"), { icon: "forward", title: "Make one decision, and wait" });
+  #state = element("p", { role: "status" });
+  #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
+  #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
+  #mistakeText = element("p");
+  #goTo = button("Go to the line", () => this.#editor.goTo(this.#end.line), {});
+  #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
+  #runs = element("select", { id: freeId() });
+
+  /** @param parts of CodeRun */
+  constructor(root, panel, parts = {}) {
+    this.#panel = panel;
+    this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
+    const help = element("p", { className: "ai4u-soft", id: freeId() });
+    help.textContent = "Ctrl+Enter runs the program. Tab indents; Escape, then Tab leaves the editor.";
+    const frame = element("div", { className: "ai4u-code-editor" });
+    const keys = [
+      { key: "Ctrl-Enter", mac: "Cmd-Enter", run: () => this.#go("run") },
+      { key: "Ctrl-Shift-Enter", mac: "Cmd-Shift-Enter", run: () => this.#go("step") },
+    ];
+    this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
+    this.#editor.onChange = (text) => this.#onEdit(text);
+    const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#stop);
+    const sections = [this.#console.element, this.#variables.element, this.#names.element, this.#tools()];
+    root.classList.add("ai4u-code");
+    const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
+    root.append(head, frame, this.#mistake, help, ...sections);
+    this.#listen();
+    this.#drawState();
+    this.#warm();
+  }
+
+  /** @param agent as "agent" in the protocol */
+  update(agent) {
+    this.#agent = agent;
+    this.#open();
+    const names = namesOf(agent);
+    const text = JSON.stringify(names);
+    if (text === this.#latestNames) return;
+    this.#latestNames = text;
+    this.#names.update(names);
+    this.#editor.setNames({
+      readings: names.readings.map(({ key }) => key),
+      outputs: names.outputs.map(({ name }) => name),
+    });
+  }
+
+  #tools() {
+    this.#runs.addEventListener("change", () => this.#takeRun(this.#runs.value));
+    const label = element("label", { htmlFor: this.#runs.id, textContent: "Earlier runs" });
+    const tools = element(
+      "div",
+      { className: "ai4u-code-tools" },
+      element("div", { className: "ai4u-inline ai4u-code-runs" }, label, this.#runs),
+      button("Download .py", () => downloadText(`${this.#key ?? "program"}.py`, this.#editor.text), { icon: "download" }),
+      fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
+    );
+    return section("code-program", "Your program", {}, tools);
+  }
+
+  #listen() {
+    this.#run.addEventListener("change", () => {
+      this.#panel.hasProgram = this.#run.isOn && this.#run.phase !== "loading";
+      this.#drawSoon();
+    });
+    this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
+    this.#run.addEventListener("decision", ({ detail }) => {
+      this.#latest = detail;
+      this.#drawSoon();
+    });
+    this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
+    this.#panel.addEventListener("agent", () => this.#agent = null);
+    this.#panel.addEventListener("driver", () => this.#drawSoon());
+    addEventListener("pagehide", () => this.#run.stop());
+  }
+
+  // -- the program -------------------------------------------------------------------------------
+
+  /** Show the program of the present agent and scene. */
+  #open() {
+    const key = `${this.#panel.part("scene")?.scene ?? "scene"}-${this.#agent.id}`;
+    if (key === this.#key) return;
+    this.#run.stop();
+    this.#key = key;
+    this.#kept.open(...[key.slice(0, key.lastIndexOf("-")), this.#agent.id]);
+    this.#editor.text = this.#kept.source ?? startProgram(this.#agent);
+    this.#forget();
+    this.#console.clear();
+    this.#drawRuns();
+  }
+
+  #onEdit(text) {
+    this.#kept.source = text;
+    this.#editor.markRan([]);
+    if (this.#runs.value !== NOW) this.#runs.value = NOW;
+  }
+
+  async #openFile(file) {
+    if (file.size > MAX_FILE_BYTES) {
+      this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
+      return;
+    }
+    this.#replace((await file.text()).replaceAll("\r\n", "\n"));
+  }
+
+  /** Take another program; the present one is kept among the runs. */
+  #replace(text) {
+    this.#kept.addRun(this.#editor.text);
+    this.#editor.text = text;
+    this.#kept.source = text;
+    this.#forget();
+    this.#drawRuns();
+  }
+
+  #takeRun(value) {
+    if (value === "start") this.#replace(startProgram(this.#agent));
+    else if (value !== NOW) this.#replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
+  }
+
+  #drawRuns() {
+    const runs = this.#kept.runs.map(({ at, source }) => {
+      const lines = source.trim().split("\n").length;
+      return element("option", { value: at, textContent: `${when(at)} · ${lines} lines` });
+    });
+    const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });
+    this.#runs.replaceChildren(now, ...runs, element("option", { value: "start", textContent: "The first program" }));
+    this.#runs.value = NOW;
+  }
+
+  // -- runs --------------------------------------------------------------------------------------
+
+  /** Begin to run, or make a step. Returns true: the key is used. */
+  #go(way) {
+    if (this.#agent === null) return true;
+    const source = this.#editor.text;
+    if (this.#run.phase === "off" || way === "run") this.#console.clear();
+    this.#forget();
+    this.#kept.addRun(source);
+    this.#drawRuns();
+    this.#run[way](source, this.#agent.id);
+    return true;
+  }
+
+  /** Forget how the run before ended. */
+  #forget() {
+    this.#end = this.#latest = null;
+    this.#mistakeText.textContent = "";
+    this.#goTo.remove();
+    this.#editor.markMistake(null);
+    this.#editor.markRan([]);
+    this.#variables.update({});
+    this.#drawSoon();
+  }
+
+  #onEnd(end) {
+    this.#end = end;
+    setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
+    if (end.line !== null) {
+      this.#mistake.append(this.#goTo);
+      this.#editor.markMistake(end.line);
+    }
+    this.#drawSoon();
+  }
+
+  async #warm() {
+    try {
+      await this.#run.warm();
+      this.#python = "ready";
+    } catch (error) {
+      this.#python = error.message;
+    }
+    this.#drawState();
+  }
+
+  /** Let a paused world run. */
+  async #wake() {
+    if (this.#panel.part("run")?.is_paused) await this.#panel.send("resume", {}, { quiet: true });
+  }
+
+  /** Begin an episode with the same start, where that disturbs no other agent. */
+  async #tryAgain() {
+    if (this.#panel.part("scene")?.agents.length > 1) return false;
+    return (await this.#panel.send("try_again", {}, { quiet: true })).ok;
+  }
+
+  // -- drawing -----------------------------------------------------------------------------------
+
+  /** Draw once in a frame, however many decisions there are. */
+  #drawSoon() {
+    if (this.#isDue) return;
+    this.#isDue = true;
+    requestAnimationFrame(() => {
+      this.#isDue = false;
+      this.#drawState();
+      if (this.#latest === null) return;
+      this.#editor.markRan(this.#latest.lines);
+      this.#variables.update(this.#latest.variables);
+    });
+  }
+
+  #drawState() {
+    const { phase, decision, success, isOn } = this.#run;
+    const isPerson = Boolean(this.#panel.driver?.hello?.instead);
+    const { kind, text, count } = runWords({ phase, decision, success, isPerson, python: this.#python, end: this.#end });
+    setText(this.#state, text);
+    setText(this.#count, count);
+    setAttributes(this.#stateRow, { "data-kind": kind });
+    this.#stop.disabled = !isOn;
+    this.#mistake.hidden = !this.#mistakeText.textContent;
+  }
+}
+
+function when(at) {
+  const date = new Date(at);
+  const isToday = date.toDateString() === new Date().toDateString();
+  return isToday ? date.toLocaleTimeString() : date.toLocaleString();
+}
