@@ -79,9 +79,7 @@ def class_app(
     page_auth = Middleware(
         TokenAuth, token=teacher_token, attempts=attempts, token_page=TokenPage()
     )
-    wall = WallSocket(live, events)
     projector = WallSocket(live, events, is_projected=True)
-
     return Starlette(
         routes=[
             Route("/", join.page),
@@ -100,7 +98,7 @@ def class_app(
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/programs", programs.of_room, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
-            WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
+            WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
             Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
