@@ -113,9 +113,12 @@ export class CodeEngine {
   }
 }
 
+const ENDED_ANSWER = JSON.stringify(problem("ended", NOT_LOADED));
+
 /** One worker. */
 class Runtime {
   #worker = new Worker(new URL("./code_worker.js", import.meta.url), { type: "module" });
+  #isEnded = false;
   #lastId = 0;
   /** Functions that take an answer's text, by the id of the call. */
   #waiting = new Map();
@@ -158,9 +161,9 @@ class Runtime {
   }
 
   end() {
+    this.#isEnded = true;
     this.#worker.terminate();
-    const ended = JSON.stringify(problem("ended", NOT_LOADED));
-    for (const answer of this.#waiting.values()) answer(ended);
+    for (const answer of this.#waiting.values()) answer(ENDED_ANSWER);
     this.#waiting.clear();
   }
 
@@ -179,6 +182,7 @@ class Runtime {
   }
 
   #ask(message) {
+    if (this.#isEnded) return Promise.resolve(ENDED_ANSWER);
     const id = (this.#lastId += 1);
     return new Promise((resolve) => {
       this.#waiting.set(id, resolve);

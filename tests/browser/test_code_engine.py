@@ -78,6 +78,15 @@ def test_a_stopped_program_gives_no_answer_later(page: Page) -> None:
     assert run(page, "return {}")["ok"]
 
 
+def test_who_waits_for_an_engine_that_is_ended_is_told(page: Page) -> None:
+    start = "(room) => { window.other = new CodeEngine(); window.loaded = other.load('', room); }"
+    for pause in (0, 200):
+        page.evaluate(start, ROOM)
+        page.wait_for_timeout(pause)
+        page.evaluate("other.end()")
+        assert page.evaluate("loaded")["ok"] is False
+
+
 def test_an_answer_has_a_limited_size(page: Page) -> None:
     answer = run(page, "return 'x' * 10**7")
     assert (answer["ok"], answer["kind"]) == (False, "too_large")
