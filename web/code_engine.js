@@ -2,12 +2,14 @@
 
 /** Time that a program has for one call; the program package's own limit is shorter, and names the line. */
 const CALL_TIMEOUT_MS = 2000;
+/** Time in which a call begins, also on a machine that is very busy. */
+const BEGIN_TIMEOUT_MS = 10_000;
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
 const WASM = "./vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
 const LIBRARY = "./vendor/pyodide/python_stdlib.zip?v=fa1957e5";
 const PROGRAM = "../program.zip";
-const ENDLESS = "The program did not come back, so it was ended. Is there a loop that never ends, or a huge number?";
+const ENDLESS = "The program did not come back from this line, so it was ended. Is something in it endless or huge?";
 const NOT_LOADED = "The program is not running. Press Run.";
 const UNAVAILABLE = "Python could not be loaded. Is the world still running? Reload the page.";
 
@@ -18,8 +20,8 @@ const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan
 let parts = null;
 
 /** An answer in the form of host.py for what happens outside of it. */
-function problem(kind, text) {
-  return { ok: false, kind, text, line: 0, printed: "", lines: [], variables: {} };
+function problem(kind, text, line = 0) {
+  return { ok: false, kind, text, line, printed: "", lines: [], variables: {} };
 }
 
 /** Return JSON for host.py. */
@@ -111,19 +113,27 @@ export class CodeEngine {
   }
 }
 
-const ENDLESS_ANSWER = JSON.stringify(problem("endless", ENDLESS));
+const ENDED_ANSWER = JSON.stringify(problem("ended", NOT_LOADED));
 
 /** One worker. */
 class Runtime {
   #worker = new Worker(new URL("./code_worker.js", import.meta.url), { type: "module" });
+  #isEnded = false;
   #lastId = 0;
   /** Functions that take an answer's text, by the id of the call. */
   #waiting = new Map();
+  /** The line of the program that ran last, as far as it was reported. */
+  #line = 0;
+  /** Called when the worker begins with a call. */
+  #onbegun = () => {};
   /** True if the worker can't be called any more. */
   isStuck = false;
 
   constructor() {
-    this.#worker.onmessage = ({ data: { id, text } }) => {
+    this.#worker.onmessage = ({ data: { id, text, line, isBegun } }) => {
+      if (line) this.#line = line;
+      if (isBegun) this.#onbegun();
+      if (line || isBegun) return;
       const answer = this.#waiting.get(id);
       this.#waiting.delete(id);
       answer?.(text);
@@ -134,21 +144,26 @@ class Runtime {
 
   /** Call a function of host.py; give up after a while. */
   async call(method, text) {
+    this.#line = 0;
     let timer;
     const late = new Promise((resolve) => {
-      timer = setTimeout(resolve, CALL_TIMEOUT_MS, ENDLESS_ANSWER);
+      timer = setTimeout(resolve, BEGIN_TIMEOUT_MS, "");
+      this.#onbegun = () => {
+        clearTimeout(timer);
+        timer = setTimeout(resolve, CALL_TIMEOUT_MS, "");
+      };
     });
     const answer = await Promise.race([this.#ask({ method, text }), late]);
     clearTimeout(timer);
-    const found = JSON.parse(answer);
-    this.isStuck ||= answer === ENDLESS_ANSWER || found.kind === "broken";
+    const found = answer ? JSON.parse(answer) : problem("endless", ENDLESS, this.#line);
+    this.isStuck ||= !answer || found.kind === "broken";
     return found;
   }
 
   end() {
+    this.#isEnded = true;
     this.#worker.terminate();
-    const ended = JSON.stringify(problem("ended", NOT_LOADED));
-    for (const answer of this.#waiting.values()) answer(ended);
+    for (const answer of this.#waiting.values()) answer(ENDED_ANSWER);
     this.#waiting.clear();
   }
 
@@ -167,6 +182,7 @@ class Runtime {
   }
 
   #ask(message) {
+    if (this.#isEnded) return Promise.resolve(ENDED_ANSWER);
     const id = (this.#lastId += 1);
     return new Promise((resolve) => {
       this.#waiting.set(id, resolve);

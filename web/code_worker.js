@@ -5,7 +5,8 @@
  * storage: what a worker could keep or connect with is removed before the program is loaded.
  *
  * The page sends {id, method: "start", parts}, then {id, method, text} with a method of
- * ai4u_edu/program/host.py; each is answered with {id, text}.
+ * ai4u_edu/program/host.py; each is answered with {id, text}. Before, {id, isBegun} says that
+ * the call has begun, and {line} which line of the program is about to run.
  */
 
 import createPyodideModule from "./vendor/pyodide/pyodide.asm.mjs?v=f7cdc8ec";
@@ -41,6 +42,7 @@ self.addEventListener("message", async ({ data: { id, method, text, parts } }) =
   let answer;
   try {
     if (method === "start") methods = await start(parts);
+    else send({ id, isBegun: true });
     answer = method === "start" ? "{}" : methods[method](text);
   } catch (error) {
     answer = problem("broken", `Python has stopped: ${String(error).trim().slice(-500)}`);
@@ -75,6 +77,7 @@ async function start({ wasm, library, program }) {
   python.runPython(`import sys; sys.path.insert(0, "${PROGRAM_PATH}")`);
   const host = python.pyimport("ai4u_edu.program.host");
   const { load, begin, decide } = host;
+  host.watch((line) => send({ line }));
   for (const name of ["js", "pyodide_js"]) python.unregisterJsModule(name);
   python.runPython(`import sys; [sys.modules.pop(name, None) for name in ("js", "pyodide_js")]`);
   removeConnections();

@@ -50,7 +50,7 @@ def classroom(
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
-    from ai4u_edu.runtime.process_tuning import tuned_process
+    from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
     from ai4u_edu.scenes import Scene
     from ai4u_edu.server import hosts_for, open_on_desktop, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
@@ -81,6 +81,6 @@ def classroom(
             proxy_hosts=allow_host or [],
             blocks=own_blocks or (),
         )
-        with tuned_process():
+        with tuned_process(), released_memory():
             serve(app, host, port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()

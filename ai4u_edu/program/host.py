@@ -13,6 +13,7 @@ decide percept, decision                             ok, values, printed, lines,
 
 A mistake is returned as ``{"ok": false, "text", "line", "kind"}`` with printed, lines and variables
 as far as they are known; it is never raised. ``begin`` and ``load`` return what was printed too.
+``watch`` takes a function, which is called with a line before it runs.
 
 - ``outputs`` is ``{name: [[low, ...], [high, ...]]}``.
 - ``readings`` is a list of the percept's keys, or ``{key: dtype}`` with the welcome's dtypes
@@ -30,6 +31,7 @@ from typing import Any
 from ai4u_edu.program.mistakes import ProgramError
 from ai4u_edu.program.output import Output
 from ai4u_edu.program.program import Program
+from ai4u_edu.program.tracing import ReportLine
 
 WORDS = {"inf": float("inf"), "-inf": float("-inf"), "nan": float("nan"), "-0": -0.0}
 """Numbers that are written as texts."""
@@ -38,6 +40,17 @@ CASTS: dict[str, Callable[[Any], Any]] = {"<f4": float, "<i4": int, "|u1": int, 
 
 _program: Program | None = None
 _dtypes: dict[str, str] = {}
+_report_line: ReportLine | None = None
+
+
+def watch(report_line: ReportLine) -> None:
+    """Report lines before they run, so that the page knows which one never ends.
+
+    Args:
+        report_line: called with the number of a line.
+    """
+    global _report_line
+    _report_line = report_line
 
 
 def load(text: str) -> str:
@@ -58,7 +71,11 @@ def load(text: str) -> str:
     }
     try:
         _program = Program.load(
-            said["source"], entry=said.get("entry", ""), outputs=outputs or None, output=output
+            said["source"],
+            entry=said.get("entry", ""),
+            outputs=outputs or None,
+            output=output,
+            report_line=_report_line,
         )
     except ProgramError as error:
         return _failed(error, output.take())

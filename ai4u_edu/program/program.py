@@ -12,7 +12,7 @@ from ai4u_edu.program.mistakes import ProgramError, mistake_in
 from ai4u_edu.program.output import Output
 from ai4u_edu.program.portable import obstacle_in_tree
 from ai4u_edu.program.reading import plain_sum, readings_of
-from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, Trace, loop_around
+from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, ReportLine, Trace, loop_around
 
 MAX_SOURCE_CHARS = 200_000
 
@@ -69,6 +69,7 @@ class Program:
         output: Output | None = None,
         limit_s: float = DECISION_LIMIT_S,
         keeps_lines: bool = True,
+        report_line: ReportLine | None = None,
     ) -> Self:
         """Run a program's text, and find what is to be asked for decisions.
 
@@ -82,11 +83,12 @@ class Program:
             output: keeps what is printed; by default it is printed as Python does.
             limit_s: longest time of a decision, and of loading, seconds.
             keeps_lines: True records lines and variables of each decision.
+            report_line: called with lines before they run.
 
         Raises:
             ProgramError: a mistake, with its line.
         """
-        trace = Trace(file, limit_s, keeps_lines=keeps_lines)
+        trace = Trace(file, limit_s, keeps_lines=keeps_lines, report_line=report_line)
         tree = _parsed(source, file)
         obstacle = obstacle_in_tree(tree)
         if obstacle is not None:

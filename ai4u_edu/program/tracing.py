@@ -13,11 +13,15 @@ DECISION_LIMIT_S = 1.0
 """Longest time that a program may take for a decision."""
 MAX_LINES = 500
 """Lines that a trace keeps of one decision; the first ones."""
+MAX_REPORTED_LINES = 50
+"""Lines of a call that are reported before they run; after them, only those not reported yet."""
 MAX_VARIABLES = 40
 MAX_VALUE_CHARS = 120
 """Length of a variable's value in a trace."""
 LINES_BETWEEN_CHECKS = 16
 """Lines between two looks at the clock, which costs more than to count a line."""
+ReportLine = Callable[[int], object]
+"""Function that takes the number of a line."""
 
 
 class EndlessError(BaseException):
@@ -42,10 +46,17 @@ class Trace:
         file: name of the program's file, as it was compiled.
         limit_s: longest time of a call, seconds.
         keeps_lines: False records neither lines nor variables.
+        report_line: called with a line before it runs. So the page knows where a program stands
+            that no tracing can stop, such as ``10**10**8``.
     """
 
     def __init__(
-        self, file: str, limit_s: float = DECISION_LIMIT_S, *, keeps_lines: bool = True
+        self,
+        file: str,
+        limit_s: float = DECISION_LIMIT_S,
+        *,
+        keeps_lines: bool = True,
+        report_line: ReportLine | None = None,
     ) -> None:
         self.lines: list[int] = []
         """Numbers of the lines that ran, in order."""
@@ -54,8 +65,11 @@ class Trace:
         self._file = file
         self.limit_s = limit_s
         self._keeps_lines = keeps_lines
+        self._report_line = report_line
         self._deadline = 0.0
         self._left = 0
+        self._reported: set[int] = set()
+        self._reports = 0
         self._outermost: FrameType | None = None
         self._locals: dict[str, Any] = {}
 
@@ -72,6 +86,8 @@ class Trace:
             return function(*arguments)
         self._deadline = time.monotonic() + self.limit_s
         self._left = LINES_BETWEEN_CHECKS
+        self._reported.clear()
+        self._reports = 0
         sys.settrace(self._on_call)
         try:
             return function(*arguments)
@@ -111,6 +127,8 @@ class Trace:
 
     def _on_event(self, frame: FrameType, event: str, _argument: Any) -> Any:
         if event == "line":
+            if self._report_line is not None:
+                self._report(frame.f_lineno, self._report_line)
             if self._keeps_lines and len(self.lines) < MAX_LINES:
                 self.lines.append(frame.f_lineno)
             self._left -= 1
@@ -123,6 +141,12 @@ class Trace:
             if self._keeps_lines:
                 self._locals = dict(frame.f_locals)
         return self._on_event
+
+    def _report(self, line: int, report: ReportLine) -> None:
+        self._reports += 1
+        if self._reports <= MAX_REPORTED_LINES or line not in self._reported:
+            self._reported.add(line)
+            report(line)
 
 
 def loop_around(tree: ast.Module, line: int) -> ast.While | ast.For | None:

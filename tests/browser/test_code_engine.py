@@ -64,7 +64,7 @@ def test_a_program_that_never_comes_back_is_ended_and_the_page_goes_on(
     page.evaluate("(() => { window.beats = 0; window.beat = setInterval(() => beats++, 50); })()")
     answer = run(page, body)
     assert (answer["ok"], answer["kind"]) == (False, "endless")
-    assert "never ends" in answer["text"]
+    assert "endless" in answer["text"]
     assert page.evaluate("clearInterval(beat), beats") > 10
     assert decide(page)["kind"] == "not_loaded"
     assert run(page, "return {'move': [1, 1]}")["values"] == {"move": [1, 1]}
@@ -76,6 +76,15 @@ def test_a_stopped_program_gives_no_answer_later(page: Page) -> None:
     page.evaluate("engine.end()")
     assert page.evaluate("answer")["kind"] == "ended"
     assert run(page, "return {}")["ok"]
+
+
+def test_who_waits_for_an_engine_that_is_ended_is_told(page: Page) -> None:
+    start = "(room) => { window.other = new CodeEngine(); window.loaded = other.load('', room); }"
+    for pause in (0, 200):
+        page.evaluate(start, ROOM)
+        page.wait_for_timeout(pause)
+        page.evaluate("other.end()")
+        assert page.evaluate("loaded")["ok"] is False
 
 
 def test_an_answer_has_a_limited_size(page: Page) -> None:

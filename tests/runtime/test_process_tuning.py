@@ -2,14 +2,21 @@
 
 import gc
 import sys
+import weakref
 
 import pytest
 
 from ai4u_edu.cli import main as cli
-from ai4u_edu.runtime.process_tuning import NEW_OBJECTS_BEFORE_GC, tuned_process
+from ai4u_edu.runtime import process_tuning
+from ai4u_edu.runtime.process_tuning import (
+    NEW_OBJECTS_BEFORE_GC,
+    released_memory,
+    tuned_process,
+)
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.builders import small_sim
+from tests.server.rooms import until
 
 
 def settings() -> tuple[object, ...]:
@@ -23,6 +30,22 @@ def test_a_tuned_process_is_as_it_was_afterwards() -> None:
         assert gc.get_threshold() == (NEW_OBJECTS_BEFORE_GC, 1, 1)
         assert gc.get_freeze_count() > 10_000
     assert settings() == before
+
+
+def test_garbage_goes_though_the_collector_is_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Cycle:
+        def __init__(self) -> None:
+            self.own = self
+
+    monkeypatch.setattr(process_tuning, "RELEASE_EVERY_S", 0.01)
+    gc.disable()
+    try:
+        there = weakref.ref(Cycle())
+        assert there() is not None
+        with released_memory():
+            until(lambda: there() is None)
+    finally:
+        gc.enable()
 
 
 def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
