@@ -27,7 +27,8 @@ export const PROBLEMS = new Map([
 const SEVERAL_TEXTS = "sstrings";
 /** First byte of a msgpack array with up to 15 elements. */
 const ARRAY = 0x90;
-const FIELDS = {
+/** Fields of the messages from a world, in their order; those of native.py, in camel case. */
+export const FIELDS = {
   welcome: [
     ...["version", "session", "grace", "agent", "mode", "title", "ticksPerSecond", "skipFrame", "repeatAction"],
     ...["maxSteps", "rewards", "success", "readings", "outputs"],
@@ -39,8 +40,8 @@ const FIELDS = {
   problem: ["code", "text", "seq"],
   bye: ["reason"],
 };
-const READING = ["key", "kind", "sensorType", "dtype", "shape", "offset", "low", "high", "unit", "isInput"];
-const OUTPUT = ["name", "kind", "low", "high", "isOutput"];
+export const READING = ["key", "kind", "sensorType", "dtype", "shape", "offset", "low", "high", "unit", "isInput"];
+export const OUTPUT = ["name", "kind", "low", "high", "isOutput"];
 /** Bytes of a number, and the list of numbers in a buffer, by dtype. */
 const NUMBERS = {
   "<f4": [4, (buffer) => Array.from(new Float32Array(buffer))],

@@ -5,6 +5,7 @@ import { command, commandOrTell } from "./class_command.js";
 import { element } from "./dom.js";
 import { choices, chosenIn, closeDialogOf, showForm } from "./form_dialog.js";
 import { ask, tell } from "./question.js";
+import { showPrograms } from "./room_programs.js";
 import { clock, counted, roomName, seatsOf, statusOf } from "./room_words.js";
 
 export function showRoom(room, state, realNames) {
@@ -19,11 +20,16 @@ export function showRoom(room, state, realNames) {
     closeDialogOf(button);
     showAssign(state, room.id);
   });
+  const code = action("Code", (button) => {
+    closeDialogOf(button);
+    showPrograms(room, state);
+  });
   const lookIn = element("a", { className: "ai4u-button", href: `./r/${encodeURIComponent(room.id)}/`, target: "_blank", textContent: "Look in" });
   const actions = element(
     "div",
     { className: "ai4u-actions" },
     isLocal && lookIn,
+    isLocal && code,
     act("Show to all", { do: "show", kind: "room", room: room.id }),
     assign,
     isLocal && room.is_running && act("Put to sleep", { do: "sleep", room: room.id }),

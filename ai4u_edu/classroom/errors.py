@@ -23,5 +23,13 @@ class StoreError(AI4UError):
     """The class's file can't be written to; nothing of the change is kept."""
 
 
+class ProgramNotKeptError(AI4UError):
+    """A program is not kept; the message is for the student."""
+
+
+class NewerProgramError(ProgramNotKeptError):
+    """A newer program is kept already."""
+
+
 class CommandError(AI4UError):
     """A teacher's command can't be done; the message is for the teacher."""

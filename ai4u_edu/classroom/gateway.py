@@ -16,6 +16,7 @@ from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.my_work import my_work_route
 from ai4u_edu.classroom.pages import page_route, web_file
+from ai4u_edu.classroom.program_routes import ProgramRoutes
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.room_proxy import RoomProxy
@@ -73,13 +74,12 @@ def class_app(
 
     events = ClassEvents(live, join_here)
     join, teacher = Join(seats, live.tell_people), Teacher(live, events, proxy)
+    programs = ProgramRoutes(live)
     auth = Middleware(TokenAuth, token=teacher_token, attempts=attempts)
     page_auth = Middleware(
         TokenAuth, token=teacher_token, attempts=attempts, token_page=TokenPage()
     )
-    wall = WallSocket(live, events)
     projector = WallSocket(live, events, is_projected=True)
-
     return Starlette(
         routes=[
             Route("/", join.page),
@@ -87,6 +87,7 @@ def class_app(
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["POST"]),
             Route("/api/my-work", my_work_route(live)),
+            Route("/api/program", programs.own, methods=["GET", "PUT"]),
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
@@ -95,8 +96,9 @@ def class_app(
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/export", teacher.export, middleware=[auth]),
+            Route("/teacher/programs", programs.of_room, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
-            WebSocketRoute("/teacher/socket", wall, middleware=[auth]),
+            WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
             Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),

@@ -14,6 +14,7 @@ from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.programs import Programs
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import Races
 from ai4u_edu.classroom.race_runner import RaceRunner
@@ -62,6 +63,7 @@ class LiveClass:
         self.attention = AttentionState(store)
         self.assignments = Assignments(store)
         self.progress = Progress(store)
+        self.programs = Programs(store)
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.results = ResultWriter(

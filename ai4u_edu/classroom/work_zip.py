@@ -16,6 +16,7 @@ from starlette.responses import StreamingResponse
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import remote_id
+from ai4u_edu.classroom.programs import FOLDER as PROGRAMS
 from ai4u_edu.classroom.progress import Entry
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.results_page import results_page
@@ -70,6 +71,9 @@ def _class_files(live: LiveClass) -> Files:
         name = _room_name(live, each)
         for file, data in _room_files(live, each):
             yield f"rooms/{name}/{file}", data
+    for seat in live.seats.all():
+        for file, data in _programs(live, seat.number):
+            yield f"{PROGRAMS}/{_file_name(f'{seat.name} {seat.number}')}/{file}", data
     races = live.store.query("select id, title from races order by rowid")
     for number, (race, title) in enumerate(races, 1):
         rows = live.store.query(
@@ -107,6 +111,8 @@ def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
         path = live.store.folder / RACES / race / f"{key}.episode"
         if path.is_file():
             yield f"episodes/race {seconds:.2f} s {key}.episode", path.read_bytes()
+    for file, data in _programs(live, seat.number):
+        yield f"{PROGRAMS}/{file}", data
     exercises = {
         exercise: asdict(progress_file.Entry(entry.state == "solved", tries=entry.tries))
         for (number, exercise), entry in live.progress.entries.items()
@@ -114,6 +120,19 @@ def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
     }
     progress = {"version": progress_file.VERSION, "exercises": exercises}
     yield progress_file.FILE, json.dumps(progress, indent=1).encode()
+
+
+def _programs(live: LiveClass, seat: int) -> Files:
+    """Yield the programs of a seat, as files with different names on all systems."""
+    known: set[str] = set()
+    for each in live.programs.of_seat(seat):
+        stem = name = f"{_file_name(each.scene)}-{_file_name(each.agent)}"
+        number = 1
+        while name.casefold() in known:
+            number += 1
+            name = f"{stem}-{number}"
+        known.add(name.casefold())
+        yield f"{name}.py", each.source.encode()
 
 
 def _room_files(live: LiveClass, room: str) -> Files:

@@ -5,6 +5,7 @@
     scene.yaml              the scene as it was at the end
     scenes/NAME.yaml        saved scenes
     episodes/NAME.episode   recorded episodes
+    programs/NAME.py        programs in Python, which are not opened
     progress.json           progress in the lessons
 
 Everything else in the file is ignored.
@@ -29,17 +30,22 @@ from ai4u_edu.editing.scene_store import NAME as SCENE_NAME
 from ai4u_edu.recording.file import MAX_FILE_BYTES as MAX_EPISODE_BYTES
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS, YamlFile
 
-SCENE, SCENES, EPISODES, PROGRESS = "scene.yaml", "scenes", "episodes", "progress.json"
+SCENE, PROGRESS = "scene.yaml", "progress.json"
+SCENES, EPISODES, PROGRAMS = "scenes", "episodes", "programs"
 MAX_ZIP_BYTES = 64 * 2**20
 MAX_TOTAL_BYTES = 256 * 2**20
 """Limit of everything in the file, unpacked."""
 MAX_EPISODES = 300
+MAX_PROGRAMS = 50
+MAX_PROGRAM_BYTES = 4 * 100_000
+"""A class keeps programs of 100,000 characters, each of at most four bytes."""
 MAX_PROGRESS_BYTES = 4 * 2**20
 MAX_FOLDERS = 100
 """Limit of folders for ZIP files of the same name."""
 MARK = ".my-work"
 """File with the digest of the ZIP file that a folder was made from."""
 _MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS  # no character takes more bytes
+_PROGRAM = re.compile(r"[\w&-][\w &-]{0,180}\.py")
 _EPISODE = re.compile(r"[A-Za-z0-9_][\w. -]{0,180}\.episode")
 
 
@@ -168,6 +174,8 @@ def _limit_of(name: str, known: dict[str, bytes]) -> int | None:
         return _MAX_SCENE_BYTES if count < MAX_SCENES else None
     if folder == EPISODES and _EPISODE.fullmatch(last):
         return MAX_EPISODE_BYTES if count < MAX_EPISODES else None
+    if folder == PROGRAMS and _PROGRAM.fullmatch(last):
+        return MAX_PROGRAM_BYTES if count < MAX_PROGRAMS else None
     return None
 
 

@@ -135,6 +135,37 @@ def test_a_room_is_reached_and_sent_out_by_keyboard(page: Page, school: WallServ
     assert school.commands == [kick, {**kick, "do": "rename", "name": "Calm Owl"}]
 
 
+def test_programs_of_a_room_are_read_as_text(page: Page, school: WallServer) -> None:
+    source = f"# {MARKUP}\n\ndef decide(percept):\n    return {{'move': [1, 0]}}\n"
+    facts = {"scene": MARKUP, "agent": "0", "age": 130.0}
+    school.programs = [
+        {"seat": 1, "name": MARKUP, "source": source, **facts},
+        {"seat": 2, "name": "Calm Owl", "source": None},
+    ]
+    name = names(page)[0]
+    cards(page).first.click()
+    page.get_by_role("button", name="Code", exact=True).click()
+    dialog = page.get_by_role("dialog", name=f"Code: {name}")
+    shown = dialog.get_by_label(f"Program of {MARKUP}")
+    expect(shown).to_be_visible()
+    assert shown.text_content() == source
+    heads = dialog.get_by_role("heading", level=3)
+    expect(heads).to_have_text(
+        [f"{MARKUP} {MARKUP} · agent 0 · changed 2 minutes ago", "Calm Owl no program yet"]
+    )
+    assert dialog.locator("img, textarea, input, [contenteditable]").count() == 0
+    assert findings(page) == []
+
+    school.programs[1] |= {"source": "pass\n", "scene": "Maze", "agent": "0", "age": 0.2}
+    dialog.get_by_role("button", name="Refresh").click()
+    expect(heads.last).to_have_text("Calm Owl Maze · agent 0 · changed just now")
+    school.problem = "The class's file can't be read."
+    dialog.get_by_role("button", name="Refresh").click()
+    expect(dialog.get_by_role("alert").first).to_have_text("The class's file can't be read.")
+    expect(shown).to_be_visible()
+    dialog.get_by_role("button", name="Close").click()
+
+
 def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> None:
     page.get_by_role("button", name="Attention…").click()
     dialog = page.get_by_role("dialog", name="Attention")

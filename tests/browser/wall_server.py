@@ -35,6 +35,8 @@ class WallServer:
         self.bodies: list[bytes] = []
         self.problem = ""
         """Answer to commands with this sentence, if there is one."""
+        self.programs: list[dict[str, Any]] = []
+        """Programs of any room."""
         self.count = count
         self.state = class_message(count)
         """Message that a page gets when it connects, and after :meth:`send`."""
@@ -50,6 +52,7 @@ class WallServer:
             routes=[
                 *(Route(f"/{each}", self._page) for each in names),
                 Route("/teacher/command", self._command, methods=["POST"]),
+                Route("/teacher/programs", self._programs),
                 Route("/api/names", self._names),
                 Route("/api/join", self._command, methods=["POST"]),
                 WebSocketRoute("/check/socket", echo),
@@ -89,6 +92,12 @@ class WallServer:
         if self.problem:
             return JSONResponse({"problem": self.problem}, 400)
         return JSONResponse({"room": "/privacy"})
+
+    async def _programs(self, request: Request) -> Response:
+        self.paths.append(str(request.url))
+        if self.problem:
+            return JSONResponse({"problem": self.problem}, 503)
+        return JSONResponse({"programs": self.programs})
 
     async def _names(self, _: Request) -> Response:
         return JSONResponse({"names": ["Red Fox", "Calm Owl", "Swift Crab"]})

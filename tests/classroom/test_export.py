@@ -41,6 +41,10 @@ def work(served: ServedClass, ada: Student) -> None:
         link.send(result(race.id, driven(1.0)))
         link.next(Ack)
         wall.next("class", lambda e: e["race"] and e["race"]["board"])
+    file = served.folder / "rooms" / ada.room.split("/")[2] / "scene.yaml"
+    assert ada.get("healthz").status_code == 200
+    # the room has begun, and opens the race's scene; it would open it over the next one
+    until(lambda: file.is_file() and TITLE in file.read_text(), 20)
     assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
 
 
@@ -50,7 +54,8 @@ def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) ->
         ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
         work(served, ada)
         room = ada.room.split("/")[2]
-        until((folder / "rooms" / room / "scene.yaml").exists)
+        file = folder / "rooms" / room / "scene.yaml"
+        until(lambda: "title: Maze" in file.read_text(), 20)
 
         files = zip_of(served.export())
         page = files["results.html"].decode()
