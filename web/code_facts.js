@@ -1,7 +1,6 @@
 /** Lists beside a program: what the agent senses and can do, and the variables of the latest decision. */
 
 import { element, keyed, setText } from "./dom.js";
-import { outputWords } from "./code_start.js";
 import { section } from "./panel_parts.js";
 
 /** Names to put into the program by a click. */
@@ -27,7 +26,7 @@ export class NameList {
   /** @param names as namesOf() in code_start.js gives them */
   update({ readings, outputs }) {
     this.#fill(this.#readings, readings.map(({ key, words }) => ({ code: `percept["${key}"]`, words })));
-    this.#fill(this.#outputs, outputs.map((output) => ({ code: `"${output.name}"`, words: outputWords(output) })));
+    this.#fill(this.#outputs, outputs.map(({ name, words }) => ({ code: `"${name}"`, words })));
   }
 
   #fill(list, items) {

@@ -2,6 +2,8 @@
 
 /** Interval at which a world that waits between two steps is asked to wait longer (ms). */
 const WAIT_MS = 400;
+const NO_STEPS =
+  "Step would make the other robots of this world wait, too. Whoever runs the world may allow it (ai4u-edu play --lockstep); Run works anyway.";
 /** Thrown where a run goes on after it was stopped. */
 const STOPPED = Symbol("stopped");
 
@@ -99,7 +101,8 @@ export class CodeRun extends EventTarget {
     } catch (error) {
       if (error === STOPPED || ticket !== this.#ticket) return;
       const reason = error instanceof ProgramMistake ? "mistake" : "lost";
-      this.#end({ reason, text: error.message, line: error.line ?? null });
+      const text = error.code === "lockstep_refused" ? NO_STEPS : error.message;
+      this.#end({ reason, text, line: error.line ?? null });
     }
   }
 

@@ -2,51 +2,51 @@
 
 /** Most numbers that are named one by one. */
 const MAX_NAMED = 6;
+/** How the first program turns, from -1 to 1. */
+const TURN = 0.3;
 
 /**
- * Return what the code of an agent reads and writes.
- * @param agent the part "agent"
- * @returns {{readings: {key, words}[], outputs: {name, parts: {name, low, high, isChoice}[]}[]}}
+ * Return the names that the program of an agent reads and writes.
+ * @param sensors those of the part "agent"
+ * @param actuators those of the part "python"
+ * @returns {{readings: {key, words}[], outputs: {name, words, values}[]}} words in a line, values to begin with
  */
-export function namesOf(agent) {
-  const readings = (agent?.sensors ?? []).map((sensor) => ({ key: sensor.key, words: readingWords(sensor) }));
-  const outputs = new Map();
-  for (const { actuator, name, low, high, is_choice: isChoice = false } of agent?.action ?? []) {
-    if (!outputs.has(actuator)) outputs.set(actuator, { name: actuator, parts: [] });
-    outputs.get(actuator).parts.push({ name, low, high, isChoice });
-  }
-  return { readings, outputs: [...outputs.values()] };
-}
-
-/** Return what the numbers of an actuator mean, in a line. */
-export function outputWords({ parts }) {
-  return parts.map((part) => `${partName(part)} ${part.low} to ${part.high}`).join(", ");
+export function namesOf(sensors, actuators) {
+  return {
+    readings: sensors.map((sensor) => ({ key: sensor.key, words: readingWords(sensor) })),
+    outputs: actuators.map(({ name, is_choice: isChoice, components }) => ({
+      name,
+      words: components.map((each) => componentWords(each, isChoice)).join(", "),
+      values: components.map((each) => startValue(each, isChoice)),
+    })),
+  };
 }
 
 /** Return the program that a person begins with: it turns on the spot. */
-export function startProgram(agent) {
-  const { readings, outputs } = namesOf(agent);
+export function startProgram({ readings, outputs }) {
   const sensed = readings.map(({ key, words }) => `# percept["${key}"]: ${words}`);
-  const done = outputs.map(({ name, parts }) => `# "${name}": ${parts.map(partName).join(", ")}`);
-  const values = outputs.map(({ name, parts }) => `"${name}": [${parts.map(startValue).join(", ")}]`);
+  const done = outputs.map(({ name, words }) => `# "${name}": ${words}`);
+  const values = outputs.map((output) => `"${output.name}": [${output.values.join(", ")}]`);
   const lines = ["# It senses:", ...sensed, "# It can do:", ...done, "", "def decide(percept):"];
   return [...lines, `    return {${values.join(", ")}}`, ""].join("\n");
 }
 
-function startValue({ name, low, high, isChoice }) {
-  if (isChoice) return Math.max(low, 0);
-  return /turn|steer/.test(name ?? "") && high > 0 ? Math.min(0.3, high) : Math.max(low, Math.min(high, 0));
+function componentWords({ name, low, high, has_effect: hasEffect }, isChoice) {
+  const words = name ? name.replaceAll("_", " ") : isChoice ? "choice" : "number";
+  return `${words} ${hasEffect ? `${low} to ${high}` : "(no effect)"}`;
+}
+
+function startValue({ name, low, high, has_effect: hasEffect }, isChoice) {
+  const isTurn = hasEffect && !isChoice && /turn|steer/.test(name);
+  return Math.max(low, Math.min(high, isTurn ? TURN : 0));
 }
 
 function readingWords({ values, shape = [], stack = 1, text, help, title }) {
-  if (values?.length && values.length <= MAX_NAMED) return values.map(({ name }) => name.replaceAll("_", " ")).join(", ");
+  const isNamed = values?.length <= MAX_NAMED && values.some(({ name }) => !/^\d+$/.test(name));
+  if (isNamed) return values.map(({ name }) => name.replaceAll("_", " ")).join(", ");
   if (text !== undefined && shape.length === 0) return lowered(help || title);
   const size = shape.join(" x ") || "1";
   return `${lowered(title)}, ${size} ${size === "1" ? "number" : "numbers"}${stack > 1 ? ` (${stack} moments)` : ""}`;
-}
-
-function partName({ name }) {
-  return (name || "number").replaceAll("_", " ");
 }
 
 function lowered(words) {

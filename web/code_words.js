@@ -7,13 +7,15 @@ const PYTHON_MB = 13;
  * Return {kind, text, count}: kind is "off", "busy", "on", "done" or "bad"; count changes too often to be announced.
  * @param run.phase as of CodeRun
  * @param run.isPerson true while the person drives in the program's place
+ * @param run.isPaused true while the world is paused
  * @param run.python "loading", "ready", or a sentence about what went wrong
  * @param run.end the detail of the event "end"; null while there is none
  */
-export function runWords({ phase, decision, success, isPerson, python, end }) {
+export function runWords({ phase, decision, success, isPerson, isPaused, python, end }) {
   if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);
   if (phase === "joining") return line("busy", "The program gets the robot …");
   if (phase === "running" && isPerson) return line("busy", "You drive; let go, and the program goes on");
+  if (phase === "running" && isPaused) return line("busy", "The world is paused", `decision ${decision}`);
   if (phase === "running") return line("on", "Runs", `decision ${decision}`);
   if (phase === "stepping") return line("on", "Waits for the next step", `decision ${decision}`);
   if (end !== null) return endWords(end, decision, success);

@@ -14,6 +14,7 @@ import { fileButton } from "./panel_scene_files.js";
 /** Largest program that is read from a file (bytes). */
 const MAX_FILE_BYTES = 100_000;
 const NOW = "now";
+const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
   #panel;
@@ -22,21 +23,23 @@ export class CodeTab {
   #kept = new KeptPrograms();
   #console = new CodeConsole();
   #variables = new VariableList();
-  #names = new NameList((code) => this.#editor.insert(code));
+  #nameList = new NameList((code) => this.#editor.insert(code));
   #key = null;
   #agent = null;
   /** How the latest run ended; null before the first one. */
   #end = null;
   /** Python: "loading", "ready", or a sentence about what went wrong. */
   #python = "loading";
-  /** The latest decision, and the names that are shown, as text. */
+  /** The latest decision. */
   #latest = null;
-  #latestNames = "";
+  /** Names that the program reads and writes, and the same as text. */
+  #names = { readings: [], outputs: [] };
+  #namesText = "";
   #isDue = false;
 
-  #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: "Run (Ctrl+Enter)" });
+  #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
   #stop = button("Stop", () => this.#run.stop(), { icon: "stop", title: "Stop, and give the robot back" });
-  #step = button("Step", () => this.#go("step"), { icon: "forward", title: "Make one decision, and wait" });
+  #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
   #state = element("p", { role: "status" });
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
@@ -50,7 +53,7 @@ export class CodeTab {
     this.#panel = panel;
     this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
     const help = element("p", { className: "ai4u-soft", id: freeId() });
-    help.textContent = "Ctrl+Enter runs the program. Tab indents; Escape, then Tab leaves the editor.";
+    help.textContent = `${COMMAND_KEY}+Enter runs the program. Tab indents; Escape, then Tab leaves the editor.`;
     const frame = element("div", { className: "ai4u-code-editor" });
     const keys = [
       { key: "Ctrl-Enter", mac: "Cmd-Enter", run: () => this.#go("run") },
@@ -59,7 +62,7 @@ export class CodeTab {
     this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
     this.#editor.onChange = (text) => this.#onEdit(text);
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#stop);
-    const sections = [this.#console.element, this.#variables.element, this.#names.element, this.#tools()];
+    const sections = [this.#console.element, this.#variables.element, this.#nameList.element, this.#tools()];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
     root.append(head, frame, this.#mistake, help, ...sections);
@@ -70,13 +73,19 @@ export class CodeTab {
 
   /** @param agent as "agent" in the protocol */
   update(agent) {
+    const python = this.#panel.part("python");
+    if (python?.agent !== agent.id) return; // it comes next
     this.#agent = agent;
-    this.#open();
-    const names = namesOf(agent);
+    const names = namesOf(agent.sensors, python.actuators);
     const text = JSON.stringify(names);
-    if (text === this.#latestNames) return;
-    this.#latestNames = text;
-    this.#names.update(names);
+    if (text !== this.#namesText) this.#setNames(names, text);
+    this.#open();
+  }
+
+  #setNames(names, text) {
+    this.#namesText = text;
+    this.#names = names;
+    this.#nameList.update(names);
     this.#editor.setNames({
       readings: names.readings.map(({ key }) => key),
       outputs: names.outputs.map(({ name }) => name),
@@ -107,8 +116,12 @@ export class CodeTab {
       this.#drawSoon();
     });
     this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
-    this.#panel.addEventListener("agent", () => this.#agent = null);
-    this.#panel.addEventListener("driver", () => this.#drawSoon());
+    this.#panel.addEventListener("agent", () => (this.#agent = null));
+    this.#panel.addEventListener("part:python", () => {
+      const agent = this.#panel.part("agent");
+      if (agent !== null) this.update(agent);
+    });
+    for (const type of ["driver", "part:run"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#run.stop());
   }
 
@@ -121,7 +134,7 @@ export class CodeTab {
     this.#run.stop();
     this.#key = key;
     this.#kept.open(...[key.slice(0, key.lastIndexOf("-")), this.#agent.id]);
-    this.#editor.text = this.#kept.source ?? startProgram(this.#agent);
+    this.#editor.text = this.#kept.source ?? startProgram(this.#names);
     this.#forget();
     this.#console.clear();
     this.#drawRuns();
@@ -151,7 +164,7 @@ export class CodeTab {
   }
 
   #takeRun(value) {
-    if (value === "start") this.#replace(startProgram(this.#agent));
+    if (value === "start") this.#replace(startProgram(this.#names));
     else if (value !== NOW) this.#replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
   }
 
@@ -215,9 +228,10 @@ export class CodeTab {
     if (this.#panel.part("run")?.is_paused) await this.#panel.send("resume", {}, { quiet: true });
   }
 
-  /** Begin an episode with the same start, where that disturbs no other agent. */
+  /** Begin an episode with the same start, unless that disturbs another person. */
   async #tryAgain() {
-    if (this.#panel.part("scene")?.agents.length > 1) return false;
+    const agents = this.#panel.part("scene")?.agents ?? [];
+    if (agents.some(({ id, is_person: isPerson }) => isPerson && id !== this.#agent.id)) return false;
     return (await this.#panel.send("try_again", {}, { quiet: true })).ok;
   }
 
@@ -239,7 +253,9 @@ export class CodeTab {
   #drawState() {
     const { phase, decision, success, isOn } = this.#run;
     const isPerson = Boolean(this.#panel.driver?.hello?.instead);
-    const { kind, text, count } = runWords({ phase, decision, success, isPerson, python: this.#python, end: this.#end });
+    const isPaused = Boolean(this.#panel.part("run")?.is_paused);
+    const shown = { phase, decision, success, isPerson, isPaused, python: this.#python, end: this.#end };
+    const { kind, text, count } = runWords(shown);
     setText(this.#state, text);
     setText(this.#count, count);
     setAttributes(this.#stateRow, { "data-kind": kind });

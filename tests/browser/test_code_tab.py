@@ -28,6 +28,7 @@ class CodePage(TabPage):
     def __init__(self, chromium: Browser, **options: Any) -> None:
         super().__init__(chromium, "panel_code", "CodeTab", "agent", prepare=serve_fakes, **options)
         self.give(PARTS["scene"], "scene")
+        self.give(PARTS["python"], "python")
         self.give(PARTS["agent"])
 
     @property
@@ -89,8 +90,8 @@ def tab(chromium: Browser) -> Iterator[CodePage]:
 
 def test_it_begins_with_a_program_of_the_agents_own_senses_and_actions(tab: CodePage) -> None:
     assert '# percept["box"]: direction, distance' in tab.text
-    assert '# "move": forward, turn' in tab.text
-    assert 'def decide(percept):\n    return {"move": [0, 0.3]}' in tab.text
+    assert '# "move": forward -1 to 1, turn -1 to 1, jump (no effect)' in tab.text
+    assert 'def decide(percept):\n    return {"move": [0, 0.3, 0]}' in tab.text
     expect(tab.state).to_contain_text("Ready")
 
 
@@ -141,9 +142,9 @@ def test_after_the_end_it_begins_another_episode(tab: CodePage) -> None:
     assert tab.calls("reset") == []
 
 
-def test_where_others_drive_it_begins_only_its_own_episode(tab: CodePage) -> None:
-    others = [*PARTS["scene"]["agents"], {"id": "1", "title": "Agent 1", "driver": ""}]
-    tab.give({**PARTS["scene"], "agents": others}, "scene")
+def test_where_another_person_drives_it_begins_only_its_own_episode(tab: CodePage) -> None:
+    agents = PARTS["scene"]["agents"]
+    tab.give({**PARTS["scene"], "agents": [*agents, {**agents[0], "id": "1"}]}, "scene")
     for _ in range(2):
         tab.sense(9, terminated=True)
     tab.sense(0, episode=2)
@@ -165,8 +166,10 @@ def test_a_paused_world_goes_on(tab: CodePage) -> None:
     tab.give({**PARTS["run"], "is_paused": True}, "run")
     tab.sense()
     tab.press("Run")
-    expect(tab.state).to_contain_text("Runs")
+    expect(tab.state).to_contain_text("The world is paused")
     assert tab.sent() == [{"command": "resume"}]
+    tab.give({**PARTS["run"], "is_paused": False}, "run")
+    expect(tab.state).to_contain_text("Runs")
 
 
 def test_step_makes_one_decision_and_the_world_waits(tab: CodePage) -> None:
@@ -241,6 +244,7 @@ def test_programs_are_kept_for_each_scene(tab: CodePage) -> None:
     tab.page.reload()
     tab.page.wait_for_function("window.isReady")
     tab.give(PARTS["scene"], "scene")
+    tab.give(PARTS["python"], "python")
     tab.give(PARTS["agent"])
     assert tab.text == PROGRAM
 

@@ -51,7 +51,12 @@ def test_readings_action_and_rewards() -> None:
         assert all(0 <= share <= 1 for strip in strips for share in strip["shares"])
         assert [each["actuator"] for each in agent["action"]] == ["move"] * len(agent["action"])
         assert agent["phases"]["now"] in {"sense", "reward"}
-        assert "connect(" in page.part("python")["lines"]
+        python = page.part("python")
+        assert "connect(" in python["lines"]
+        (move,) = python["actuators"]
+        assert (move["name"], move["is_choice"]) == ("move", False)
+        forward = {"name": "forward", "low": -1.0, "high": 1.0, "has_effect": True}
+        assert move["components"][0] == forward
 
 
 def test_sensors_of_a_kind_can_be_told_apart() -> None:

@@ -100,11 +100,16 @@ def curve_part(agent: AgentState) -> dict[str, Any]:
     return {"type": "part", "name": "curve", "agent": agent.id, "points": points}
 
 
-def python_part(context: PanelContext, agent_id: str, address: str) -> dict[str, Any]:
-    """Return the code that drives an agent from a notebook."""
-    agent = next((each for each in context.runner.sim.agents if each.id == agent_id), None)
-    lines = "" if agent is None else script_lines(address or DEFAULT_ADDRESS, agent)
-    return {"type": "part", "name": "python", "agent": agent_id, "lines": lines}
+def python_part(context: PanelContext, agent: AgentState, address: str) -> dict[str, Any]:
+    """Return the code that drives an agent from a notebook, and the actuators that it can name."""
+    driven = next((each for each in context.runner.sim.agents if each.id == agent.id), None)
+    return {
+        "type": "part",
+        "name": "python",
+        "agent": agent.id,
+        "lines": "" if driven is None else script_lines(address or DEFAULT_ADDRESS, driven),
+        "actuators": [_actuator(each) for each in agent.actuator_infos if each.components],
+    }
 
 
 def shown_sensors(agent: AgentState, choices: Mapping[tuple[str, str], bool]) -> frozenset[str]:
@@ -169,6 +174,19 @@ def _action(
         }
         for index, (each, value) in enumerate(zip(control.components, values, strict=True))
     ]
+
+
+def _actuator(control: ActuatorInfo) -> dict[str, Any]:
+    components = [
+        {
+            "name": each.name,
+            "low": each.low,
+            "high": each.high,
+            "has_effect": each.name not in control.without_effect,
+        }
+        for each in control.components
+    ]
+    return {"name": control.name, "is_choice": control.is_choice, "components": components}
 
 
 def _rewards(now: Mapping[str, float], so_far: Mapping[str, float]) -> list[dict[str, Any]]:

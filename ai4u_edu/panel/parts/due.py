@@ -69,7 +69,7 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
         "python",
         cache.by_key(
             ("python", agent.id, address, agent.actuator_infos),
-            lambda: python_part(context, agent.id, address),
+            lambda: python_part(context, agent, address),
         ),
     )
 
