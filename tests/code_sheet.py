@@ -55,7 +55,7 @@ def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) 
     """
     viewport: Any = {"width": size[0], "height": size[1]}
     context = chromium.new_context(viewport=viewport, color_scheme=scheme)
-    program = program_in_docs()
+    program = programs_in_docs()[0]
     with (
         played("box_chase", "--seed", SEED, "--time-scale", TIME_SCALE) as server,
         contextlib.closing(context),
@@ -80,10 +80,11 @@ def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) 
         _save(page.locator(".ai4u-panel").screenshot(), path, "mistake")
 
 
-def program_in_docs() -> str:
-    """Return the first program of the page about programs."""
-    (first, *_) = re.findall(r"(?:^    .*\n)+", DOC.read_text(encoding="utf-8"), re.MULTILINE)
-    return "".join(line.removeprefix("    ") for line in str(first).splitlines(keepends=True))
+def programs_in_docs() -> list[str]:
+    """Return the programs of the page about programs."""
+    text = DOC.read_text(encoding="utf-8")
+    blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, re.MULTILINE)
+    return [re.sub(r"^    ", "", str(each), flags=re.MULTILINE).strip("\n") for each in blocks]
 
 
 def _widen(page: Page) -> None:

@@ -29,11 +29,14 @@ function json(value) {
   return JSON.stringify(value, (_, each) => (Object.is(each, -0) ? "-0" : (NUMBER_WORDS.get(each) ?? each)));
 }
 
+/** Methods may be called one after another or all at once; each waits for the one before. */
 export class CodeEngine {
   /** The worker that has the program. */
   #runtime = null;
   /** A worker that is ready for when the other one is ended. */
   #spare = null;
+  /** The end of the latest call. */
+  #last = Promise.resolve();
   /** Until the spare worker is started. */
   #timer;
   #isLoaded = false;
@@ -58,7 +61,11 @@ export class CodeEngine {
    * @param {{key: string, dtype: string}[]} room.readings those of RemoteClient.welcome
    * @returns {Promise<{ok: boolean, text?: string, line?: number, kind?: string}>}
    */
-  async load(source, { outputs, readings }) {
+  load(source, room) {
+    return this.#queue(() => this.#load(source, room));
+  }
+
+  async #load(source, { outputs, readings }) {
     this.#isLoaded = false;
     try {
       await this.warm();
@@ -69,7 +76,7 @@ export class CodeEngine {
     const answer = await this.#call("load", json({ source, outputs, readings: dtypes }));
     this.#isLoaded = answer.ok;
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), SPARE_DELAY_MS);
+    if (answer.ok) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), SPARE_DELAY_MS);
     return answer;
   }
 
@@ -97,12 +104,20 @@ export class CodeEngine {
     this.#isLoaded = false;
   }
 
-  async #callLoaded(method, text) {
-    return this.#isLoaded ? this.#call(method, text) : problem("not_loaded", NOT_LOADED);
+  #callLoaded(method, text) {
+    return this.#queue(() => (this.#isLoaded ? this.#call(method, text) : problem("not_loaded", NOT_LOADED)));
+  }
+
+  /** Start a call when the one before is over: that may have to end the worker. */
+  #queue(call) {
+    const answer = this.#last.then(call);
+    this.#last = answer.catch(() => {}); // the caller is told
+    return answer;
   }
 
   async #call(method, text) {
     const runtime = this.#runtime;
+    if (runtime === null) return problem("ended", NOT_LOADED); // while Python was loaded
     const answer = await runtime.call(method, text);
     if (runtime.isStuck && this.#runtime === runtime) {
       runtime.end();

@@ -1,5 +1,6 @@
 """A program in the page drives a real world: Python, the connection and the page are real, too."""
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -8,7 +9,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.served_viser import ready
 from tests.browser.test_play import MIDDLE, agent, until
 from tests.chromium import new_page
-from tests.code_sheet import program_in_docs
+from tests.code_sheet import programs_in_docs
 from tests.playing import Played, played
 
 pytestmark = pytest.mark.browser
@@ -79,7 +80,7 @@ def tab(server: Played, opened: CodeTab) -> CodeTab:
 
 
 def test_seven_lines_reach_the_box(server: Played, tab: CodeTab) -> None:
-    program = program_in_docs()
+    program = programs_in_docs()[0]
     assert len(program.splitlines()) == 7
     tab.editor.click()
     tab.page.keyboard.press("ControlOrMeta+a")
@@ -109,6 +110,17 @@ def test_a_mistake_is_a_sentence_at_its_line(
         marked = tab.page.locator(".ai4u-code-mistake-line")
         expect(marked).to_have_text(program.splitlines()[line - 1])
     expect(tab.page.get_by_role("button", name="Stop", exact=True)).to_be_disabled()
+
+
+def test_a_class_of_the_docs_drives(server: Played, tab: CodeTab) -> None:
+    (_, patrol) = programs_in_docs()
+    assert "def get_action" in patrol
+    tab.write(patrol)
+    tab.press("Run")
+    expect(tab.state).to_contain_text(re.compile(r"Runs\s*decision \d"), timeout=LOADING_MS)
+    until(lambda: server.snapshot()["agents"][0]["action"]["move"][0] != 0)
+    expect(tab.page.locator(".ai4u-code-variables")).to_contain_text("self")
+    tab.press("Stop")
 
 
 def test_stop_gives_the_robot_back(server: Played, tab: CodeTab) -> None:

@@ -70,6 +70,13 @@ def test_a_program_that_never_comes_back_is_ended_and_the_page_goes_on(
     assert run(page, "return {'move': [1, 1]}")["values"] == {"move": [1, 1]}
 
 
+def test_a_program_that_is_loaded_while_another_is_stuck_runs_after_it(page: Page) -> None:
+    load(page, "def decide(percept):\n    10**10**8")
+    page.evaluate("void (window.stuck = engine.decide({}, 1))")
+    assert run(page, "return {'move': [1, 0]}")["values"] == {"move": [1, 0]}
+    assert page.evaluate("stuck")["kind"] == "endless"
+
+
 def test_a_stopped_program_gives_no_answer_later(page: Page) -> None:
     load(page, "def decide(percept):\n    while True: pass")
     page.evaluate("void (window.answer = engine.decide({}, 1))")
