@@ -1,5 +1,7 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
+import { handoutFor, handouts } from "./class_handout.js";
+import { ClassPrograms } from "./class_programs.js";
 import { CodeConsole } from "./code_console.js";
 import { CodeEditor } from "./code_editor.js";
 import { NameList, VariableList } from "./code_facts.js";
@@ -27,6 +29,11 @@ export class CodeTab {
   #active;
   #editor;
   #kept = new KeptPrograms();
+  #class = new ClassPrograms({
+    source: () => this.#kept.source,
+    take: (source) => this.#takeFromClass(source),
+    keep: (source) => this.#keepAsRun(source),
+  });
   #console = new CodeConsole();
   #variables = new VariableList();
   #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", this.#test.failure));
@@ -55,6 +62,7 @@ export class CodeTab {
   #goTo = button("Go to the line", () => this.#editor.goTo(this.#end.line), {});
   #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
   #runs = element("select", { id: freeId() });
+  #offer = button("Take the program from your teacher", () => this.#takeRun("teacher"), { icon: "download" });
 
   /** @param parts of CodeRun and CodeTest */
   constructor(root, panel, parts = {}) {
@@ -81,7 +89,7 @@ export class CodeTab {
     const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#tools()];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
-    root.append(head, frame, this.#mistake, help, ...sections);
+    root.append(head, this.#offer, frame, this.#mistake, help, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();
@@ -118,7 +126,7 @@ export class CodeTab {
       button("Download .py", () => downloadText(`${this.#key ?? "program"}.py`, this.#editor.text), { icon: "download" }),
       fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
     );
-    return section("code-program", "Your program", {}, tools);
+    return section("code-program", "Your program", {}, tools, this.#class.element);
   }
 
   #listen() {
@@ -145,26 +153,32 @@ export class CodeTab {
     });
     for (const type of ["driver", "part:run"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
+    handouts.addEventListener("change", () => this.#onHandout());
   }
 
   // -- the program -------------------------------------------------------------------------------
 
+  get #scene() {
+    return this.#panel.part("scene")?.scene ?? "scene";
+  }
+
   /** Show the program of the present agent and scene. */
   #open() {
-    const key = `${this.#panel.part("scene")?.scene ?? "scene"}-${this.#agent.id}`;
+    const key = `${this.#scene}-${this.#agent.id}`;
     if (key === this.#key) return;
     this.#run.stop();
     this.#test.clear();
     this.#key = key;
-    this.#kept.open(...[key.slice(0, key.lastIndexOf("-")), this.#agent.id]);
-    this.#editor.text = this.#kept.source ?? startProgram(this.#names);
+    this.#kept.open(this.#scene, this.#agent.id);
+    this.#editor.text = this.#kept.source ?? handoutFor(this.#scene) ?? startProgram(this.#names);
+    this.#class.open(this.#scene, this.#agent.id);
     this.#forget();
     this.#console.clear();
     this.#drawRuns();
   }
 
   #onEdit(text) {
-    this.#kept.source = text;
+    this.#keep(text);
     this.#editor.markRan([]);
     if (this.#runs.value !== NOW) this.#runs.value = NOW;
   }
@@ -181,14 +195,48 @@ export class CodeTab {
   #replace(text) {
     this.#kept.addRun(this.#editor.text);
     this.#editor.text = text;
-    this.#kept.source = text;
+    this.#keep(text);
     this.#forget();
+    this.#drawRuns();
+  }
+
+  #keep(text) {
+    this.#kept.source = text;
+    this.#class.changed(text);
+  }
+
+  /** Take the program that the class has, from another device. */
+  #takeFromClass(source) {
+    if (this.#kept.source !== null) this.#kept.addRun(this.#kept.source);
+    this.#editor.text = this.#kept.source = source;
+    this.#forget();
+    this.#drawRuns();
+  }
+
+  #keepAsRun(source) {
+    if (this.#kept.runs.some((run) => run.source === source)) return;
+    this.#kept.addRun(source);
+    this.#drawRuns();
+  }
+
+  /** Begin with a program that the teacher gives, or offer it to a person who has one already. */
+  #onHandout() {
+    if (this.#key === null) return;
+    const source = handoutFor(this.#scene);
+    if (source !== null && this.#kept.source === null && !this.#run.isOn) this.#editor.text = source;
     this.#drawRuns();
   }
 
   #takeRun(value) {
     if (value === "start") this.#replace(startProgram(this.#names));
+    else if (value === "teacher") this.#takeHandout();
     else if (value !== NOW) this.#replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
+  }
+
+  #takeHandout() {
+    const source = handoutFor(this.#scene);
+    this.#replace(source);
+    this.#keepAsRun(source); // so it is there after it was changed, and not offered again
   }
 
   #drawRuns() {
@@ -197,8 +245,13 @@ export class CodeTab {
       return element("option", { value: at, textContent: `${when(at)} · ${lines} lines` });
     });
     const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });
-    this.#runs.replaceChildren(now, ...runs, element("option", { value: "start", textContent: "The first program" }));
+    const first = element("option", { value: "start", textContent: "The first program" });
+    const handout = handoutFor(this.#scene);
+    const teachers = handout === null ? [] : [element("option", { value: "teacher", textContent: "From your teacher" })];
+    this.#runs.replaceChildren(now, ...runs, ...teachers, first);
     this.#runs.value = NOW;
+    const isKnown = this.#editor.text === handout || this.#kept.runs.some(({ source }) => source === handout);
+    this.#offer.hidden = handout === null || isKnown;
   }
 
   // -- runs --------------------------------------------------------------------------------------
@@ -210,7 +263,7 @@ export class CodeTab {
     this.#active = this.#run;
     const source = this.#editor.text;
     if (this.#run.phase === "off" || way === "run") this.#console.clear();
-    this.#keep(source);
+    this.#noteStart(source);
     this.#run[way](source, this.#agent.id, seed);
     return true;
   }
@@ -220,7 +273,7 @@ export class CodeTab {
     this.#stopAll();
     this.#active = this.#test;
     this.#console.clear();
-    this.#keep(this.#editor.text);
+    this.#noteStart(this.#editor.text);
     this.#test.run(this.#editor.text, this.#agent.id);
   }
 
@@ -236,10 +289,11 @@ export class CodeTab {
   }
 
   /** Keep a program that runs, and forget how the one before ended. */
-  #keep(source) {
+  #noteStart(source) {
     this.#forget();
     this.#kept.addRun(source);
     this.#drawRuns();
+    this.#class.ran(source);
   }
 
   /** Forget how the run before ended. */
