@@ -48,7 +48,7 @@ export class RemoteClient {
     return new Promise((taker) => (fake.taker = taker)).finally(() => (fake.taker = null));
   }
   async act(values) { fake.calls.push(["act", values]); }
-  async reset() { fake.calls.push(["reset"]); }
+  async reset(...seed) { fake.calls.push(["reset", ...seed]); }
   async wait() { fake.waits += 1; }
   close() { fake.closed += 1; }
 }
