@@ -39,7 +39,7 @@ export class RemoteClient {
     return new RemoteClient();
   }
   welcome = {
-    success: "touch",
+    success: "touch", ticksPerSecond: 60, maxSteps: 100,
     readings: [{ key: "box", dtype: "<f4" }, { key: "rays", dtype: "<f4" }],
     outputs: [{ name: "move", low: [-1, -1], high: [1, 1] }],
   };

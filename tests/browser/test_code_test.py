@@ -280,6 +280,7 @@ def test_the_tab_shows_a_table(tab: CodePage) -> None:
     assert table.get_by_role("rowheader").all_inner_texts() == [str(n) for n in range(1, 11)]
     ends = table.locator("tbody td:nth-child(3)").all_inner_texts()
     assert ends == ["time is up"] + ["goal"] * 9
+    assert table.locator("tbody td:nth-child(5)").all_inner_texts() == ["0.1 s"] * 10
     sent = tab.sent()
     assert sent == [{"command": "speed", "speed": "max"}, {"command": "speed", "speed": 2}]
 
