@@ -152,7 +152,10 @@ export class ClassPrograms {
   /** Note the class's answer; return true if the program need not be sent again. */
   #note(key, program, { status, problem }) {
     const isShown = program.place === this.#place;
-    if (status === 403) this.#isInClass = false;
+    if (status === 403) {
+      this.#isInClass = false; // a teacher who looks in, or a student who was sent out
+      return true;
+    }
     if (status === 0 || status === 429 || status >= 500) {
       this.#say(problem || UNREACHABLE);
       return false;

@@ -174,6 +174,27 @@ def test_without_network_it_stays_here_and_is_saved_later(
     desk.close()
 
 
+def test_a_newer_program_of_another_device_is_kept_beside_this_one(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ada = school.joined(name="Red Fox")
+    desk = Desk(chromium, ada)
+    desk.page.route(re.compile("/api/program"), lambda route: route.abort())
+    desk.write(PROGRAM)
+    desk.is_told("The class can't be reached.")
+    newer = f"{PROGRAM}# of another device"
+    body = {"scene": SCENE, "agent": AGENT, "source": newer, "age": 0}
+    assert ada.client.put("api/program", json=body).status_code == 200
+    desk.page.unroute_all()
+    serve_fakes(desk.page)
+    desk.is_told("The class has a newer program of yours, from another device.")
+    assert (desk.text, kept(school, ada)) == (PROGRAM, newer)
+    expect(desk.runs.filter(has_text="4 lines")).to_have_count(1)
+    desk.page.get_by_label("Earlier runs").select_option(index=1)
+    assert desk.text == newer
+    desk.close()
+
+
 def test_a_teachers_program_is_offered_and_replaces_nothing(
     chromium: Browser, school: ServedClass
 ) -> None:
