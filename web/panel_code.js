@@ -50,6 +50,8 @@ export class CodeTab {
   #names = { readings: [], outputs: [] };
   #namesText = "";
   #isDue = false;
+  /** True if the person drove at the latest event about it. */
+  #wasPerson = false;
 
   #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
@@ -138,7 +140,8 @@ export class CodeTab {
     }
     this.#test.addEventListener("end", ({ detail }) => this.#onEnd({ ...detail, summary: testWords(this.#test) }));
     this.#panel.addEventListener("driver", () => {
-      if (this.#isPerson) this.#test.stop("You drive, so the test was ended.");
+      if (this.#isPerson && !this.#wasPerson) this.#test.stop("You drive, so the test was ended.");
+      this.#wasPerson = this.#isPerson;
     });
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
@@ -271,6 +274,7 @@ export class CodeTab {
   #runTest() {
     if (this.#agent === null) return;
     this.#stopAll();
+    this.#panel.driving?.letGo(); // else whoever drove just before would go on
     this.#active = this.#test;
     this.#console.clear();
     this.#noteStart(this.#editor.text);
