@@ -2,9 +2,13 @@
 
 import { command } from "./class_command.js";
 import { element } from "./dom.js";
-import { choice, choices, chosenIn, showForm } from "./form_dialog.js";
+import { choice, choices, chosenIn, field, showForm } from "./form_dialog.js";
 import { roomName } from "./room_words.js";
 import { sceneChoice, seedField } from "./scene_choice.js";
+
+/** As MAX_STARTING_PROGRAM_CHARS of the class link. */
+const MAX_PROGRAM_CHARS = 20_000;
+const PROGRAM_HINT = "Optional. The tab Code offers it; what students wrote stays.";
 
 /**
  * Ask for a scene or a lesson and for rooms, and assign it.
@@ -21,16 +25,25 @@ export function showAssign(state, room = "") {
   );
   const same = element("input", { type: "checkbox", checked: true });
   const seed = seedField("The same number gives the same start, also next week.");
+  const program = element("textarea", { className: "ai4u-program-field", rows: 5, maxLength: MAX_PROGRAM_CHARS, spellcheck: false });
   const update = () => (list.hidden = chosenIn(to) !== "some");
   to.addEventListener("change", update);
   update();
 
   const text = "What students have built stays among their saved scenes.";
-  const content = [...scene.nodes, to, list, choice("The same start for all", same), seed.node];
+  const content = [...scene.nodes, to, list, choice("The same start for all", same), seed.node, field("Starting program (Python)", program, PROGRAM_HINT)];
   return showForm({ title: "Assign a scene or a lesson", text, content, yes: "Assign" }, async () => {
     const some = boxes.filter((box) => box.checked).map((box) => box.value);
     const rooms = chosenIn(to) === "all" ? "all" : some;
     if (rooms.length === 0) throw new Error("Choose at least one room.");
-    await command({ do: "assign", rooms, scene: await scene.value(), seed: seed.value(), same_seed: same.checked });
+    const source = program.value.trim() ? program.value : "";
+    await command({
+      do: "assign",
+      rooms,
+      scene: await scene.value(),
+      seed: seed.value(),
+      same_seed: same.checked,
+      ...(source && { program: source }),
+    });
   });
 }

@@ -1,5 +1,6 @@
 /** Programs that this browser keeps: the present one of each agent and scene, and those of its latest runs. */
 
+import { roomOfPage } from "./class_programs.js";
 import { forget, recall, remember } from "./storage.js";
 
 /** Most runs whose programs are kept, for each agent and scene. */
@@ -12,7 +13,8 @@ export class KeptPrograms {
 
   /** Use the programs of an agent in a scene. */
   open(scene, agent) {
-    this.#key = `${scene}-${agent}`;
+    const room = roomOfPage(); // students of a class may use one device in turn
+    this.#key = `${room && `${room}/`}${scene}-${agent}`;
   }
 
   /** The present program; null if the person has written none. */

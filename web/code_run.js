@@ -5,10 +5,10 @@ const WAIT_MS = 400;
 const NO_STEPS =
   "Step would make the other robots of this world wait, too. Whoever runs the world may allow it (ai4u-edu play --lockstep); Run works anyway.";
 /** Thrown where a run goes on after it was stopped. */
-const STOPPED = Symbol("stopped");
+export const STOPPED = Symbol("stopped");
 
 /** A sentence about a program that can't go on, with the line or null. */
-class ProgramMistake extends Error {
+export class ProgramMistake extends Error {
   constructor({ text, line = 0, kind = "" }) {
     super(text);
     Object.assign(this, { line: line || null, kind }); // 0 is no line
@@ -63,10 +63,13 @@ export class CodeRun extends EventTarget {
     return engine;
   }
 
-  /** Drive an agent with a program, at the world's own pace. */
-  async run(source, agent) {
+  /**
+   * Drive an agent with a program, at the world's own pace.
+   * @param {number} [seed] begins an episode with it; left out, the program drives from where the agent stands
+   */
+  async run(source, agent, seed = null) {
     await this.#guarded(async (ticket) => {
-      let percept = await this.#start(source, agent, "realtime", ticket);
+      let percept = await this.#start(source, agent, "realtime", ticket, seed);
       this.#set("running");
       for (;;) percept = await this.#decide(percept, ticket);
     });
@@ -107,19 +110,20 @@ export class CodeRun extends EventTarget {
   }
 
   /** Connect, load the program, and return the first percept. */
-  async #start(source, agent, mode, ticket) {
+  async #start(source, agent, mode, ticket, seed = null) {
     // from Step to Run and back, the same program goes on with what it remembers
-    const goesOn = this.isOn && this.#client !== null && source === this.#source;
+    const goesOn = seed === null && this.isOn && this.#client !== null && source === this.#source;
     this.#leave();
     this.#source = null;
     if (!this.#isWarm) this.#set("loading");
     const engine = await valid(this.warm(), () => this.#isStale(ticket));
     this.#set("joining");
     let percept = await this.#join(agent, mode, ticket);
-    if (isOver(percept)) percept = await this.#beginAgain(agent, mode, ticket);
+    if (isOver(percept) && seed === null) percept = await this.#beginAgain(agent, mode, ticket);
     if (!goesOn) {
       this.decision = 0;
       this.#checked(await this.#until(engine.load(source, programFacts(this.#client.welcome)), ticket));
+      if (seed !== null) percept = await this.#resetTo(seed, ticket);
       this.#checked(await this.#until(engine.begin(), ticket));
     }
     this.#source = source;
@@ -144,6 +148,11 @@ export class CodeRun extends EventTarget {
     const percept = await this.#join(agent, mode, ticket);
     if (!isOver(percept)) return percept;
     await this.#until(this.#client.reset(), ticket);
+    return this.#until(this.#client.sense(), ticket);
+  }
+
+  async #resetTo(seed, ticket) {
+    await this.#until(this.#client.reset(seed), ticket);
     return this.#until(this.#client.sense(), ticket);
   }
 
@@ -208,22 +217,22 @@ async function makeEngine() {
   return new (await import("./code_engine.js")).CodeEngine();
 }
 
-async function connect(options) {
+export async function connect(options) {
   return (await import("./remote_client.js")).RemoteClient.connect(options);
 }
 
 /** Return what a promise gives, unless the run was stopped meanwhile. */
-async function valid(promise, isStale) {
+export async function valid(promise, isStale) {
   const value = await promise;
   if (isStale()) throw STOPPED;
   return value;
 }
 
-function isOver({ terminated, truncated }) {
+export function isOver({ terminated, truncated }) {
   return terminated || truncated;
 }
 
 /** Return what CodeEngine.load takes, from the world's welcome. */
-function programFacts({ readings, outputs }) {
+export function programFacts({ readings, outputs }) {
   return { readings, outputs: Object.fromEntries(outputs.map(({ name, low, high }) => [name, [low, high]])) };
 }

@@ -7,13 +7,16 @@ const PYTHON_MB = 13;
  * Return {kind, text, count}: kind is "off", "busy", "on", "done" or "bad"; count changes too often to be announced.
  * @param run.phase as of CodeRun
  * @param run.isPerson true while the person drives in the program's place
+ * @param run.start the number of the start that is tested
  * @param run.isPaused true while the world is paused
  * @param run.python "loading", "ready", or a sentence about what went wrong
  * @param run.end the detail of the event "end"; null while there is none
  */
-export function runWords({ phase, decision, success, isPerson, isPaused, python, end }) {
+export function runWords({ phase, decision, start, success, isPerson, isPaused, python, end }) {
   if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);
   if (phase === "joining") return line("busy", "The program gets the robot …");
+  if (phase === "testing" && isPaused) return line("busy", "The world is paused", startWords(start));
+  if (phase === "testing") return line("on", "Tests the program", startWords(start));
   if (phase === "running" && isPerson) return line("busy", "You drive; let go, and the program goes on");
   if (phase === "running" && isPaused) return line("busy", "The world is paused", `decision ${decision}`);
   if (phase === "running") return line("on", "Runs", `decision ${decision}`);
@@ -23,8 +26,13 @@ export function runWords({ phase, decision, success, isPerson, isPaused, python,
   return python === "ready" ? line("off", "Ready") : line("bad", python);
 }
 
-function endWords({ reason, percept, line: number }, decision, success) {
+function startWords(start) {
+  return start ? `start ${start}` : "";
+}
+
+function endWords({ reason, percept, line: number, summary }, decision, success) {
   const at = decision ? ` at decision ${decision}` : "";
+  if (reason === "tested") return line("done", summary);
   if (reason === "stopped") return line("off", `Stopped${at}; the robot is yours`);
   if (reason === "mistake") return line("bad", number === null ? `A mistake ended it${at}` : `A mistake in line ${number} ended it`);
   if (reason === "lost") return line("bad", `The run ended${at}`);

@@ -3,6 +3,7 @@
 import "./panel_shortcuts.js"; // the first one: its listener comes before the one that drives
 import { Banners } from "./banners.js";
 import { ClassBar } from "./class_bar.js";
+import { noteHandout } from "./class_handout.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
@@ -109,6 +110,7 @@ socket.onmessage = (message) => {
     case "class":
       classBar ??= new ClassBar(draw);
       classBar.show(message);
+      noteHandout(message.program);
       break;
     case "error":
       banners.showRequestError(message.text);

@@ -144,6 +144,16 @@ class AssignedScenes:
             return
 
 
+def scene_name_of(assignment: Assignment) -> str:
+    """Return the name of an assignment's scene; empty if there is none, or it can't be read."""
+    if "\n" not in assignment.scene:
+        return assignment.scene
+    try:
+        return Scene.loads(assignment.scene).description.name
+    except AI4UError:
+        return ""
+
+
 def _named(name: str) -> Scene:
     scene = load_by_name(name)
     if scene is None:

@@ -24,6 +24,8 @@ class _Shown:
     race_starts_at: float = 0.0
     own_best: float | None = None
     lesson: str = ""
+    program: str = ""
+    program_scene: str = ""
 
 
 class ClassView:
@@ -55,6 +57,15 @@ class ClassView:
     def set_lesson(self, lesson: str) -> None:
         """Show the lesson that the class is at; empty for none."""
         self._change(lesson=lesson)
+
+    def set_program(self, source: str, scene: str) -> None:
+        """Offer a program to begin with.
+
+        Args:
+            source: in Python; empty for none.
+            scene: name of the scene that it is for; empty for any.
+        """
+        self._change(program=source, program_scene=scene)
 
     def set_attention(self, message: Attention | None, ends_at: float | None = None) -> None:
         """Show the teacher's message.
@@ -108,6 +119,9 @@ class ClassView:
             },
             "race": self._race(shown),
             "lesson": shown.lesson,
+            "program": (
+                {"scene": shown.program_scene, "source": shown.program} if shown.program else None
+            ),
         }
 
     def _race(self, shown: _Shown) -> dict[str, Any] | None:

@@ -14,7 +14,7 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.class_link.client import LinkClient
 from ai4u_edu.class_link.outbox import Outbox
-from ai4u_edu.class_member.assigned_scenes import AssignedScenes
+from ai4u_edu.class_member.assigned_scenes import AssignedScenes, scene_name_of
 from ai4u_edu.class_member.class_view import ClassView
 from ai4u_edu.class_member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.class_member.holds import Holds
@@ -208,6 +208,8 @@ class ClassMember:
                 answer = self._race.update(message, at)
             else:
                 answer = self._scenes.apply(message) if message.id else None
+                is_for = scene_name_of(message) if message.program else ""
+                self.view.set_program(message.program, is_for)
             if answer is not None:
                 self.link.send(answer)
 

@@ -21,6 +21,8 @@ class AssignedScene:
     """Name in the library, or YAML; empty if worlds are to stay as they are."""
     lesson: str = ""
     """Lesson that it belongs to; empty for none."""
+    program: str = ""
+    """Python that students may begin with; empty for none."""
 
 
 class Assignments:
@@ -36,7 +38,9 @@ class Assignments:
 
     def read(self) -> None:
         """Read all from the store."""
-        rows = self._store.query("select room, id, title, scene, seed, lesson from assignments")
+        rows = self._store.query(
+            "select room, id, title, scene, seed, lesson, program from assignments"
+        )
         self._by_room = {room: Assignment(*rest) for room, *rest in rows}
 
     def of(self, room: str) -> Assignment:
@@ -54,17 +58,16 @@ class Assignments:
         Raises:
             StoreError: it can't be stored; then nothing has changed.
         """
-        assignment = Assignment(secrets.token_hex(8), scene.title, scene.text, seed, scene.lesson)
+        name = secrets.token_hex(8)
+        facts = (scene.title, scene.text, seed, scene.lesson, scene.program)
+        assignment = Assignment(name, *facts)
         places = [EVERY_ROOM] if rooms is None else list(rooms)
         with self._store.transaction() as database:
             if rooms is None:
                 database.execute("delete from assignments")
             database.executemany(
-                "insert or replace into assignments values (?, ?, ?, ?, ?, ?)",
-                [
-                    (each, assignment.id, scene.title, scene.text, seed, scene.lesson)
-                    for each in places
-                ],
+                "insert or replace into assignments values (?, ?, ?, ?, ?, ?, ?)",
+                [(each, name, *facts) for each in places],
             )
         if rooms is None:
             self._by_room = {}

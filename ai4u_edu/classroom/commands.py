@@ -7,7 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, RootModel
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.classroom.attention import MAX_SECONDS
 from ai4u_edu.classroom.scene_source import LessonOrScene, SceneSource
-from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS
+from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS, MAX_STARTING_PROGRAM_CHARS
 
 MAX_COUNTDOWN_S = 60.0
 RoomId = Annotated[str, Field(max_length=40)]
@@ -43,6 +43,8 @@ class Assign(_Command):
     """Seed of all these worlds."""
     same_seed: bool = False
     """True without a seed: a random one, the same for all."""
+    program: str = Field(default="", max_length=MAX_STARTING_PROGRAM_CHARS)
+    """Python that students may begin with."""
 
 
 class Attend(_Command):

@@ -20,7 +20,7 @@ from ai4u_edu.classroom.errors import StoreError
 FILE = "class.sqlite3"
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 4
+VERSION = 5
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -66,7 +66,8 @@ create table assignments (
     title text not null,
     scene text not null,
     seed integer,
-    lesson text not null
+    lesson text not null,
+    program text not null
 ) strict;
 create table programs (
     seat integer not null references seats (number),

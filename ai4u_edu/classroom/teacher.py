@@ -3,6 +3,7 @@
 import asyncio
 import io
 import secrets
+from dataclasses import replace
 from functools import lru_cache
 from urllib.parse import quote
 
@@ -34,9 +35,9 @@ from ai4u_edu.classroom.scene_source import find_scene
 from ai4u_edu.classroom.seats import State
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
 from ai4u_edu.server.json_body import read_json
-from ai4u_edu.wire.class_link import MAX_SCENE_CHARS
+from ai4u_edu.wire.class_link import MAX_SCENE_CHARS, MAX_STARTING_PROGRAM_CHARS
 
-MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 4000
+MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
 UNPROCESSABLE = 422
 NO_STORE = {"Cache-Control": "no-store"}
 
@@ -139,6 +140,7 @@ class Teacher:
     async def _assign(self, wanted: Assign) -> None:
         live = self._live
         scene = await asyncio.to_thread(find_scene, live, wanted.scene)
+        scene = replace(scene, program=wanted.program)
         seed = wanted.seed
         if seed is None and wanted.same_seed:
             seed = secrets.randbelow(MAX_SEED + 1)

@@ -36,6 +36,7 @@ MAX_FRAME_BYTES = 4 * 2**20
 """Largest frame of either side."""
 MAX_SCENE_CHARS = 200_000
 MAX_EPISODE_BYTES = 2**20
+MAX_STARTING_PROGRAM_CHARS = 20_000
 MAX_MESSAGE_CHARS = 200
 """Longest message of a teacher."""
 POSES_PER_S = 4
@@ -219,6 +220,8 @@ class Assignment(TaggedMessage, frozen=True):
     seed: _Seed | None
     lesson: Text = ""
     """Lesson for which it is assigned, such as "04 Sensors"; empty for none."""
+    program: Annotated[str, Meta(max_length=MAX_STARTING_PROGRAM_CHARS)] = ""
+    """Python that pages offer as a program to begin with; empty for none."""
 
 
 class Attention(TaggedMessage, frozen=True):

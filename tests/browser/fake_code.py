@@ -39,7 +39,7 @@ export class RemoteClient {
     return new RemoteClient();
   }
   welcome = {
-    success: "touch",
+    success: "touch", ticksPerSecond: 60, maxSteps: 100,
     readings: [{ key: "box", dtype: "<f4" }, { key: "rays", dtype: "<f4" }],
     outputs: [{ name: "move", low: [-1, -1], high: [1, 1] }],
   };
@@ -48,7 +48,7 @@ export class RemoteClient {
     return new Promise((taker) => (fake.taker = taker)).finally(() => (fake.taker = null));
   }
   async act(values) { fake.calls.push(["act", values]); }
-  async reset() { fake.calls.push(["reset"]); }
+  async reset(...seed) { fake.calls.push(["reset", ...seed]); }
   async wait() { fake.waits += 1; }
   close() { fake.closed += 1; }
 }

@@ -204,10 +204,12 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     page.get_by_role("button", name="Assign a scene…").click()
     dialog.get_by_label("A lesson").check()
     dialog.get_by_label("Which lesson").select_option(label="03 Build an agent")
+    dialog.get_by_label("Starting program (Python)").fill("def decide(percept):\n    return {}\n")
     dialog.get_by_role("button", name="Assign").click()
     expect(dialog).to_have_count(0)
     lesson = {"rooms": "all", "scene": {"lesson": "03"}, "seed": None, "same_seed": True}
-    assert school.commands[-1] == {"do": "assign", **lesson}
+    program = "def decide(percept):\n    return {}\n"
+    assert school.commands[-1] == {"do": "assign", **lesson, "program": program}
 
     page.get_by_role("button", name="Race…").click()
     dialog = page.get_by_role("dialog", name="Race")

@@ -2,8 +2,10 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from ai4u_edu import Scene
 from ai4u_edu.class_member import ClassMember
@@ -17,6 +19,7 @@ from tests.server.rooms import until
 
 MAZE = Assignment("a1", "Maze", "maze", 7)
 YAML = Scene.load("parking").dumps().replace("title: ", "title: Our ", 1)
+PROGRAM = "def decide(percept):\n    return {}\n"
 
 
 def applied(room: Joined, name: str) -> str:
@@ -61,6 +64,24 @@ def test_a_lesson_is_told_on_the_page_and_may_leave_the_world_as_it_is() -> None
         room.tell(Assignment("b3", "Tag", "tag", None))
         assert applied(room, "b3") == ""
         until(lambda: (room.member.view.event("student", 0) or {})["lesson"] == "")
+
+
+def test_a_program_is_offered_for_the_scene_that_it_came_with() -> None:
+    def offered(room: Joined) -> Any:
+        return (room.member.view.event("student", 0) or {})["program"]
+
+    with joined() as room:
+        room.tell(replace(MAZE, program=PROGRAM))
+        assert applied(room, "a1") == ""
+        until(lambda: offered(room) == {"scene": "maze", "source": PROGRAM})
+        room.tell(Assignment("b", "Ours", YAML, None, "", PROGRAM))
+        assert applied(room, "b") == ""
+        name = room.editor.state.description.name
+        until(lambda: offered(room) == {"scene": name, "source": PROGRAM})
+        room.tell(Assignment("c", "Two wires", "", None, "05 Two wires", PROGRAM))
+        until(lambda: offered(room) == {"scene": "", "source": PROGRAM})
+        room.tell(MAZE)
+        until(lambda: offered(room) is None)
 
 
 def test_yaml_is_opened_too(tmp_path: Path) -> None:

@@ -38,12 +38,12 @@ def test_attention_has_its_remaining_seconds_by_whatever_clock(store: ClassStore
 def test_rooms_keep_their_assignments(store: ClassStore) -> None:
     assignments = Assignments(store)
     assert assignments.of("a") == NONE
-    assignments.assign(replace(MAZE, lesson="08 The maze"), None, 3)
+    assignments.assign(replace(MAZE, lesson="08 The maze", program="pass"), None, 3)
     assignments.assign(AssignedScene("Tag", "tag"), ["a"], None)
     again = Assignments(store)
     assert [again.of(room).scene for room in ("a", "b")] == ["tag", "maze"]
     assert again.of("a") == assignments.of("a")
-    assert again.of("b").lesson == "08 The maze"
+    assert (again.of("b").lesson, again.of("b").program) == ("08 The maze", "pass")
     again.assign(MAZE, None, None)
     assert Assignments(store).of("a").scene == "maze"
 

@@ -17,6 +17,8 @@ from ai4u_edu.classroom.program_routes import MAX_REQUESTS_AT_ONCE
 from ai4u_edu.classroom.programs import MAX_PROGRAM_CHARS, MAX_PROGRAMS, Programs
 from ai4u_edu.classroom.store import RoomRow, SeatRow, TokenRow
 from ai4u_edu.room.my_work import open_my_work
+from ai4u_edu.wire.class_link import MAX_STARTING_PROGRAM_CHARS, Assignment
+from tests.classroom.link_client import RawLink, state
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
 
@@ -174,6 +176,24 @@ def test_programs_outlast_a_crash_are_in_the_zip_files_and_forgotten(tmp_path: P
         code = served.state()["code"]
         late = served.joined(code=code, name="Red Fox")
         assert found(late) == {"source": None}
+    assert not Path("ran.txt").exists()
+
+
+@pytest.mark.slow
+def test_a_starting_program_comes_with_an_assignment(served: ServedClass) -> None:
+    gus = served.joined(name="Swift Crab")
+    source = f"{MARKUP}{RUNS}"
+    with RawLink(served, gus) as link:
+        link.send(state())
+        answer = served.command("assign", rooms="all", scene="maze", program=source)
+        assert answer.status_code == 200, answer.text
+        found = link.next(Assignment, lambda message: message.id != "")
+        assert (found.scene, found.program) == ("maze", source)
+        too_long = "x" * (MAX_STARTING_PROGRAM_CHARS + 1)
+        answer = served.command("assign", rooms="all", scene="maze", program=too_long)
+        assert (answer.status_code, "20000 characters" in answer.text) == (400, True)
+        assert served.command("assign", rooms="all", scene="tag").status_code == 200
+        assert link.next(Assignment, lambda message: message.scene == "tag").program == ""
     assert not Path("ran.txt").exists()
 
 

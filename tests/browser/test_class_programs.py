@@ -1,0 +1,244 @@
+"""Programs of a class in the browser: kept, on another device, read by the teacher, handed out."""
+
+import json
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, Request, expect
+
+from tests.browser.fake_code import serve_fakes
+from tests.browser.test_code_tab import CodePage
+from tests.browser.wall_data import MARKUP
+from tests.chromium import DRAW_NOTHING, new_page
+from tests.classroom.served_class import CODE, ServedClass, Student, served_class
+from tests.classroom.test_programs import of_room
+from tests.server.rooms import until
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+PATIENCE_MS = 30_000
+"""Pages with viser share two cores."""
+PROGRAM = f"# {MARKUP}\ndef decide(percept):\n    return {{}}\n"
+SCENE, AGENT = "box_chase", "0"
+
+
+@pytest.fixture
+def school(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
+    with served_class(tmp_path_factory.mktemp("class")) as served:
+        yield served
+
+
+class Desk:
+    """A student's device, with the tab "Code" open and a Python that is not one."""
+
+    def __init__(self, chromium: Browser, student: Student) -> None:
+        self.page = new_page(chromium, 1000, 900)
+        self.page.add_init_script(DRAW_NOTHING)
+        self.sent: list[Any] = []
+        """Programs that were sent."""
+        self.page.on("request", self._note)
+        serve_fakes(self.page)
+        cookies = [
+            {"name": name, "value": value, "url": str(student.client.base_url)}
+            for name, value in student.client.cookies.items()
+        ]
+        self.page.context.add_cookies(cookies)  # type: ignore[arg-type]
+        self.page.goto(student.address)
+        self.open()
+
+    def _note(self, request: Request) -> None:
+        if request.method == "PUT":
+            self.sent.append(json.loads(request.post_data or "{}"))
+
+    def open_tab(self) -> None:
+        self.page.get_by_role("tab", name="Code").click(timeout=PATIENCE_MS)
+
+    def open(self) -> None:
+        self.open_tab()
+        expect(self.editor).to_contain_text("def decide", timeout=PATIENCE_MS)
+
+    @property
+    def editor(self) -> Locator:
+        return self.page.get_by_role("textbox", name="Program in Python")
+
+    @property
+    def text(self) -> str:
+        lines = self.page.locator(".cm-line").evaluate_all("all => all.map(e => e.textContent)")
+        return "\n".join(lines)
+
+    @property
+    def runs(self) -> Locator:
+        return self.page.get_by_label("Earlier runs").locator("option")
+
+    @property
+    def offer(self) -> Locator:
+        return self.page.get_by_role("button", name="Take the program from your teacher")
+
+    def write(self, program: str) -> None:
+        """Replace the program, as a person who pastes one does."""
+        self.editor.click()
+        self.page.keyboard.press("ControlOrMeta+a")
+        self.page.keyboard.insert_text(program)
+
+    def is_told(self, words: str) -> None:
+        told = self.page.locator("p[role=status]").filter(has_text=words)
+        expect(told).to_be_visible(timeout=PATIENCE_MS)
+
+    def close(self) -> None:
+        self.page.context.close()
+
+
+def kept(school: ServedClass, student: Student) -> Any:
+    """Return the program that the class has of a student, which the teacher sees."""
+    room = student.room.split("/")[2]
+    (program,) = of_room(school, room, school.token).json()["programs"]
+    return program["source"]
+
+
+def teachers_page(chromium: Browser, school: ServedClass) -> Page:
+    teacher = new_page(chromium)
+    teacher.goto(f"{school.url}teacher?token={school.token}")
+    expect(teacher.locator("#code")).to_have_text(CODE)
+    return teacher
+
+
+def test_a_program_is_kept_goes_on_elsewhere_and_is_read(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ada = school.joined(name="Red Fox")
+    first = Desk(chromium, ada)
+    assert kept(school, ada) is None
+    first.write(PROGRAM)
+    first.is_told("Kept in the class.")
+    assert kept(school, ada) == PROGRAM
+    assert [(each["scene"], each["agent"]) for each in first.sent] == [(SCENE, AGENT)]
+
+    second = Desk(chromium, ada)
+    second.is_told("This is your program from the class.")
+    assert second.text == PROGRAM
+    newer = PROGRAM + "# of the second device\n"
+    second.write(newer)
+    second.page.get_by_role("button", name="Run", exact=True).click()
+    second.is_told("Kept in the class.")
+    until(lambda: kept(school, ada) == newer, 10)
+    second.close()
+
+    first.page.get_by_role("button", name="Run", exact=True).click()
+    assert first.text == PROGRAM  # not taken away while it runs
+    first.page.reload()
+    first.open()
+    first.is_told("This is your program from the class.")
+    assert first.text == newer
+    first.runs.first.wait_for(state="attached")
+    first.page.get_by_label("Earlier runs").select_option(index=1)
+    assert first.text == PROGRAM  # the one of this device is kept
+    first.is_told("Kept in the class.")
+    until(lambda: kept(school, ada) == PROGRAM, 10)
+
+    teacher = teachers_page(chromium, school)
+    teacher.locator("button.ai4u-room").filter(has_text="Red Fox").click()
+    teacher.get_by_role("button", name="Code", exact=True).click()
+    shown = teacher.get_by_label("Program of Red Fox")
+    expect(shown).to_be_visible()
+    assert shown.text_content() == PROGRAM
+    expect(teacher.get_by_role("heading", name="Red Fox box_chase · agent 0")).to_be_visible()
+    teacher.goto(f"{school.url}projector?token={school.token}")
+    expect(teacher.locator("#code")).to_have_text(CODE)
+    expect(teacher.get_by_role("button", name="Code", exact=True)).to_have_count(0)
+    first.close()
+    teacher.context.close()
+
+
+def test_without_network_it_stays_here_and_is_saved_later(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ben = school.joined(name="Blue Otter")
+    desk = Desk(chromium, ben)
+    desk.page.route(re.compile("/api/program"), lambda route: route.abort())
+    desk.write(PROGRAM)
+    desk.is_told("The class can't be reached.")
+    assert kept(school, ben) is None
+    desk.page.unroute_all()
+    serve_fakes(desk.page)
+    desk.is_told("Kept in the class.")
+    assert kept(school, ben) == PROGRAM
+    desk.write("# the end")
+    desk.page.reload()  # saved while the page is closed
+    until(lambda: kept(school, ben) == "# the end", 10)
+    desk.open_tab()
+    desk.write("x" * 100_001)
+    desk.is_told("100000 characters")
+    assert kept(school, ben) == "# the end"
+    desk.close()
+
+
+def test_a_newer_program_of_another_device_is_kept_beside_this_one(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ada = school.joined(name="Red Fox")
+    desk = Desk(chromium, ada)
+    desk.page.route(re.compile("/api/program"), lambda route: route.abort())
+    desk.write(PROGRAM)
+    desk.is_told("The class can't be reached.")
+    newer = f"{PROGRAM}# of another device"
+    body = {"scene": SCENE, "agent": AGENT, "source": newer, "age": 0}
+    assert ada.client.put("api/program", json=body).status_code == 200
+    desk.page.unroute_all()
+    serve_fakes(desk.page)
+    desk.is_told("The class has a newer program of yours, from another device.")
+    assert (desk.text, kept(school, ada)) == (PROGRAM, newer)
+    expect(desk.runs.filter(has_text="4 lines")).to_have_count(1)
+    desk.page.get_by_label("Earlier runs").select_option(index=1)
+    assert desk.text == newer
+    desk.close()
+
+
+def test_a_teachers_program_is_offered_and_replaces_nothing(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ada, eve = school.joined(name="Red Fox"), school.joined(name="Calm Owl")
+    desk, other = Desk(chromium, ada), Desk(chromium, eve)
+    desk.write(PROGRAM)
+    expect(desk.offer).to_be_hidden()
+    teacher = teachers_page(chromium, school)
+    teacher.get_by_role("button", name="Assign a scene…").click()
+    dialog = teacher.get_by_role("dialog", name="Assign a scene")
+    dialog.get_by_label("Which scene").select_option("box_chase")
+    given = "# from the teacher\ndef decide(percept):\n    return {}\n"
+    dialog.get_by_label("Starting program (Python)").fill(given)
+    dialog.get_by_role("button", name="Assign").click()
+
+    expect(desk.offer).to_be_visible(timeout=PATIENCE_MS)
+    assert desk.text == PROGRAM
+    expect(other.editor).to_contain_text("# from the teacher", timeout=PATIENCE_MS)
+    expect(other.offer).to_be_hidden()
+    desk.offer.click()
+    assert desk.text == given
+    expect(desk.offer).to_be_hidden()
+    desk.write(given + "# and more\n")
+    expect(desk.offer).to_be_hidden()
+    expect(desk.runs.filter(has_text="lines")).to_have_count(2)
+    desk.page.get_by_label("Earlier runs").select_option(index=2)
+    assert desk.text == PROGRAM
+    desk.page.get_by_label("Earlier runs").select_option(label="From your teacher")
+    assert desk.text == given
+
+    assert school.command("assign", rooms="all", scene="maze").status_code == 200
+    expect(other.page).to_have_title(re.compile("Maze"), timeout=PATIENCE_MS)
+    expect(other.editor).not_to_contain_text("# from the teacher", timeout=PATIENCE_MS)
+    for each in (desk, other):
+        each.close()
+    teacher.context.close()
+
+
+def test_without_a_class_nothing_is_sent(chromium: Browser) -> None:
+    tab = CodePage(chromium)
+    sent: list[str] = []
+    tab.page.on("request", lambda request: sent.append(request.url))
+    tab.write(PROGRAM)
+    tab.press("Run")
+    tab.page.wait_for_timeout(2500)  # longer than the pause after which a class gets it
+    assert [each for each in sent if not each.endswith(".js")] == []
+    tab.page.context.close()
