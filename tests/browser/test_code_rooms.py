@@ -85,7 +85,8 @@ def test_readings_have_the_types_that_they_have_outside(page: Page) -> None:
     [
         ("while True: pass", 2, "endless"),
         ("10**10**8", 2, "endless"),
-        ("sum(range(10**12))", 2, "endless"),
+        # the engine's own test ends it each time
+        pytest.param("sum(range(10**12))", 2, "endless", marks=pytest.mark.nightly),
         ("import js", 2, "import"),
         ("import numpy", 2, "numpy"),
         ("return percept['raeding']", 2, "wrong-key"),

@@ -59,6 +59,8 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         until(lambda: room.editor.state.description.name == "box_chase")
         until(lambda: room.runner.latest.is_seed_locked)
         assert (room.runner.latest.seed, room.runner.latest.tick) == (11, 0)
+        # the page is told of the race after the world is ready
+        until(lambda: (room.member.view.event("student", 0) or {}).get("race"))
         event = room.member.view.event("student", 0)
         assert event is not None
         assert (event["race"]["phase"], event["race"]["starts_in"]) == ("countdown", 3.0)
