@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, Request, expect
 
+from tests.browser.code_editor import WithEditor
 from tests.browser.fake_code import serve_fakes
 from tests.browser.test_code_tab import CodePage
 from tests.browser.wall_data import MARKUP
@@ -30,7 +31,7 @@ def school(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
         yield served
 
 
-class Desk:
+class Desk(WithEditor):
     """A student's device, with the tab "Code" open and a Python that is not one."""
 
     def __init__(self, chromium: Browser, student: Student) -> None:
@@ -60,27 +61,12 @@ class Desk:
         expect(self.editor).to_contain_text("def decide", timeout=PATIENCE_MS)
 
     @property
-    def editor(self) -> Locator:
-        return self.page.get_by_role("textbox", name="Program in Python")
-
-    @property
-    def text(self) -> str:
-        lines = self.page.locator(".cm-line").evaluate_all("all => all.map(e => e.textContent)")
-        return "\n".join(lines)
-
-    @property
     def runs(self) -> Locator:
         return self.page.get_by_label("Earlier runs").locator("option")
 
     @property
     def offer(self) -> Locator:
         return self.page.get_by_role("button", name="Take the program from your teacher")
-
-    def write(self, program: str) -> None:
-        """Replace the program, as a person who pastes one does."""
-        self.editor.click()
-        self.page.keyboard.press("ControlOrMeta+a")
-        self.page.keyboard.insert_text(program)
 
     def is_told(self, words: str) -> None:
         told = self.page.locator("p[role=status]").filter(has_text=words)

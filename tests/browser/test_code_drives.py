@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.browser.code_editor import WithEditor
 from tests.browser.served_viser import ready
 from tests.browser.test_play import MIDDLE, agent, until
 from tests.chromium import new_page
@@ -33,26 +34,17 @@ MISTAKES = [
 """Programs, the lines of their mistakes (None: some line or none), and words of their sentences."""
 
 
-class CodeTab:
+class CodeTab(WithEditor):
     """The tab of a real page."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
         page.get_by_role("tab", name="Code").click()
-        self.editor = page.get_by_role("textbox", name="Program in Python")
         self.mistake = page.locator(".ai4u-code-mistake")
 
     @property
     def state(self) -> Locator:
         return self.page.locator(".ai4u-code-state")
-
-    def write(self, program: str) -> None:
-        self.editor.click()
-        self.page.keyboard.press("ControlOrMeta+a")
-        self.page.keyboard.insert_text(program)
-
-    def press(self, name: str) -> None:
-        self.page.get_by_role("button", name=name, exact=True).click()
 
 
 @pytest.fixture(scope="module")

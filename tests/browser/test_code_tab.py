@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from ai4u_edu.server.web_files import web_folder
+from tests.browser.code_editor import WithEditor
 from tests.browser.fake_code import serve_fakes
 from tests.browser.fake_panel import PARTS
 from tests.browser.panel_page import panel_page, panel_room
@@ -22,7 +23,7 @@ pytestmark = pytest.mark.browser
 PROGRAM = 'def decide(percept):\n    near = percept["box"][0]\n    return {"move": [near, 0]}\n'
 
 
-class CodePage(TabPage):
+class CodePage(WithEditor, TabPage):
     """A page with the tab, with an agent of the fake panel."""
 
     def __init__(self, chromium: Browser, **options: Any) -> None:
@@ -30,24 +31,6 @@ class CodePage(TabPage):
         self.give(PARTS["scene"], "scene")
         self.give(PARTS["python"], "python")
         self.give(PARTS["agent"])
-
-    @property
-    def editor(self) -> Locator:
-        return self.page.get_by_role("textbox", name="Program in Python")
-
-    @property
-    def text(self) -> str:
-        lines = self.page.locator(".cm-line").evaluate_all("all => all.map(e => e.textContent)")
-        return "\n".join(lines)
-
-    def write(self, program: str) -> None:
-        """Replace the program, as a person who pastes one does."""
-        self.editor.click()
-        self.page.keyboard.press("ControlOrMeta+a")
-        self.page.keyboard.insert_text(program)
-
-    def press(self, name: str) -> None:
-        self.page.get_by_role("button", name=name, exact=True).click()
 
     def sense(self, step: int = 0, **changes: Any) -> None:
         """Let the fake world send a percept."""
