@@ -85,7 +85,8 @@ def _report(
         if pid == served.process.pid:
             first, last = megabytes[is_late][0], megabytes[-1]
             print(f"the class itself: {first:.1f} to {last:.1f} MB ({slope:+.1f} MB/h)")
-    print(f"{len(slopes)} processes: {min(slopes):+.1f} to {max(slopes):+.1f} MB/h")
+    shown = ", ".join(f"{slope:+.1f}" for slope in sorted(slopes, reverse=True))
+    print(f"{len(slopes)} processes, MB/h: {shown}")
     rooms = {room["id"]: room["falls"] for room in served.state()["rooms"]}
     with closing(sqlite3.connect(f"file:{folder / 'class.sqlite3'}?mode=ro", uri=True)) as file:
         stored = dict(
