@@ -45,7 +45,7 @@ class Desk(WithEditor):
             {"name": name, "value": value, "url": str(student.client.base_url)}
             for name, value in student.client.cookies.items()
         ]
-        self.page.context.add_cookies(cookies)  # type: ignore[arg-type]
+        self.page.context.add_cookies(cookies)  # type: ignore[arg-type]  # a TypedDict of playwright
         self.page.goto(student.address)
         self.open()
 

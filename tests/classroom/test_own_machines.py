@@ -131,7 +131,7 @@ def test_a_network_that_is_gone_for_a_minute_loses_no_result(tmp_path: Path) -> 
         process = psutil.Process(there.process.pid)
         process.suspend()
         told = [notebook.run('check("00.1", stay)')]
-        time.sleep(60)
+        time.sleep(60)  # the minute itself: nothing is sent that could be waited for
         told.append(notebook.run('check("00.1", go)'))
         process.resume()
         assert "Results are kept and sent later." in "".join(told)
