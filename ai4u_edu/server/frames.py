@@ -34,6 +34,7 @@ class FramesProtocol(WebSocketsSansIOProtocol):
 
     listener: Listener | None = None
     _handshake_timer: asyncio.TimerHandle | None = None
+    _abort_timer: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: BaseTransport) -> None:
         """Start the handshake's timeout."""
@@ -42,8 +43,10 @@ class FramesProtocol(WebSocketsSansIOProtocol):
         self._handshake_timer = self.loop.call_later(HANDSHAKE_TIMEOUT_S, self._end_handshake)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Cancel the timeout."""
+        """Cancel the timeouts."""
         self._stop_handshake_timer()
+        if self._abort_timer is not None:
+            self._abort_timer.cancel()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -59,12 +62,12 @@ class FramesProtocol(WebSocketsSansIOProtocol):
     def keepalive_timeout(self) -> None:
         """Close a connection that answers no pings; abort it if it does not read either."""
         super().keepalive_timeout()
-        self.loop.call_later(CLOSE_TIMEOUT_S, self.transport.abort)
+        self._abort_after(CLOSE_TIMEOUT_S)
 
     def on_task_complete(self, task: asyncio.Task[None]) -> None:
         """Abort the connection after its app has ended if the other side does not read the rest."""
         super().on_task_complete(task)
-        self.loop.call_later(2 * CLOSE_TIMEOUT_S, self.transport.abort)
+        self._abort_after(2 * CLOSE_TIMEOUT_S)
 
     def handle_connect(self, event: Request) -> None:
         """Add the extension to the scope; refuse a request that websockets fails to refuse."""
@@ -86,6 +89,13 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             super().shutdown()
         except InvalidState:  # uvicorn would send a second close, and not end
             self.transport.close()
+
+    def _abort_after(self, seconds: float) -> None:
+        # a transport that closed after it sent its last bytes raises an error in abort()
+        if self in self.connections:
+            if self._abort_timer is not None:
+                self._abort_timer.cancel()
+            self._abort_timer = self.loop.call_later(seconds, self.transport.abort)
 
     def _end_handshake(self) -> None:
         self._handshake_timer = None

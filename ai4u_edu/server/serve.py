@@ -6,7 +6,7 @@ import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import uvicorn
 from starlette.types import ASGIApp
@@ -17,6 +17,9 @@ from ai4u_edu.server.connections import MAX_PER_ADDRESS, Connections, raise_desc
 from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.listener import Listener
 from ai4u_edu.server.requests import RequestProtocol, ServerConfig
+
+if TYPE_CHECKING:  # uvicorn has the type for checkers alone
+    from uvicorn.server import Protocols
 
 MAX_MESSAGE_BYTES = 2**20
 """Usual size of a WebSocket message; a larger one is not read and ends the connection.
@@ -143,9 +146,14 @@ class _Server(uvicorn.Server):
             if connection.transport.get_write_buffer_size():
                 connection.transport.abort()
             else:
-                loop.call_later(ABORT_AFTER_S, connection.transport.abort)
+                loop.call_later(ABORT_AFTER_S, self._abort, connection)
         await asyncio.sleep(0)
         await super().shutdown(sockets)
+
+    def _abort(self, connection: "Protocols") -> None:
+        # a transport that closed after it sent its last bytes raises an error in abort()
+        if connection in self.server_state.connections:
+            connection.transport.abort()
 
     @contextmanager
     def capture_signals(self) -> Iterator[None]:

@@ -1,5 +1,6 @@
 """Listening and ending, in real processes."""
 
+import asyncio
 import os
 import signal
 import socket
@@ -8,8 +9,10 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
+from urllib.parse import urlsplit
 
 import httpx
 import pytest
@@ -204,6 +207,38 @@ def test_stopping_with_pages_open_takes_little_time_and_frees_control() -> None:
     assert room.held == []
     assert page.end()[0] == 1012
     until(lambda: not any(thread.name == "server" for thread in threading.enumerate()))
+
+
+def test_an_answer_that_is_read_to_its_end_while_stopping_leaves_no_error(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys.modules["ai4u_edu.server.serve"], "ABORT_AFTER_S", 0.5)
+    asked = threading.Semaphore(0)
+
+    def large(_: Request) -> Response:
+        asked.release()
+        with suppress(OSError):  # until the server has begun to stop
+            while True:
+                socket.create_connection((parts.hostname, parts.port), 1).close()
+        return Response(b"x" * 5_000_000)
+
+    async def wait(request: Request) -> Response:
+        asked.release()
+        while not await request.is_disconnected():
+            await asyncio.sleep(0.01)
+        return Response()
+
+    app = Starlette(routes=[Route("/", large), Route("/wait", wait)])
+    with ThreadPoolExecutor(2) as pool:
+        room = ServerThread(app).start()
+        parts: Any = urlsplit(room.url)
+        answer = pool.submit(httpx.get, room.url)
+        pool.submit(_suppressed_get, f"{room.url}wait")  # keeps the server until the end
+        assert asked.acquire(timeout=5)
+        assert asked.acquire(timeout=5)
+        room.stop()
+        assert len(answer.result(5).content) == 5_000_000
+    assert caplog.records == []
 
 
 def test_stopping_waits_for_no_worker_that_does_not_return() -> None:
