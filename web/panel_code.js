@@ -1,11 +1,9 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
-import { handoutFor, handouts } from "./class_handout.js";
-import { ClassPrograms } from "./class_programs.js";
 import { CodeConsole } from "./code_console.js";
 import { CodeEditor } from "./code_editor.js";
 import { NameList, VariableList } from "./code_facts.js";
-import { downloadText, KeptPrograms } from "./code_keep.js";
+import { ProgramSection } from "./code_program.js";
 import { CodeRun } from "./code_run.js";
 import { outcomeOf, WorldSpeed } from "./code_speed.js";
 import { namesOf, startProgram } from "./code_start.js";
@@ -13,12 +11,8 @@ import { CodeTest } from "./code_test.js";
 import { TestTable, testWords } from "./code_test_table.js";
 import { runWords } from "./code_words.js";
 import { button, element, setAttributes, setText } from "./dom.js";
-import { freeId, section } from "./panel_parts.js";
-import { fileButton } from "./panel_scene_files.js";
+import { freeId } from "./panel_parts.js";
 
-/** Largest program that is read from a file (bytes). */
-const MAX_FILE_BYTES = 100_000;
-const NOW = "now";
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
@@ -28,12 +22,7 @@ export class CodeTab {
   /** What ran last: the run or the test. */
   #active;
   #editor;
-  #kept = new KeptPrograms();
-  #class = new ClassPrograms({
-    source: () => this.#kept.source,
-    take: (source) => this.#takeFromClass(source),
-    keep: (source) => this.#keepAsRun(source),
-  });
+  #program;
   #console = new CodeConsole();
   #variables = new VariableList();
   #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", this.#test.failure));
@@ -63,8 +52,6 @@ export class CodeTab {
   #mistakeText = element("p");
   #goTo = button("Go to the line", () => this.#editor.goTo(this.#end.line), {});
   #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
-  #runs = element("select", { id: freeId() });
-  #offer = button("Take the program from your teacher", () => this.#takeRun("teacher"), { icon: "download" });
 
   /** @param parts of CodeRun and CodeTest */
   constructor(root, panel, parts = {}) {
@@ -86,12 +73,20 @@ export class CodeTab {
       { key: "Ctrl-Shift-Enter", mac: "Cmd-Shift-Enter", run: () => this.#go("step") },
     ];
     this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
-    this.#editor.onChange = (text) => this.#onEdit(text);
+    this.#editor.onChange = (text) => {
+      this.#program.changed(text);
+      this.#editor.markRan([]);
+    };
+    this.#program = new ProgramSection(panel, {
+      text: () => this.#editor.text,
+      show: (text) => this.#showProgram(text),
+      isBusy: () => this.#run.isOn,
+    });
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
-    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#tools()];
+    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
-    root.append(head, this.#offer, frame, this.#mistake, help, ...sections);
+    root.append(head, this.#program.offer, frame, this.#mistake, help, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();
@@ -116,19 +111,6 @@ export class CodeTab {
       readings: names.readings.map(({ key }) => key),
       outputs: names.outputs.map(({ name }) => name),
     });
-  }
-
-  #tools() {
-    this.#runs.addEventListener("change", () => this.#takeRun(this.#runs.value));
-    const label = element("label", { htmlFor: this.#runs.id, textContent: "Earlier runs" });
-    const tools = element(
-      "div",
-      { className: "ai4u-code-tools" },
-      element("div", { className: "ai4u-inline ai4u-code-runs" }, label, this.#runs),
-      button("Download .py", () => downloadText(`${this.#key ?? "program"}.py`, this.#editor.text), { icon: "download" }),
-      fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
-    );
-    return section("code-program", "Your program", {}, tools, this.#class.element);
   }
 
   #listen() {
@@ -156,105 +138,25 @@ export class CodeTab {
     });
     for (const type of ["driver", "part:run"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
-    handouts.addEventListener("change", () => this.#onHandout());
   }
 
   // -- the program -------------------------------------------------------------------------------
 
-  get #scene() {
-    return this.#panel.part("scene")?.scene ?? "scene";
-  }
-
   /** Show the program of the present agent and scene. */
   #open() {
-    const key = `${this.#scene}-${this.#agent.id}`;
+    const scene = this.#panel.part("scene")?.scene ?? "scene";
+    const key = `${scene}-${this.#agent.id}`;
     if (key === this.#key) return;
     this.#run.stop();
     this.#test.clear();
     this.#key = key;
-    this.#kept.open(this.#scene, this.#agent.id);
-    this.#editor.text = this.#kept.source ?? handoutFor(this.#scene) ?? startProgram(this.#names);
-    this.#class.open(this.#scene, this.#agent.id);
-    this.#forget();
     this.#console.clear();
-    this.#drawRuns();
+    this.#program.open(scene, this.#agent.id, startProgram(this.#names));
   }
 
-  #onEdit(text) {
-    this.#keep(text);
-    this.#editor.markRan([]);
-    if (this.#runs.value !== NOW) this.#runs.value = NOW;
-  }
-
-  async #openFile(file) {
-    if (file.size > MAX_FILE_BYTES) {
-      this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
-      return;
-    }
-    this.#replace((await file.text()).replaceAll("\r\n", "\n"));
-  }
-
-  /** Take another program; the present one is kept among the runs. */
-  #replace(text) {
-    this.#kept.addRun(this.#editor.text);
+  #showProgram(text) {
     this.#editor.text = text;
-    this.#keep(text);
     this.#forget();
-    this.#drawRuns();
-  }
-
-  #keep(text) {
-    this.#kept.source = text;
-    this.#class.changed(text);
-  }
-
-  /** Take the program that the class has, from another device. */
-  #takeFromClass(source) {
-    if (this.#kept.source !== null) this.#kept.addRun(this.#kept.source);
-    this.#editor.text = this.#kept.source = source;
-    this.#forget();
-    this.#drawRuns();
-  }
-
-  #keepAsRun(source) {
-    if (this.#kept.runs.some((run) => run.source === source)) return;
-    this.#kept.addRun(source);
-    this.#drawRuns();
-  }
-
-  /** Begin with a program that the teacher gives, or offer it to a person who has one already. */
-  #onHandout() {
-    if (this.#key === null) return;
-    const source = handoutFor(this.#scene);
-    if (source !== null && this.#kept.source === null && !this.#run.isOn) this.#editor.text = source;
-    this.#drawRuns();
-  }
-
-  #takeRun(value) {
-    if (value === "start") this.#replace(startProgram(this.#names));
-    else if (value === "teacher") this.#takeHandout();
-    else if (value !== NOW) this.#replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
-  }
-
-  #takeHandout() {
-    const source = handoutFor(this.#scene);
-    this.#replace(source);
-    this.#keepAsRun(source); // so it is there after it was changed, and not offered again
-  }
-
-  #drawRuns() {
-    const runs = this.#kept.runs.map(({ at, source }) => {
-      const lines = source.trim().split("\n").length;
-      return element("option", { value: at, textContent: `${when(at)} · ${lines} lines` });
-    });
-    const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });
-    const first = element("option", { value: "start", textContent: "The first program" });
-    const handout = handoutFor(this.#scene);
-    const teachers = handout === null ? [] : [element("option", { value: "teacher", textContent: "From your teacher" })];
-    this.#runs.replaceChildren(now, ...runs, ...teachers, first);
-    this.#runs.value = NOW;
-    const isKnown = this.#editor.text === handout || this.#kept.runs.some(({ source }) => source === handout);
-    this.#offer.hidden = handout === null || isKnown;
   }
 
   // -- runs --------------------------------------------------------------------------------------
@@ -295,9 +197,7 @@ export class CodeTab {
   /** Keep a program that runs, and forget how the one before ended. */
   #noteStart(source) {
     this.#forget();
-    this.#kept.addRun(source);
-    this.#drawRuns();
-    this.#class.ran(source);
+    this.#program.ran(source);
   }
 
   /** Forget how the run before ended. */
@@ -375,10 +275,4 @@ export class CodeTab {
     this.#testTable.update(this.#test);
     this.#mistake.hidden = !this.#mistakeText.textContent;
   }
-}
-
-function when(at) {
-  const date = new Date(at);
-  const isToday = date.toDateString() === new Date().toDateString();
-  return isToday ? date.toLocaleTimeString() : date.toLocaleString();
 }
