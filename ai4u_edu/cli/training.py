@@ -1,7 +1,7 @@
 """Commands for training; heavy imports happen when a command runs."""
 
 import json
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -15,6 +15,9 @@ from ai4u_edu.cli import training_options as o
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ai4u_edu.training.evaluating import Evaluation
     from ai4u_edu.training.learning import Trained
     from ai4u_edu.training.watch import Watch
 
@@ -100,6 +103,8 @@ def evaluate(
     seed: o.FirstSeed = 0,
     json_file: o.JsonFile = None,
     plot: o.Plot = None,
+    engine: o.EngineName = "inline",
+    address: o.ClusterAddress = "",
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Measure how well a driver does, on seeds not used for training.
@@ -119,6 +124,7 @@ def evaluate(
 
         check_picture(plot)
     load_own_blocks(own_blocks)
+    where = scene
     loaded = Scene.load(scene) if scene else None
     name = loaded.description.name if loaded else ""
     entrants = [entrant(each, name) for each in (who, *(compare or ()))]
@@ -128,7 +134,10 @@ def evaluate(
             raise SetupError(f"in which scene is {who} to drive? Expected --scene")
         loaded = Scene.load(where)
     seeds = seeds_from(seed, episodes)
-    done = [evaluated(each, loaded, counted(seeds, each.name)) for each in entrants]
+    if engine == "inline" and not address:
+        done = [evaluated(each, loaded, counted(seeds, each.name)) for each in entrants]
+    else:
+        done = _evaluated_on(engine, address, (who, *(compare or ())), where, seeds, own_blocks)
     if json_file is None or str(json_file) != "-":
         Console().print(
             f"{loaded.description.name}: {episodes} episodes, seeds {seed}..{seed + episodes - 1}",
@@ -143,6 +152,29 @@ def evaluate(
             write_atomically(json_file, text + "\n")
     if plot is not None:
         plot_evaluations(done, plot)
+
+
+def _evaluated_on(
+    name: str,
+    address: str,
+    drivers: "Sequence[str]",
+    scene: str,
+    seeds: "Sequence[int]",
+    own_blocks: "Sequence[Path] | None",
+) -> "list[Evaluation]":
+    from ai4u_edu.jobs import engine
+    from ai4u_edu.training.evaluate_jobs import evaluate_on
+    from ai4u_edu.training.progress_bar import ProgressBar
+
+    files = [str(file.absolute()) for file in own_blocks or ()]
+    done = []
+    with engine(name, address=address) as running:
+        for who in drivers:
+            bar = ProgressBar(len(seeds), f"episodes, {who}", keep=False)
+            with closing(bar):
+                told = evaluate_on(running, who, scene, seeds, own_blocks=files, tell=bar.add)
+            done.append(told)
+    return done
 
 
 def export(

@@ -84,3 +84,15 @@ JsonFile = Annotated[
     Path | None, typer.Option("--json", help="Write the results to a JSON file; - prints them.")
 ]
 Plot = Annotated[Path | None, typer.Option(help="Draw the results into a PNG file.")]
+EngineName = Annotated[
+    str,
+    typer.Option(
+        "--engine",
+        help="Where the episodes run: inline (here), processes (one for each core), or ray "
+        "(a cluster). Starting processes takes seconds.",
+    ),
+]
+ClusterAddress = Annotated[
+    str,
+    typer.Option(help="Address of a Ray cluster, such as 192.0.2.7:6379. Default: this machine."),
+]

@@ -51,6 +51,10 @@ class ProgressBar:
         self._bar.set_postfix_str(text, refresh=False)
         self._bar.update(count - self._bar.n)
 
+    def add(self, count: int) -> None:
+        """Add to the count."""
+        self._bar.update(count)
+
     def note(self, line: str) -> None:
         """Print a line above the bar, which stays."""
         if self._is_shown:

@@ -1,0 +1,104 @@
+"""The journal of jobs that were done: a file with a line of JSON for each."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any, BinaryIO, Self
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.file_lock import FileLock, LockedError
+from ai4u_edu.jobs.job import Job, Outcome
+
+FILE = "journal.jsonl"
+
+
+class Journal:
+    """Keeps the results of jobs in a folder; a context manager.
+
+    Each result is on the disk when :meth:`add` returns. Jobs that failed are noted, and run again.
+
+    Args:
+        folder: is made if it is not there.
+
+    Raises:
+        SetupError: another process writes there, or the file is no journal.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self.path = folder / FILE
+        try:
+            self._lock = FileLock(folder / f"{FILE}.lock")
+        except LockedError as error:
+            raise SetupError(f"{folder}: another process runs these jobs; end it first") from error
+        try:
+            self._done = self._read()
+            self._file: BinaryIO = self.path.open("ab")
+        except BaseException:
+            self._lock.release()
+            raise
+
+    def __contains__(self, job: Job) -> bool:
+        return job.key in self._done
+
+    def __len__(self) -> int:
+        return len(self._done)
+
+    def outcome(self, job: Job) -> Outcome:
+        """Return how a job was done.
+
+        Raises:
+            KeyError: it was not.
+        """
+        kept = self._done[job.key]
+        return Outcome(job, kept["result"], "", kept["tries"], kept["seconds"])
+
+    def add(self, outcome: Outcome) -> None:
+        """Write how a job ended."""
+        job = outcome.job
+        line = {
+            "key": job.key,
+            "function": job.function,
+            "arguments": job.arguments,
+            "result": outcome.result,
+            "error": outcome.error,
+            "tries": outcome.tries,
+            "seconds": round(outcome.seconds, 3),
+        }
+        self._file.write(json.dumps(line).encode() + b"\n")
+        self._file.flush()
+        os.fsync(self._file.fileno())
+        if outcome.is_done:
+            self._done[job.key] = line
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+        self._lock.release(remove=True)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _read(self) -> dict[str, dict[str, Any]]:
+        """Return the done jobs by key; cut off a last line that was not written to its end."""
+        if not self.path.exists():
+            return {}
+        content = self.path.read_bytes()
+        whole = content[: content.rfind(b"\n") + 1]
+        if whole != content:
+            os.truncate(self.path, len(whole))
+        done = {}
+        for number, line in enumerate(whole.splitlines(), 1):
+            try:
+                kept = json.loads(line)
+                if not kept["error"]:
+                    done[kept["key"]] = kept
+            except (ValueError, TypeError, KeyError) as error:
+                raise SetupError(
+                    f"{self.path}, line {number}: expected a finished job, got {line[:80]!r}; "
+                    "mend the line, or choose another folder"
+                ) from error
+        return done

@@ -1,0 +1,116 @@
+"""The engine that runs jobs in processes of this machine.
+
+The standard library's pools of processes give up when one of theirs dies, and don't tell whose job
+it had. Here each process has a pipe of its own.
+"""
+
+import multiprocessing
+import os
+import signal
+from contextlib import suppress
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from typing import Self
+
+from ai4u_edu.jobs.call import Answer, call, use_one_thread
+from ai4u_edu.jobs.job import Job
+
+END_TIMEOUT_S = 2.0
+
+
+class ProcessEngine:
+    """Starts its processes with their first jobs; one that dies is replaced.
+
+    Args:
+        width: number of processes; left out, one for each core that this process may use.
+    """
+
+    def __init__(self, width: int | None = None) -> None:
+        self.width = width or _cores()
+        self._idle: list[_Worker] = []
+        self._busy: list[_Worker] = []
+
+    def start(self, job: Job) -> None:
+        """See :class:`ai4u_edu.jobs.Engine`."""
+        worker = self._idle.pop() if self._idle else _Worker()
+        worker.start(job)
+        self._busy.append(worker)
+
+    def wait(self) -> tuple[Job, Answer]:
+        """See :class:`ai4u_edu.jobs.Engine`."""
+        (ready, *_) = wait([each.pipe for each in self._busy])  # the pipe of a dead process is, too
+        worker = next(each for each in self._busy if each.pipe is ready)
+        self._busy.remove(worker)
+        answer = worker.answer()
+        if answer is None:
+            return worker.job, Answer(error=f"its process died ({worker.end()})")
+        self._idle.append(worker)
+        return worker.job, answer
+
+    def close(self) -> None:
+        """See :class:`ai4u_edu.jobs.Engine`."""
+        for worker in (*self._idle, *self._busy):
+            worker.end()
+        self._idle.clear()
+        self._busy.clear()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class _Worker:
+    job: Job
+
+    def __init__(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.pipe, there = context.Pipe()
+        self._process: BaseProcess = context.Process(target=_work, args=(there,), name="job")
+        self._process.start()
+        there.close()
+
+    def start(self, job: Job) -> None:
+        self.job = job
+        with suppress(OSError):  # it died while it was idle; the answer tells
+            self.pipe.send(job)
+
+    def answer(self) -> Answer | None:
+        """Return what the process sent; None if it died."""
+        try:
+            answer: Answer = self.pipe.recv()
+        except (EOFError, OSError):
+            return None
+        return answer
+
+    def end(self) -> str:
+        """End the process, and return how it ended in words."""
+        self.pipe.close()
+        self._process.join(0.0 if self._process.is_alive() else END_TIMEOUT_S)
+        code = self._process.exitcode
+        self._process.kill()
+        self._process.join(END_TIMEOUT_S)
+        code = self._process.exitcode if code is None else code
+        self._process.close()
+        if code is not None and code < 0:
+            killed = signal.Signals(-code).name
+            return f"{killed}: out of memory?" if killed == "SIGKILL" else killed
+        return f"exit code {code}"
+
+
+def _work(pipe: Connection) -> None:
+    use_one_thread()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
+    while True:
+        try:
+            job = pipe.recv()
+        except (EOFError, OSError):
+            return
+        pipe.send(call(job))
+
+
+def _cores() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

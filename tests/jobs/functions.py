@@ -1,0 +1,78 @@
+"""Functions that jobs of the tests call, in other processes, too."""
+
+import os
+import signal
+import time
+from pathlib import Path
+from typing import Any
+
+from ai4u_edu.base.errors import AI4UError
+
+
+def square(number: float) -> float:
+    return number * number
+
+
+def square_on_machine(number: int) -> tuple[int, str]:
+    """Return the square, and the id of Ray's node that computed it."""
+    import ray
+
+    time.sleep(3)  # longer than Ray needs to end the processes of a node
+    return number * number, ray.get_runtime_context().get_node_id()
+
+
+def pid(number: int) -> int:
+    time.sleep(0.2)
+    return os.getpid()
+
+
+def nested(number: int) -> dict[Any, Any]:
+    return {"pair": (number, 0.1 + 0.2), 1: None}
+
+
+def fail(text: str) -> None:
+    raise ValueError(text)
+
+
+def refuse(folder: str) -> None:
+    note_call(folder)
+    raise AI4UError("expected another folder")
+
+
+def no_data() -> object:
+    return object()
+
+
+def note_call(folder: str) -> int:
+    """Count the calls, which may be in other processes, and return the number of this one."""
+    for number in range(1, 100):
+        try:
+            (Path(folder) / str(number)).touch(exist_ok=False)
+        except FileExistsError:
+            continue
+        return number
+    raise AssertionError
+
+
+def fail_twice(folder: str) -> str:
+    if note_call(folder) < 3:
+        raise OSError("not yet")
+    return "at last"
+
+
+def die_once(folder: str) -> str:
+    if note_call(folder) == 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return "alive"
+
+
+def die(number: int) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def threads() -> dict[str, str]:
+    return {key: value for key, value in os.environ.items() if key.endswith("_NUM_THREADS")}
+
+
+def rest(seconds: float) -> None:
+    time.sleep(seconds)
