@@ -16,7 +16,7 @@ export class ProgramMistake extends Error {
 }
 
 /**
- * Events: "change" (phase, decision), "decision" and "printed" (detail), and "end", whose detail is
+ * Events: "change" (phase, decision), "decision" (what it told, with episode, number and source), "printed", and "end", whose detail is
  * {reason: "over" | "stopped" | "mistake" | "lost", text, line, percept}.
  */
 export class CodeRun extends EventTarget {
@@ -162,7 +162,7 @@ export class CodeRun extends EventTarget {
     const number = percept.step + 1;
     const answer = await this.#until(engine.decide(percept.values, number), ticket);
     this.decision = number;
-    this.#emit("decision", { lines: answer.lines ?? [], variables: answer.variables ?? {} });
+    this.#emit("decision", { ...toldBy(answer), episode: percept.episode, number, source: this.#source });
     this.#checked(answer, number);
     await this.#until(this.#client.act(answer.values), ticket);
     const next = await this.#until(this.#client.sense(), ticket);
@@ -230,6 +230,11 @@ export async function valid(promise, isStale) {
 
 export function isOver({ terminated, truncated }) {
   return terminated || truncated;
+}
+
+/** Return what an answer of the engine tells of a decision, for CodeTimeline. */
+export function toldBy({ lines = [], variables = {}, printed = "" }) {
+  return { lines, variables, printed };
 }
 
 /** Return what CodeEngine.load takes, from the world's welcome. */

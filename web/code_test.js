@@ -1,6 +1,6 @@
 /** A test of the person's program: it drives several starts that it has not seen, as fast as the world goes. */
 
-import { connect, isOver, ProgramMistake, programFacts, STOPPED, valid } from "./code_run.js";
+import { connect, isOver, ProgramMistake, programFacts, STOPPED, toldBy, valid } from "./code_run.js";
 
 export const STARTS = 10;
 /** Number of different seeds; trainings use none of them, see evaluating.py. */
@@ -13,7 +13,7 @@ const REFUSED =
 const INTERRUPTED = "Another episode began in the middle of a start, so the test was ended.";
 
 /**
- * Events: "change" (phase, rows), and "end", whose detail is {reason: "tested" | "stopped" | "mistake" | "lost", text, line}.
+ * Events: "change" (phase, rows), "decision" (what it told, with episode, number and source), and "end", whose detail is {reason: "tested" | "stopped" | "mistake" | "lost", text, line}.
  */
 export class CodeTest extends EventTarget {
   /** "off", "loading" (Python), "joining" (the world gives the agent), or "testing". */
@@ -104,13 +104,14 @@ export class CodeTest extends EventTarget {
       throw stopped;
     });
     this.#client = client;
-    checked(await until(engine.load(source, programFacts(client.welcome))));
     await until(this.#parts.speed.max());
     this.#set("testing");
-    for (const row of this.rows) await this.#driveStart(row, engine, client, until);
+    for (const row of this.rows) await this.#driveStart(row, source, engine, client, until);
   }
 
-  async #driveStart(row, engine, client, until) {
+  async #driveStart(row, source, engine, client, until) {
+    // a program that remembers something in global variables must not depend on the start before
+    checked(await until(engine.load(source, programFacts(client.welcome))));
     await until(client.reset(row.seed));
     let percept = await until(client.sense());
     this.#current = row;
@@ -119,7 +120,10 @@ export class CodeTest extends EventTarget {
     const tally = new Tally(client.welcome, percept.tick);
     while (!isOver(percept) && !tally.isTimeUp) {
       row.decisions = percept.step + 1;
-      const answer = checked(await until(engine.decide(percept.values, row.decisions)));
+      const answer = await until(engine.decide(percept.values, row.decisions));
+      const detail = { ...toldBy(answer), episode: percept.episode, number: row.decisions, source };
+      this.dispatchEvent(new CustomEvent("decision", { detail }));
+      checked(answer);
       await until(client.act(answer.values));
       const next = await until(client.sense());
       if (next.episode !== percept.episode) throw new Error(INTERRUPTED);

@@ -201,7 +201,7 @@ export class Panel extends EventTarget {
   }
 
   async #openTab(name, root) {
-    this.show({ tabs: [PART_OF_TAB[name]] });
+    this.show({ tabs: name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : [PART_OF_TAB[name]] });
     this.#showHistory();
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);

@@ -3,11 +3,13 @@
 import { CodeConsole } from "./code_console.js";
 import { CodeEditor } from "./code_editor.js";
 import { NameList, VariableList } from "./code_facts.js";
+import { CodeMoment } from "./code_moment.js";
 import { ProgramSection } from "./code_program.js";
 import { CodeRun } from "./code_run.js";
 import { outcomeOf, WorldSpeed } from "./code_speed.js";
 import { namesOf, startProgram } from "./code_start.js";
 import { CodeTest } from "./code_test.js";
+import { CodeTimeline } from "./code_timeline.js";
 import { TestTable, testWords } from "./code_test_table.js";
 import { runWords } from "./code_words.js";
 import { button, element, setAttributes, setText } from "./dom.js";
@@ -35,10 +37,14 @@ export class CodeTab {
   #python = "loading";
   /** The latest decision. */
   #latest = null;
+  #timeline = new CodeTimeline();
+  #moment;
   /** Names that the program reads and writes, and the same as text. */
   #names = { readings: [], outputs: [] };
   #namesText = "";
   #isDue = false;
+  /** True while the world shows a moment of the past. */
+  #isBack = false;
   /** True if the person drove at the latest event about it. */
   #wasPerson = false;
 
@@ -65,6 +71,7 @@ export class CodeTab {
       ...parts,
     });
     this.#active = this.#run;
+    this.#moment = new CodeMoment(panel);
     const help = element("p", { className: "ai4u-soft", id: freeId() });
     help.textContent = `${COMMAND_KEY}+Enter runs the program. Tab indents; Escape, then Tab leaves the editor.`;
     const frame = element("div", { className: "ai4u-code-editor" });
@@ -86,7 +93,7 @@ export class CodeTab {
     const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
-    root.append(head, this.#program.offer, frame, this.#mistake, help, ...sections);
+    root.append(head, this.#moment.element, this.#program.offer, frame, this.#mistake, help, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();
@@ -115,6 +122,9 @@ export class CodeTab {
 
   #listen() {
     for (const each of [this.#run, this.#test]) {
+      each.addEventListener("decision", ({ detail }) => {
+        this.#timeline.add(detail.episode, detail.number, detail.source, detail);
+      });
       each.addEventListener("change", () => {
         this.#panel.hasProgram = this.#active.isOn && this.#active.phase !== "loading";
         this.#drawSoon();
@@ -136,7 +146,7 @@ export class CodeTab {
       const agent = this.#panel.part("agent");
       if (agent !== null) this.update(agent);
     });
-    for (const type of ["driver", "part:run"]) this.#panel.addEventListener(type, () => this.#drawSoon());
+    for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
   }
 
@@ -150,6 +160,7 @@ export class CodeTab {
     this.#run.stop();
     this.#test.clear();
     this.#key = key;
+    this.#timeline.clear();
     this.#console.clear();
     this.#program.open(scene, this.#agent.id, startProgram(this.#names));
   }
@@ -257,10 +268,31 @@ export class CodeTab {
     requestAnimationFrame(() => {
       this.#isDue = false;
       this.#drawState();
-      if (this.#latest === null) return;
-      this.#editor.markRan(this.#latest.lines);
-      this.#variables.update(this.#latest.variables);
+      this.#drawDecision();
     });
+  }
+
+  /** Show what the program did at the latest decision, or at the one to which the person went back. */
+  #drawDecision() {
+    const past = this.#panel.part("past");
+    const playing = past?.is_showing ? past.playing : null;
+    const isBack = this.#isBack;
+    this.#isBack = playing !== null;
+    if (playing === null) {
+      this.#moment.update(null);
+      if (this.#latest !== null) this.#drawTold(this.#latest, this.#latest.source === this.#editor.text);
+      else if (isBack) this.#drawTold(null, false);
+      return;
+    }
+    const told = this.#timeline.at(playing.world_episode, playing.step + 1);
+    const isSame = told?.source === this.#editor.text;
+    this.#moment.update(playing, told, isSame);
+    this.#drawTold(told, isSame);
+  }
+
+  #drawTold(told, isSame) {
+    this.#editor.markRan(isSame ? told.lines : []);
+    this.#variables.update(told?.variables ?? {});
   }
 
   #drawState() {

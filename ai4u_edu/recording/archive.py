@@ -27,6 +27,8 @@ class ArchiveEntry:
     episode: Episode
     source: str = ""
     """The file that it was loaded from; empty if it was recorded here."""
+    world_episode: int = 0
+    """The world's own number of it, :attr:`ControlRequestor.episode`; 0 if it was loaded."""
     is_pinned: bool = False
     """True if it is kept however many others come."""
 
@@ -76,16 +78,17 @@ class Archive(Sequence[Episode]):
         """Number that the next entry gets."""
         return self._given + 1
 
-    def append(self, episode: Episode, source: str = "") -> ArchiveEntry:
+    def append(self, episode: Episode, source: str = "", *, world_episode: int = 0) -> ArchiveEntry:
         """Add an episode.
 
         Args:
             episode: the episode.
             source: the file that it was loaded from.
+            world_episode: the world's own number of it.
         """
         with self._lock:
             self._given += 1
-            entry = ArchiveEntry(self._given, episode, source)
+            entry = ArchiveEntry(self._given, episode, source, world_episode)
             self.entries = self._limited([*self.entries, entry]) if self._keep else ()
         return entry
 

@@ -68,7 +68,8 @@ class Recorder:
         """Sentence about why ``on_episode`` failed with the last episode; empty if it did not."""
         self.on_episode = on_episode
         self._builder: EpisodeBuilder | None = None
-        self._world_episode = sim.episode
+        self.world_episode = sim.episode
+        """Number by which the world counts the present episode."""
         self._listening = False
         self._start()
 
@@ -76,7 +77,7 @@ class Recorder:
         """Record another world from now on; the present episode is finished."""
         listened = self._listening
         self.set_enabled(False)
-        self.sim, self._world_episode = sim, sim.episode
+        self.sim, self.world_episode = sim, sim.episode
         if listened:
             self._start()
 
@@ -118,7 +119,7 @@ class Recorder:
         episode = builder.episode()
         if not any(map(len, episode.agents)):
             return
-        self.episodes.append(episode)
+        self.episodes.append(episode, world_episode=self.world_episode)
         if self.on_episode is not None:
             self._save(episode, self.on_episode)
 
@@ -161,7 +162,7 @@ class Recorder:
             self._builder.end_restart()
 
     def _on_episode_begin(self, agent: BasicAgent) -> None:
-        if self.sim.episode != self._world_episode:
+        if self.sim.episode != self.world_episode:
             self.finish()
             self._begin()
         if self._builder is not None:
@@ -176,7 +177,7 @@ class Recorder:
             self._builder.end_decision(agent)
 
     def _begin(self) -> None:
-        self._world_episode = self.sim.episode
+        self.world_episode = self.sim.episode
         self.problem = ""
         try:
             self._builder = EpisodeBuilder(self.sim, export_scene(self.sim, self.scene))

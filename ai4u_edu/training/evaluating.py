@@ -111,7 +111,7 @@ def evaluate(
     *,
     tell: Callable[[], None] = lambda: None,
 ) -> Evaluation:
-    """Run one episode for each seed.
+    """Run one episode for each seed, each of them with a new brain.
 
     Args:
         who: drives the agent; the others follow their brains.
@@ -121,10 +121,10 @@ def evaluate(
     """
     sim = expect_here(who).fitted(scene).build()
     agent = sim.agent(who.agent) if who.agent else sim.agents[0]
-    agent.use_brain(who.brain(agent))
     goal = scene.description.success
     episodes = []
     for seed in seeds:
+        agent.use_brain(who.brain(agent))  # no episode depends on what a driver has kept of others
         episodes.append(_drive(sim, agent, seed, goal))
         tell()
     return Evaluation(who.name, scene.description.name, goal is not None, tuple(episodes))

@@ -9,8 +9,8 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, Request, expect
 
 from tests.browser.code_editor import WithEditor
+from tests.browser.code_tab import CodePage
 from tests.browser.fake_code import serve_fakes
-from tests.browser.test_code_tab import CodePage
 from tests.browser.wall_data import MARKUP
 from tests.chromium import DRAW_NOTHING, new_page
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class

@@ -127,6 +127,33 @@ def test_stop_gives_the_robot_back(server: Played, tab: CodeTab) -> None:
     tab.page.keyboard.up("KeyW")
 
 
+def test_back_in_time_stands_what_the_program_did_at_that_decision(tab: CodeTab) -> None:
+    counts = "global count\n    count += 1\n    print('count', count)\n    "
+    tab.write(f'count = 0\n{BODY}{counts}return {{"move": [0, 0.3, 0, 0]}}')
+    tab.press("Run")
+    expect(tab.state).to_contain_text(re.compile(r"decision ([5-9]|\d\d)"), timeout=LOADING_MS)
+    tab.press("Stop")
+    tab.page.get_by_role("tab", name="Past").click()
+    tab.page.get_by_role("button", name="Current episode").click()
+    expect(tab.page.get_by_text(re.compile("Past: episode .* step"))).to_be_visible()
+    tab.page.get_by_role("tab", name="Code").click()
+    moment = tab.page.locator(".ai4u-code-moment")
+    words = moment.get_by_role("status")
+    expect(words).to_contain_text("your program did not make it")  # the latest ones were the keys'
+    before = moment.get_by_role("button", name="Decision before")
+    while "did not" in (said := words.inner_text()):
+        before.click()
+        expect(words).not_to_have_text(said)
+    expect(words).to_contain_text("the lines that ran are marked")
+    expect(tab.page.locator(".ai4u-code-ran-line")).to_have_count(3)
+    count = int(moment.locator("pre").inner_text().removeprefix("count "))
+    before.click()
+    expect(moment.locator("pre")).to_have_text(f"count {count - 1}")
+    expect(tab.page.locator(".ai4u-code-variables")).to_have_text(f"count{count - 1}")
+    moment.get_by_role("button", name="Back to live").click()
+    expect(moment).to_be_hidden()
+
+
 def test_step_makes_one_decision_and_run_goes_on(server: Played, tab: CodeTab) -> None:
     tab.write(
         "count = 0\n" + BODY + "global count\n    count += 1\n    print(count)\n    return {}"

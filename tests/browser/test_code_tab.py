@@ -4,13 +4,12 @@ import hashlib
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.server.web_files import web_folder
-from tests.browser.code_editor import WithEditor
+from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_code import serve_fakes
 from tests.browser.fake_panel import PARTS
 from tests.browser.panel_page import panel_page, panel_room
@@ -20,55 +19,11 @@ from tests.chromium import new_page
 
 pytestmark = pytest.mark.browser
 
-PROGRAM = 'def decide(percept):\n    near = percept["box"][0]\n    return {"move": [near, 0]}\n'
-
-
-class CodePage(WithEditor, TabPage):
-    """A page with the tab, with an agent of the fake panel."""
-
-    def __init__(self, chromium: Browser, **options: Any) -> None:
-        super().__init__(chromium, "panel_code", "CodeTab", "agent", prepare=serve_fakes, **options)
-        self.give(PARTS["scene"], "scene")
-        self.give(PARTS["python"], "python")
-        self.give(PARTS["agent"])
-
-    def sense(self, step: int = 0, **changes: Any) -> None:
-        """Let the fake world send a percept."""
-        percept = {"values": {"box": [0.5, 2]}, "episode": 1, "step": step, "terms": {}}
-        ending = {"terminated": False, "truncated": False}
-        self.page.evaluate("each => fake.give(each)", percept | ending | changes)
-
-    def calls(self, name: str) -> list[Any]:
-        """Return the arguments of the calls of Python or the world with a name."""
-        script = (
-            "name => fake.calls.filter((each) => each[0] === name).map((each) => each.slice(1))"
-        )
-        found: list[Any] = self.page.evaluate(script, name)
-        return found
-
-    def fail(self, text: str, line: int, kind: str) -> None:
-        """Let the next decision be a mistake."""
-        self.page.evaluate(
-            """([text, line, kind]) => (fake.decide = () =>
-              ({ ok: false, text, line, kind, printed: "", lines: [1], variables: {} }))""",
-            [text, line, kind],
-        )
-
-    @property
-    def state(self) -> Locator:
-        return self.page.locator(".ai4u-code-state")
-
-    @property
-    def mistake(self) -> Locator:
-        return self.page.locator(".ai4u-code-mistake")
-
 
 @pytest.fixture
 def tab(chromium: Browser) -> Iterator[CodePage]:
-    tab = CodePage(chromium)
-    yield tab
-    tab.page.context.close()
-    assert tab.errors == []
+    with CodePage.opened(chromium) as tab:
+        yield tab
 
 
 def test_it_begins_with_a_program_of_the_agents_own_senses_and_actions(tab: CodePage) -> None:

@@ -11,6 +11,7 @@ from ai4u_edu import ControlRequestor, LocalBrain, Scene
 from ai4u_edu.base.errors import BlockError, SetupError
 from ai4u_edu.cli.main import app
 from ai4u_edu.training import program_files
+from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.program_files import ProgramController
 
@@ -65,6 +66,22 @@ def test_a_controller_is_reset_at_each_episode(tmp_path: Path) -> None:
             speeds.append(sim.agents[0].last_action["move"][0])
         assert speeds == [0.1, 0.2, 0.3]
         sim.reset(2)
+
+
+def test_no_episode_of_an_evaluation_depends_on_the_one_before(tmp_path: Path) -> None:
+    file = tmp_path / "mine.py"
+    file.write_text(
+        "calls = 0\n\n"
+        "def decide(percept):\n"
+        "    global calls\n"
+        "    calls += 1\n"
+        "    return {'move': [0.1 * (calls % 7), 0.01, 0, 0]}\n"
+    )
+    who, scene = entrant(f"{file}:decide"), Scene.load("box_chase")
+    first, second = evaluate(who, scene, [3, 4]).episodes
+    (alone,) = evaluate(who, scene, [4]).episodes
+    assert first.length % 7, "the second one would go on in the middle"
+    assert second == alone
 
 
 @pytest.mark.parametrize(

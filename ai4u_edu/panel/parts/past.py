@@ -8,6 +8,7 @@ from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.gallery import words_of
 from ai4u_edu.recording import ArchiveEntry
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE
 
 FORMATS = {
     "html": "Web page",
@@ -81,9 +82,19 @@ def _playing(context: PanelContext) -> dict[str, Any] | None:
         "number": player.number,
         "step": player.step,
         "steps": max(frame_cache.last, 1),
+        "world_episode": _world_episode(context, player.number),
         "is_playing": player.is_playing,
         "speed": player.speed,
     }
+
+
+def _world_episode(context: PanelContext, number: int) -> int:
+    """Return the number by which the world counted the chosen episode; 0 if it was loaded."""
+    recorder, archive = context.runner.recorder, context.viewer.player.archive
+    if number == RUNNING_EPISODE:
+        return 0 if recorder is None else recorder.world_episode
+    entry = None if archive is None else archive.find(number)
+    return 0 if entry is None else entry.world_episode
 
 
 def _downloads(context: PanelContext, entries: tuple[ArchiveEntry, ...]) -> list[dict[str, str]]:

@@ -1,0 +1,58 @@
+/** What a program told at each of its decisions, for when the person goes back in time; the oldest are dropped. */
+
+const MAX_DECISIONS = 20_000;
+/** Most characters of all variables and outputs. */
+const MAX_CHARS = 4_000_000;
+
+export class CodeTimeline {
+  /** Episodes by the world's number, the oldest first: {source, decisions}, decisions by number. */
+  #episodes = new Map();
+  #count = 0;
+  #chars = 0;
+
+  /** Note what a program with a source told at a decision of an episode. */
+  add(episode, number, source, { lines, variables, printed }) {
+    const before = this.#episodes.get(episode);
+    // an edited world counts from 1 again
+    if (before !== undefined && (before.source !== source || before.decisions.has(number))) this.#drop(episode);
+    if (!this.#episodes.has(episode)) this.#episodes.set(episode, { source, decisions: new Map() });
+    const told = { lines: [...new Set(lines)], variables, printed };
+    this.#episodes.get(episode).decisions.set(number, told);
+    this.#count += 1;
+    this.#chars += size(told);
+    while (this.#count > MAX_DECISIONS || this.#chars > MAX_CHARS) this.#dropOldest();
+  }
+
+  /** Return what was told at a decision: {source, lines, variables, printed}; null if nothing is known. */
+  at(episode, number) {
+    const kept = this.#episodes.get(episode);
+    const told = kept?.decisions.get(number);
+    return told === undefined ? null : { source: kept.source, ...told };
+  }
+
+  clear() {
+    this.#episodes.clear();
+    this.#count = this.#chars = 0;
+  }
+
+  #dropOldest() {
+    const [[episode, { decisions }]] = this.#episodes;
+    const [[number, told]] = decisions;
+    decisions.delete(number);
+    this.#count -= 1;
+    this.#chars -= size(told);
+    if (!decisions.size) this.#episodes.delete(episode);
+  }
+
+  #drop(episode) {
+    const { decisions } = this.#episodes.get(episode);
+    this.#count -= decisions.size;
+    for (const told of decisions.values()) this.#chars -= size(told);
+    this.#episodes.delete(episode);
+  }
+}
+
+function size({ lines, variables, printed }) {
+  const texts = Object.entries(variables).flat();
+  return printed.length + lines.length + texts.reduce((sum, text) => sum + text.length, 0);
+}
