@@ -1,6 +1,7 @@
 """Training of an agent in a scene with Stable-Baselines3."""
 
 import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -81,6 +82,7 @@ def train(
     overwrite: bool = False,
     quiet: bool = False,
     watch: "Watch | None" = None,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     """Start a training.
 
@@ -96,6 +98,7 @@ def train(
         overwrite: True replaces a training that is in the folder.
         quiet: True shows nothing.
         watch: page that shows the policy driving as it learns.
+        stop: called with all checks after each one; True ends the training.
 
     Raises:
         SetupError: the settings don't fit the scene, or the folder holds a training already.
@@ -131,7 +134,7 @@ def train(
     if overwrite:
         run.clear()
     run.begin(config, scene)
-    return _learn(run, config, prepared, model, worlds, quiet, watch)
+    return _learn(run, config, prepared, model, worlds, quiet, watch, stop)
 
 
 def resume(
@@ -181,6 +184,7 @@ def _learn(
     worlds: VecEnv,
     quiet: bool,
     watch: "Watch | None",
+    stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     settings = config.settings
     evaluation = EvalCallback(
@@ -190,6 +194,7 @@ def _learn(
         table=worlds.table if isinstance(worlds, Choices) else None,
         every=settings.of(config.algorithm).check_every,
         has_goal=prepared.description.success is not None,
+        stop=stop,
     )
     interrupt = Interrupt()
     bar = ProgressCallback(evaluation, config.steps, quiet=quiet)
