@@ -78,12 +78,12 @@ function statisticBlock({ key, unit }, reading) {
 /** Blocks of a flat fan of rays: the nearest thing, whether a group is seen, and where. */
 function rayBlocks({ key, rays }, reading) {
   const angles = rays.angles_deg;
-  const sectors = Object.keys(SECTORS).filter((name) => sectorOf(name, angles).count);
+  const sectors = Object.keys(SECTORS).filter((name) => sideOf(name, angles).count);
   const sides = list("SIDE", sectors.map((name) => [SECTORS[name], name]));
   const groups = list("GROUP", rays.codes.map(([name]) => [name, name]));
   const codeOf = (group) => number(rays.codes.find(([name]) => name === group)?.[1] ?? -1);
   const width = Number(rays.has_code) + Number(rays.has_distance);
-  const part = (name, offset) => `${reading}${slice(sectorOf(name, angles), width, offset, angles.length)}`;
+  const part = (name, offset) => `${reading}${slice(sideOf(name, angles), width, offset, angles.length)}`;
   const made = [];
   if (rays.has_distance) {
     const factor = rays.reach === rays.reach_m ? "" : `${number(rays.reach_m)} * `;
@@ -104,7 +104,7 @@ function rayBlocks({ key, rays }, reading) {
 }
 
 /** Return the rays of a side: {first, count}; angles rise from the right to the left. */
-function sectorOf(name, angles) {
+export function sideOf(name, angles) {
   const isIn = {
     around: () => true,
     ahead: (angle) => Math.abs(angle) <= AHEAD_DEG,

@@ -33,6 +33,9 @@ export class BlocksMode {
   #help = element("p", { className: "ai4u-soft", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
   #floating = element("div", { className: "ai4u-blocks-floating", dataset: { ai4uKeys: "" } });
+  #steps = null;
+  /** The steps that lead to a program; filled with the first blocks. */
+  steps = element("div", {});
   bar = element("div", { className: "ai4u-blocks-bar" }, this.#open, this.#leave);
   element = element("div", { className: "ai4u-blocks", dataset: { ai4uKeys: "" } }, this.#words, this.#frame, this.#help);
 
@@ -60,6 +63,7 @@ export class BlocksMode {
     if (text === this.#agentText) return;
     [this.#agentText, this.#part] = [text, part];
     if (this.#loaded === null) return;
+    this.#steps.setAgent(part);
     this.#agent = this.#loaded.agentBlocks(part);
     this.#workspace?.setAgent(this.#agent);
     if (this.#isOn) this.#show(this.#blocks);
@@ -96,6 +100,21 @@ export class BlocksMode {
     return Boolean(block);
   }
 
+  /** A run or a test begins. */
+  begin() {
+    if (this.#isOn) this.#steps?.begin();
+  }
+
+  /** Look at a decision of a run: {percept, action}. */
+  note(detail) {
+    if (this.#isOn) this.#steps?.note(detail);
+  }
+
+  /** Look at the starts of a test. */
+  tested(rows) {
+    if (this.#isOn) this.#steps?.tested(rows);
+  }
+
   // -- the switch --------------------------------------------------------------------------------
 
   async #toBlocks() {
@@ -123,7 +142,7 @@ export class BlocksMode {
   }
 
   #draw() {
-    this.#frame.hidden = this.#help.hidden = !this.#isOn;
+    this.#frame.hidden = this.#help.hidden = this.steps.hidden = !this.#isOn;
     this.#leave.hidden = !this.#isOn;
     this.#open.hidden = this.#isOn;
     setText(this.#open.querySelector("span"), this.#blocks === null ? "Blocks" : "Back to your blocks");
@@ -170,14 +189,19 @@ export class BlocksMode {
     if (this.#loaded !== null) return this.#loaded;
     this.#say("Loading the blocks …");
     try {
-      const names = ["agent", "python", "workspace"];
+      const names = ["agent", "python", "workspace", "steps"];
       const modules = await Promise.all(names.map((name) => import(`./blocks_${name}.js`)));
       this.#loaded = Object.assign({}, ...modules);
     } catch {
       this.#say(FAILED);
       return null;
     }
-    if (this.#part !== null) this.#agent = this.#loaded.agentBlocks(this.#part);
+    this.#steps = new this.#loaded.BlockSteps(this.#panel);
+    this.steps.append(this.#steps.element);
+    if (this.#part !== null) {
+      this.#agent = this.#loaded.agentBlocks(this.#part);
+      this.#steps.setAgent(this.#part);
+    }
     this.#draw();
     return this.#loaded;
   }

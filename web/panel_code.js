@@ -100,7 +100,7 @@ export class CodeTab {
     const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
     const head = element("div", { className: "ai4u-code-head" }, buttons, way);
     const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
-    const both = [this.#moment.element, this.#program.offer, body, this.#mistake];
+    const both = [this.#moment.element, this.#program.offer, this.#blocks.steps, body, this.#mistake];
     root.append(head, ...both, ...sections);
     this.#listen();
     this.#drawState();
@@ -139,7 +139,10 @@ export class CodeTab {
         this.#drawSoon();
       });
     }
-    this.#test.addEventListener("end", ({ detail }) => this.#onEnd({ ...detail, summary: testWords(this.#test) }));
+    this.#test.addEventListener("end", ({ detail }) => {
+      this.#onEnd({ ...detail, summary: testWords(this.#test) });
+      if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
+    });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) this.#test.stop("You drive, so the test was ended.");
       this.#wasPerson = this.#isPerson;
@@ -147,6 +150,7 @@ export class CodeTab {
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
+      this.#blocks.note(detail);
       this.#drawSoon();
     });
     this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
@@ -222,6 +226,7 @@ export class CodeTab {
   /** Keep a program that runs, and forget how the one before ended. */
   #noteStart(source) {
     this.#forget();
+    this.#blocks.begin();
     this.#program.ran(this.#blocks.join(source));
   }
 

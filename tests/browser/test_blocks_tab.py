@@ -72,7 +72,12 @@ def tab(chromium: Browser) -> Iterator[BlocksPage]:
 
 
 def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) -> None:
+    asked: list[str] = []
+    loaded = "performance.getEntriesByType('resource').filter((each) => /blockly/.test(each.name))"
+    assert tab.page.evaluate(f"{loaded}.length") == 0
+    tab.page.on("request", lambda request: asked.append(request.url))
     tab.to_blocks()
+    assert findings(tab.page, ".ai4u-panel") == []
     assert tab.text == DRIVE.replace("    forward = 0.8\n", "")
     tab.choose(1, "forward")
     tab.keys("Enter", "ArrowRight", "ArrowRight", "Enter")
@@ -99,6 +104,10 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     tab.keys("Delete")
     expect(tab.editor).not_to_contain_text("0.8")
     expect(tab.page.locator(".ai4u-blocks-mistake")).to_have_count(0)
+    tab.keys("Shift+F10")  # a menu
+    names = [re.sub(r"^http://127\.0\.0\.1:\d+/web/|\?.*$", "", url) for url in asked]
+    others = {name for name in names if "/" in name and not name.startswith("data:")}
+    assert others == {"vendor/blockly.js"}
 
 
 def test_one_goes_on_in_python_and_back_and_nothing_is_lost(
@@ -146,17 +155,6 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(
     expect(tab.editor).to_contain_text("turn = 1")
 
 
-def test_a_variable_is_asked_for_in_a_window_of_the_page(tab: BlocksPage) -> None:
-    tab.to_blocks()
-    tab.keys("t", "Home", *["ArrowDown"] * 5, "ArrowRight", "Enter")
-    tab.page.get_by_label("New variable name:").fill("my steps")
-    tab.keys("Enter")
-    expect(tab.page.locator("dialog")).to_have_count(0)
-    tab.page.locator(".blocklyToolboxCategory").filter(has_text="Memory").click()
-    tab.page.locator(".blocklyFlyout").get_by_text("change").click()
-    expect(tab.canvas).to_contain_text("my steps")
-
-
 def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     tab.to_blocks()
     tab.choose(1, "forward")
@@ -168,31 +166,26 @@ def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     expect(tab.editor).to_contain_text("pass  # this robot has no move:0")
     tab.give(PARTS["python"], "python")
     expect(tab.editor).to_contain_text("forward = 1")
+    # a variable is asked for in a window of the page
+    tab.keys("t", "Home", *["ArrowDown"] * 5, "ArrowRight", "Enter")
+    tab.page.get_by_label("New variable name:").fill("my steps")
+    tab.keys("Enter")
+    expect(tab.page.locator("dialog")).to_have_count(0)
+    tab.page.locator(".blocklyToolboxCategory").filter(has_text="Memory").click()
+    tab.page.locator(".blocklyFlyout").get_by_text("change").click()
+    expect(tab.canvas).to_contain_text("my steps")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_it_has_no_grave_finding(chromium: Browser, scheme: str) -> None:
-    with BlocksPage.opened(chromium, scheme=scheme, size=(390, 844)) as tab:
+@pytest.mark.nightly
+def test_dark_on_a_phone_it_has_no_grave_finding(chromium: Browser) -> None:
+    with BlocksPage.opened(chromium, scheme="dark", size=(390, 844)) as tab:
         tab.to_blocks()
         assert findings(tab.page, ".ai4u-panel") == []
         assert tab.page.evaluate("document.documentElement.scrollWidth") <= 390
 
 
-def test_blockly_is_kept_by_the_browser_and_no_other_address_is_asked(chromium: Browser) -> None:
+def test_the_address_of_blockly_changes_with_it() -> None:
     bundle = web_folder() / "vendor" / "blockly.js"
     version = hashlib.sha256(bundle.read_bytes()).hexdigest()[:8]
     script = (web_folder() / "blocks_workspace.js").read_text()
     assert f'vendor/blockly.js?v={version}"' in script
-    with BlocksPage.opened(chromium) as tab:
-        asked: list[str] = []
-        tab.page.on("request", lambda request: asked.append(request.url))
-        assert not tab.page.evaluate(
-            "performance.getEntriesByType('resource').some(({ name }) => name.includes('blockly'))"
-        )
-        tab.to_blocks()
-        tab.choose(1, "forward")
-        tab.keys("Enter", "Shift+F10")
-        names = {re.sub(r"^http://127\.0\.0\.1:\d+/web/|\?.*$", "", url) for url in asked}
-        assert {name for name in names if "/" in name and not name.startswith("data:")} == {
-            "vendor/blockly.js"
-        }
