@@ -63,10 +63,11 @@ function touchBlock({ key }, reading) {
 }
 
 function slotBlock({ key, slots }, reading) {
-  const words = ({ name, unit, low, high }) => [name, unit ? `(${unit})` : rangeWords(low, high)].filter(Boolean).join(" ");
-  if (slots.length === 1) return sense(`sense:${key}`, `${key} ${words(slots[0])}`, [], "Number", () => value(`${reading}[0]`));
+  const words = ({ name, unit }) => [name, unit && `(${unit})`].filter(Boolean).join(" ");
+  const ranges = slots.map(({ name, low, high }) => [name, rangeWords(low, high)].filter(Boolean).join(": ")).join("; ");
+  if (slots.length === 1) return sense(`sense:${key}`, `${key} ${words(slots[0])}`, [], "Number", () => value(`${reading}[0]`), ranges);
   const options = slots.map((slot, index) => [words(slot), String(index)]);
-  return sense(`sense:${key}`, `${key} %1`, [list("SLOT", options)], "Number", ({ SLOT }) => value(`${reading}[${SLOT}]`));
+  return sense(`sense:${key}`, `${key} %1`, [list("SLOT", options)], "Number", ({ SLOT }) => value(`${reading}[${SLOT}]`), ranges);
 }
 
 function statisticBlock({ key, unit }, reading) {
@@ -163,7 +164,7 @@ function actionBlock({ type, title, low, high, variable }) {
 }
 
 function rangeWords(low, high) {
-  return low === null || high === null ? "" : `(${low} to ${high})`;
+  return low === null || high === null ? "" : `${low} to ${high}`;
 }
 
 function number(value) {

@@ -32,7 +32,6 @@ export class BlocksMode {
   #words = element("p", { className: "ai4u-soft", role: "status" });
   #help = element("p", { className: "ai4u-soft", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
-  #floating = element("div", { className: "ai4u-blocks-floating", dataset: { ai4uKeys: "" } });
   #steps = null;
   /** The steps that lead to a program; filled with the first blocks. */
   steps = element("div", {});
@@ -49,7 +48,7 @@ export class BlocksMode {
   constructor(panel, tab) {
     [this.#panel, this.#tab] = [panel, tab];
     this.#frame.addEventListener("keydown", (event) => this.#onKey(event), { capture: true });
-    for (const each of [this.element, this.#floating]) each.addEventListener("keydown", (event) => event.stopPropagation());
+    this.element.addEventListener("keydown", (event) => event.stopPropagation());
     this.#draw();
   }
 
@@ -167,9 +166,8 @@ export class BlocksMode {
   }
 
   #makeWorkspace({ BlocksWorkspace }) {
-    document.body.append(this.#floating);
     const ask = (question, start) => this.#ask(question, start);
-    const made = new BlocksWorkspace(this.#frame, this.#floating, { label: "Program of blocks", agent: this.#agent, ask });
+    const made = new BlocksWorkspace(this.#frame, { label: "Program of blocks", agent: this.#agent, ask });
     made.onChange = () => {
       this.#blocks = made.blocks;
       this.#write();

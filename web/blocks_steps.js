@@ -143,6 +143,7 @@ export class BlockSteps {
     const { can_edit: canEdit = false } = this.#panel.part("scene") ?? {};
     this.#elsewhere.parentElement.hidden = this.#isHere;
     this.#open.hidden = !canEdit;
+    this.#list.hidden = this.#text.hidden = !this.#isHere;
     [...this.#list.children].forEach((item, index) => {
       const isDone = index < this.#done;
       const [choose] = item.children;

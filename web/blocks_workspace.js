@@ -24,14 +24,12 @@ export class BlocksWorkspace {
 
   /**
    * @param {HTMLElement} parent element that gets the editor
-   * @param {HTMLElement} floating element for what hovers over the page: lists and fields
    * @param options.label accessible name
    * @param options.agent as agentBlocks() returns it
    * @param options.ask returns what the person answers to a question, or null
    */
-  constructor(parent, floating, { label, agent, ask }) {
+  constructor(parent, { label, agent, ask }) {
     define(agent);
-    Blockly.setParentContainer(floating);
     Blockly.dialog.setPrompt(async (question, start, answer) => answer(await ask(question, start)));
     const scale = matchMedia("(pointer: coarse)").matches ? TOUCH_SCALE : SCALE;
     this.#workspace = Blockly.inject(parent, {
@@ -47,6 +45,11 @@ export class BlocksWorkspace {
       move: { scrollbars: true, drag: true, wheel: true },
       zoom: { startScale: scale, minScale: 0.5, maxScale: 2, pinch: true },
     });
+    // lists and fields hover over the page, outside of the panel
+    for (const each of [Blockly.WidgetDiv.getDiv(), Blockly.DropDownDiv.getContentDiv().parentElement]) {
+      each.dataset.ai4uKeys = "";
+      each.addEventListener("keydown", (event) => event.stopPropagation());
+    }
     const memory = () => memoryBlocks(this.#workspace);
     this.#workspace.registerToolboxCategoryCallback("AI4U_MEMORY", memory);
     this.#workspace.registerButtonCallback("AI4U_NEW_VARIABLE", () => Blockly.Variables.createVariableButtonHandler(this.#workspace));

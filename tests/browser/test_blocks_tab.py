@@ -11,6 +11,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, expect
 
 from ai4u_edu.server.web_files import web_folder
+from tests.browser.blocks_keys import choose, to_group
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
 from tests.browser.test_panel_accessibility import findings
@@ -37,14 +38,9 @@ class BlocksPage(CodePage):
         for key in keys:
             self.page.keyboard.press(key)
 
-    def choose(self, group: int, block: str) -> None:
-        """Take a block of a group by keys: with the focus in the workspace."""
-        self.keys("t", "Home", *["ArrowDown"] * group, "ArrowRight")
-        for _ in range(20):
-            if block in (self.focused.get_attribute("aria-label") or ""):
-                break
-            self.keys("ArrowDown")
-        self.keys("Enter")
+    def choose(self, group: str, block: str) -> None:
+        """Take a block of a group, and drop it where the editor proposes."""
+        choose(self.page, group, block)
 
     @property
     def focused(self) -> Locator:
@@ -79,8 +75,8 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     tab.to_blocks()
     assert findings(tab.page, ".ai4u-panel") == []
     assert tab.text == DRIVE.replace("    forward = 0.8\n", "")
-    tab.choose(1, "forward")
-    tab.keys("Enter", "ArrowRight", "ArrowRight", "Enter")
+    tab.choose("Actions", "forward")
+    tab.keys("ArrowRight", "ArrowRight", "Enter")
     tab.page.keyboard.type("0.8")
     tab.keys("Enter")
     expect(tab.editor).to_contain_text("forward = 0.8")
@@ -117,8 +113,7 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(
     tab.to_blocks()
     runs = tab.page.get_by_label("Earlier runs").locator("option")
     expect(runs).to_have_count(3)
-    tab.choose(1, "turn")
-    tab.keys("Enter")
+    tab.choose("Actions", "turn")
     expect(tab.editor).to_contain_text("turn = 1")
     blocks = tab.kept()["blocks"]
     tab.editor.click()
@@ -157,8 +152,7 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(
 
 def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     tab.to_blocks()
-    tab.choose(1, "forward")
-    tab.keys("Enter")
+    tab.choose("Actions", "forward")
     expect(tab.editor).to_contain_text("forward = 1")
     other = {**PARTS["python"], "actuators": [], "sensors": []}
     tab.give(other, "python")
@@ -167,7 +161,8 @@ def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     tab.give(PARTS["python"], "python")
     expect(tab.editor).to_contain_text("forward = 1")
     # a variable is asked for in a window of the page
-    tab.keys("t", "Home", *["ArrowDown"] * 5, "ArrowRight", "Enter")
+    to_group(tab.page, "Memory")
+    tab.keys("Enter")
     tab.page.get_by_label("New variable name:").fill("my steps")
     tab.keys("Enter")
     expect(tab.page.locator("dialog")).to_have_count(0)
