@@ -26,6 +26,8 @@ export class CodeRun extends EventTarget {
   decision = 0;
   /** Name of the reward's term that is paid at the goal; empty if there is none. */
   success = "";
+  /** Id of the agent that the latest run drove. */
+  agent = "";
   #parts;
   #engine = null;
   #isWarm = false;
@@ -131,6 +133,7 @@ export class CodeRun extends EventTarget {
   }
 
   async #join(agent, mode, ticket) {
+    this.agent = agent;
     await this.#until(this.#parts.prepare(), ticket);
     const client = await this.#parts.connect({ agent, mode });
     if (this.#isStale(ticket)) {

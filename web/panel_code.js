@@ -6,6 +6,7 @@ import { NameList, VariableList } from "./code_facts.js";
 import { CodeMoment } from "./code_moment.js";
 import { ProgramSection } from "./code_program.js";
 import { CodeRun } from "./code_run.js";
+import { CodeStars } from "./code_stars.js";
 import { outcomeOf, WorldSpeed } from "./code_speed.js";
 import { namesOf, startProgram } from "./code_start.js";
 import { CodeTest } from "./code_test.js";
@@ -70,6 +71,8 @@ export class CodeTab {
       outcome: (percept, seed) => outcomeOf(panel, percept, seed),
       ...parts,
     });
+    const stars = new CodeStars(panel, this.#run, this.#test);
+    this.#stateRow.append(stars.row.element);
     this.#active = this.#run;
     this.#moment = new CodeMoment(panel);
     const help = element("p", { className: "ai4u-soft", id: freeId() });
@@ -90,7 +93,7 @@ export class CodeTab {
       isBusy: () => this.#run.isOn,
     });
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
-    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#program.element];
+    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
     root.append(head, this.#moment.element, this.#program.offer, frame, this.#mistake, help, ...sections);

@@ -5,6 +5,7 @@ import { icon } from "./panel_icons.js";
 import { tile, tiles } from "./panel_parts.js";
 import { ask } from "./question.js";
 import { unsavedSentence } from "./scene_api.js";
+import { starRow, starsOf } from "./stars.js";
 
 const [MINE, OTHERS] = ["My scenes", "More scenes"];
 /** Headings in their order: the scenes' levels, and those without one. */
@@ -53,10 +54,12 @@ export class ScenePicker {
   #tile(scene, close) {
     const { title, goal, minutes, picture } = scene;
     const note = minutes ? `about ${minutes} min` : "";
-    return tile({ picture, title, text: goal, note }, async () => {
+    const made = tile({ picture, title, text: goal, note }, async () => {
       close();
       await this.#load(scene);
     });
+    if (scene.stars) made.append(starRow(starsOf(scene.name), scene.stars).element);
+    return made;
   }
 
   async #load({ name, title, is_saved: isSaved = false }) {

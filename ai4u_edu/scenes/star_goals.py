@@ -1,0 +1,44 @@
+"""Goals that a program can reach in a scene of the library, one star each."""
+
+from dataclasses import dataclass
+from functools import cache
+
+from ai4u_edu.scenes.description import SceneDescription
+from ai4u_edu.scenes.scene import Scene
+
+
+@dataclass(frozen=True)
+class StarGoals:
+    """The goals of a scene: reach it once; from ten unseen starts; and in few decisions."""
+
+    count: int
+    """0 in a scene without ``success``, 2 where the goal takes a fixed time, or 3."""
+    few_decisions: int | None
+    """Most decisions for the third star, on average over the ten starts."""
+
+
+def star_goals(description: SceneDescription) -> StarGoals:
+    """Return the goals of a scene.
+
+    >>> star_goals(Scene.load("forage").description)
+    StarGoals(count=2, few_decisions=None)
+    """
+    few = description.few_decisions
+    count = 0 if description.success is None else 2 if few is None else 3
+    return StarGoals(count, few if count else None)
+
+
+def library_star_goals(description: SceneDescription) -> StarGoals | None:
+    """Return the goals of a scene of the library; None for another scene, or a changed one.
+
+    Stars are kept by a scene's name, and an easier world of that name must not earn them.
+    """
+    name = description.name
+    if name not in Scene.names() or description != _in_library(name):
+        return None
+    return star_goals(description)
+
+
+@cache
+def _in_library(name: str) -> SceneDescription:
+    return Scene.load(name).description
