@@ -1,5 +1,6 @@
 /** The goals of a scene of the library, and the stars that the person's program earns with a run or a test. */
 
+import { syncStars } from "./class_stars.js";
 import { averageDecisions, STARTS } from "./code_test.js";
 import { element, setAttributes, setText } from "./dom.js";
 import { section } from "./panel_parts.js";
@@ -41,6 +42,7 @@ export class CodeStars {
     panel.addEventListener("part:scene", () => this.update());
     stars.addEventListener("change", () => this.update());
     this.update();
+    syncStars();
   }
 
   /** The goals of the scene; null where there are none. */

@@ -96,7 +96,7 @@ export class CodeTab {
     const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
-    root.append(head, this.#moment.element, this.#program.offer, frame, this.#mistake, help, ...sections);
+    root.append(head, this.#moment.element, this.#program.offer, this.#program.shared.element, frame, this.#mistake, help, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();

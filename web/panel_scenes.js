@@ -1,5 +1,6 @@
 /** The scene's title, as a button that opens the scene picker. */
 
+import { syncStars } from "./class_stars.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { icon } from "./panel_icons.js";
 import { tile, tiles } from "./panel_parts.js";
@@ -32,7 +33,7 @@ export class ScenePicker {
   /** Show all scenes as cards. */
   async open() {
     const window_ = this.#panel.dialog("Choose a scene", element("p", { textContent: "Loading …" }));
-    const answer = await this.#panel.send("scenes", {}, { quiet: true });
+    const [answer] = await Promise.all([this.#panel.send("scenes", {}, { quiet: true }), syncStars()]);
     if (!answer.ok) {
       window_.body.replaceChildren(element("p", { role: "alert", textContent: answer.text }));
       return;

@@ -1,5 +1,6 @@
 /** The start page: play a scene of the library, build one, or learn. */
 
+import { syncStars } from "./class_stars.js";
 import { element } from "./dom.js";
 import { ask, tell } from "./question.js";
 import { request, unsavedSentence } from "./scene_api.js";
@@ -59,7 +60,7 @@ async function showPresent() {
 async function showScenes() {
   const list = find("#library");
   try {
-    const { scenes, saved } = await request("api/scenes");
+    const [{ scenes, saved }] = await Promise.all([request("api/scenes"), syncStars()]);
     list.replaceChildren(...scenes.map((scene) => sceneCard(scene, { name: scene.name })));
     find("#saved ul").replaceChildren(...saved.map((scene) => sceneCard(scene, { saved: scene.name })));
     find("#saved").hidden = saved.length === 0;

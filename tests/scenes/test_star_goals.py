@@ -6,7 +6,12 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.editing.state import EditState
-from ai4u_edu.scenes.star_goals import StarGoals, library_star_goals, star_goals
+from ai4u_edu.scenes.star_goals import (
+    StarGoals,
+    library_star_counts,
+    library_star_goals,
+    star_goals,
+)
 from ai4u_edu.training.policies import entrant
 from tests.program.solutions import entry_of, solution
 
@@ -23,6 +28,7 @@ def test_each_scene_of_the_library_has_goals(name: str) -> None:
     assert found is not None
     assert found.count == (2 if name == "forage" else 3), "to survive a minute takes a minute"
     assert (found.few_decisions is None) == (found.count == 2)
+    assert library_star_counts()[name] == found.count
 
 
 def test_a_changed_scene_has_none() -> None:
