@@ -93,9 +93,9 @@ export class CodeRun extends EventTarget {
     });
   }
 
-  /** Give the agent back. */
-  stop() {
-    if (this.isOn) this.#end({ reason: "stopped" });
+  /** Give the agent back; a text tells why, if it was not the person who wanted it. */
+  stop(text = "") {
+    if (this.isOn) this.#end({ reason: text ? "lost" : "stopped", text });
   }
 
   /** Call a function with a ticket, and end the run if it throws. */

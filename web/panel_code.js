@@ -16,6 +16,7 @@ import { runWords } from "./code_words.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
 
+const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
@@ -151,6 +152,7 @@ export class CodeTab {
     });
     for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
+    document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
   }
 
   // -- the program -------------------------------------------------------------------------------
@@ -203,9 +205,9 @@ export class CodeTab {
     this.#panel.send("seed", { seed: String(seed) });
   }
 
-  #stopAll() {
-    this.#run.stop();
-    this.#test.stop();
+  #stopAll(text = "") {
+    this.#run.stop(text);
+    this.#test.stop(text);
   }
 
   /** Keep a program that runs, and forget how the one before ended. */
