@@ -68,6 +68,12 @@ class ShowSensor(Command, tag="sensor"):
     on: bool
 
 
+class ShowWhy(Command, tag="why"):
+    """Show why the agent acts as it does, or no longer."""
+
+    on: bool
+
+
 class ShowTrail(Command, tag="trail"):
     """Draw the agent's trail, or hide it."""
 
