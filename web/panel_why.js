@@ -2,6 +2,7 @@
 
 import { element, keyed, setAttributes, setText } from "./dom.js";
 import { toggle } from "./panel_parts.js";
+import { WhatIf } from "./panel_what_if.js";
 
 /** A sentence that changes five times a second can't be read. */
 const SENTENCE_MS = 1000;
@@ -19,12 +20,15 @@ export class Why {
   #list = element("ul", { className: "ai4u-why-list", ariaLabel: "Slots that move the action most" });
   #limits = element("p", { className: "ai4u-soft" });
   #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#limits);
+  #whatIf;
   element = element("div", {}, this.#switch.element, this.#result);
 
   /** @param onChange called when there is another explanation, or none any more */
   constructor(panel, onChange) {
     this.#panel = panel;
     this.#onChange = onChange;
+    this.#whatIf = new WhatIf(panel);
+    this.#result.append(this.#whatIf.element);
     panel.addEventListener("part:why", ({ detail }) => this.#draw(detail));
     // a new connection has a new page on the server, which shows nothing yet
     panel.addEventListener("connected", () => this.isOn && this.#send());
@@ -48,6 +52,7 @@ export class Why {
     this.#part = null;
     this.#saidAt = -SENTENCE_MS;
     clearTimeout(this.#later);
+    this.#whatIf.update(false);
     this.#send(isOn);
     this.#onChange();
   }
@@ -74,6 +79,7 @@ export class Why {
     const scale = Math.max(MIN_SCALE, ...part.top.map(({ share }) => share));
     this.#list.hidden = part.top.length === 0;
     keyed(this.#list, part.top, ({ name }) => name, makeSlot, (item, slot) => drawSlot(item, slot, part.components, scale));
+    this.#whatIf.update(!part.problem);
     this.#limits.hidden = Boolean(part.problem);
     setText(this.#limits, `${part.limits} Compared with ${part.baseline}.`);
     this.#onChange();

@@ -11,10 +11,12 @@ import numpy.typing as npt
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Brain, ChannelLegend, LocalBrain, Percept
 from ai4u_edu.explain.baseline import Baseline, mean_of
+from ai4u_edu.explain.errors import NotExplainableError
 from ai4u_edu.explain.groups import Group, groups_of
 from ai4u_edu.explain.occlusion import Occlusion, occlusion
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.sentence import MIN_SHARE, Axis, axes_of, sentence, shares_of
+from ai4u_edu.explain.what_if import Changes, WhatIf, what_if
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.block_info import SensorInfo
 
@@ -36,6 +38,7 @@ MAX_MEAN_PERCEPTS = 600
 Floats = npt.NDArray[np.float64]
 
 KEYS_DRIVE = "A person drives: no slot of the percept decides. Choose a network or a controller."
+GONE = "There is no such agent any more."
 SCRIPT_DRIVES = "A script elsewhere drives; only it can say why."
 
 
@@ -56,9 +59,9 @@ class Why:
     groups: tuple[Group, ...] = ()
     """The groups of slots that were left out."""
     shares: tuple[tuple[float, ...], ...] = ()
-    """For each group how far it moves each number of the action, as a share of its range."""
+    """Movement of each number of the action by each group, as a share of its range."""
     ray_weights: Mapping[str, Floats] = field(default_factory=dict)
-    """For each sensor with rays how much each ray matters, 0..1, in the order of its picture."""
+    """Weight of each ray of a sensor, 0..1, by perception key, in the order of its picture."""
 
 
 class LiveExplainer:
@@ -97,6 +100,33 @@ class LiveExplainer:
                 self._thread.start()
             return self._known.get(agent_id)
 
+    def what_if(self, agent_id: str, changes: Changes) -> WhatIf:
+        """Return an agent's action on its percept, and on a changed one; it may take a while.
+
+        Raises:
+            NotExplainableError: its decision is no function of the percept.
+            SetupError: there is no such number.
+        """
+        return what_if(self.policy(agent_id), self._state(agent_id), changes)
+
+    def policy(self, agent_id: str) -> Policy:
+        """Return an agent's policy.
+
+        Raises:
+            NotExplainableError: its decision is no function of the percept.
+        """
+        brain, state = self._brain_of(agent_id), self._state(agent_id)
+        driver = None if brain is None else Driver(brain, state)
+        if driver is None or driver.policy is None:
+            raise NotExplainableError(driver.problem if driver else GONE)
+        return driver.policy
+
+    def _state(self, agent_id: str) -> AgentState:
+        for agent in self._latest().agents:
+            if agent.id == agent_id:
+                return agent
+        raise NotExplainableError(GONE)
+
     def stop(self) -> None:
         """End the thread; it is not waited for, as a student's function may not return."""
         self._stopping.set()
@@ -122,7 +152,7 @@ class LiveExplainer:
         agent = next((each for each in snapshot.agents if each.id == agent_id), None)
         brain = self._brain_of(agent_id)
         if agent is None or brain is None:
-            return Why(agent_id, problem="There is no such agent any more.")
+            return Why(agent_id, problem=GONE)
         driver = self._drivers.get(agent_id)
         if driver is None or not driver.drives(brain, agent):
             driver = self._drivers[agent_id] = Driver(brain, agent)

@@ -106,8 +106,8 @@ def sentence(told: Occlusion, axes: Sequence[Axis]) -> str:
         return f"It {words} because {reason}; without it, it would {_infinitive(other)}."
     only = ("", "only ") if abs(now) > abs(otherwise) else ("only ", "")
     return (
-        f"It {words} by {only[0]}{number(now)} because {reason}; without it, it would by "
-        f"{only[1]}{number(otherwise)}."
+        f"It {words} by {only[0]}{number(abs(now))} because {reason}; without it, it would by "
+        f"{only[1]}{number(abs(otherwise))}."
     )
 
 

@@ -292,3 +292,40 @@ def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> No
     desk.panel.drop()
     desk.until(lambda: len(desk.panel.commands("why")) == 2)
     assert desk.panel.commands("why")[1] == {"on": True}
+
+
+def test_what_if(desk: PanelPage) -> None:
+    def reply(message: Json) -> Json:
+        then = message["changes"][0]["value"] if message["changes"] else 0.1
+        dials = [
+            {"key": "rays", "index": 2, "name": "ray 2: code", "value": 0.5, "low": 0, "high": 1},
+            {"key": "box", "index": 0, "name": "direction", "value": 0.1, "low": -1, "high": 1},
+        ]
+        turn = {"name": "turn", "low": -1, "high": 1, "has_effect": True, "now": 0.1, "then": then}
+        return {"dials": dials, "action": [turn]}
+
+    desk.panel.replies["what_if"] = reply
+    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.until(lambda: desk.panel.commands("why"))
+    desk.panel.send(WHY)
+    hint = desk.page.get_by_text("Pause the world to try other values.")
+    expect(hint).to_be_visible()
+    desk.panel.change("run", is_paused=True)
+    slot = desk.page.get_by_label("If this were another number")
+    expect(slot).to_be_visible()
+    expect(hint).to_be_hidden()
+    slot.select_option("direction")
+    slider = desk.page.get_by_role("slider", name="direction")
+    expect(slider).to_have_value("0.1")
+    slider.fill("-0.5")
+    row = desk.page.locator(".ai4u-what-if .ai4u-bar-row")
+    expect(row).to_have_text(re.compile("^turn0.10 . .0.50$"))
+    assert desk.panel.commands("what_if")[-1] == {
+        "changes": [{"key": "box", "index": 0, "value": -0.5}]
+    }
+    desk.button("As it is").click()
+    expect(row).to_have_text("turn0.10")
+    expect(slider).to_have_value("0.1")
+    desk.panel.change("run", is_paused=False)
+    expect(slot).to_be_hidden()
+    assert desk.problems == []

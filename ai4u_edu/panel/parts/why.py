@@ -16,17 +16,18 @@ def why_part(why: Why) -> dict[str, Any]:
     ``slots`` are in the order of the sensors' numbers; of rays from the leftmost on, row by row.
     ``share`` is the largest movement of any number of the action, as a share of its range.
     """
+    sizes = [max(map(abs, shares), default=0.0) for shares in why.shares]
     slots = [
         {
             "key": group.key,
             "name": group.name,
             "sees": group.sees,
-            "share": round(max(map(abs, shares), default=0.0), 4),
+            "share": round(size, 4),
             "shares": [round(each, 4) for each in shares],
         }
-        for group, shares in zip(why.groups, why.shares, strict=True)
+        for group, size, shares in zip(why.groups, sizes, why.shares, strict=True)
     ]
-    top = sorted(slots, key=lambda slot: -slot["share"])[:TOP_SLOTS]
+    order = sorted(range(len(slots)), key=lambda index: -sizes[index])[:TOP_SLOTS]
     return {
         "type": "part",
         "name": "why",
@@ -37,5 +38,5 @@ def why_part(why: Why) -> dict[str, Any]:
         "limits": LIMITS,
         "components": [axis.name.replace("_", " ") for axis in why.axes],
         "slots": slots,
-        "top": [slot for slot in top if slot["share"] >= MIN_SHARE],
+        "top": [slots[index] for index in order if sizes[index] >= MIN_SHARE],
     }

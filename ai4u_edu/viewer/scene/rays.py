@@ -118,7 +118,10 @@ def weight_colours(weights: Weights) -> npt.NDArray[np.uint8]:
     """
     ends = np.array([rgb("light grey"), rgb("vermillion")], np.float64)
     shares = np.clip(weights, 0, 1)[:, None]
-    return np.rint(ends[0] + shares * (ends[1] - ends[0])).astype(np.uint8)
+    colours: npt.NDArray[np.uint8] = np.rint(ends[0] + shares * (ends[1] - ends[0])).astype(
+        np.uint8
+    )
+    return colours
 
 
 def ray_lines(picture: RayPicture) -> Array:
