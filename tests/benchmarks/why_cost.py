@@ -1,7 +1,7 @@
 """Cost of explanations: ``python -m tests.benchmarks.why_cost``.
 
-A network of the zoo drives in real time, in a process that is tuned as ``ai4u-edu play`` is. Nobody asks why, then
-somebody does; each pair is compared within one run, as machines and their load differ.
+A network of the zoo drives in real time, in a process that is tuned as ``ai4u-edu play`` is. Nobody
+asks why, then somebody does; each pair is compared within one run, as machines and load differ.
 """
 
 import argparse
