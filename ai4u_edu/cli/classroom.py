@@ -15,6 +15,7 @@ Rooms = Annotated[
 Folder = Annotated[
     Path, typer.Option(help="Folder of the class; started with it again, the class goes on.")
 ]
+JoinCode = Annotated[str, typer.Option(help="Join code. Default: a random one.")]
 Language = Annotated[
     str, typer.Option(help="Language of students' names: en, de, es, fr, ko or pt.")
 ]
@@ -56,7 +57,7 @@ def classroom(
     folder: Folder = Path("ai4u-class"),
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
-    code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
+    code: JoinCode = "",
     language: Language = "en",
     sleep_after: SleepAfter = 5.0,
     room_memory: RoomMemory = 600.0,
@@ -86,10 +87,8 @@ def classroom(
     load_own_blocks(own_blocks)
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
-    with (
-        ClassStore(folder) as store,
-        closing(LocalRooms(folder, own_blocks or (), limits)) as local,
-    ):
+    blocks = own_blocks or ()
+    with ClassStore(folder) as store, closing(LocalRooms(folder, blocks, limits)) as local:
         seats = Seats(store, scene, RoomRule.parse(rooms), code, language)
         token = teacher_token(store)
 
@@ -107,7 +106,7 @@ def classroom(
             join_address=lambda url: join_address(host, url),
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
-            blocks=own_blocks or (),
+            blocks=blocks,
         )
         with tuned_process(), released_memory():
             serve(app, host, port, announce, **SERVER_LIMITS)
