@@ -73,6 +73,7 @@ class ClassMember:
             last assignment, undelivered results) does not.
         title: of the scene, where there is no editor.
         show_ghosts: shows the ghosts of episodes in the page, each with a name.
+        page: path of its page at a JupyterHub; see :attr:`~ai4u_edu.wire.class_link.State.page`.
         clock: seconds; to be replaced in tests.
     """
 
@@ -85,11 +86,13 @@ class ClassMember:
         *,
         title: str = "",
         show_ghosts: ShowGhosts = lambda _drives: None,
+        page: str = "",
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.view = ClassView(clock)
         """State of the class for pages."""
         self._runner, self._editor, self._title, self._clock = runner, editor, title, clock
+        self._page = page
         self._wake, self._stopping = threading.Event(), False
         self._inbox: deque[tuple[Assignment | Race, float]] = deque()
         self._watch = EpisodeWatch(runner, self._scene)
@@ -259,6 +262,7 @@ class ClassMember:
             version=0 if self._editor is None else self._editor.version,
             begun=self._watch.begun,
         )
+        state = replace(state, page=self._page)
         now, before = self._clock(), self._state
         is_due = now - self._state_sent_at >= HEARTBEAT_S
         if is_due or before is None or state != replace(before, seconds=state.seconds):
