@@ -27,6 +27,7 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         table: the actions, where the model chooses them by number.
         every: decisions between two checks.
         has_goal: True if the scene defines a success.
+        keep_checkpoints: True keeps the model of each check.
         stop: called with all checks after each one; True ends the training.
     """
 
@@ -39,6 +40,7 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         table: npt.NDArray[np.float32] | None,
         every: int,
         has_goal: bool,
+        keep_checkpoints: bool = False,
         stop: Callable[[Sequence[Check]], bool] | None = None,
     ) -> None:
         super().__init__()
@@ -50,6 +52,7 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         self._table = table
         self._every = every
         self._has_goal = has_goal
+        self._keep_checkpoints = keep_checkpoints
         self._stop = stop
         self._is_stopped = False
         self._envs = [scene_env() for _ in range(settings.check_episodes)]
@@ -86,6 +89,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         self.checks.append(check)
         if best is None or check.rank >= best.rank:
             self._run.put(self._run.best, self.model.save)
+        if self._keep_checkpoints:
+            self._run.put(self._run.checkpoint(check.steps), self.model.save)
         self._run.note(self.checks)
         latest = [each.success for each in self.checks[-self._settings.enough :]]
         self.enough = 0 < self._settings.enough <= latest.count(1.0)

@@ -80,6 +80,7 @@ def train(
     steps: int | None = None,
     seed: int = 0,
     overwrite: bool = False,
+    keep_checkpoints: bool = False,
     quiet: bool = False,
     watch: "Watch | None" = None,
     stop: Callable[[Sequence[Check]], bool] | None = None,
@@ -96,6 +97,7 @@ def train(
         steps: decisions to learn from; left out, as the settings say.
         seed: seed of the network, the worlds and all random choices.
         overwrite: True replaces a training that is in the folder.
+        keep_checkpoints: True keeps the model of each check.
         quiet: True shows nothing.
         watch: page that shows the policy driving as it learns.
         stop: called with all checks after each one; True ends the training.
@@ -134,13 +136,14 @@ def train(
     if overwrite:
         run.clear()
     run.begin(config, scene)
-    return _learn(run, config, prepared, model, worlds, quiet, watch, stop)
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints, stop)
 
 
 def resume(
     folder: Path,
     *,
     steps: int | None = None,
+    keep_checkpoints: bool = False,
     quiet: bool = False,
     watch: "Watch | None" = None,
 ) -> Trained:
@@ -151,6 +154,7 @@ def resume(
     Args:
         folder: the training's folder.
         steps: decisions to learn from, the ones before counted too; left out, as it was begun.
+        keep_checkpoints: True keeps the model of each check.
         quiet: True shows nothing.
         watch: page that shows the policy driving as it learns.
 
@@ -173,7 +177,7 @@ def resume(
             f"{folder} has learned from {model.num_timesteps} steps already; "
             f"expected --steps larger than that, got {config.steps}"
         )
-    return _learn(run, config, prepared, model, worlds, quiet, watch)
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints)
 
 
 def _learn(
@@ -184,6 +188,7 @@ def _learn(
     worlds: VecEnv,
     quiet: bool,
     watch: "Watch | None",
+    keep_checkpoints: bool,
     stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     settings = config.settings
@@ -194,6 +199,7 @@ def _learn(
         table=worlds.table if isinstance(worlds, Choices) else None,
         every=settings.of(config.algorithm).check_every,
         has_goal=prepared.description.success is not None,
+        keep_checkpoints=keep_checkpoints,
         stop=stop,
     )
     interrupt = Interrupt()

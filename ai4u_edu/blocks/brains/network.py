@@ -34,6 +34,9 @@ ZOO_PREFIX = "zoo:"
 TRAINING_KEY = "ai4u_edu"
 """Key of our entry in the file's metadata, which describes the training."""
 
+VALUE_OUTPUT = "critic_value"
+"""Name of the output of a network that also gives the value of a percept; it drives nothing."""
+
 _FOLDER: ContextVar[Path | None] = ContextVar("_FOLDER", default=None)
 
 RHYTHM = ("skip_frame", "repeat_action")
