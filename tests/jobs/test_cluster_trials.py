@@ -2,7 +2,9 @@
 
 import csv
 import json
+import socket
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -36,14 +38,25 @@ class Killer:
             self.cluster.remove_node(self.machine, False)
 
 
+def ports() -> dict[str, int]:
+    """Free ports for a machine's helpers, which a busy machine starts too slowly to be asked."""
+    names = ("metrics_agent", "metrics_export", "runtime_env_agent", "dashboard_agent_listen")
+    with ExitStack() as held:
+        sockets = [held.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in names]
+        return {
+            f"{name}_port": each.getsockname()[1] for name, each in zip(names, sockets, strict=True)
+        }
+
+
 @pytest.fixture
 def cluster() -> Iterator[tuple[Engine, Killer]]:
     from ray.cluster_utils import Cluster
 
-    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False})
+    head = {"num_cpus": 1, "include_dashboard": False, **ports()}
+    made = Cluster(initialize_head=True, head_node_args=head)
     try:
-        mortal = made.add_node(num_cpus=1)
-        made.add_node(num_cpus=1)
+        mortal = made.add_node(num_cpus=1, **ports())
+        made.add_node(num_cpus=1, **ports())
         with engine("ray", address=made.address) as running:
             yield running, Killer(made, mortal)
     finally:
