@@ -13,8 +13,6 @@ from ai4u_edu.jobs import Job, engine, run_jobs
 from ai4u_edu.tournament.contest import game_job
 from ai4u_edu.tournament.entry import parse_entry
 from ai4u_edu.tournament.sides import sides_of
-from ai4u_edu.training.sweep.plan import Choice, Plan
-from tests.training.small import small_settings
 
 CORES = 2
 ENGINES = ("inline", "processes", "ray")
@@ -29,6 +27,10 @@ def games(count: int) -> list[Job]:
 
 def trials(count: int) -> list[Job]:
     """Return small trainings with their export."""
+    # each process of a job imports this module, and games need no torch
+    from ai4u_edu.training.sweep.plan import Choice, Plan
+    from tests.training.small import small_settings
+
     plan = Plan(
         scene={"name": "yardstick"},
         algorithms=("ppo",),
