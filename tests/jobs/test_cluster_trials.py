@@ -2,12 +2,11 @@
 
 import csv
 import json
-import socket
 from collections.abc import Iterator
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 
 from ai4u_edu import Scene
@@ -38,25 +37,14 @@ class Killer:
             self.cluster.remove_node(self.machine, False)
 
 
-def ports() -> dict[str, int]:
-    """Free ports for a machine's helpers, which a busy machine starts too slowly to be asked."""
-    names = ("metrics_agent", "metrics_export", "runtime_env_agent", "dashboard_agent_listen")
-    with ExitStack() as held:
-        sockets = [held.enter_context(socket.create_server(("127.0.0.1", 0))) for _ in names]
-        return {
-            f"{name}_port": each.getsockname()[1] for name, each in zip(names, sockets, strict=True)
-        }
-
-
 @pytest.fixture
 def cluster() -> Iterator[tuple[Engine, Killer]]:
     from ray.cluster_utils import Cluster
 
-    head = {"num_cpus": 1, "include_dashboard": False, **ports()}
-    made = Cluster(initialize_head=True, head_node_args=head)
+    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1})
     try:
-        mortal = made.add_node(num_cpus=1, **ports())
-        made.add_node(num_cpus=1, **ports())
+        mortal = made.add_node(num_cpus=1)
+        made.add_node(num_cpus=1)
         with engine("ray", address=made.address) as running:
             yield running, Killer(made, mortal)
     finally:
@@ -101,28 +89,56 @@ def played(plan: TournamentPlan, folder: Path, running: Engine, **options: Any) 
     return done
 
 
-@pytest.mark.timeout(1800)
-def test_a_tournament_has_the_same_recordings_though_a_machine_dies(
-    cluster: tuple[Engine, Killer], tmp_path: Path
-) -> None:
+def sumo() -> TournamentPlan:
     sides = sides_of(Scene.load("sumo"))
     entries: tuple[Entry, ...] = tuple(
         parse_entry(each, sides) for each in ("scene", "PushOutController", "random")
     )
-    plan = TournamentPlan(
+    return TournamentPlan(
         scene=scene_data("sumo"), entries=entries, seeds=(0, 1, 2), system="round-robin", rounds=0
     )
-    running, killer = cluster
-    played(plan, tmp_path / "ray", running, tell=killer)
-    with engine("inline") as here:
-        played(plan, tmp_path / "inline", here)
+
+
+def expect_equal(there: Path, alone: Path) -> None:
+    """Compare two folders of the tournament bit for bit."""
     files = [
-        {path.name: path.read_bytes() for path in (tmp_path / name / "games").iterdir()}
-        for name in ("ray", "inline")
+        {path.name: path.read_bytes() for path in (folder / "games").iterdir()}
+        for folder in (there, alone)
     ]
     assert len(files[0]) == 18
     assert files[0] == files[1], "bit for bit"
     for name in ("games.json", "standings.csv"):
-        assert (tmp_path / "ray" / name).read_text() == (tmp_path / "inline" / name).read_text()
-    journal = (tmp_path / "ray" / "journal.jsonl").read_text().splitlines()
+        assert (there / name).read_text() == (alone / name).read_text()
+    journal = (there / "journal.jsonl").read_text().splitlines()
     assert len({json.loads(line)["key"] for line in journal}) == len(journal) == 21
+
+
+@pytest.mark.timeout(1800)
+def test_a_tournament_has_the_same_recordings_though_a_machine_dies(
+    cluster: tuple[Engine, Killer], tmp_path: Path
+) -> None:
+    running, killer = cluster
+    played(sumo(), tmp_path / "ray", running, tell=killer)
+    with engine("inline") as here:
+        played(sumo(), tmp_path / "inline", here)
+    expect_equal(tmp_path / "ray", tmp_path / "inline")
+
+
+@pytest.mark.timeout(900)
+def test_a_tournament_has_the_same_recordings_though_a_process_dies(tmp_path: Path) -> None:
+    before = {each.pid for each in psutil.Process().children(recursive=True)}
+    ended = 0
+
+    def kill_one(_outcome: object) -> None:
+        nonlocal ended
+        ended += 1
+        children = psutil.Process().children(recursive=True)
+        jobs = [each for each in children if "spawn_main" in " ".join(each.cmdline())]
+        if ended == 3:
+            next(each for each in jobs if each.pid not in before).kill()
+
+    with engine("processes", width=2) as running:
+        played(sumo(), tmp_path / "processes", running, tell=kill_one)
+    with engine("inline") as here:
+        played(sumo(), tmp_path / "inline", here)
+    expect_equal(tmp_path / "processes", tmp_path / "inline")
