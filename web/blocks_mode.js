@@ -30,7 +30,7 @@ export class BlocksMode {
   #open = button("Blocks", () => this.#toBlocks(), { icon: "build", title: "Put the program together from blocks" });
   #leave = button("Continue in Python", () => this.#toPython(), { title: "The Python becomes yours to change; the blocks are kept" });
   #words = element("p", { className: "ai4u-soft", role: "status" });
-  #help = element("p", { className: "ai4u-soft", id: freeId(), textContent: HELP });
+  #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
   #steps = null;
   /** The steps that lead to a program; filled with the first blocks. */
