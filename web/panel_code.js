@@ -7,6 +7,7 @@ import { NameList, VariableList } from "./code_facts.js";
 import { CodeMoment } from "./code_moment.js";
 import { ProgramSection } from "./code_program.js";
 import { CodeRun } from "./code_run.js";
+import { CodeStars } from "./code_stars.js";
 import { outcomeOf, WorldSpeed } from "./code_speed.js";
 import { namesOf, startProgram } from "./code_start.js";
 import { CodeTest } from "./code_test.js";
@@ -16,6 +17,7 @@ import { runWords } from "./code_words.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
 
+const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
@@ -72,6 +74,8 @@ export class CodeTab {
       outcome: (percept, seed) => outcomeOf(panel, percept, seed),
       ...parts,
     });
+    const stars = new CodeStars(panel, this.#run, this.#test);
+    this.#stateRow.append(stars.row.element);
     this.#active = this.#run;
     this.#moment = new CodeMoment(panel);
     const help = element("p", { className: "ai4u-soft", id: freeId() });
@@ -95,12 +99,12 @@ export class CodeTab {
       isBusy: () => this.#run.isOn,
     });
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
-    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#program.element];
+    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
     const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
     const head = element("div", { className: "ai4u-code-head" }, buttons, way);
     const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
-    const both = [this.#moment.element, this.#program.offer, this.#blocks.steps, body, this.#mistake];
+    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
     root.append(head, ...both, ...sections);
     this.#listen();
     this.#drawState();
@@ -161,6 +165,7 @@ export class CodeTab {
     });
     for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
+    document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
   }
 
   // -- the program -------------------------------------------------------------------------------
@@ -218,9 +223,9 @@ export class CodeTab {
     this.#panel.send("seed", { seed: String(seed) });
   }
 
-  #stopAll() {
-    this.#run.stop();
-    this.#test.stop();
+  #stopAll(text = "") {
+    this.#run.stop(text);
+    this.#test.stop(text);
   }
 
   /** Keep a program that runs, and forget how the one before ended. */
