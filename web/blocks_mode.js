@@ -5,6 +5,7 @@ import { button, element, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
 
 const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
+const DAMAGED = "The blocks of this program are damaged. This is the Python that came with them.";
 const HELP =
   "T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. " +
   "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
@@ -161,8 +162,13 @@ export class BlocksMode {
     if (modules === null || !this.#isOn || blocks !== this.#blocks) return;
     this.#workspace ??= this.#makeWorkspace(modules);
     this.#workspace.resize();
-    this.#workspace.load(blocks);
-    this.#write();
+    try {
+      this.#workspace.load(blocks);
+      this.#write();
+    } catch {
+      this.#set(false); // the text of a program may come from anybody
+      this.#say(DAMAGED);
+    }
   }
 
   #makeWorkspace({ BlocksWorkspace }) {
