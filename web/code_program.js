@@ -1,5 +1,6 @@
 /** The section "Your program": where the program comes from, and where it is kept. */
 
+import { splitProgram } from "./blocks_text.js";
 import { handoutFor, handouts } from "./class_handout.js";
 import { ClassPrograms } from "./class_programs.js";
 import { downloadText, KeptPrograms } from "./code_keep.js";
@@ -87,11 +88,11 @@ export class ProgramSection {
       this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
       return;
     }
-    this.#replace((await file.text()).replaceAll("\r\n", "\n"));
+    this.replace((await file.text()).replaceAll("\r\n", "\n"));
   }
 
   /** Take another program; the present one is kept among the runs. */
-  #replace(text) {
+  replace(text) {
     this.#kept.addRun(this.#tab.text());
     this.#tab.show(text);
     this.changed(text);
@@ -121,14 +122,14 @@ export class ProgramSection {
   }
 
   #takeRun(value) {
-    if (value === "start") this.#replace(this.#first);
+    if (value === "start") this.replace(this.#first);
     else if (value === "teacher") this.#takeHandout();
-    else if (value !== NOW) this.#replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
+    else if (value !== NOW) this.replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
   }
 
   #takeHandout() {
     const source = handoutFor(this.#scene);
-    this.#replace(source);
+    this.replace(source);
     this.#keepAsRun(source); // so it is there after it was changed, and not offered again
   }
 
@@ -140,7 +141,7 @@ export class ProgramSection {
     const shared = sharedFor(this.#scene, this.#agent);
     this.shared.update(shared === this.#tab.text() ? null : shared);
     const runs = this.#kept.runs.map(({ at, source }) => {
-      const lines = source.trim().split("\n").length;
+      const lines = splitProgram(source).python.trim().split("\n").length;
       return element("option", { value: at, textContent: `${when(at)} · ${lines} lines` });
     });
     const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });

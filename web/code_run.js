@@ -16,7 +16,7 @@ export class ProgramMistake extends Error {
 }
 
 /**
- * Events: "change" (phase, decision), "decision" (what it told, with episode, number and source), "printed", and "end", whose detail is
+ * Events: "change" (phase, decision), "decision" (what it told, with percept, action, episode, number and source), "printed", and "end", whose detail is
  * {reason: "over" | "stopped" | "mistake" | "lost", text, line, percept}.
  */
 export class CodeRun extends EventTarget {
@@ -165,7 +165,8 @@ export class CodeRun extends EventTarget {
     const number = percept.step + 1;
     const answer = await this.#until(engine.decide(percept.values, number), ticket);
     this.decision = number;
-    this.#emit("decision", { ...toldBy(answer), episode: percept.episode, number, source: this.#source });
+    const did = { percept: percept.values, action: answer.values ?? null };
+    this.#emit("decision", { ...toldBy(answer), ...did, episode: percept.episode, number, source: this.#source });
     this.#checked(answer, number);
     await this.#until(this.#client.act(answer.values), ticket);
     const next = await this.#until(this.#client.sense(), ticket);

@@ -1,5 +1,6 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
+import { BlocksMode } from "./blocks_mode.js";
 import { CodeConsole } from "./code_console.js";
 import { CodeEditor } from "./code_editor.js";
 import { NameList, VariableList } from "./code_facts.js";
@@ -26,6 +27,7 @@ export class CodeTab {
   /** What ran last: the run or the test. */
   #active;
   #editor;
+  #blocks;
   #program;
   #console = new CodeConsole();
   #variables = new VariableList();
@@ -58,7 +60,7 @@ export class CodeTab {
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
   #mistakeText = element("p");
-  #goTo = button("Go to the line", () => this.#editor.goTo(this.#end.line), {});
+  #goTo = button("Go to the line", () => this.#blocks.goTo(this.#end.line) || this.#editor.goTo(this.#end.line), {});
   #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
 
   /** @param parts of CodeRun and CodeTest */
@@ -84,20 +86,26 @@ export class CodeTab {
       { key: "Ctrl-Shift-Enter", mac: "Cmd-Shift-Enter", run: () => this.#go("step") },
     ];
     this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
-    this.#editor.onChange = (text) => {
-      this.#program.changed(text);
-      this.#editor.markRan([]);
-    };
+    this.#editor.onChange = () => this.#onChange();
+    this.#blocks = new BlocksMode(panel, {
+      editor: this.#editor,
+      changed: () => this.#onChange(),
+      replace: (text) => this.#program.replace(text),
+      run: (way) => this.#go(way),
+    });
     this.#program = new ProgramSection(panel, {
-      text: () => this.#editor.text,
+      text: () => this.#blocks.join(this.#editor.text),
       show: (text) => this.#showProgram(text),
       isBusy: () => this.#run.isOn,
     });
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
     const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
-    const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
-    root.append(head, this.#moment.element, this.#program.offer, this.#program.shared.element, frame, this.#mistake, help, ...sections);
+    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
+    const head = element("div", { className: "ai4u-code-head" }, buttons, way);
+    const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
+    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
+    root.append(head, ...both, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();
@@ -110,6 +118,7 @@ export class CodeTab {
     this.#agent = agent;
     const names = namesOf(agent.sensors, python.actuators);
     const text = JSON.stringify(names);
+    this.#blocks.setAgent(python);
     if (text !== this.#namesText) this.#setNames(names, text);
     this.#open();
   }
@@ -134,7 +143,10 @@ export class CodeTab {
         this.#drawSoon();
       });
     }
-    this.#test.addEventListener("end", ({ detail }) => this.#onEnd({ ...detail, summary: testWords(this.#test) }));
+    this.#test.addEventListener("end", ({ detail }) => {
+      this.#onEnd({ ...detail, summary: testWords(this.#test) });
+      if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
+    });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) this.#test.stop("You drive, so the test was ended.");
       this.#wasPerson = this.#isPerson;
@@ -142,6 +154,7 @@ export class CodeTab {
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
+      this.#blocks.note(detail);
       this.#drawSoon();
     });
     this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
@@ -171,8 +184,13 @@ export class CodeTab {
   }
 
   #showProgram(text) {
-    this.#editor.text = text;
+    this.#editor.text = this.#blocks.take(text);
     this.#forget();
+  }
+
+  #onChange() {
+    this.#program.changed(this.#blocks.join(this.#editor.text));
+    this.#markRan([]);
   }
 
   // -- runs --------------------------------------------------------------------------------------
@@ -213,7 +231,8 @@ export class CodeTab {
   /** Keep a program that runs, and forget how the one before ended. */
   #noteStart(source) {
     this.#forget();
-    this.#program.ran(source);
+    this.#blocks.begin();
+    this.#program.ran(this.#blocks.join(source));
   }
 
   /** Forget how the run before ended. */
@@ -221,8 +240,8 @@ export class CodeTab {
     this.#end = this.#latest = null;
     this.#mistakeText.textContent = "";
     this.#goTo.remove();
-    this.#editor.markMistake(null);
-    this.#editor.markRan([]);
+    this.#markMistake(null);
+    this.#markRan([]);
     this.#variables.update({});
     this.#drawSoon();
   }
@@ -232,7 +251,7 @@ export class CodeTab {
     setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
     if (end.line !== null) {
       this.#mistake.append(this.#goTo);
-      this.#editor.markMistake(end.line);
+      this.#markMistake(end.line);
     }
     this.#drawSoon();
   }
@@ -296,8 +315,18 @@ export class CodeTab {
   }
 
   #drawTold(told, isSame) {
-    this.#editor.markRan(isSame ? told.lines : []);
+    this.#markRan(isSame ? told.lines : []);
     this.#variables.update(told?.variables ?? {});
+  }
+
+  #markRan(lines) {
+    this.#editor.markRan(lines);
+    this.#blocks.markRan(lines);
+  }
+
+  #markMistake(line) {
+    this.#editor.markMistake(line);
+    this.#blocks.markMistake(line);
   }
 
   #drawState() {

@@ -201,6 +201,7 @@ def _room(number: int) -> dict[str, Any]:
         "error": "NameError: name 'angel' is not defined (line 4)" if status == "error" else "",
         "is_running": status != "asleep",
         "kind": "local",
+        "look_in": f"./r/{room_id(number)}/",
         "help": needs,
         "why": why,
     }
