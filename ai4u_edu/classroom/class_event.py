@@ -13,6 +13,7 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
+from ai4u_edu.scenes.star_goals import library_star_counts
 
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
 Event = dict[str, Any]
@@ -81,6 +82,7 @@ class ClassEvents:
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
         event["progress"] = live.progress.by_seat()
+        event["stars"] = live.stars.by_seat()
         event["misconceptions"] = misconceptions(live.progress.mistakes)
         return event
 
@@ -181,8 +183,9 @@ def _library() -> list[Event]:
     To load them all would take a second, in which no room is served.
     """
     found = []
+    stars = library_star_counts()
     for name in Scene.names():
         text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
         title = _TITLE.search(text)
-        found.append({"name": name, "title": title[1] if title else name})
+        found.append({"name": name, "title": title[1] if title else name, "stars": stars[name]})
     return sorted(found, key=lambda each: each["title"].lower())

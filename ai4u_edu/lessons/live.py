@@ -131,7 +131,7 @@ class Live:
             connection.link_for_world,
             connection.folder,
             title=self.title,
-            show_ghost=self._viewer.ghosts.race,
+            show_ghosts=self._viewer.ghosts.race_all,
             page=page_at_hub(f"proxy/{self.port}/?token={TOKEN}"),
         )
         self._class_feed.follow(member.view)
