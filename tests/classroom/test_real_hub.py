@@ -122,7 +122,7 @@ def is_back(state: dict[str, Any], *students: Student) -> bool:
 def status_of(page: Page, url: str) -> int:
     """Return the status of the page at an address, for whoever has signed in there."""
     other = page.context.new_page()
-    answer = other.goto(url)
+    answer = other.goto(url, timeout=PATIENCE_MS)
     assert answer is not None
     other.close()
     return answer.status
@@ -197,7 +197,7 @@ def a_world_without_a_notebook(
     """The tile of JupyterLab starts a world on the student's server, and takes the place there."""
     address = url.replace("/hub/", "/user/grace/ai4u-edu/")
     tile = student.page.context.new_page()
-    tile.goto(address)
+    tile.goto(address, timeout=PATIENCE_MS)
     tile.locator(".ai4u-keycap").first.wait_for(timeout=PATIENCE_MS)
     teacher.wait_for(lambda state: statuses(state)[student.name] == "waiting")
     tile.keyboard.down("KeyA")
