@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 OLDEST = (3, 11)
+COMPILED = "ai4u_edu/world/native/rays.c"
+"""Source of the part that the installation compiles, where there is a compiler."""
 TORCH = "torch==2.13.0"
 WITH_TORCH = {"dev", "train"}
 # Python compiles a module when it is first imported. To compile all of them takes half the time.
@@ -57,7 +59,8 @@ def ensure(root: Path, extras: Sequence[str] = ()) -> Path:
     before = _read(stamp)
     wanted: dict[str, Any] = {
         "root": str(root.resolve()),
-        "pyproject": hashlib.sha256((root / "pyproject.toml").read_bytes()).hexdigest(),
+        "pyproject": _checksum(root / "pyproject.toml"),
+        "compiled": _checksum(root / COMPILED),
         "extras": sorted({*extras, *before.get("extras", [])}),
         "python": version,
     }
@@ -90,6 +93,10 @@ def _read(stamp: Path) -> dict[str, Any]:
     except (OSError, ValueError):
         return {}
     return found if isinstance(found, dict) else {}
+
+
+def _checksum(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else ""
 
 
 def _version(venv: Path, python: Path) -> list[int]:

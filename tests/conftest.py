@@ -1,6 +1,8 @@
 """Tiers of the suite (``--fast``, ``--nightly``), the order of files, and the report at the end."""
 
 import os
+import subprocess
+import sys
 from itertools import zip_longest
 from pathlib import Path
 
@@ -16,6 +18,8 @@ NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
 LEFT_OUT = pytest.StashKey[int]()
+COMPILE_RAYS = ROOT / "build_tools" / "compile_rays.py"
+"""Makes the compiled part of a checkout; the tests of a wheel are run without it."""
 
 # Small networks gain nothing from threads, which wait actively: several tests at once would slow
 # each other down. Programs that tests start inherit it.
@@ -38,6 +42,19 @@ def pytest_configure(config: pytest.Config) -> None:
     if config.option.fast:
         folders = [ROOT / each / name for each in ("ai4u_edu", "tests") for name in NOT_FAST]
         config.option.ignore = [*(config.option.ignore or ()), *map(str, folders)]
+    if not hasattr(config, "workerinput"):
+        compile_rays()
+
+
+def compile_rays() -> None:
+    """Compile what the checkout lacks, where there is a compiler; an editable installation does it.
+
+    A change of the source makes another library, and other worktrees have their own.
+    """
+    folder = ROOT / "ai4u_edu" / "world" / "native"
+    newest = max((path.stat().st_mtime for path in folder.glob("rays-*")), default=0.0)
+    if COMPILE_RAYS.exists() and newest < (folder / "rays.c").stat().st_mtime:
+        subprocess.run([sys.executable, COMPILE_RAYS], capture_output=True, check=False)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -1,6 +1,7 @@
 """The wheel, installed outside of the checkout; nightly with its dependencies, as a user would."""
 
 import os
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.base.version import __version__
+from ai4u_edu.world.native.compiled import library_name
 
 REPO = Path(__file__).resolve().parent.parent
 EPISODE = """
@@ -19,7 +21,19 @@ for _ in range(50):
     sim.step()
 """
 
-# Building and installing fetch the build tool and every dependency.
+CHECKSUM = """
+import hashlib
+from ai4u_edu import Scene
+from ai4u_edu.world.native.segments import compiled_cast
+found = hashlib.sha256()
+sim = Scene.load("yardstick").build(seed=1)
+sim.reset(seed=1)
+for _ in range(200):
+    found.update(sim.step().data)
+print(compiled_cast() is not None, found.hexdigest())
+"""
+
+# Installing as a user does fetches every dependency.
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 
 
@@ -30,12 +44,33 @@ def run(*command: str | Path, cwd: Path) -> str:
     return done.stdout
 
 
-@pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    out = tmp_path_factory.mktemp("wheel")
-    run(sys.executable, "-m", "build", "--wheel", "--outdir", out, REPO, cwd=out)
+def build(out: Path, compiled: str = "") -> Path:
+    """Build the wheel; "0" for `compiled` leaves the compiled part out."""
+    command: list[str | Path] = [
+        sys.executable,
+        "-m",
+        "build",
+        "--wheel",
+        "--no-isolation",
+        "--outdir",
+        out,
+        REPO,
+    ]
+    environment = {**os.environ, "AI4U_COMPILED": compiled}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
     (built,) = out.glob("*.whl")
     return built
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build(tmp_path_factory.mktemp("wheel"))
+
+
+@pytest.fixture(scope="module")
+def pure_wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build(tmp_path_factory.mktemp("pure"), compiled="0")
 
 
 @pytest.fixture(
@@ -73,6 +108,49 @@ def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> No
         "ai4u_edu",
         f"ai4u_edu-{__version__}.dist-info",
     }
+
+
+def libraries(wheel: Path) -> list[str]:
+    with zipfile.ZipFile(wheel) as packed:
+        return [name for name in packed.namelist() if name.endswith((".so", ".dll"))]
+
+
+def test_the_compiled_part_makes_it_a_wheel_of_a_platform(wheel: Path, pure_wheel: Path) -> None:
+    assert pure_wheel.name == f"ai4u_edu-{__version__}-py3-none-any.whl"
+    assert libraries(pure_wheel) == []
+    if shutil.which("cc") is None:
+        pytest.skip("no C compiler here")
+    assert f"-{__version__}-py3-none-" in wheel.name
+    assert not wheel.name.endswith("-any.whl")
+    assert libraries(wheel) == [f"ai4u_edu/world/native/{library_name(os.name)}"]
+
+
+def test_both_wheels_give_the_same_bits(wheel: Path, pure_wheel: Path, tmp_path: Path) -> None:
+    """Without a compiler in reach, and with nothing written anywhere."""
+    found = []
+    for each in (wheel, pure_wheel):
+        folder, home = tmp_path / each.name, tmp_path / f"home of {each.name}"
+        home.mkdir()
+        with zipfile.ZipFile(each) as packed:
+            packed.extractall(folder)
+        program = f"import sys; sys.path.insert(0, {str(folder)!r})\n{CHECKSUM}"
+        done = subprocess.run(
+            [sys.executable, "-I", "-B", "-c", program],
+            env={
+                "HOME": str(home),
+                "PATH": str(home),
+                "SYSTEMROOT": os.environ.get("SYSTEMROOT", ""),
+            },
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        found.append(done.stdout.split())
+        assert list(home.iterdir()) == []
+    (is_compiled, bits), (is_pure_compiled, pure_bits) = found
+    assert is_compiled == str(bool(libraries(wheel)))
+    assert is_pure_compiled == "False"
+    assert bits == pure_bits
 
 
 def ran(installed: list[str | Path], code: str, folder: Path) -> str:

@@ -13,6 +13,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli import training_options as o
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+from ai4u_edu.cli.sweep import sweep
+from ai4u_edu.cli.tournament import tournament
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +27,9 @@ if TYPE_CHECKING:
 def add_to(app: typer.Typer) -> None:
     """Add the commands to a command line."""
     app.command()(train)
+    app.command()(sweep)
     app.command()(evaluate)
+    app.command()(tournament)
     app.command()(export)
 
 

@@ -102,6 +102,14 @@ EngineName = Annotated[
         "(a cluster). Starting processes takes seconds.",
     ),
 ]
+JobsEngine = Annotated[
+    str,
+    typer.Option(
+        "--engine",
+        help="Where the jobs run: inline (here), processes (one for each core), or ray "
+        "(a cluster).",
+    ),
+]
 ClusterAddress = Annotated[
     str,
     typer.Option(help="Address of a Ray cluster, such as 192.0.2.7:6379. Default: this machine."),

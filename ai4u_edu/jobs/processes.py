@@ -7,10 +7,13 @@ it had. Here each process has a pipe of its own.
 import multiprocessing
 import os
 import signal
+import threading
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Self
+
+from tqdm import tqdm
 
 from ai4u_edu.jobs.call import Answer, call, use_one_thread
 from ai4u_edu.jobs.job import Job
@@ -102,6 +105,8 @@ class _Worker:
 def _work(pipe: Connection) -> None:
     use_one_thread()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
+    # torch shows progress with tqdm, whose usual lock a process that is killed leaves in the system
+    tqdm.set_lock(threading.RLock())
     while True:
         try:
             job = pipe.recv()

@@ -117,6 +117,7 @@ class Live:
 
     def join_class(self, connection: "ClassConnection") -> None:
         """Show the world on the teacher's page, and let the teacher stop it and open scenes."""
+        from ai4u_edu.class_link import page_at_hub
         from ai4u_edu.class_member import ClassMember
 
         self._class_member = member = ClassMember(
@@ -125,7 +126,8 @@ class Live:
             connection.link_for_world,
             connection.folder,
             title=self.title,
-            show_ghost=self._viewer.ghosts.race,
+            show_ghosts=self._viewer.ghosts.race_all,
+            page=page_at_hub(f"proxy/{self.port}/?token={TOKEN}"),
         )
         self._class_feed.follow(member.view)
         member.start()

@@ -1,7 +1,7 @@
 """Stable-Baselines3 callback: evaluates the policy, keeps the best, stops when good enough."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +28,7 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         every: decisions between two checks.
         has_goal: True if the scene defines a success.
         keep_checkpoints: True keeps the model of each check.
+        stop: called with all checks after each one; True ends the training.
     """
 
     def __init__(
@@ -40,6 +41,7 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         every: int,
         has_goal: bool,
         keep_checkpoints: bool = False,
+        stop: Callable[[Sequence[Check]], bool] | None = None,
     ) -> None:
         super().__init__()
         self.checks = run.checks()
@@ -51,6 +53,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         self._every = every
         self._has_goal = has_goal
         self._keep_checkpoints = keep_checkpoints
+        self._stop = stop
+        self._is_stopped = False
         self._envs = [scene_env() for _ in range(settings.check_episodes)]
         self._seconds_before = self.checks[-1].seconds if self.checks else 0.0
 
@@ -67,7 +71,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         if self.num_timesteps >= self._next:
             self._next += self._every
             self.check()
-        return not self.enough
+            self._is_stopped = self._stop is not None and self._stop(self.checks)
+        return not (self.enough or self._is_stopped)
 
     def check(self) -> Check:
         """Check the policy now."""

@@ -1,6 +1,7 @@
 """Training of an agent in a scene with Stable-Baselines3."""
 
 import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -82,6 +83,7 @@ def train(
     keep_checkpoints: bool = False,
     quiet: bool = False,
     watch: "Watch | None" = None,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     """Start a training.
 
@@ -98,6 +100,7 @@ def train(
         keep_checkpoints: True keeps the model of each check.
         quiet: True shows nothing.
         watch: page that shows the policy driving as it learns.
+        stop: called with all checks after each one; True ends the training.
 
     Raises:
         SetupError: the settings don't fit the scene, or the folder holds a training already.
@@ -133,9 +136,7 @@ def train(
     if overwrite:
         run.clear()
     run.begin(config, scene)
-    return _learn(
-        run, config, prepared, model, worlds, quiet, watch, keep_checkpoints=keep_checkpoints
-    )
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints, stop)
 
 
 def resume(
@@ -176,9 +177,7 @@ def resume(
             f"{folder} has learned from {model.num_timesteps} steps already; "
             f"expected --steps larger than that, got {config.steps}"
         )
-    return _learn(
-        run, config, prepared, model, worlds, quiet, watch, keep_checkpoints=keep_checkpoints
-    )
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints)
 
 
 def _learn(
@@ -189,8 +188,8 @@ def _learn(
     worlds: VecEnv,
     quiet: bool,
     watch: "Watch | None",
-    *,
     keep_checkpoints: bool,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     settings = config.settings
     evaluation = EvalCallback(
@@ -201,6 +200,7 @@ def _learn(
         every=settings.of(config.algorithm).check_every,
         has_goal=prepared.description.success is not None,
         keep_checkpoints=keep_checkpoints,
+        stop=stop,
     )
     interrupt = Interrupt()
     bar = ProgressCallback(evaluation, config.steps, quiet=quiet)

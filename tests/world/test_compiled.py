@@ -1,141 +1,72 @@
-"""The compiled library is optional: compiled once where possible, else silently left out."""
+"""The compiled library is optional: it is used where it is there and fits, else left out."""
 
 import os
 import shutil
-import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from ai4u_edu.world.native import compiled as _compiled
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="is compiled on Unix only")
-needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler here")
 library = _compiled.load_library.__wrapped__
-
-
-@pytest.fixture(autouse=True)
-def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty cache folder."""
-    monkeypatch.delenv(_compiled.SWITCH_VARIABLE, raising=False)
-    monkeypatch.setattr(sys, "platform", "linux")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    return tmp_path / "ai4u-edu"
+needs_library = pytest.mark.skipif(library() is None, reason="nothing is compiled here")
 
 
 @pytest.fixture
-def compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
-    """Puts a script in the compiler's place."""
-
-    def put(script: str) -> None:
-        cc = tmp_path / "bin" / "cc"
-        cc.parent.mkdir()
-        cc.write_text(f"#!/bin/sh\n{script}\n")
-        cc.chmod(0o755)
-        monkeypatch.setenv("PATH", str(cc.parent))
-
-    return put
+def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the package's folder with all that belongs to the library."""
+    for path in (_compiled.SOURCE, _compiled.SOURCE.with_name(_compiled.library_name(os.name))):
+        if path.exists():
+            shutil.copy(path, tmp_path)
+    monkeypatch.setattr(_compiled, "SOURCE", tmp_path / "rays.c")
+    return tmp_path
 
 
-@needs_compiler
-def test_it_is_made_once(kept: Path, compiler: Callable[[str], None]) -> None:
+@needs_library
+def test_it_is_loaded_from_the_package(package: Path) -> None:
     made = library()
     assert made is not None
     assert all(hasattr(made, name) for name in ("cast_fan", "look"))
-    (path,) = kept.iterdir()
-    compiler("exit 1")
-    assert library() is not None, "the one that is there"
-    assert list(kept.iterdir()) == [path]
-    assert kept.stat().st_mode & 0o777 == 0o700
+    assert Path(made._name).parent == package
 
 
-def test_it_can_be_switched_off(kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.skipif(os.environ.get("AI4U_COMPILED") != "1", reason="it may be missing")
+def test_it_is_there_where_it_has_to_be() -> None:
+    """In a wheel for one platform; the wheels' builds set the variable."""
+    assert library() is not None
+
+
+@needs_library
+def test_it_can_be_switched_off(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(_compiled.SWITCH_VARIABLE, "0")
     assert library() is None
-    assert not kept.exists()
 
 
-@pytest.mark.parametrize(
-    "script",
-    [
-        "echo no; echo no >&2; exit 1",
-        "exit 0",
-        'while [ "$1" != -o ]; do shift; done; echo rubbish > "$2"',
-        "kill -9 $$",
-    ],
-    ids=["fails", "makes nothing", "makes rubbish", "dies"],
-)
-def test_without_a_good_compiler_there_is_none_and_no_word(
-    script: str, compiler: Callable[[str], None], capfd: pytest.CaptureFixture[str]
+def test_without_a_library_there_is_none_and_no_word(
+    package: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    compiler(script)
+    (package / _compiled.library_name(os.name)).unlink(missing_ok=True)
     assert library() is None
     assert capfd.readouterr() == ("", "")
+    assert [path.name for path in package.iterdir()] == ["rays.c"], "nothing is made"
 
 
-def test_without_any_compiler_there_is_none(
-    kept: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
-    assert library() is None
-    assert not list(kept.iterdir())
-
-
-def test_without_a_folder_there_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "file").touch()
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+def test_what_another_machine_made_is_left_out(package: Path) -> None:
+    (package / _compiled.library_name(os.name)).write_bytes(b"for another processor")
     assert library() is None
 
 
-@needs_compiler
-def test_what_others_could_write_is_not_run(kept: Path) -> None:
-    assert library() is not None
-    kept.chmod(0o777)
+@needs_library
+def test_a_library_of_another_source_is_left_out(package: Path) -> None:
+    with (package / "rays.c").open("a") as source:
+        source.write("/* changed */\n")
     assert library() is None
 
 
-def begin_another_process() -> subprocess.Popen[str]:
-    program = (
-        "from ai4u_edu.world.native.compiled import load_library; print(load_library() is not None)"
+def test_each_system_has_its_name() -> None:
+    assert _compiled.library_name("nt").endswith(".dll")
+    assert _compiled.library_name("posix").endswith(".so")
+    assert _compiled.library_name(os.name) == _compiled.library_name(
+        "nt" if sys.platform == "win32" else "posix"
     )
-    command = [sys.executable, "-c", program]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-
-
-@needs_compiler
-def test_half_a_file_is_made_anew(kept: Path) -> None:
-    # in one process, what was loaded from a path stays what it was
-    assert begin_another_process().communicate()[0] == "True\n"
-    (path,) = kept.iterdir()
-    whole = path.read_bytes()
-    path.write_bytes(whole[:100])
-    assert begin_another_process().communicate()[0] == "True\n"
-    assert len(path.read_bytes()) == len(whole)
-
-
-@needs_compiler
-def test_many_may_make_it_at_once(kept: Path) -> None:
-    others = [begin_another_process() for _ in range(4)]
-    assert [each.communicate()[0] for each in others] == ["True\n"] * 4
-    assert len(list(kept.iterdir())) == 1
-
-
-def test_a_mac_without_tools_is_asked_nothing(
-    compiler: Callable[[str], None], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """There ``cc`` opens a window."""
-    asked = tmp_path / "asked"
-    compiler(f"touch {asked}")
-    monkeypatch.setattr(sys, "platform", "darwin")
-    monkeypatch.setenv("HOME", str(tmp_path))
-    assert _compiled.cache_folder() == tmp_path / "Library" / "Caches" / "ai4u-edu"
-    assert library() is None, "/usr/bin/xcode-select is not here"
-    assert not asked.exists()
-
-
-def test_it_lies_in_the_users_own_cache(monkeypatch: pytest.MonkeyPatch) -> None:
-    for given in ("", "not/absolute"):
-        monkeypatch.setenv("XDG_CACHE_HOME", given)
-        assert _compiled.cache_folder() == Path.home() / ".cache" / "ai4u-edu"

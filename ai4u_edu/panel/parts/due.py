@@ -73,7 +73,7 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     yield (
         "python",
         cache.by_key(
-            ("python", agent.id, address, agent.actuator_infos),
+            ("python", agent.id, address, agent.actuator_infos, agent.sensor_infos),
             lambda: python_part(context, agent, address),
         ),
     )

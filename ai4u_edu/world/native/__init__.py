@@ -1,7 +1,8 @@
 """The seam to Chipmunk below pymunk's public API; the rest of the world imports only this module.
 
 Everything here has a twin in pymunk's public API that gives the same bits. The twin is used where
-pymunk is not of the expected version, and for the ray loops where no C compiler is found.
+pymunk is not of the expected version, and for the ray loops where the package was built without a
+C compiler.
 """
 
 from ai4u_edu.world.native.chipmunk import (

@@ -5,8 +5,18 @@
  * (no a * b + c in one step).
  */
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
+
+#ifdef _WIN32
+#define EXPORT __declspec(dllexport)
+#else
+#define EXPORT __attribute__((visibility("default")))
+#endif
+
+_Static_assert(sizeof(void *) == 8 && FLT_EVAL_METHOD == 0,
+               "numbers would be rounded in another way than Python's");
 
 typedef struct {
     double x, y;
@@ -36,7 +46,7 @@ typedef struct {
     double *distances;
 } Fan;
 
-void cast_fan(Fan *fan, void *space, double x, double y, double reach) {
+EXPORT void cast_fan(Fan *fan, void *space, double x, double y, double reach) {
     const Vect start = {x, y};
     for (int64_t i = 0; i < fan->count; i++) {
         const Vect direction = fan->directions[i];
@@ -133,7 +143,7 @@ static double ground(const Grid *grid, int64_t row, Vect way, Vect eye, double u
 /* Fills codes and distances. Rays that may meet a body behind the first one of their column, between
  * bottom and ceiling, are left undecided; returns their number. If there are any, the distances are
  * those in the plane. */
-int64_t look(Grid *grid, double x, double y, double up, double bottom, double ceiling) {
+EXPORT int64_t look(Grid *grid, double x, double y, double up, double bottom, double ceiling) {
     const Vect eye = {x, y};
     int64_t open = 0;
     for (int64_t column = 0; column < grid->columns; column++) {
