@@ -45,7 +45,12 @@ from ai4u_edu.lessons.exercises.lesson_11_choice import (
     show_clone,
     worlds_reached,
 )
-from ai4u_edu.lessons.exercises.lesson_11_why import lamp_drives, lamp_world, looked_at, reached
+from ai4u_edu.lessons.exercises.lesson_11_why import (
+    lamp_drives,
+    lamp_successes,
+    lamp_world,
+    looked_at,
+)
 from ai4u_edu.training import clone, evaluate
 
 # %% [markdown]
@@ -219,7 +224,7 @@ compare("11.edge", reached)
 
 # %%
 clone(lamp_drives("behind"), "lamp.onnx", quiet=True)
-print("the lamp behind the box:", reached("lamp.onnx", "behind"), "of 20")
+print("the lamp behind the box:", lamp_successes("lamp.onnx", "behind"), "of 20")
 
 # %% [markdown]
 # Now the lamp is put somewhere else; the box stays. In how many of 20 worlds will the clone reach it?
@@ -228,7 +233,7 @@ print("the lamp behind the box:", reached("lamp.onnx", "behind"), "of 20")
 predict("11.lamp", ...)
 
 # %%
-compare("11.lamp", reached("lamp.onnx", "elsewhere"))
+compare("11.lamp", lamp_successes("lamp.onnx", "elsewhere"))
 film(lamp_world("elsewhere"), trained_brain("lamp.onnx"), seed=101, limit=40)
 
 # %% [markdown]
@@ -270,7 +275,7 @@ check("11.4", blind)
 
 # %%
 clone(lamp_drives("anywhere"), "mended.onnx", quiet=True)
-print("the lamp elsewhere:", reached("mended.onnx", "elsewhere"), "of 20")
+print("the lamp elsewhere:", lamp_successes("mended.onnx", "elsewhere"), "of 20")
 bars(
     looked_at("mended.onnx", lamp_drives("behind", 4)[3]),
     ylabel="moves the action by",

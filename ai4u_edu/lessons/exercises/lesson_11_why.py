@@ -86,7 +86,7 @@ def to_the_box(percept: Percept) -> dict[str, list[float]]:
     return {"move": [max(0.0, cosine), -sine if cosine > 0 else 1.0, 0, 0]}
 
 
-def reached(network: str | Path, lamp: Lamp, worlds: int = 20) -> int:
+def lamp_successes(network: str | Path, lamp: Lamp, worlds: int = 20) -> int:
     """Return in how many worlds a network reaches the box."""
     from ai4u_edu.training import evaluate
 
