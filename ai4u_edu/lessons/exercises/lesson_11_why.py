@@ -37,7 +37,7 @@ agents:
   - body: robot
     max_steps_per_episode: 40
     sensors:
-      - {type: BearingSensor, target: box, perception_key: box, noise: 0.4}
+      - {type: BearingSensor, target: box, perception_key: box, noise: 0.25}
       - {type: BearingSensor, target: lamp, perception_key: lamp}
       - {type: BearingSensor, target: box, perception_key: truth, is_input: false}
     actuators: [{type: RBMoveActuator, move_amount: 3, turn_amount: 3, jump_power: 0}]
