@@ -1,5 +1,6 @@
 """The command line's entry point and its short commands."""
 
+import io
 import json
 import signal
 import sys
@@ -32,8 +33,11 @@ def main() -> None:
     """Run the command line.
 
     An error of ours, or a file that can't be read or written, is printed as one sentence without a
-    traceback.
+    traceback. What the console's encoding lacks is printed as a question mark.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         app()
     except AI4UError as error:
