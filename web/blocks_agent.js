@@ -100,7 +100,7 @@ function rayBlocks({ key, rays }, reading) {
     const [codes, code] = [part("around", 0), codeOf(GROUP)];
     return value(`direction(${codes}, ${code}, ${rightward})`, ATOM, FUNCTIONS.direction);
   };
-  made.push(sense(`angle:${key}`, "direction of %1 (°, right above 0)", [groups], "Number", where, "0 if it is straight ahead, or not seen."));
+  made.push(sense(`angle:${key}`, "direction of %1 (°)", [groups], "Number", where, "Above 0 to the right, below 0 to the left; 0 if it is straight ahead, or not seen."));
   return made;
 }
 
@@ -153,10 +153,11 @@ function outputsOf(actuators) {
 }
 
 function actionBlock({ type, title, low, high, variable }) {
-  const sides = title.endsWith("turn") && low < 0 ? ", right above 0" : "";
+  // of all actuators, a turn above 0 goes to the right
+  const range = title.endsWith("turn") && low < 0 ? `${low} left, ${high} right` : `${low} to ${high}`;
   return {
     type,
-    message: `${title} (${low} to ${high}${sides}) %1`,
+    message: `${title} (${range}) %1`,
     fields: [{ type: "input_value", name: "VALUE", check: "Number" }],
     start: Math.max(low, Math.min(high, 1)),
     variable,

@@ -5,6 +5,7 @@ import { button, element, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
 
 const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
+const DAMAGED = "The blocks of this program are damaged. This is the Python that came with them.";
 const HELP =
   "T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. " +
   "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
@@ -30,7 +31,7 @@ export class BlocksMode {
   #open = button("Blocks", () => this.#toBlocks(), { icon: "build", title: "Put the program together from blocks" });
   #leave = button("Continue in Python", () => this.#toPython(), { title: "The Python becomes yours to change; the blocks are kept" });
   #words = element("p", { className: "ai4u-soft", role: "status" });
-  #help = element("p", { className: "ai4u-soft", id: freeId(), textContent: HELP });
+  #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
   #steps = null;
   /** The steps that lead to a program; filled with the first blocks. */
@@ -161,8 +162,13 @@ export class BlocksMode {
     if (modules === null || !this.#isOn || blocks !== this.#blocks) return;
     this.#workspace ??= this.#makeWorkspace(modules);
     this.#workspace.resize();
-    this.#workspace.load(blocks);
-    this.#write();
+    try {
+      this.#workspace.load(blocks);
+      this.#write();
+    } catch {
+      this.#set(false); // the text of a program may come from anybody
+      this.#say(DAMAGED);
+    }
   }
 
   #makeWorkspace({ BlocksWorkspace }) {

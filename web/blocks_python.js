@@ -53,7 +53,7 @@ class Writer {
     ];
     const head = row(isClass ? "def get_action(self, percept):" : "def decide(percept):", main?.id);
     const body = [head, ...indented(decision)];
-    const rows = [...this.#head(), ...(isClass ? classRows(resets, body) : body)];
+    const rows = [...this.#imports(), ...(isClass ? classRows(resets, body) : body), ...this.#helpers()];
     return { text: `${rows.map(({ text }) => text).join("\n")}\n`, blocks: rows.map(({ block }) => block) };
   }
 
@@ -77,10 +77,13 @@ class Writer {
     return [...memory, ...was, ...begins, ...(isEarly ? [] : beginLines)];
   }
 
-  /** Return the lines before the program: what it imports, and functions that its blocks need. */
-  #head() {
-    const functions = [...this.#functions].flatMap((lines) => [...lines, "", ""]);
-    return [...(this.#needsRandom ? ["import random", "", ""] : []), ...functions].map((text) => row(text));
+  #imports() {
+    return this.#needsRandom ? [row("import random"), row(""), row("")] : [];
+  }
+
+  /** Return the functions that the blocks need; they stand below the program, which is read first. */
+  #helpers() {
+    return [...this.#functions].flatMap((lines) => ["", "", ...lines]).map((text) => row(text));
   }
 
   /** Return the line that sets all actions to rest. */

@@ -3,7 +3,6 @@
 import { CHECKS, seen } from "./blocks_checks.js";
 import { roomOfPage } from "./class_programs.js";
 import { button, element, setAttributes, setText } from "./dom.js";
-import { icon } from "./panel_icons.js";
 import { section } from "./panel_parts.js";
 import { recall, remember } from "./storage.js";
 
@@ -147,7 +146,7 @@ export class BlockSteps {
     [...this.#list.children].forEach((item, index) => {
       const isDone = index < this.#done;
       const [choose] = item.children;
-      if (choose.dataset.done !== String(isDone)) choose.replaceChildren(isDone ? icon("check", 16) : String(index + 1));
+      setText(choose, isDone ? "✓" : String(index + 1));
       const label = `Step ${index + 1}: ${STEPS[index].title}${isDone ? " (done)" : ""}`;
       setAttributes(choose, { "data-done": isDone ? "true" : "false", "aria-label": label });
       setAttributes(choose, { "aria-current": index === this.#shown ? "step" : null });

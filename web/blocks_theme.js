@@ -29,6 +29,7 @@ export function blocksTheme(Blockly) {
       flyoutForegroundColour: "var(--ink)",
       flyoutOpacity: 1,
       scrollbarColour: "var(--edge)",
+      scrollbarOpacity: 0.4,
       insertionMarkerColour: "var(--ink)",
       insertionMarkerOpacity: 0.3,
     },

@@ -9,7 +9,7 @@ const FIRST_PLACE = { x: 16, y: 16 };
 /** No address, so that Blockly asks for none of its pictures and sounds; nothing that is used here needs one. */
 const NO_MEDIA = "data:,";
 /** Blocks are shown larger where a finger has to hit them. */
-const [SCALE, TOUCH_SCALE] = [0.9, 1.1];
+const [SCALE, TOUCH_SCALE] = [0.9, 1];
 
 /** Blocks of a person who has none yet. */
 export const FIRST_BLOCKS = { blocks: { languageVersion: 0, blocks: [{ type: "on_decision", ...FIRST_PLACE, deletable: false }] } };

@@ -55,7 +55,7 @@ export class ProgramSection {
       fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
     );
     this.element = section("code-program", "Your program", {}, tools, this.#class.element);
-    this.shared = new SharedOffer((source) => this.#replace(source));
+    this.shared = new SharedOffer((source) => this.replace(source));
     handouts.addEventListener("change", () => this.#onHandout());
     sharedPrograms.addEventListener("change", () => this.#draw());
   }

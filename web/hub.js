@@ -13,9 +13,10 @@ try {
   find("#problem").textContent = UNREACHABLE;
 }
 
-function show({ name, colour, notebooks }) {
+function show({ name, colour, notebooks, world }) {
   find("#name").textContent = name;
   find(".ai4u-dot").style.background = colour;
   find("#notebooks").href = notebooks;
+  find("#world").href = world;
   find("#self").hidden = find("#ways").hidden = false;
 }

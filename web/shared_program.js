@@ -1,5 +1,6 @@
 /** A program that came with a link to a scene: kept until the person takes it or does not want it. */
 
+import { splitProgram } from "./blocks_text.js";
 import { roomOfPage } from "./class_programs.js";
 import { button, element, setText } from "./dom.js";
 import { forget, recall, remember } from "./storage.js";
@@ -48,9 +49,10 @@ export class SharedOffer {
     this.#source = source;
     this.element.hidden = source === null;
     if (source === null) return;
-    const lines = source.trim().split("\n").length;
+    const { python } = splitProgram(source);
+    const lines = python.trim().split("\n").length;
     setText(this.#words, `The link brought a program of ${lines} ${lines === 1 ? "line" : "lines"}. Yours stays among the earlier runs if you take it.`);
-    setText(this.#text, source);
+    setText(this.#text, python);
   }
 
   #end(then) {

@@ -73,7 +73,7 @@ class ClassMember:
             last assignment, undelivered results) does not.
         title: of the scene, where there is no editor.
         show_ghosts: shows the ghosts of episodes in the page, each with a name.
-        page: path of its page at a JupyterHub; see :attr:`~ai4u_edu.wire.class_link.State.page`.
+        page: as :attr:`ClassLinkSettings.page`, where ``link`` is a function.
         clock: seconds; to be replaced in tests.
     """
 
@@ -92,7 +92,7 @@ class ClassMember:
         self.view = ClassView(clock)
         """State of the class for pages."""
         self._runner, self._editor, self._title, self._clock = runner, editor, title, clock
-        self._page = page
+        self._page = link.page if isinstance(link, ClassLinkSettings) else page
         self._wake, self._stopping = threading.Event(), False
         self._inbox: deque[tuple[Assignment | Race, float]] = deque()
         self._watch = EpisodeWatch(runner, self._scene)

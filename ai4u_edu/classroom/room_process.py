@@ -1,6 +1,5 @@
 """Process of one room of a class: ``ai4u-edu play`` without a terminal, behind the class's port."""
 
-import os
 import signal
 import threading
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from starlette.applications import Starlette
 
 from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.process_signals import ask_to_end
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.classroom.room_watch import limit_own_files
@@ -112,7 +112,7 @@ def _end_with(parent: Connection) -> None:
     try:
         parent.recv_bytes()
     except (EOFError, OSError):
-        os.kill(os.getpid(), signal.SIGTERM)
+        ask_to_end()
 
 
 def _port(url: str) -> int:

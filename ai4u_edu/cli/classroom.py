@@ -40,18 +40,18 @@ AtHub = Annotated[
         help="Run as a service of a JupyterHub, which says where to listen and who is who.",
     ),
 ]
-TEACHERS = ["ai4u-teachers"]
 Teachers = Annotated[
     list[str] | None,
     typer.Option(
         help="With --hub: a group of the hub whose members are teachers, as its admins are. "
-        f"Repeat the option for several. Default: {TEACHERS[0]}.",
+        "Repeat the option for several. Default: ai4u-teachers.",
         show_default=False,
     ),
 ]
 
 
 def classroom(
+    context: typer.Context,
     scene: o.SceneName = "box_chase",
     rooms: Rooms = "each",
     folder: Folder = Path("ai4u-class"),
@@ -65,14 +65,14 @@ def classroom(
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,
     hub: AtHub = False,
-    teachers: Teachers = None,
+    teachers: Teachers = None,  # noqa: ARG001 - serve_at_hub takes it from the context
 ) -> None:
     """Serve a class: students join with a code, and each drives in a world of their own."""
+    load_own_blocks(own_blocks)
     if hub:
         from ai4u_edu.cli.classroom_hub import serve_at_hub
 
-        load_own_blocks(own_blocks)
-        serve_at_hub(folder, scene, language, teachers or TEACHERS, own_blocks or ())
+        serve_at_hub(context)
         return
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
@@ -84,7 +84,6 @@ def classroom(
     from ai4u_edu.server import hosts_for, open_on_desktop, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
 
-    load_own_blocks(own_blocks)
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
     blocks = own_blocks or ()

@@ -1,22 +1,18 @@
 """``ai4u-edu class --hub``: a class as a service of a JupyterHub."""
 
-from collections.abc import Iterable
-from pathlib import Path
-
 import typer
 
+TEACHERS = ["ai4u-teachers"]
+"""Usual groups of the hub whose members are teachers."""
 
-def serve_at_hub(
-    folder: Path, scene: str, language: str, teachers: Iterable[str], blocks: Iterable[Path]
-) -> None:
+
+def serve_at_hub(context: typer.Context) -> None:
     """Serve a class until SIGTERM, which the hub sends at its end.
 
     Args:
-        folder: of the class.
-        scene: of seats that have no world yet.
-        language: of students' names.
-        teachers: groups of the hub whose members are teachers.
-        blocks: Python files with the teacher's blocks.
+        context: of the command, with its options. An address to listen at that is among them counts
+            more than the hub's: in a container that may be a name of the network, at which nobody
+            can listen.
 
     Raises:
         SetupError: no hub has started this process.
@@ -28,14 +24,24 @@ def serve_at_hub(
     from ai4u_edu.server import serve
     from ai4u_edu.server.process_exit import HAS_SERVED
 
-    hub = HubEnvironment.read()
+    hub, options = HubEnvironment.read(), context.params
+    source = context.get_parameter_source("host")
+    is_host_given = source is not None and source.name != "DEFAULT"
 
     def announce(url: str) -> None:
         typer.echo(f"The class is a service of the hub: {url.rstrip('/')}{hub.prefix}")
 
-    with ClassStore(folder) as store:
-        seats = Seats(store, scene, RoomRule.parse("each"), language=language)
-        app = hub_class_app(store, seats, hub, teachers=teachers, blocks=blocks)
+    with ClassStore(options["folder"]) as store:
+        rule = RoomRule.parse("each")
+        seats = Seats(store, options["scene"], rule, language=options["language"])
+        app = hub_class_app(
+            store,
+            seats,
+            hub,
+            teachers=options["teachers"] or TEACHERS,
+            blocks=options["own_blocks"] or (),
+        )
+        host = options["host"] if is_host_given else hub.host
         with tuned_process(), released_memory():
-            serve(app, hub.host, hub.port, announce, **SERVER_LIMITS)
+            serve(app, host, hub.port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()

@@ -1,5 +1,6 @@
 """The command line's entry point and its short commands."""
 
+import io
 import json
 import signal
 import sys
@@ -17,6 +18,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.version import __version__
 from ai4u_edu.cli import episodes, lessons, training
 from ai4u_edu.cli.classroom import classroom
+from ai4u_edu.cli.doctor import doctor
 from ai4u_edu.cli.options import OnMissing, OwnBlocks, load_own_blocks
 from ai4u_edu.cli.play import play
 
@@ -32,8 +34,11 @@ def main() -> None:
     """Run the command line.
 
     An error of ours, or a file that can't be read or written, is printed as one sentence without a
-    traceback.
+    traceback. What the console's encoding lacks is printed as a question mark.
     """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         app()
     except AI4UError as error:
@@ -71,6 +76,7 @@ def options(
 
 app.command()(play)
 app.command("class")(classroom)
+app.command()(doctor)
 
 
 @app.command()

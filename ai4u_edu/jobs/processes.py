@@ -19,6 +19,9 @@ from ai4u_edu.jobs.call import Answer, call, use_one_thread
 from ai4u_edu.jobs.job import Job
 
 END_TIMEOUT_S = 2.0
+"""Time in which a process whose pipe has closed is expected to end by itself."""
+KILL_TIMEOUT_S = 60.0
+"""Time in which the system removes a process that was killed; a busy machine takes seconds."""
 
 
 class ProcessEngine:
@@ -93,9 +96,10 @@ class _Worker:
         self._process.join(0.0 if self._process.is_alive() else END_TIMEOUT_S)
         code = self._process.exitcode
         self._process.kill()
-        self._process.join(END_TIMEOUT_S)
+        self._process.join(KILL_TIMEOUT_S)
         code = self._process.exitcode if code is None else code
-        self._process.close()
+        if self._process.exitcode is not None:
+            self._process.close()
         if code is not None and code < 0:
             killed = signal.Signals(-code).name
             return f"{killed}: out of memory?" if killed == "SIGKILL" else killed

@@ -14,7 +14,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.lessons.class_feed import NotebookFeed
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
-from ai4u_edu.lessons.page_watch import PageWatch
+from ai4u_edu.lessons.page_watch import GONE_AT_HUB_S, GONE_S, PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
 from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.recording import Episode, Recorder
@@ -108,11 +108,16 @@ class Live:
         return [*self.recorder.episodes, *under_way]
 
     def end_without_page(self, end: Callable[["Live"], object]) -> None:
-        """Call a function when the page was open, and has been gone for a minute.
+        """Call a function when the page was open, and has been gone for some minutes.
 
         Worlds of closed tabs would run on for as long as the notebook's kernel does.
         """
-        self._page_watch = PageWatch(lambda: len(self._viewer.viewer_clients), lambda: end(self))
+        is_at_hub = "JUPYTERHUB_SERVICE_PREFIX" in os.environ
+        self._page_watch = PageWatch(
+            lambda: len(self._viewer.viewer_clients),
+            lambda: end(self),
+            GONE_AT_HUB_S if is_at_hub else GONE_S,
+        )
         self._page_watch.start()
 
     def join_class(self, connection: "ClassConnection") -> None:

@@ -111,13 +111,16 @@ def _best_games(done: Tournament, order: list[Standing]) -> Iterator[str]:
     seen: set[tuple[str, ...]] = set()
     candidates = sorted(
         (each for each in done.results if not each.error and _is_clean(each)),
-        key=lambda each: -sum(sorted(strength[name] for name in each.contest.names)[-2:]),
+        key=lambda each: (
+            len(set(each.ranks)) == 1,  # a game that somebody wins is better to watch
+            -sum(sorted(strength[name] for name in each.contest.names)[-2:]),
+        ),
     )
     for each in candidates:
         if len(seen) == EMBEDDED_GAMES:
             break
         names = each.contest.names
-        game = each.ranks.index(0) if each.contest.is_race else 0
+        game = each.ranks.index(0) if each.contest.is_race else _clearer_game(each)
         key = (names[game], str(each.contest.seed)) if each.contest.is_race else names
         if key in seen:
             continue
@@ -137,6 +140,12 @@ def _best_games(done: Tournament, order: list[Standing]) -> Iterator[str]:
         )
     if not seen:
         yield "<p>No game has been finished.</p>"
+
+
+def _clearer_game(result: ContestResult) -> int:
+    """Return the index of a duel's game with the larger difference of points."""
+    differences = [abs(told["points"][0] - told["points"][1]) for told in result.games]
+    return differences.index(max(differences))
 
 
 def _is_clean(result: ContestResult) -> bool:

@@ -56,9 +56,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
         run.put(run.watched_model, self.model.save)
         self.write_weights()
         # Ctrl-C is for the training; the page ends with it
-        self._page = subprocess.Popen(  # noqa: S603 - our own module
-            self.command(), start_new_session=True
-        )
+        self._page = _start_apart(self.command())
 
     def _on_step(self) -> bool:
         if time.perf_counter() > self._next:
@@ -125,3 +123,11 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
             decisions=self.model.num_timesteps, total=self._total, is_over=is_over, curve=curve
         )
         run.put_text(run.progress, progress.model_dump_json())
+
+
+def _start_apart(command: list[str]) -> subprocess.Popen[bytes]:
+    """Start a program that Ctrl-C in this terminal does not reach."""
+    if sys.platform == "win32":
+        group = subprocess.CREATE_NEW_PROCESS_GROUP
+        return subprocess.Popen(command, creationflags=group)  # noqa: S603 - our own module
+    return subprocess.Popen(command, start_new_session=True)  # noqa: S603 - our own module

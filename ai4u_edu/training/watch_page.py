@@ -5,16 +5,17 @@ with the training's process.
 """
 
 import os
-import signal
 import sys
 import threading
 from collections.abc import Callable
 from copy import deepcopy
 from pathlib import Path
 
+import psutil
 import torch
 from stable_baselines3.common.base_class import BaseAlgorithm
 
+from ai4u_edu.base.process_signals import ask_to_end, has_ended
 from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.loading import load_blocks
@@ -119,12 +120,12 @@ def going_on(drive: Callable[[Percept], Answer]) -> Callable[[Percept], Answer]:
 
 def _refresh(latest: LatestModel, runner: Runner, ended: threading.Event) -> None:
     """Show the training's latest state; end this process with the training's."""
-    parent = os.getppid()
+    parent = psutil.Process().parent()
     while not ended.wait(RELOAD_POLL_S):
         latest.refresh()
         runner.training = latest.progress
-        if os.getppid() != parent:  # it ended without a word to this process
-            os.kill(os.getpid(), signal.SIGTERM)
+        if has_ended(parent):  # it ended without a word to this process
+            ask_to_end()
             return
 
 

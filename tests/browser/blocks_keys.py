@@ -37,3 +37,10 @@ def choose(page: Page, group: str, block: str) -> None:
     go(page, "ArrowDown", block)
     page.keyboard.press("Enter")
     page.keyboard.press("Enter")
+
+
+def set_number(page: Page, text: str) -> None:
+    """Replace the number with the focus."""
+    page.keyboard.press("Enter")
+    page.keyboard.type(text)
+    page.keyboard.press("Enter")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser.blocks_keys import choose, focused, go
+from tests.browser.blocks_keys import choose, focused, go, set_number
 from tests.browser.code_editor import WithEditor
 from tests.browser.served_viser import ready
 from tests.browser.test_play import MIDDLE
@@ -53,12 +53,6 @@ class BlocksTab(WithEditor):
         for key in keys:
             self.page.keyboard.press(key)
 
-    def number(self, text: str) -> None:
-        """Replace the number with the focus."""
-        self.keys("Enter")
-        self.page.keyboard.type(text)
-        self.keys("Enter")
-
 
 @pytest.fixture
 def page(chromium: Browser) -> Iterator[Page]:
@@ -97,7 +91,7 @@ def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:
         choose(page, "Senses", "orientation")
         tab.keys("ArrowRight", "ArrowRight")
         go(page, "ArrowRight", "Edit number")
-        tab.number("0.95")
+        set_number(page, "0.95")
         go(page, "ArrowLeft", "dropdown: <")
         tab.keys("Enter", "ArrowDown", "ArrowDown", "Enter")
         go(page, "ArrowUp", "if,")
@@ -105,7 +99,7 @@ def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:
         go(page, "ArrowDown", "End else")
         choose(page, "Actions", "turn")
         go(page, "ArrowRight", "Edit number")
-        tab.number("0.3")
+        set_number(page, "0.3")
         expect(tab.editor).to_contain_text("turn = 0.3")
         assert tab.text == PROGRAM
         go(page, "Shift+Tab", "Test")

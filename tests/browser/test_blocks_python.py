@@ -67,11 +67,6 @@ def test_a_program_reads_as_a_beginner_writes_it(page: Page) -> None:
     )
     text, blocks = translated(page, program(stack(DECISION, turns)))
     assert text == (
-        "def nearest(distances, reach):\n"
-        "    # 0 stands for a ray that hits nothing\n"
-        "    return min(each or reach for each in distances)\n"
-        "\n"
-        "\n"
         "def decide(percept):\n"
         "    forward = turn = 0\n"
         '    if 10 * nearest(percept["rays"][5:8:2], 1) < 0.85:\n'
@@ -80,8 +75,13 @@ def test_a_program_reads_as_a_beginner_writes_it(page: Page) -> None:
         "        forward = 0.5\n"
         '        turn = 10 * nearest(percept["rays"][1:4:2], 1)\n'
         '    return {"move": [forward, turn, 0]}\n'
+        "\n"
+        "\n"
+        "def nearest(distances, reach):\n"
+        "    # 0 stands for a ray that hits nothing\n"
+        "    return min(each or reach for each in distances)\n"
     )
-    assert blocks[5:] == [
+    assert blocks[:8] == [
         *["on_decision"] * 2,
         *["if_else", "act:move:1", "if_else"],
         *["act:move:0", "act:move:1", "on_decision"],

@@ -51,6 +51,13 @@ class BlocksPage(CodePage):
         """The blocks, without those to choose from."""
         return self.page.locator(".blocklySvg .blocklyBlockCanvas")
 
+    def open_file(self, text: str) -> None:
+        with self.page.expect_file_chooser() as chooser:
+            self.press("Open .py")
+        chooser.value.set_files(
+            {"name": "mine.py", "mimeType": "text/x-python", "buffer": text.encode()}
+        )
+
     def ran(self) -> Locator:
         return self.page.locator(".ai4u-blocks-ran")
 
@@ -106,9 +113,7 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     assert others == {"vendor/blockly.js"}
 
 
-def test_one_goes_on_in_python_and_back_and_nothing_is_lost(
-    tab: BlocksPage, tmp_path: Path
-) -> None:
+def test_one_goes_on_in_python_and_back_and_nothing_is_lost(tab: BlocksPage) -> None:
     tab.write(PROGRAM)
     tab.to_blocks()
     runs = tab.page.get_by_label("Earlier runs").locator("option")
@@ -132,13 +137,10 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(
     expect(tab.editor).to_contain_text("turn = 1")
     with tab.page.expect_download() as download:
         tab.press("Download .py")
-    file = tmp_path / "mine.py"
-    file.write_text(Path(download.value.path()).read_text())
+    text = Path(download.value.path()).read_text()
     tab.page.get_by_label("Earlier runs").select_option("start")
     expect(tab.page.locator(".ai4u-blocks-editor")).to_be_hidden()
-    with tab.page.expect_file_chooser() as chooser:
-        tab.press("Open .py")
-    chooser.value.set_files(file)
+    tab.open_file(text)
     expect(tab.page.locator(".ai4u-blocks-editor")).to_be_visible()
     expect(tab.editor).to_contain_text("turn = 1")
     assert "# blocks" not in tab.text
@@ -168,6 +170,19 @@ def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     expect(tab.page.locator("dialog")).to_have_count(0)
     tab.page.locator(".blocklyToolboxCategory").filter(has_text="Memory").click()
     tab.page.locator(".blocklyFlyout").get_by_text("change").click()
+    expect(tab.canvas).to_contain_text("my steps")
+    # blocks may come from anybody, in a link or a file
+    broken = """async () => {
+      const { joinProgram } = await import("./web/blocks_text.js");
+      const blocks = { blocks: { blocks: [{ type: "on_decision", next: { block: 7 } }] } };
+      return joinProgram("x = 1\\n", blocks, true);
+    }"""
+    tab.open_file(tab.page.evaluate(broken))
+    expect(tab.page.locator(".ai4u-blocks")).to_contain_text(
+        "The blocks of this program are damaged"
+    )
+    assert tab.text == "x = 1\n"
+    tab.page.get_by_label("Earlier runs").select_option(index=1)
     expect(tab.canvas).to_contain_text("my steps")
 
 

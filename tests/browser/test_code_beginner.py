@@ -38,7 +38,9 @@ def tab(server: Played, chromium: Browser) -> Iterator[CodeTab]:
     server.restart(int(MIDDLE))
     page.goto(server.url)
     ready(page)
-    yield CodeTab(page)
+    tab = CodeTab(page)
+    expect(tab.editor).to_contain_text("def decide", timeout=LOADING_MS)
+    yield tab
     page.context.close()
     assert problems == []
 
@@ -54,7 +56,8 @@ def lives(server: Played, page: Page) -> None:
     tick = server.snapshot()["tick"]
     until(lambda: server.snapshot()["tick"] > tick)
     assert page.evaluate("1 + 1") == 2
-    assert len(page.workers) <= 2
+    pythons = [each for each in page.workers if "code_worker" in each.url]
+    assert len(pythons) <= 2, "the one that runs, and a spare one"
 
 
 def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:
@@ -98,7 +101,7 @@ ABUSE = {
     "a huge print": ("    print('x' * 10**8)\n    return {}", ""),
     "many prints": ("    for each in range(20000): print(each)\n    return {}", ""),
     "a text of 10 MB": ("    return {'move': 'x' * 10**7}", "move"),
-    "a list of 10 MB": ("    return {'move': [0.5] * 10**6}", "4"),
+    "a list of 10 MB": ("    return {'move': [0.5] * 10**6}", ""),
     "all memory": ("    return {'move': [0] * 10**10}", ""),
     "import os": ("    import os\n    os.system('ls'); return {}", ""),
     "import socket": ("    import socket\n    socket.create_connection(('127.0.0.1', 80))", ""),
@@ -135,15 +138,19 @@ def test_a_thousand_runs(server: Played, tab: CodeTab) -> None:
     run = tab.page.get_by_role("button", name="Run", exact=True)
     pressed = """async (run, runs) => {
       const state = document.querySelector(".ai4u-code-state");
-      const frame = () => new Promise((done) => setTimeout(done, 5));
-      for (let number = 0; number < runs; number += 1) {
+      const soon = () => new Promise((done) => setTimeout(done, 5));
+      const ended = [];
+      for (let number = 1; number <= runs; number += 1) {
         run.click();
-        if (number % 50) await frame(); // most are pressed while the one before joins
-        else while (!state.textContent.includes("Runs")) await frame();
+        await soon(); // most are pressed while the one before joins
+        if (number % 50) continue;
+        while (!/Runs|ended/.test(state.textContent)) await soon();
+        if (state.textContent.includes("ended")) ended.push(state.parentElement.textContent);
       }
+      return ended;
     }"""
     tab.page.set_default_timeout(600_000)
-    run.evaluate(pressed, RUNS)
+    assert run.evaluate(pressed, RUNS) == []
     expect(tab.state).to_contain_text(re.compile(r"Runs\s*decision \d"), timeout=LOADING_MS)
     lives(server, tab.page)
     until(lambda: "Remote" in server.snapshot()["agents"][0]["brain"])

@@ -177,7 +177,7 @@ def _status(number: int) -> str:
     return "asleep" if number % 17 == 0 else STATUSES[(5 * number) % len(STATUSES)]
 
 
-def _scene(number: int) -> dict[str, str]:
+def _scene(number: int) -> dict[str, Any]:
     return SCENES[0 if number % 5 else (number // 5) % 3]
 
 

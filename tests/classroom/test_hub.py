@@ -190,11 +190,14 @@ def test_look_in_leads_to_the_students_own_server_only(school: HubClass) -> None
     fine = looked_in("user/ada/proxy/4000/?token=abc-_")
     assert fine.status_code == 303
     assert fine.headers["location"] == "/hub/user/ada/proxy/4000/?token=abc-_"
-    for page in ("user/grace/proxy/4000/", "//evil.example/", "user/ada", "user/ada/../grace/"):
-        answer = looked_in(page)
-        fits = answer.headers.get("location", "/hub/user/ada").startswith("/hub/user/ada")
-        assert fits, page
-    assert looked_in("user/grace/proxy/4000/").status_code == 403
+    for page in (
+        "user/grace/proxy/4000/",
+        "//evil.example/",
+        "user/ada/../grace/",
+        "user/ada/%2E%2e/grace/",
+        "user/ada/./../../logout",
+    ):
+        assert looked_in(page).status_code == 403, page
     with school.client(GRACE) as student:
         assert student.get("teacher/look/seat-1").status_code == 403
 

@@ -3,6 +3,7 @@
 import inspect
 import json
 import math
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -28,7 +29,7 @@ COMMANDS = {
     for each in app.registered_commands
     if each.callback
 }
-NO_SCENE = {"bridge", "blocks", "schema", "lessons"}
+NO_SCENE = {"bridge", "blocks", "doctor", "schema", "lessons"}
 """Commands that read neither a scene nor a recording that somebody else may have written."""
 
 
@@ -204,3 +205,15 @@ def test_play_says_what_is_wrong_with_a_link() -> None:
     assert told.returncode != 0
     assert "the link is damaged" in told.stderr
     assert "Traceback" not in told.stderr
+
+
+def test_what_the_console_lacks_is_printed_as_a_question_mark(tmp_path: Path) -> None:
+    """A console of Windows in a pipe has 256 characters."""
+    program = "from ai4u_edu.cli import main; main.app = lambda: print('maçã 한'); main.main()"
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "PYTHONIOENCODING": "cp1252"},
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout.split()) == (0, ["maçã".encode("cp1252"), b"?"])

@@ -37,11 +37,23 @@ class LookIn:
         if room is None or room.link is None or room.state is None or not room.state.page:
             text = "This world has no page now. Reload the class's page.\n"
             return PlainTextResponse(text, 404, NO_STORE)
-        found = _PAGE.fullmatch(room.state.page)
         # a student's program says where its page is; it may lead to that student's server only
-        if found is None or not await asyncio.to_thread(
-            self._seats.is_of, room.seat, unquote(found[1])
-        ):
+        user = user_of_page(room.state.page)
+        if not user or not await asyncio.to_thread(self._seats.is_of, room.seat, user):
             text = "This world gave an address that is not on its student's server.\n"
             return PlainTextResponse(text, 403, NO_STORE)
         return RedirectResponse(f"{self._hub.hub_url}{room.state.page}", 303, NO_STORE)
+
+
+def user_of_page(page: str) -> str:
+    """Return the name of the user on whose server a page is; empty if the path is no such page.
+
+    >>> user_of_page("user/ada/proxy/4000/?token=abc"), user_of_page("user/ada/%2e%2e/grace/")
+    ('ada', '')
+    """
+    found = _PAGE.fullmatch(page)
+    path, _, _ = page.partition("?")
+    # browsers go up at such a part, also if it is escaped
+    if found is None or {".", ".."} & {*unquote(path).split("/")}:
+        return ""
+    return unquote(found[1])

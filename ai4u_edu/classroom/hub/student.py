@@ -110,6 +110,7 @@ class HubStudent:
             "name": seat.name,
             "colour": seat.colour,
             "notebooks": f"{self._hub.hub_url}user-redirect/",
+            "world": f"{self._hub.hub_url}user-redirect/ai4u-edu/",
         }
 
 

@@ -15,7 +15,7 @@ from ai4u_edu.world.native.chipmunk import (
 )
 from ai4u_edu.world.native.grid import CompiledGrid, GridArrays, compile_grid
 from ai4u_edu.world.native.objects import FastBody, FastCircle, FastPoly
-from ai4u_edu.world.native.segments import Segments, make_segments
+from ai4u_edu.world.native.segments import Segments, is_compiled, make_segments
 
 __all__ = [
     "IS_NATIVE",
@@ -28,6 +28,7 @@ __all__ = [
     "Segments",
     "compile_grid",
     "contact_distances",
+    "is_compiled",
     "make_segments",
     "release_space",
     "shape_key",

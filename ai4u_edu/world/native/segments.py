@@ -157,6 +157,11 @@ def make_segments(count: int) -> Segments:
     return CffiSegments(count) if compiled_cast() is None else CompiledSegments(count)
 
 
+def is_compiled() -> bool:
+    """Return True if rays are cast by the compiled part."""
+    return compiled_cast() is not None
+
+
 @cache
 def compiled_cast() -> Any:
     """Return the loop in C, called as (fan, space, x, y, reach); None where it is not available.

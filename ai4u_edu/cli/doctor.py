@@ -1,0 +1,212 @@
+"""The command ``ai4u-edu doctor``: what is installed, what is missing for what, and what to do.
+
+What it prints is meant for a bug report, so it names neither folders nor people nor hosts.
+"""
+
+import os
+import platform
+import re
+import shutil
+import socket
+import sys
+from collections.abc import Iterator
+from importlib import metadata
+from typing import Annotated, NamedTuple
+
+import typer
+
+from ai4u_edu.base.version import __version__
+
+PACKAGE = "ai4u-edu"
+SWITCH_VARIABLE = "AI4U_COMPILED"
+PORT = 8080
+"""The port that `play` uses unless told otherwise."""
+USES = {
+    "data": "episodes as a dataset of Minari",
+    "lessons": "the course of notebooks",
+    "multi": "PettingZoo's interface",
+    "onnx": "running trained networks",
+    "ray": "jobs on several machines",
+    "train": "training networks",
+    "video": "episodes as MP4",
+}
+"""What each extra is for."""
+BROWSERS = "firefox", "chromium", "chromium-browser", "google-chrome", "microsoft-edge", "brave"
+"""Programs that are searched for on Linux."""
+SHOWN_VERSIONS = "gymnasium", "numpy", "pymunk", "starlette", "uvicorn", "viser", "websockets"
+
+
+class Finding(NamedTuple):
+    """One line of the report."""
+
+    subject: str
+    state: str
+    advice: str = ""
+    """How to mend it; empty if all is well."""
+
+
+def doctor(
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, help="The port that the page will use.")
+    ] = PORT,
+) -> None:
+    """Say what is installed and what is missing, as a block for a bug report."""
+    findings = list(examine(port))
+    typer.echo("```")
+    for each in findings:
+        typer.echo(f"{each.subject + ':':<16}{each.state}")
+    typer.echo("```")
+    for each in findings:
+        if each.advice:
+            typer.echo(f"{each.subject}: {each.advice}")
+    if any(each.subject == "packages" and each.advice for each in findings):
+        raise typer.Exit(1)
+
+
+def examine(port: int) -> Iterator[Finding]:
+    """Give the findings of a report.
+
+    Args:
+        port: that the page will use.
+    """
+    yield Finding("AI4U Edu", f"{__version__} ({_installation()})")
+    yield Finding("Python", f"{platform.python_version()} ({platform.python_implementation()})")
+    yield Finding("system", f"{_system()}, {platform.machine()}")
+    versions = {name: _version(name) for name in SHOWN_VERSIONS}
+    shown = (f"{name} {version}" for name, version in versions.items() if version)
+    yield Finding("versions", ", ".join(shown))
+    yield _packages()
+    yield _compiled_part()
+    for extra, use in USES.items():
+        yield _extra(extra, use)
+    yield _port(port)
+    yield _browser()
+    encoding = getattr(sys.stdout, "encoding", None) or "unknown"
+    yield Finding("console", f"encoding {encoding}")
+
+
+def _installation() -> str:
+    """Return how this copy came here, without the folder's name."""
+    try:
+        distribution = metadata.distribution(PACKAGE)
+    except metadata.PackageNotFoundError:
+        return "not installed, run from a folder"
+    origin = distribution.read_text("direct_url.json") or ""
+    return "editable, from a clone" if re.search(r'"editable":\s*true', origin) else "wheel"
+
+
+def _system() -> str:
+    """Return the system's name and version, without the machine's."""
+    if sys.platform == "linux":
+        try:
+            name = platform.freedesktop_os_release()["PRETTY_NAME"]
+        except (OSError, KeyError):
+            name = "Linux"
+        return f"{name}, {platform.libc_ver()[0] or 'other libc'} {platform.libc_ver()[1]}".strip()
+    if sys.platform == "darwin":
+        return f"macOS {platform.mac_ver()[0]}"
+    return f"{platform.system()} {platform.release()}"
+
+
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return ""
+
+
+def requirements(extra: str = "") -> list[str]:
+    """Return the names of the packages that the package or one of its extras asks for.
+
+    Those of other extras that the extra includes are among them.
+    """
+    try:
+        lines = metadata.requires(PACKAGE) or []
+    except metadata.PackageNotFoundError:
+        return []
+    names = []
+    for line in lines:
+        requirement, _, marker = line.partition(";")
+        of = re.search(r"""extra == ['"]([\w-]+)['"]""", marker)
+        if (of.group(1) if of else "") != extra:
+            continue
+        name = re.split(r"[^\w.-]", requirement.strip(), maxsplit=1)[0]
+        included = re.search(r"\[([\w,-]+)\]", requirement)
+        if name == PACKAGE and included:
+            names += [each for part in included.group(1).split(",") for each in requirements(part)]
+        else:
+            names.append(name)
+    return names
+
+
+def _packages() -> Finding:
+    missing = [name for name in requirements() if not _version(name)]
+    if not missing:
+        return Finding("packages", "all that are needed are installed")
+    return Finding(
+        "packages",
+        f"missing: {', '.join(missing)}",
+        f"install it again: pip install --force-reinstall {PACKAGE}",
+    )
+
+
+def _compiled_part() -> Finding:
+    from ai4u_edu.world.native import IS_NATIVE, is_compiled
+
+    if is_compiled():
+        return Finding("compiled part", "in use")
+    if os.environ.get(SWITCH_VARIABLE) == "0":
+        return Finding("compiled part", "switched off", f"it is used without {SWITCH_VARIABLE}=0")
+    if not IS_NATIVE:
+        return Finding(
+            "compiled part",
+            "not used: another pymunk than the tested one",
+            f"all numbers are right, and rays slower; pip install --force-reinstall {PACKAGE}",
+        )
+    return Finding(
+        "compiled part",
+        "missing",
+        "all numbers are right, and rays take up to twice as long; there is a wheel with it for "
+        "most systems, and in a clone with a C compiler: pip install -e .",
+    )
+
+
+def _extra(extra: str, use: str) -> Finding:
+    names = requirements(extra)
+    missing = [name for name in names if not _version(name)]
+    subject = f"[{extra}]"
+    if names and not missing:
+        return Finding(subject, f"installed, for {use}")
+    if len(missing) < len(names):
+        lacks = f"in part, for {use}; missing: {', '.join(missing)}"
+        return Finding(subject, lacks, f'complete it with: pip install "{PACKAGE}[{extra}]"')
+    return Finding(subject, f"not installed, would be for {use}")
+
+
+def _port(port: int) -> Finding:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        if os.name == "posix":  # elsewhere it would let two programs share a port
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", port))
+        except OSError:
+            return Finding(
+                f"port {port}", "taken", "another program, or AI4U Edu, has it; play --port 0"
+            )
+    return Finding(f"port {port}", "free")
+
+
+def _browser() -> Finding:
+    if sys.platform in {"win32", "darwin"}:
+        return Finding("browser", "the system's")
+    found = [name for name in BROWSERS if shutil.which(name)]
+    has_desktop = any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
+    desktop = "a desktop" if has_desktop else "no desktop"
+    if found and has_desktop:
+        return Finding("browser", f"{', '.join(found)}; {desktop}")
+    return Finding(
+        "browser",
+        f"{', '.join(found) or 'none found'}; {desktop}",
+        "open the address that `play` prints in a browser, here or on another machine "
+        "(then with --host)",
+    )
