@@ -296,7 +296,7 @@ progress()
 # - Where in life do people get what was said and not what was meant? Find three examples, and a better
 #   "reward" for each.
 #
-# ### Exercise 09.4, for the quick: what paid most?
+# ### Exercise 09.4: what paid most?
 #
 # `told` holds the rewards of an episode: `told.terms` are the names of the terms, and `told.amounts[n]` is a list of what each
 # of them paid in decision n. (`explain.reward_terms(episode)` from `ai4u_edu` makes it from a recording.) Return the name of the

@@ -355,7 +355,7 @@ from ai4u_edu.explain.plots import plot_value_map
 plot_value_map(explain.value_map("zoo:box_chase", "box_chase", columns=8, heading="box"))
 
 # %% [markdown]
-# ### Exercise 10.5, for the quick: what does it look at most?
+# ### Exercise 10.5: what does it look at most?
 #
 # `told` says how far an action moves without each slot of the percept (lesson 11 says more): `told.names` are the slots,
 # and `told.shift[n]` is a list of how far each number of the action moves without slot n, to one side or to the other.

@@ -216,6 +216,54 @@ compare("11.edge", reached)
 # so on. Clones of people who drive perfectly suffer most from that: they were never shown how to get out
 # of trouble. (So it can help if one of your drives has a mistake in it that you correct.)
 #
+# ## A race
+#
+# `track(blue, purple)` makes a world for two, with the box in the middle and both equally far away from
+# it. Each of them can be a network's file or a function.
+#
+# ### Exercise 11.3: the referee
+#
+# Say who wins. `sim.step()` runs one decision. The race is over when one of the two is done
+# (`blue.done`): if it touched the box, it won; if it fell, the other one won. Return `"blue"`,
+# `"purple"`, or `None` if nobody is done after 300 steps. `touched(blue)` says whether the blue robot is
+# at the box.
+
+
+# %% tags=["exercise-11.3"]
+def race(sim, seed):
+    blue, purple = sim.agents
+    return "blue"
+
+
+# %%
+check("11.3", race)
+
+# %% [markdown]
+# Your clone is blue. Purple is the network of lesson 10 that learned by trying (if you have not kept one,
+# the one that comes with the package). How many of ten races will your clone win?
+
+# %%
+predict("11.race", ...)
+
+# %%
+results = [race(track("clone.onnx", best_network()), seed) for seed in range(10)]
+bars(
+    {"your clone": results.count("blue"), "learned by reward": results.count("purple")},
+    ylabel="races won",
+    title="ten races",
+)
+compare("11.race", results.count("blue"))
+
+# %%
+film(track("clone.onnx", best_network()), seed=4, limit=200)
+
+# %% [markdown]
+# A clone is rarely better than its teacher: all it does is copy. The one that learned by reward goes for
+# the reward, and drives in ways that you would never have shown it. But it needed thousands of tries,
+# falls and all; the clone needed five drives and no fall. Which would you rather have: in a game, in a
+# car, in an operating theatre?
+
+# %% [markdown]
 # ## Because of what?
 #
 # Here is another world: in it a lamp stands behind the box, always. The robot senses both, the lamp a bit
@@ -281,54 +329,6 @@ bars(
     ylabel="moves the action by",
     title="the mended clone",
 )
-
-# %% [markdown]
-# ## A race
-#
-# `track(blue, purple)` makes a world for two, with the box in the middle and both equally far away from
-# it. Each of them can be a network's file or a function.
-#
-# ### Exercise 11.3: the referee
-#
-# Say who wins. `sim.step()` runs one decision. The race is over when one of the two is done
-# (`blue.done`): if it touched the box, it won; if it fell, the other one won. Return `"blue"`,
-# `"purple"`, or `None` if nobody is done after 300 steps. `touched(blue)` says whether the blue robot is
-# at the box.
-
-
-# %% tags=["exercise-11.3"]
-def race(sim, seed):
-    blue, purple = sim.agents
-    return "blue"
-
-
-# %%
-check("11.3", race)
-
-# %% [markdown]
-# Your clone is blue. Purple is the network of lesson 10 that learned by trying (if you have not kept one,
-# the one that comes with the package). How many of ten races will your clone win?
-
-# %%
-predict("11.race", ...)
-
-# %%
-results = [race(track("clone.onnx", best_network()), seed) for seed in range(10)]
-bars(
-    {"your clone": results.count("blue"), "learned by reward": results.count("purple")},
-    ylabel="races won",
-    title="ten races",
-)
-compare("11.race", results.count("blue"))
-
-# %%
-film(track("clone.onnx", best_network()), seed=4, limit=200)
-
-# %% [markdown]
-# A clone is rarely better than its teacher: all it does is copy. The one that learned by reward goes for
-# the reward, and drives in ways that you would never have shown it. But it needed thousands of tries,
-# falls and all; the clone needed five drives and no fall. Which would you rather have: in a game, in a
-# car, in an operating theatre?
 
 # %% [markdown]
 # ## Exit ticket

@@ -23,12 +23,12 @@ def paid_most(told):
     return told.terms[0]
 
 
-# %% tags=["wrong", "", "the largest single amount"]
+# %% tags=["wrong", "once", "the largest single amount"]
 def paid_most(told):
     return told.terms[told.amounts.max(axis=0).argmax()]
 
 
-# %% tags=["wrong", "", "the largest size"]
+# %% tags=["wrong", "size", "the largest size"]
 def paid_most(told):
     return told.terms[abs(told.totals).argmax()]
 

@@ -19,12 +19,12 @@ def looks_most_at(told):
     return told.names[0]
 
 
-# %% tags=["wrong", "", "to one side only"]
+# %% tags=["wrong", "sign", "to one side only"]
 def looks_most_at(told):
     return told.names[told.shift.max(axis=1).argmax()]
 
 
-# %% tags=["wrong", "", "the sum"]
+# %% tags=["wrong", "sum", "the sum"]
 def looks_most_at(told):
     return told.names[abs(told.shift).sum(axis=1).argmax()]
 

@@ -200,5 +200,5 @@ def test_no_answers_lie_about_without_an_exercise() -> None:
     for one in lessons():
         for exercise in one.exercises:
             find(exercise)
-    assert sorted(EXERCISES) == ALL
+    assert sorted(EXERCISES) == sorted(ALL)  # those of a stretch come after the exit ticket
     assert sorted(path.stem for path in (course_folder() / "answers").iterdir()) == IDS
