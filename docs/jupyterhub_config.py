@@ -22,18 +22,39 @@ def hand_out(spawner):
 c.Spawner.pre_spawn_hook = hand_out
 
 # end servers that nobody has used for an hour; needs: pip install jupyterhub-idle-culler
-c.JupyterHub.load_roles = [
-    {
-        "name": "idle-culler",
-        "scopes": ["list:users", "read:users:activity", "read:servers", "delete:servers"],
-        "services": ["idle-culler"],
-    }
-]
-c.JupyterHub.services = [
-    {
-        "name": "idle-culler",
-        "command": [sys.executable, "-m", "jupyterhub_idle_culler", "--timeout=3600"],
-    }
-]
+culler_role = {
+    "name": "idle-culler",
+    "scopes": ["list:users", "read:users:activity", "read:servers", "delete:servers"],
+    "services": ["idle-culler"],
+}
+culler = {
+    "name": "idle-culler",
+    "command": [sys.executable, "-m", "jupyterhub_idle_culler", "--timeout=3600"],
+}
 # end kernels that have been idle for an hour, and whose notebook is closed
 c.Spawner.args = ["--MappingKernelManager.cull_idle_timeout=3600"]
+
+# a class, at /services/ai4u-class/
+ai4u_class = {
+    "name": "ai4u-class",
+    "url": "http://127.0.0.1:10101",  # students' servers open it, too
+    "command": [
+        *(sys.executable, "-m", "ai4u_edu", "class", "--hub"),
+        *("--folder", str(Path("ai4u-class").absolute())),  # seats and results; back it up
+    ],
+    "oauth_no_confirm": True,
+}
+use_class = ["access:services!service=ai4u-class", "read:services!service=ai4u-class"]
+# the token of a student's server may be shown to the class, and find it
+c.Spawner.server_token_scopes = ["users:activity!user", "access:servers!server", *use_class]
+user_role = {"name": "user", "scopes": ["self", *use_class]}
+# teachers; the hub's admins are, too. "Look in" needs access to students' servers.
+c.JupyterHub.load_groups = {"ai4u-teachers": {"users": []}}
+teacher_role = {
+    "name": "ai4u-teachers",
+    "groups": ["ai4u-teachers"],
+    "scopes": ["access:servers", *use_class],
+}
+
+c.JupyterHub.services = [culler, ai4u_class]
+c.JupyterHub.load_roles = [culler_role, user_role, teacher_role]

@@ -296,5 +296,21 @@ progress()
 # - Where in life do people get what was said and not what was meant? Find three examples, and a better
 #   "reward" for each.
 #
+# ### Exercise 09.4, for the quick: what paid most?
+#
+# `told` holds the rewards of an episode: `told.terms` are the names of the terms, and `told.amounts[n]` is a list of what each
+# of them paid in decision n. (`explain.reward_terms(episode)` from `ai4u_edu` makes it from a recording.) Return the name of the
+# term that paid most in the whole episode.
+
+
+# %% tags=["exercise-09.4"]
+def paid_most(told):
+    return told.terms[0]
+
+
+# %%
+check("09.4", paid_most)
+
+# %% [markdown]
 # **Words of this lesson:** reward function, return, reward hacking, trail (shaping). **Next:** 10, in which
 # a robot finds out by itself what pays.

@@ -345,7 +345,32 @@ progress()
 # - `train("box_chase", "ppo", out="runs/ppo")` is another recipe. It needs more decisions, but less
 #   arithmetic for each. Which one becomes good sooner: in decisions? in seconds (`each.seconds`)?
 # - Change the scene's rewards (lesson 09), and train. Did you get what you said?
+# - Where is it good to be? The network's critic can tell, or rollouts from many places. Bright places are worth
+#   more. What does the map look like when the robot faces away from the box?
+
+# %%
+from ai4u_edu import explain
+from ai4u_edu.explain.plots import plot_value_map
+
+plot_value_map(explain.value_map("zoo:box_chase", "box_chase", columns=8, heading="box"))
+
+# %% [markdown]
+# ### Exercise 10.5, for the quick: what does it look at most?
 #
+# `told` says how far an action moves without each slot of the percept (lesson 11 says more): `told.names` are the slots,
+# and `told.shift[n]` is a list of how far each number of the action moves without slot n, to one side or to the other.
+# Return the name of the slot that moves any number the furthest.
+
+
+# %% tags=["exercise-10.5"]
+def looks_most_at(told):
+    return told.names[0]
+
+
+# %%
+check("10.5", looks_most_at)
+
+# %% [markdown]
 # **Words of this lesson:** policy, Gymnasium, environment, continuous, discrete, discount, discounted
 # return, value, learning rate, Q-learning, Q-table, neural network, SAC, Stable-Baselines3, learning
 # curve. **Next:** 11, in which a network learns from you.

@@ -11,10 +11,10 @@
 #
 # - record what you drive, and choose what is worth learning from,
 # - clone your driving, and say how well that worked,
-# - say where a clone fails, and why,
+# - say where a clone fails, and why: which of its readings made it do that,
 # - let two networks race in one world, and judge who won.
 #
-# *About 75 minutes. Before: lesson 10. Exercises 11.1 and 11.2 can be solved with code, or with boxes to
+# *About 95 minutes. Before: lesson 10. Exercises 11.1 and 11.2 can be solved with code, or with boxes to
 # tick.*
 #
 # **Recap.** A policy gets a percept and gives an action. In lesson 10 a network found its policy by
@@ -22,6 +22,7 @@
 
 # %% tags=["setup"]
 from ai4u_edu import *
+from ai4u_edu import explain
 from ai4u_edu.lessons import (
     bars,
     cards,
@@ -43,6 +44,12 @@ from ai4u_edu.lessons.exercises.lesson_11_choice import (
     show_choice,
     show_clone,
     worlds_reached,
+)
+from ai4u_edu.lessons.exercises.lesson_11_why import (
+    lamp_drives,
+    lamp_successes,
+    lamp_world,
+    looked_at,
 )
 from ai4u_edu.training import clone, evaluate
 
@@ -209,6 +216,73 @@ compare("11.edge", reached)
 # so on. Clones of people who drive perfectly suffer most from that: they were never shown how to get out
 # of trouble. (So it can help if one of your drives has a mistake in it that you correct.)
 #
+# ## Because of what?
+#
+# Here is another world: in it a lamp stands behind the box, always. The robot senses both, the lamp a bit
+# better. Somebody drove to the box 25 times and never looked at the lamp. A clone learns from that, and it
+# drives well:
+
+# %%
+clone(lamp_drives("behind"), "lamp.onnx", quiet=True)
+print("the lamp behind the box:", lamp_successes("lamp.onnx", "behind"), "of 20")
+
+# %% [markdown]
+# Now the lamp is put somewhere else; the box stays. In how many of 20 worlds will the clone reach it?
+
+# %%
+predict("11.lamp", ...)
+
+# %%
+compare("11.lamp", lamp_successes("lamp.onnx", "elsewhere"))
+film(lamp_world("elsewhere"), trained_brain("lamp.onnx"), seed=101, limit=40)
+
+# %% [markdown]
+# It fails. But *because of what*? Ask it. Take away one reading (put its mean in its place), and see how far
+# the action moves: that is called **occlusion**. A reading that the clone does not need moves nothing.
+
+# %%
+bars(
+    looked_at("lamp.onnx", lamp_drives("behind", 4)[3]),
+    ylabel="moves the action by",
+    title="without the box, without the lamp",
+)
+
+# %% [markdown]
+# Nobody told it to look at the lamp. But in all that it was shown, to go to the lamp was as good as to go to
+# the box, and easier to see. Such a hint, which only happens to be there, is a **spurious cue**. In the page, "Because
+# of what" in the tab Drive shows the same for each decision.
+#
+# Be careful with it. Two readings that say the same can both seem unimportant: without one, the other one still tells.
+#
+# ### Exercise 11.4: what does it not look at?
+#
+# `policy` is a function from percept to action. Return the list of the names of all readings that it does not look at: without
+# them, its action stays the same. `explain.occlusion(policy, percept, baseline=baseline, groups="sensor")` has `names`, and
+# in the same order `importance`: how far the action moved without each.
+
+
+# %% tags=["exercise-11.4"]
+def blind(policy, percept, baseline):
+    return []
+
+
+# %%
+check("11.4", blind)
+
+# %% [markdown]
+# Now you know what to mend. It was never shown a drive in which the lamp and the box are apart. So show it some: the lamp
+# stands somewhere else in each.
+
+# %%
+clone(lamp_drives("anywhere"), "mended.onnx", quiet=True)
+print("the lamp elsewhere:", lamp_successes("mended.onnx", "elsewhere"), "of 20")
+bars(
+    looked_at("mended.onnx", lamp_drives("behind", 4)[3]),
+    ylabel="moves the action by",
+    title="the mended clone",
+)
+
+# %% [markdown]
 # ## A race
 #
 # `track(blue, purple)` makes a world for two, with the box in the middle and both equally far away from
@@ -297,4 +371,4 @@ progress()
 # - Drive badly on purpose, always turning left, and race that clone. What did it learn?
 #
 # **Words of this lesson:** demonstration, list comprehension, behaviour cloning, supervised learning,
-# clone. **Next:** 12, in which you look into such a network.
+# clone, occlusion, spurious cue. **Next:** 12, in which you look into such a network.

@@ -14,6 +14,7 @@ from typing import Any, Literal
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.blocks_keys import choose, go, set_number
 from tests.browser.served_viser import ready
 from tests.chromium import browser
 from tests.playing import played
@@ -40,11 +41,13 @@ def main() -> None:
     with browser() as chromium:
         if folder is None:
             _take(chromium, PICTURES / "code_{}.png", DESK, "light")
+            _take_blocks(chromium, PICTURES / "code_{}.png", DESK, "light")
             return
         folder.mkdir(parents=True, exist_ok=True)
         for size, name in ((DESK, "desk"), (PHONE, "phone")):
             for scheme in ("light", "dark"):
                 _take(chromium, folder / f"{name}_{scheme}_{{}}.png", size, scheme)
+                _take_blocks(chromium, folder / f"{name}_{scheme}_{{}}.png", size, scheme)
 
 
 def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
@@ -78,6 +81,61 @@ def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) 
         mistake.scroll_into_view_if_needed()
         page.wait_for_timeout(SETTLE_MS)
         _save(page.locator(".ai4u-panel").screenshot(), path, "mistake")
+
+
+def _take_blocks(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
+    """Take the picture of blocks that drive through the maze, beside the steps that lead there."""
+    viewport: Any = {"width": size[0], "height": size[1]}
+    is_phone = size == PHONE
+    context = chromium.new_context(
+        viewport=viewport, color_scheme=scheme, has_touch=is_phone, is_mobile=is_phone
+    )
+    script = "localStorage.setItem('ai4u-blocks-steps', '2')"
+    context.add_init_script(script)
+    with (
+        played("maze", "--seed", SEED, "--time-scale", TIME_SCALE) as server,
+        contextlib.closing(context),
+    ):
+        page = context.new_page()
+        page.goto(server.url)
+        ready(page)
+        if is_phone:
+            page.get_by_role("button", name="Open the panel").click()
+        else:
+            _widen(page)
+        page.get_by_role("tab", name="Code").click()
+        page.get_by_role("button", name="Blocks", exact=True).click()
+        first = page.locator("*:focus")
+        expect(first).to_have_attribute(
+            "aria-label", re.compile("at each decision"), timeout=LOADING_MS
+        )
+        _turn_away(page)
+        page.keyboard.press("Control+Enter")
+        expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)
+        if is_phone:
+            page.locator(".ai4u-blocks-editor").scroll_into_view_if_needed()
+        page.wait_for_timeout(SETTLE_MS)
+        _save(page.screenshot(), path, "blocks")
+
+
+def _turn_away(page: Page) -> None:
+    """Put the program of the third step together."""
+    choose(page, "Control", "if, Empty, has 2 branches")
+    choose(page, "Numbers", "0, <")
+    choose(page, "Senses", "distance")
+    go(page, "ArrowRight", "dropdown: on any side")
+    for key in ("Enter", "ArrowDown", "Enter"):
+        page.keyboard.press(key)
+    go(page, "ArrowRight", "Edit number")
+    set_number(page, "0.8")
+    go(page, "ArrowUp", "if,")
+    choose(page, "Actions", "turn")
+    go(page, "ArrowRight", "Edit number")
+    set_number(page, "0.5")
+    go(page, "ArrowDown", "End else")
+    choose(page, "Actions", "forward")
+    go(page, "ArrowRight", "Edit number")
+    set_number(page, "0.5")
 
 
 def programs_in_docs() -> list[str]:

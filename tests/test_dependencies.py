@@ -13,6 +13,8 @@ OWN = {"ai4u_edu", "tests"}
 NOT_IMPORTED = {
     "jupyterlab",  # started as a program
     "ipykernel",  # the kernel that jupyterlab starts
+    "jupyterhub",  # starts a student's server
+    "jupyter-server-proxy",  # brings worlds into the browser
     "onnxscript",  # torch.onnx imports it
     "tensorboard",  # Stable-Baselines3 imports it
 }

@@ -21,6 +21,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
 PROGRAMS = {
     "python.md": ["'touch': 1.0"],
+    "explain.md": ["(19, 4)", "It turns left because ray "],
     "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
     "remote.md": ["the robot is done: {'touch': 100.0"],
 }

@@ -43,8 +43,15 @@ const HANG_CHARS = 2;
 
 const setMistake = StateEffect.define();
 const setRan = StateEffect.define();
+const setReadOnly = StateEffect.define();
 const mistakes = lineMarks(setMistake, Decoration.line({ class: "ai4u-code-mistake-line" }));
 const ran = lineMarks(setRan, Decoration.line({ class: "ai4u-code-ran-line" }));
+
+const readOnly = StateField.define({
+  create: () => false,
+  update: (value, { effects }) => effects.findLast((each) => each.is(setReadOnly))?.value ?? value,
+  provide: (field) => [EditorState.readOnly.from(field), EditorView.editable.from(field, (value) => !value)],
+});
 
 const hanging = StateField.define({
   create: ({ doc }) => hangingIndents(doc),
@@ -66,7 +73,7 @@ export class CodeEditor {
    * @param options.keys [{key, run}, ...] in CodeMirror's words; they come before the editor's own
    */
   constructor(parent, { label, describedBy = "", keys = [] }) {
-    const attributes = { "aria-label": label, "aria-describedby": describedBy, spellcheck: "false", autocapitalize: "off" };
+    const attributes = { "aria-label": label, "aria-describedby": describedBy, spellcheck: "false", autocapitalize: "off", tabindex: "0" };
     const extensions = [
       keymap.of(keys),
       lineNumbers(),
@@ -82,7 +89,9 @@ export class CodeEditor {
       python(),
       syntaxHighlighting(COLORS),
       EditorView.lineWrapping,
+      readOnly,
       EditorView.contentAttributes.of(attributes),
+      EditorView.contentAttributes.compute([readOnly], (state) => ({ "aria-readonly": String(state.field(readOnly)) })),
       EditorView.updateListener.of((update) => this.#onUpdate(update)),
       mistakes,
       ran,
@@ -102,6 +111,15 @@ export class CodeEditor {
     this.#isSetting = true;
     this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text }, selection: { anchor: 0 } });
     this.#isSetting = false;
+  }
+
+  /** True if the person can read and copy the text, but not change it. */
+  set isReadOnly(value) {
+    this.#view.dispatch({ effects: setReadOnly.of(value) });
+  }
+
+  focus() {
+    this.#view.focus();
   }
 
   /** Offer these names in `percept["..."]` and in `return {"..."}`. */
@@ -130,6 +148,7 @@ export class CodeEditor {
 
   /** Insert a text in place of the selection. */
   insert(text) {
+    if (this.#view.state.readOnly) return;
     this.#view.dispatch(this.#view.state.replaceSelection(text));
     this.#view.focus();
   }

@@ -1,11 +1,14 @@
 /** The section "Your program": where the program comes from, and where it is kept. */
 
+import { splitProgram } from "./blocks_text.js";
 import { handoutFor, handouts } from "./class_handout.js";
 import { ClassPrograms } from "./class_programs.js";
 import { downloadText, KeptPrograms } from "./code_keep.js";
 import { button, element } from "./dom.js";
 import { freeId, section } from "./panel_parts.js";
 import { fileButton } from "./panel_scene_files.js";
+import { copyLink } from "./share.js";
+import { SharedOffer, sharedFor, sharedPrograms } from "./shared_program.js";
 
 /** Largest program that is read from a file (bytes). */
 const MAX_FILE_BYTES = 100_000;
@@ -22,11 +25,14 @@ export class ProgramSection {
     keep: (source) => this.#keepAsRun(source),
   });
   #scene = "";
+  #agent = "";
   /** Name of the file; null before the first program. */
   #name = null;
   /** The program that a person begins with. */
   #first = "";
   #runs = element("select", { id: freeId() });
+  /** A program that came with a link. */
+  shared;
   /** Button that takes the teacher's program; hidden if there is none. */
   offer = button("Take the program from your teacher", () => this.#takeRun("teacher"), { icon: "download" });
 
@@ -45,15 +51,18 @@ export class ProgramSection {
       { className: "ai4u-code-tools" },
       element("div", { className: "ai4u-inline ai4u-code-runs" }, label, this.#runs),
       button("Download .py", () => downloadText(`${this.#name ?? "program"}.py`, tab.text()), { icon: "download" }),
+      button("Copy link", () => this.#copyLink(), { icon: "copy", title: "Copy a link to this scene with your program" }),
       fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
     );
     this.element = section("code-program", "Your program", {}, tools, this.#class.element);
+    this.shared = new SharedOffer((source) => this.replace(source));
     handouts.addEventListener("change", () => this.#onHandout());
+    sharedPrograms.addEventListener("change", () => this.#draw());
   }
 
   /** Show the program of an agent in a scene; the first one if there is no other. */
   open(scene, agent, first) {
-    [this.#scene, this.#name, this.#first] = [scene, `${scene}-${agent}`, first];
+    [this.#scene, this.#agent, this.#name, this.#first] = [scene, agent, `${scene}-${agent}`, first];
     this.#kept.open(scene, agent);
     this.#tab.show(this.#kept.source ?? handoutFor(scene) ?? first);
     this.#class.open(scene, agent);
@@ -79,11 +88,11 @@ export class ProgramSection {
       this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
       return;
     }
-    this.#replace((await file.text()).replaceAll("\r\n", "\n"));
+    this.replace((await file.text()).replaceAll("\r\n", "\n"));
   }
 
   /** Take another program; the present one is kept among the runs. */
-  #replace(text) {
+  replace(text) {
     this.#kept.addRun(this.#tab.text());
     this.#tab.show(text);
     this.changed(text);
@@ -113,20 +122,26 @@ export class ProgramSection {
   }
 
   #takeRun(value) {
-    if (value === "start") this.#replace(this.#first);
+    if (value === "start") this.replace(this.#first);
     else if (value === "teacher") this.#takeHandout();
-    else if (value !== NOW) this.#replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
+    else if (value !== NOW) this.replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
   }
 
   #takeHandout() {
     const source = handoutFor(this.#scene);
-    this.#replace(source);
+    this.replace(source);
     this.#keepAsRun(source); // so it is there after it was changed, and not offered again
   }
 
+  async #copyLink() {
+    this.#panel.notice(await copyLink({ agent: this.#agent, source: this.#tab.text() }));
+  }
+
   #draw() {
+    const shared = sharedFor(this.#scene, this.#agent);
+    this.shared.update(shared === this.#tab.text() ? null : shared);
     const runs = this.#kept.runs.map(({ at, source }) => {
-      const lines = source.trim().split("\n").length;
+      const lines = splitProgram(source).python.trim().split("\n").length;
       return element("option", { value: at, textContent: `${when(at)} · ${lines} lines` });
     });
     const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });

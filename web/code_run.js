@@ -16,7 +16,7 @@ export class ProgramMistake extends Error {
 }
 
 /**
- * Events: "change" (phase, decision), "decision" (what it told, with episode, number and source), "printed", and "end", whose detail is
+ * Events: "change" (phase, decision), "decision" (what it told, with percept, action, episode, number and source), "printed", and "end", whose detail is
  * {reason: "over" | "stopped" | "mistake" | "lost", text, line, percept}.
  */
 export class CodeRun extends EventTarget {
@@ -26,6 +26,8 @@ export class CodeRun extends EventTarget {
   decision = 0;
   /** Name of the reward's term that is paid at the goal; empty if there is none. */
   success = "";
+  /** Id of the agent that the latest run drove. */
+  agent = "";
   #parts;
   #engine = null;
   #isWarm = false;
@@ -91,9 +93,9 @@ export class CodeRun extends EventTarget {
     });
   }
 
-  /** Give the agent back. */
-  stop() {
-    if (this.isOn) this.#end({ reason: "stopped" });
+  /** Give the agent back; a text tells why, if it was not the person who wanted it. */
+  stop(text = "") {
+    if (this.isOn) this.#end({ reason: text ? "lost" : "stopped", text });
   }
 
   /** Call a function with a ticket, and end the run if it throws. */
@@ -131,6 +133,7 @@ export class CodeRun extends EventTarget {
   }
 
   async #join(agent, mode, ticket) {
+    this.agent = agent;
     await this.#until(this.#parts.prepare(), ticket);
     const client = await this.#parts.connect({ agent, mode });
     if (this.#isStale(ticket)) {
@@ -162,7 +165,8 @@ export class CodeRun extends EventTarget {
     const number = percept.step + 1;
     const answer = await this.#until(engine.decide(percept.values, number), ticket);
     this.decision = number;
-    this.#emit("decision", { ...toldBy(answer), episode: percept.episode, number, source: this.#source });
+    const did = { percept: percept.values, action: answer.values ?? null };
+    this.#emit("decision", { ...toldBy(answer), ...did, episode: percept.episode, number, source: this.#source });
     this.#checked(answer, number);
     await this.#until(this.#client.act(answer.values), ticket);
     const next = await this.#until(this.#client.sense(), ticket);

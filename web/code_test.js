@@ -23,6 +23,8 @@ export class CodeTest extends EventTarget {
    * empty before the end.
    */
   rows = [];
+  /** Id of the agent that is tested. */
+  agent = "";
   #parts;
   #client = null;
   #ticket = 0;
@@ -64,6 +66,7 @@ export class CodeTest extends EventTarget {
   async run(source, agent) {
     this.stop();
     const ticket = ++this.#ticket;
+    this.agent = agent;
     this.#current = null;
     this.rows = this.#parts.draw().map((seed, index) => ({ number: index + 1, seed, outcome: "", decisions: 0, seconds: 0 }));
     try {
@@ -181,6 +184,11 @@ class Tally {
   isGoal({ terminated }) {
     return this.#welcome.success ? this.#success > 0 : terminated && this.#reward > 0;
   }
+}
+
+/** Return how many decisions the starts took on average. */
+export function averageDecisions(rows) {
+  return rows.reduce((sum, { decisions }) => sum + decisions, 0) / rows.length;
 }
 
 /** Return different seeds that nobody can foresee. */

@@ -1,6 +1,6 @@
 /** The results of a test: a sentence, and a table of its starts. */
 
-import { STARTS } from "./code_test.js";
+import { averageDecisions, STARTS } from "./code_test.js";
 import { button, element, keyed, setAttributes, setText } from "./dom.js";
 import { seconds } from "./panel_numbers.js";
 import { section } from "./panel_parts.js";
@@ -13,6 +13,9 @@ export function testWords({ rows, isOn }) {
   const ended = rows.filter(({ outcome }) => outcome);
   const goals = ended.filter(({ outcome }) => outcome === "goal").length;
   if (isOn) return `${goals} of ${ended.length} reached the goal so far.`;
+  if (goals === STARTS) {
+    return `${goals} of ${STARTS} reached the goal, in ${Math.round(averageDecisions(rows))} decisions on average.`;
+  }
   const rest = ended.length < STARTS ? `; the test ended before all ${STARTS}.` : ".";
   return `${goals} of ${ended.length} reached the goal${rest}`;
 }

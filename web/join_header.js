@@ -32,6 +32,8 @@ export class JoinHeader {
     this.#hasPeople = here.length > 0;
     setText(find("#address"), state.address);
     setText(find("#code"), state.code);
+    // at a JupyterHub students sign in, and need no code
+    find("#code").parentElement.hidden = find("#new-code").hidden = !state.code;
     if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
     find("#qr").hidden = false;
     find("#open").setAttribute("aria-pressed", String(!state.open));

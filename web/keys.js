@@ -163,8 +163,9 @@ export class HeldKeys {
   }
 }
 
-/** Return true if typing goes into the element. */
+/** Return true if typing goes into the element, or into an editor that has keys of its own. */
 export function isTextInput(target) {
+  if (target instanceof Element && target.closest("[data-ai4u-keys]")) return true;
   if (!(target instanceof HTMLElement)) return false;
   if (target instanceof HTMLInputElement) return !INPUT_TYPES_WITHOUT_TEXT.includes(target.type);
   return target.isContentEditable || target.matches("textarea, select, [role=textbox]");

@@ -6,7 +6,10 @@ import { number } from "./panel_numbers.js";
 export class Bars {
   element = element("div", { className: "ai4u-bars" });
 
-  /** @param rows [{name, value, unit, low, high, text, good: [from, to]}]; without low and high there is no bar */
+  /**
+   * @param rows [{name, value, unit, low, high, text, good: [from, to], why}]; without low and high there is
+   * no bar; `why` is how much it matters, 0 to 1
+   */
   update(rows) {
     keyed(
       this.element,
@@ -28,11 +31,13 @@ function makeRow() {
   );
 }
 
-function updateRow(row, { name, value, unit = "", low, high, text, good }) {
+function updateRow(row, { name, value, unit = "", low, high, text, good, why = null }) {
   const [label, bar, shown] = row.children;
   const [range, fill, zero] = bar.children;
   setText(label, name);
   setText(shown, `${text ?? number(value)}${unit ? ` ${unit}` : ""}`);
+  setAttributes(row, { "data-why": why !== null });
+  if (why !== null) row.style.setProperty("--why", `${(100 * Math.min(1, why)).toFixed(0)}%`);
   const hasBar = Number.isFinite(low) && Number.isFinite(high) && high > low && Number.isFinite(value);
   setAttributes(row, { "data-plain": !hasBar });
   if (!hasBar) return;

@@ -1,11 +1,13 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
+import { BlocksMode } from "./blocks_mode.js";
 import { CodeConsole } from "./code_console.js";
 import { CodeEditor } from "./code_editor.js";
 import { NameList, VariableList } from "./code_facts.js";
 import { CodeMoment } from "./code_moment.js";
 import { ProgramSection } from "./code_program.js";
 import { CodeRun } from "./code_run.js";
+import { CodeStars } from "./code_stars.js";
 import { outcomeOf, WorldSpeed } from "./code_speed.js";
 import { namesOf, startProgram } from "./code_start.js";
 import { CodeTest } from "./code_test.js";
@@ -15,6 +17,7 @@ import { runWords } from "./code_words.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
 
+const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
@@ -24,6 +27,7 @@ export class CodeTab {
   /** What ran last: the run or the test. */
   #active;
   #editor;
+  #blocks;
   #program;
   #console = new CodeConsole();
   #variables = new VariableList();
@@ -56,7 +60,7 @@ export class CodeTab {
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
   #mistakeText = element("p");
-  #goTo = button("Go to the line", () => this.#editor.goTo(this.#end.line), {});
+  #goTo = button("Go to the line", () => this.#blocks.goTo(this.#end.line) || this.#editor.goTo(this.#end.line), {});
   #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
 
   /** @param parts of CodeRun and CodeTest */
@@ -70,6 +74,8 @@ export class CodeTab {
       outcome: (percept, seed) => outcomeOf(panel, percept, seed),
       ...parts,
     });
+    const stars = new CodeStars(panel, this.#run, this.#test);
+    this.#stateRow.append(stars.row.element);
     this.#active = this.#run;
     this.#moment = new CodeMoment(panel);
     const help = element("p", { className: "ai4u-soft", id: freeId() });
@@ -80,20 +86,26 @@ export class CodeTab {
       { key: "Ctrl-Shift-Enter", mac: "Cmd-Shift-Enter", run: () => this.#go("step") },
     ];
     this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
-    this.#editor.onChange = (text) => {
-      this.#program.changed(text);
-      this.#editor.markRan([]);
-    };
+    this.#editor.onChange = () => this.#onChange();
+    this.#blocks = new BlocksMode(panel, {
+      editor: this.#editor,
+      changed: () => this.#onChange(),
+      replace: (text) => this.#program.replace(text),
+      run: (way) => this.#go(way),
+    });
     this.#program = new ProgramSection(panel, {
-      text: () => this.#editor.text,
+      text: () => this.#blocks.join(this.#editor.text),
       show: (text) => this.#showProgram(text),
       isBusy: () => this.#run.isOn,
     });
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
-    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, this.#nameList.element, this.#program.element];
+    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
-    const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
-    root.append(head, this.#moment.element, this.#program.offer, frame, this.#mistake, help, ...sections);
+    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
+    const head = element("div", { className: "ai4u-code-head" }, buttons, way);
+    const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
+    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
+    root.append(head, ...both, ...sections);
     this.#listen();
     this.#drawState();
     this.#warm();
@@ -106,6 +118,7 @@ export class CodeTab {
     this.#agent = agent;
     const names = namesOf(agent.sensors, python.actuators);
     const text = JSON.stringify(names);
+    this.#blocks.setAgent(python);
     if (text !== this.#namesText) this.#setNames(names, text);
     this.#open();
   }
@@ -130,7 +143,10 @@ export class CodeTab {
         this.#drawSoon();
       });
     }
-    this.#test.addEventListener("end", ({ detail }) => this.#onEnd({ ...detail, summary: testWords(this.#test) }));
+    this.#test.addEventListener("end", ({ detail }) => {
+      this.#onEnd({ ...detail, summary: testWords(this.#test) });
+      if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
+    });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) this.#test.stop("You drive, so the test was ended.");
       this.#wasPerson = this.#isPerson;
@@ -138,6 +154,7 @@ export class CodeTab {
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
+      this.#blocks.note(detail);
       this.#drawSoon();
     });
     this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
@@ -148,6 +165,7 @@ export class CodeTab {
     });
     for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
+    document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
   }
 
   // -- the program -------------------------------------------------------------------------------
@@ -166,8 +184,13 @@ export class CodeTab {
   }
 
   #showProgram(text) {
-    this.#editor.text = text;
+    this.#editor.text = this.#blocks.take(text);
     this.#forget();
+  }
+
+  #onChange() {
+    this.#program.changed(this.#blocks.join(this.#editor.text));
+    this.#markRan([]);
   }
 
   // -- runs --------------------------------------------------------------------------------------
@@ -200,15 +223,16 @@ export class CodeTab {
     this.#panel.send("seed", { seed: String(seed) });
   }
 
-  #stopAll() {
-    this.#run.stop();
-    this.#test.stop();
+  #stopAll(text = "") {
+    this.#run.stop(text);
+    this.#test.stop(text);
   }
 
   /** Keep a program that runs, and forget how the one before ended. */
   #noteStart(source) {
     this.#forget();
-    this.#program.ran(source);
+    this.#blocks.begin();
+    this.#program.ran(this.#blocks.join(source));
   }
 
   /** Forget how the run before ended. */
@@ -216,8 +240,8 @@ export class CodeTab {
     this.#end = this.#latest = null;
     this.#mistakeText.textContent = "";
     this.#goTo.remove();
-    this.#editor.markMistake(null);
-    this.#editor.markRan([]);
+    this.#markMistake(null);
+    this.#markRan([]);
     this.#variables.update({});
     this.#drawSoon();
   }
@@ -227,7 +251,7 @@ export class CodeTab {
     setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
     if (end.line !== null) {
       this.#mistake.append(this.#goTo);
-      this.#editor.markMistake(end.line);
+      this.#markMistake(end.line);
     }
     this.#drawSoon();
   }
@@ -291,8 +315,18 @@ export class CodeTab {
   }
 
   #drawTold(told, isSame) {
-    this.#editor.markRan(isSame ? told.lines : []);
+    this.#markRan(isSame ? told.lines : []);
     this.#variables.update(told?.variables ?? {});
+  }
+
+  #markRan(lines) {
+    this.#editor.markRan(lines);
+    this.#blocks.markRan(lines);
+  }
+
+  #markMistake(line) {
+    this.#editor.markMistake(line);
+    this.#blocks.markMistake(line);
   }
 
   #drawState() {

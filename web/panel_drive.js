@@ -10,6 +10,7 @@ import { RewardTable } from "./panel_rewards.js";
 import { RobotTable, scriptWords } from "./panel_robots.js";
 import { SensorView } from "./panel_sensor.js";
 import { Training } from "./panel_training.js";
+import { Why } from "./panel_why.js";
 
 export class DriveTab {
   #panel;
@@ -29,6 +30,8 @@ export class DriveTab {
   #rewards = new RewardTable();
   #training = new Training();
   #python;
+  #why;
+  #latest = null;
   #howTo = element("p");
   #sections;
   #root;
@@ -37,6 +40,7 @@ export class DriveTab {
     this.#root = root;
     this.#panel = panel;
     this.#python = new PythonLines(panel);
+    this.#why = new Why(panel, () => this.#latest && this.#drawSensors(this.#latest));
     this.#agents = choice("Robot", (agent) => panel.show({ agent }));
     this.#agents.element.hidden = true;
     this.#driver = new DriverStatus(this.#driverRow, () => panel.driving.take(), () => panel.driving.letGo());
@@ -49,11 +53,12 @@ export class DriveTab {
       robots: section("robots", "All robots", { isOpen: false, detailsOnly: true }, this.#robots.element),
       needs: section("needs", "Needs", {}, this.#needs.element),
       sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
+      why: section("why", "Because of what", {}, this.#why.element),
       rewards: section("rewards", "Rewards", {}, this.#rewards.element),
       action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
     };
-    const { training, driver, robots, needs, sensors, rewards, action, python } = this.#sections;
-    root.append(this.#agents.element, training, driver, needs, sensors, rewards, action, robots, python);
+    const { training, driver, robots, needs, why, sensors, rewards, action, python } = this.#sections;
+    root.append(this.#agents.element, training, driver, needs, why, sensors, rewards, action, robots, python);
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
     panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
     panel.addEventListener("agent", () => this.#drawShown());
@@ -75,13 +80,8 @@ export class DriveTab {
     setText(this.#state, state.filter(Boolean).join(" · "));
     this.#needs.update((agent.needs ?? []).map(needRow));
     this.#sections.needs.hidden = !agent.needs?.length;
-    keyed(
-      this.#sensors,
-      agent.sensors,
-      ({ key, class: type }) => `${key} ${type}`,
-      (sensor) => new SensorView(this.#panel, sensor).element,
-      (made, sensor) => made.view.update(sensor),
-    );
+    this.#latest = agent;
+    this.#drawSensors(agent);
     this.#sections.sensors.hidden = agent.sensors.length === 0;
     this.#action.update((agent.action ?? []).map(actionRow));
     setText(this.#phases, phaseWords(agent.phases));
@@ -89,6 +89,16 @@ export class DriveTab {
     setText(this.#script, scriptWords(agent.script));
     this.#robots.update(agent.others ?? []);
     this.#sections.robots.hidden = !agent.others?.length;
+  }
+
+  #drawSensors(agent) {
+    keyed(
+      this.#sensors,
+      agent.sensors,
+      ({ key, class: type }) => `${key} ${type}`,
+      (sensor) => new SensorView(this.#panel, sensor).element,
+      (made, sensor) => made.view.update(sensor, this.#why.of(agent.id, sensor.key)),
+    );
   }
 
   #drawTraining(training) {

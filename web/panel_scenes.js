@@ -1,10 +1,12 @@
 /** The scene's title, as a button that opens the scene picker. */
 
+import { syncStars } from "./class_stars.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { icon } from "./panel_icons.js";
 import { tile, tiles } from "./panel_parts.js";
 import { ask } from "./question.js";
 import { unsavedSentence } from "./scene_api.js";
+import { starRow, starsOf } from "./stars.js";
 
 const [MINE, OTHERS] = ["My scenes", "More scenes"];
 /** Headings in their order: the scenes' levels, and those without one. */
@@ -31,7 +33,7 @@ export class ScenePicker {
   /** Show all scenes as cards. */
   async open() {
     const window_ = this.#panel.dialog("Choose a scene", element("p", { textContent: "Loading …" }));
-    const answer = await this.#panel.send("scenes", {}, { quiet: true });
+    const [answer] = await Promise.all([this.#panel.send("scenes", {}, { quiet: true }), syncStars()]);
     if (!answer.ok) {
       window_.body.replaceChildren(element("p", { role: "alert", textContent: answer.text }));
       return;
@@ -53,10 +55,12 @@ export class ScenePicker {
   #tile(scene, close) {
     const { title, goal, minutes, picture } = scene;
     const note = minutes ? `about ${minutes} min` : "";
-    return tile({ picture, title, text: goal, note }, async () => {
+    const made = tile({ picture, title, text: goal, note }, async () => {
       close();
       await this.#load(scene);
     });
+    if (scene.stars) made.append(starRow(starsOf(scene.name), scene.stars).element);
+    return made;
   }
 
   async #load({ name, title, is_saved: isSaved = false }) {

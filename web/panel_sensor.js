@@ -4,6 +4,7 @@ import { button, element, keyed, setAttributes, setText } from "./dom.js";
 import { Bars } from "./panel_bars.js";
 import { icon } from "./panel_icons.js";
 import { drawStrip, makeStrip } from "./panel_strip.js";
+import { drawWeights } from "./panel_why.js";
 
 /** A picture with fewer rows is stretched to a line. */
 const MIN_ROWS = 4;
@@ -18,6 +19,7 @@ export class SensorView {
   #eye = button("", () => this.#toggle(), { icon: "eye", label: "Show in the picture", kind: "quiet" });
   #bars = new Bars();
   #strips = element("div", { className: "ai4u-strips" });
+  #weights = element("div", { className: "ai4u-why-weights", hidden: true, ariaHidden: "true" });
   #pictures = element("div", { className: "ai4u-pictures" });
   #text = element("p");
   #help = element("p", { className: "ai4u-soft ai4u-details-only" });
@@ -29,13 +31,16 @@ export class SensorView {
     const mark = element("span", { className: "ai4u-card-icon" }, icon(sensor.icon ?? "own"));
     const words = element("div", {}, this.#heading, this.#type);
     const head = element("header", {}, mark, words, this.#eye);
-    const reading = [this.#bars.element, this.#strips, this.#pictures, this.#text];
+    const reading = [this.#bars.element, this.#strips, this.#pictures, this.#weights, this.#text];
     this.element = element("article", { className: "ai4u-sensor" }, head, ...reading, this.#help);
     this.element.view = this; // found again when the list is brought up to date
   }
 
-  /** @param sensor an entry of `sensors` of the part "agent" */
-  update(sensor) {
+  /**
+   * @param sensor an entry of `sensors` of the part "agent"
+   * @param why how much its slots matter, see `Why.of`; null if that is not shown
+   */
+  update(sensor, why = null) {
     const { title, key, help = "", values = [], strips = [], pictures = [], text = "" } = sensor;
     this.#title = title || key;
     this.#isShown = Boolean(sensor.is_shown);
@@ -47,7 +52,9 @@ export class SensorView {
     const label = `Show ${this.#title} in the picture`;
     setAttributes(this.#eye, { "aria-pressed": this.#isShown ? "true" : "false", "aria-label": label, title: label });
     this.#bars.element.hidden = values.length === 0;
-    this.#bars.update(values);
+    const hasBars = why !== null && why.slots.length === values.length;
+    this.#bars.update(hasBars ? values.map((row, index) => ({ ...row, why: why.slots[index].share / why.scale })) : values);
+    drawWeights(this.#weights, hasBars ? null : why, pictures[0]?.columns);
     list(this.#strips, strips, makeStrip, drawStrip);
     list(this.#pictures, pictures, makePicture, (made, picture) => drawPicture(made, picture, this.#title));
     this.#text.hidden = text === "";

@@ -1,7 +1,8 @@
-/** The table of progress: students by exercises. */
+/** The tables of progress: students by exercises, and the stars of their programs by scenes. */
 
 import { element, setText } from "./dom.js";
 import { counted } from "./room_words.js";
+import { starRow } from "./stars.js";
 
 /** Signs and words of an exercise's state; a sign differs in shape. */
 const STATES = {
@@ -21,19 +22,21 @@ export class ProgressTable {
   }
 
   /** Show the class's state; made anew only if something in it has changed. */
-  show({ seats, exercises = [], progress = {} }) {
+  show({ seats, exercises = [], progress = {}, scenes = [], stars = {} }) {
     const students = seats.filter((seat) => seat.state === "in");
-    const told = JSON.stringify([students.map((s) => [s.number, s.name, this.#realNames.of(s)]), exercises, progress]);
+    const told = JSON.stringify([students.map((s) => [s.number, s.name, this.#realNames.of(s)]), exercises, progress, stars]);
     if (told === this.#told) return;
     this.#told = told;
     const begun = new Set(Object.values(progress).flatMap(Object.keys));
     const lessons = exercises.filter((lesson) => lesson.ids.some((id) => begun.has(id)));
-    if (lessons.length === 0) {
-      const text = "No exercises yet. When students solve exercises of the lessons, a row for each of them appears here.";
+    const earned = this.#starTable(students, scenes, stars);
+    if (lessons.length === 0 && earned === null) {
+      const text = "No exercises yet. When students solve exercises of the lessons, a row for each of them appears here, and when their programs earn stars.";
       this.#place.replaceChildren(element("p", { className: "ai4u-empty", textContent: text }));
       return;
     }
-    this.#keepScroll(() => this.#place.replaceChildren(this.#table(students, lessons, progress)));
+    const tables = [lessons.length > 0 && this.#table(students, lessons, progress), earned];
+    this.#keepScroll(() => this.#place.replaceChildren(...tables.filter(Boolean)));
   }
 
   #keepScroll(update) {
@@ -41,6 +44,27 @@ export class ProgressTable {
     const [left, top] = [box?.scrollLeft ?? 0, box?.scrollTop ?? 0];
     update();
     this.#place.firstElementChild.scrollTo(left, top);
+  }
+
+  /** Return the table of stars; null if nobody has any. */
+  #starTable(students, scenes, stars) {
+    const begun = new Set(Object.values(stars).flatMap(Object.keys));
+    const shown = scenes.filter(({ name }) => begun.has(name));
+    const rows = students.filter(({ number }) => stars[number]);
+    if (shown.length === 0 || rows.length === 0) return null;
+    const heads = shown.map(({ title }) => element("th", { scope: "col", textContent: title }));
+    const head = element("tr", {}, element("th", { scope: "col", textContent: "Stars of programs" }), ...heads);
+    const body = rows.map((seat) => {
+      const note = element("span", { className: "ai4u-facts", textContent: this.#realNames.of(seat) });
+      const cells = shown.map(({ name, stars: total }) => {
+        const count = stars[seat.number][name] ?? 0;
+        return element("td", {}, count > 0 && starRow(count, total).element);
+      });
+      const title = element("span", { className: "ai4u-name", textContent: seat.name });
+      return element("tr", {}, element("th", { scope: "row" }, title, note), ...cells);
+    });
+    const table = element("table", { className: "ai4u-progress" }, element("thead", {}, head), element("tbody", {}, ...body));
+    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Stars of programs" }, table);
   }
 
   #table(students, lessons, progress) {

@@ -42,6 +42,8 @@ function show(message) {
 function showJoin() {
   setText(find("#address"), state.address.replace(/^http:\/\//, "").replace(/\/$/, ""));
   setText(find("#code"), state.code);
+  find("#code").hidden = !state.code; // at a JupyterHub students sign in
+  setText(find("#code-step"), state.code ? "and type the code" : "and sign in");
   if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
   const count = state.seats.filter((seat) => seat.state === "in").length;
   const here = count ? `${counted(count, "student")} ${count === 1 ? "is" : "are"} here` : "Nobody is here yet";

@@ -24,11 +24,11 @@ export function showRoom(room, state, realNames) {
     closeDialogOf(button);
     showPrograms(room, state);
   });
-  const lookIn = element("a", { className: "ai4u-button", href: `./r/${encodeURIComponent(room.id)}/`, target: "_blank", textContent: "Look in" });
+  const lookIn = element("a", { className: "ai4u-button", href: room.look_in, target: "_blank", rel: "noopener", textContent: "Look in" });
   const actions = element(
     "div",
     { className: "ai4u-actions" },
-    isLocal && lookIn,
+    room.look_in && lookIn,
     isLocal && code,
     act("Show to all", { do: "show", kind: "room", room: room.id }),
     assign,

@@ -1,5 +1,6 @@
 /** The programs of a room's students, for the teacher to read. */
 
+import { splitProgram } from "./blocks_text.js";
 import { element } from "./dom.js";
 import { showForm } from "./form_dialog.js";
 import { roomName } from "./room_words.js";
@@ -52,7 +53,9 @@ function programElement({ name, source, scene, agent, age }) {
   const isAny = source !== null;
   const facts = isAny ? `${scene} · agent ${agent} · ${ago(age)}` : "no program yet";
   const head = element("h3", {}, name, " ", element("small", { className: "ai4u-facts", textContent: facts }));
-  const text = isAny && element("pre", { tabIndex: 0, "aria-label": `Program of ${name}`, textContent: source });
+  const { python = "", isOfBlocks } = isAny ? splitProgram(source) : {};
+  if (isOfBlocks) head.lastChild.append(" · made of blocks");
+  const text = isAny && element("pre", { tabIndex: 0, "aria-label": `Program of ${name}`, textContent: python });
   return element("section", {}, head, text);
 }
 

@@ -4,20 +4,25 @@
 
 import { element } from "./dom.js";
 import { ask, tell } from "./question.js";
+import { programIn, withoutProgram, withProgram } from "./program_link.js";
 import { request, unsavedSentence } from "./scene_api.js";
+import { keepShared } from "./shared_program.js";
 
 const PREFIX = "#scene=";
+const BRINGS_PROGRAM = "It brings a program along, which the tab “Code” will offer you. Nothing of it runs by itself.";
 let isAsking = false;
 
 /**
  * Copy a link to the present scene and its seed; where the browser does not allow it, show the link.
  *
+ * @param {{agent: string, source: string}} [program] that the link shall bring along
  * @returns {Promise<string>} a sentence about what happened, to be shown to a person
  */
-export async function copyLink() {
+export async function copyLink(program = null) {
   let made;
   try {
     made = await request("api/scene/link");
+    if (program !== null) made.fragment = await withProgram(made.fragment, program);
   } catch (error) {
     return error.message;
   }
@@ -63,10 +68,12 @@ async function offerSharedScene(link, onopen) {
   // so that reloading the page, or a bookmark of it, does not ask again
   history.replaceState(history.state, "", location.pathname + location.search);
   try {
-    const { title } = await request("api/scene/link", { link });
-    const text = await unsavedSentence();
+    const program = await programIn(link);
+    const { title, name } = await request("api/scene/link", { link: withoutProgram(link) });
+    const text = [program && BRINGS_PROGRAM, await unsavedSentence()].filter(Boolean).join(" ");
     if (await ask({ title: `Open the shared scene “${title}”?`, text, yes: "Open" })) {
-      await request("api/scene", { link });
+      await request("api/scene", { link: withoutProgram(link) });
+      if (program !== null) keepShared({ scene: name, ...program });
       onopen();
     }
   } catch (error) {

@@ -1,9 +1,11 @@
 /** The start page: play a scene of the library, build one, or learn. */
 
+import { syncStars } from "./class_stars.js";
 import { element } from "./dom.js";
 import { ask, tell } from "./question.js";
 import { request, unsavedSentence } from "./scene_api.js";
 import { watchSharedScene } from "./share.js";
+import { starRow, starsOf } from "./stars.js";
 
 /** Name of the empty plate with a robot. */
 const EMPTY_SCENE = "my_scene";
@@ -58,7 +60,7 @@ async function showPresent() {
 async function showScenes() {
   const list = find("#library");
   try {
-    const { scenes, saved } = await request("api/scenes");
+    const [{ scenes, saved }] = await Promise.all([request("api/scenes"), syncStars()]);
     list.replaceChildren(...scenes.map((scene) => sceneCard(scene, { name: scene.name })));
     find("#saved ul").replaceChildren(...saved.map((scene) => sceneCard(scene, { saved: scene.name })));
     find("#saved").hidden = saved.length === 0;
@@ -68,16 +70,17 @@ async function showScenes() {
   list.removeAttribute("aria-busy");
 }
 
-function sceneCard({ title, goal, level, minutes, picture }, wanted) {
+function sceneCard({ name, title, goal, level, minutes, stars, picture }, wanted) {
   cards += 1;
   const id = cards;
   const facts = [level, minutes && `${minutes} min`].filter(Boolean).join(" · ");
+  const row = stars > 0 && starRow(starsOf(name), stars).element;
   const button = element(
     "button",
     { type: "button" },
     picture && element("img", { src: picture, alt: "", loading: "lazy", width: 400, height: 300 }),
     element("span", { className: "ai4u-name", id: `title-${id}`, textContent: title }),
-    element("span", { className: "ai4u-facts", id: `facts-${id}`, textContent: facts, hidden: !facts }),
+    element("span", { className: "ai4u-facts", id: `facts-${id}`, hidden: !facts && !row }, facts, row),
     element("span", { id: `goal-${id}`, textContent: goal }),
   );
   button.setAttribute("aria-labelledby", `title-${id}`);

@@ -2,6 +2,7 @@
 
 from ai4u_edu.class_link.client import LinkClient
 from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
+from ai4u_edu.class_link.hub import is_at_hub, join_at_hub, page_at_hub
 from ai4u_edu.class_link.joining import Seat, join
 from ai4u_edu.class_link.outbox import Outbox
 from ai4u_edu.class_link.seat_file import SeatFile
@@ -13,5 +14,8 @@ __all__ = [
     "Seat",
     "SeatFile",
     "UnreachableError",
+    "is_at_hub",
     "join",
+    "join_at_hub",
+    "page_at_hub",
 ]

@@ -27,6 +27,8 @@ class ClassLinkSettings:
     """Address, such as ``http://teacher:8080/``."""
     secret: str = field(repr=False)
     kind: Literal["room", "notebook"] = "room"
+    page: str = ""
+    """Path of its page at a JupyterHub; see :attr:`~ai4u_edu.wire.class_link.State.page`."""
 
 
 class Link(Protocol):

@@ -19,7 +19,7 @@ from ai4u_edu.class_member.class_view import ClassView
 from ai4u_edu.class_member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.class_member.holds import Holds
 from ai4u_edu.class_member.link import ClassLinkSettings, Link, Receive
-from ai4u_edu.class_member.race_run import RaceRun, ShowGhost
+from ai4u_edu.class_member.race_run import RaceRun, ShowGhosts
 from ai4u_edu.class_member.room_state import RoomState
 from ai4u_edu.class_member.thumbnail import Thumbnail
 from ai4u_edu.editing import SceneEditor
@@ -72,7 +72,8 @@ class ClassMember:
         folder: of the world's files, which exists; left out, what has to outlast the process (the
             last assignment, undelivered results) does not.
         title: of the scene, where there is no editor.
-        show_ghost: shows the ghost of an episode in the page; None removes it.
+        show_ghosts: shows the ghosts of episodes in the page, each with a name.
+        page: as :attr:`ClassLinkSettings.page`, where ``link`` is a function.
         clock: seconds; to be replaced in tests.
     """
 
@@ -84,19 +85,21 @@ class ClassMember:
         folder: Path | None = None,
         *,
         title: str = "",
-        show_ghost: ShowGhost = lambda _episode, _name: None,
+        show_ghosts: ShowGhosts = lambda _drives: None,
+        page: str = "",
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.view = ClassView(clock)
         """State of the class for pages."""
         self._runner, self._editor, self._title, self._clock = runner, editor, title, clock
+        self._page = link.page if isinstance(link, ClassLinkSettings) else page
         self._wake, self._stopping = threading.Event(), False
         self._inbox: deque[tuple[Assignment | Race, float]] = deque()
         self._watch = EpisodeWatch(runner, self._scene)
         self._holds = Holds(runner, clock)
         self._scenes = AssignedScenes(runner, editor, folder, clock)
         self._race = RaceRun(
-            runner, self._scenes, self._watch, self._holds, self.view, show_ghost, clock
+            runner, self._scenes, self._watch, self._holds, self.view, show_ghosts, clock
         )
         self._room_state, self._thumbnail = RoomState(clock), Thumbnail()
         self._attention_lock = threading.Lock()
@@ -259,6 +262,7 @@ class ClassMember:
             version=0 if self._editor is None else self._editor.version,
             begun=self._watch.begun,
         )
+        state = replace(state, page=self._page)
         now, before = self._clock(), self._state
         is_due = now - self._state_sent_at >= HEARTBEAT_S
         if is_due or before is None or state != replace(before, seconds=state.seconds):

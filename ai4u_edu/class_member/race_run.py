@@ -1,7 +1,8 @@
 """A race of a class in one world."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, shorten
@@ -17,8 +18,8 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.class_link import Applied, Race
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
-ShowGhost = Callable[[Episode | None, str], object]
-"""Shows the ghost of an episode under a name; None for none."""
+ShowGhosts = Callable[[Sequence[tuple[Episode, str]]], object]
+"""Shows the ghosts of episodes under their drivers' names, in place of those before."""
 PREPARE_TIMEOUT_S = 10.0
 
 
@@ -33,7 +34,7 @@ class RaceRun:
         watch: has the recorded episodes.
         holds: of the world.
         view: what pages show.
-        show_ghost: shows the best drive so far.
+        show_ghosts: shows the best drives so far.
         clock: seconds.
     """
 
@@ -44,11 +45,11 @@ class RaceRun:
         watch: EpisodeWatch,
         holds: Holds,
         view: ClassView,
-        show_ghost: ShowGhost,
+        show_ghosts: ShowGhosts,
         clock: Callable[[], float],
     ) -> None:
         self._runner, self._scenes, self._watch, self._holds = runner, scenes, watch, holds
-        self._view, self._show_ghost, self._clock = view, show_ghost, clock
+        self._view, self._show_ghosts, self._clock = view, show_ghosts, clock
         self._race: Race | None = None
         """The race that runs here; None for none."""
         self._track: list[Any] = []
@@ -58,7 +59,7 @@ class RaceRun:
         self._was_locked = False
         self._best = math.inf
         self._best_of = ""
-        self._ghost = b""
+        self._ghosts: tuple[bytes, ...] = ()
 
     def update(self, race: Race, starts_at: float) -> Applied | None:
         """Follow the class's race.
@@ -80,7 +81,7 @@ class RaceRun:
             self._race, self._starts_at = race, starts_at
             self._holds.for_race(starts_at)
         if self._race is not None:
-            self._show_best_ghost(self._race)
+            self._show_best(self._race)
         if race.id != self._best_of:
             self._best_of, self._best = race.id, math.inf
         is_shown = bool(race.id) and answer is None
@@ -122,8 +123,8 @@ class RaceRun:
         self._watch.has_recordings = False
         self._holds.for_race(-math.inf)
         self._runner.lock_seed(self._was_locked)
-        self._show_ghost(None, "")
-        self._ghost = b""
+        self._show_ghosts(())
+        self._ghosts = ()
 
     def _prepare(self, race: Race, starts_at: float) -> Applied | None:
         self._holds.for_race(starts_at)
@@ -155,13 +156,13 @@ class RaceRun:
     def _own_best(self) -> float | None:
         return None if math.isinf(self._best) else round(self._best, 2)
 
-    def _show_best_ghost(self, race: Race) -> None:
-        best = race.ghosts[0] if race.ghosts else b""
-        if best == self._ghost:
+    def _show_best(self, race: Race) -> None:
+        if race.ghosts == self._ghosts:
             return
-        self._ghost = best
-        name = race.board[0].name if race.board else "the best so far"
-        try:
-            self._show_ghost(decode(Episode, best, "ghost") if best else None, name)
-        except RecordingError:
-            return  # recorded by another version, say; the race goes on without it
+        self._ghosts = race.ghosts
+        drives = []
+        for place, recorded in enumerate(race.ghosts):
+            name = race.board[place].name if place < len(race.board) else f"place {place + 1}"
+            with suppress(RecordingError):  # of another version, say; the race goes on without it
+                drives.append((decode(Episode, recorded, "ghost"), name))
+        self._show_ghosts(drives)

@@ -13,6 +13,7 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
+from ai4u_edu.scenes.star_goals import library_star_counts
 
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
 Event = dict[str, Any]
@@ -30,10 +31,11 @@ class ClassEvents:
     Args:
         live: the class.
         join: returns the address that students open and its QR code, for the page's own.
+        asks_for_code: False if students sign in elsewhere and need no code.
     """
 
-    def __init__(self, live: LiveClass, join: QrCode) -> None:
-        self._live, self._join = live, join
+    def __init__(self, live: LiveClass, join: QrCode, *, asks_for_code: bool = True) -> None:
+        self._live, self._join, self._asks_for_code = live, join, asks_for_code
         self._cached: dict[tuple[str, bool], tuple[int, float, str]] = {}
 
     def text(self, url: str, *, is_projected: bool) -> str:
@@ -60,7 +62,7 @@ class ClassEvents:
         address, code = self._join(url)
         event: Event = {
             "type": "class",
-            "code": live.seats.code,
+            "code": live.seats.code if self._asks_for_code else "",
             "address": address,
             "qr": code,
             "open": live.seats.is_open,
@@ -76,10 +78,11 @@ class ClassEvents:
         }
         if is_projected:
             for room in event["rooms"]:
-                del room["help"], room["why"]
+                del room["help"], room["why"], room["look_in"]
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
         event["progress"] = live.progress.by_seat()
+        event["stars"] = live.stars.by_seat()
         event["misconceptions"] = misconceptions(live.progress.mistakes)
         return event
 
@@ -102,7 +105,7 @@ class ClassEvents:
         found = []
         remote = {each.seat for each in live.rooms.values() if each.seat and each.state}
         members = {room: [each.number for each in seats] for room, seats in live.members().items()}
-        for room, scene in live.seats.scenes().items():
+        for room, scene in live.seats.scenes().items() if live.host.is_hosting else ():
             state = live.room(room)
             is_used = state.state is not None or live.host.is_running(room)
             own = members.get(room, [])
@@ -127,6 +130,7 @@ class ClassEvents:
             "kind": room.kind,
             "status": status,
             "is_running": is_running,
+            "look_in": _look_in(room),
             "scene": state.scene if state else scene,
             "driver": state.driver if state else "",
             "seconds": round(state.seconds, 1) if state else 0.0,
@@ -137,6 +141,14 @@ class ClassEvents:
             "help": score[0],
             "why": score[1],
         }
+
+
+def _look_in(room: LiveRoom) -> str:
+    """Return the address of a room's page, relative to the teacher's; empty if there is no way."""
+    if room.kind == "local":
+        return f"./r/{room.id}/"
+    has_page = room.link is not None and room.state is not None and bool(room.state.page)
+    return f"./teacher/look/{room.id}" if has_page else ""
 
 
 def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
@@ -171,8 +183,9 @@ def _library() -> list[Event]:
     To load them all would take a second, in which no room is served.
     """
     found = []
+    stars = library_star_counts()
     for name in Scene.names():
         text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
         title = _TITLE.search(text)
-        found.append({"name": name, "title": title[1] if title else name})
+        found.append({"name": name, "title": title[1] if title else name, "stars": stars[name]})
     return sorted(found, key=lambda each: each["title"].lower())

@@ -22,6 +22,7 @@ from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.script_keys import ScriptKeys
 from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.star_routes import StarRoutes
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
@@ -63,8 +64,7 @@ def class_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         blocks: Python files with the teacher's blocks.
     """
-    live = LiveClass(store, seats, rooms, EpisodeCheck(blocks))
-    attempts = Attempts()
+    live, attempts = LiveClass(store, seats, rooms, EpisodeCheck(blocks)), Attempts()
     keys = ScriptKeys(store, seats)
     proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)
 
@@ -88,6 +88,7 @@ def class_app(
             Route("/api/move-code", join.move_code, methods=["POST"]),
             Route("/api/my-work", my_work_route(live)),
             Route("/api/program", programs.own, methods=["GET", "PUT"]),
+            Route("/api/stars", StarRoutes(live).own, methods=["GET", "PUT"]),
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),

@@ -1,11 +1,13 @@
 """WebSocket of the class for links of rooms and notebooks; see :mod:`ai4u_edu.wire.class_link`."""
 
 import asyncio
+from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.course_index import known_exercises
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
@@ -47,15 +49,21 @@ MAX_WAITING_ACKS = 1000
 NOT_ALLOWED, TRY_LATER = 1008, 1013
 
 
+FindRoom = Callable[[str], Awaitable[LiveRoom | None]]
+
+
 class LinkEndpoint:
     """ASGI app that serves links.
 
     Args:
         live: the class.
+        find_room: returns the room of a link by its secret, or None; left out, by the secrets of
+            rooms and the tokens of seats. Any :class:`AI4UError` closes the link, which is opened
+            again later.
     """
 
-    def __init__(self, live: LiveClass) -> None:
-        self._live = live
+    def __init__(self, live: LiveClass, find_room: FindRoom | None = None) -> None:
+        self._live, self._find_room = live, find_room
         self._attempts = Attempts()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -100,9 +108,14 @@ class LinkEndpoint:
             await _refuse(socket, Problem("version", text))
             return None
         found: list[LiveRoom] = []
+        try:
+            elsewhere = await self._find_room(hello.secret) if self._find_room else None
+        except AI4UError as error:
+            await socket.close(TRY_LATER, _close_reason(str(error)))
+            return None
 
         def is_right() -> bool:
-            room = self._live.room_of(hello.secret)
+            room = elsewhere if self._find_room else self._live.room_of(hello.secret)
             found.extend([room] if room is not None else [])
             return bool(found)
 
@@ -112,7 +125,7 @@ class LinkEndpoint:
             await socket.close(TRY_LATER, "too many wrong secrets from this address")
             return None
         if not found:
-            text = "This place in the class is not yours any more. Join again with the code."
+            text = "This place in the class is not yours any more. Join again."
             await _refuse(socket, Problem("secret", text))
             return None
         return found[0]

@@ -22,6 +22,7 @@ from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, State
+from ai4u_edu.classroom.stars import Stars
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.wire.class_link import (
     VERSION,
@@ -64,6 +65,7 @@ class LiveClass:
         self.assignments = Assignments(store)
         self.progress = Progress(store)
         self.programs = Programs(store)
+        self.stars = Stars(store)
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.results = ResultWriter(
@@ -231,6 +233,7 @@ class LiveClass:
         self.attention.read()
         self.assignments.read()
         self.progress.read()
+        self.stars.read()
         self.races.read()
         self.shown = json.loads(NOTHING_SHOWN)
         self.tell_people()

@@ -88,6 +88,8 @@ class LocalRooms:
         if is_forked:
             self._context.set_forkserver_preload([run_room.__module__])
 
+    is_hosting = True
+
     async def enter(self, room: str, scene: str) -> RoomAddress:
         """Return the address of a room's server, which is started if it does not run.
 

@@ -1,8 +1,6 @@
 """HTTP routes of programs: a seat's own, and those of a room for the teacher."""
 
 import asyncio
-import time
-from collections.abc import Callable
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -19,14 +17,12 @@ from ai4u_edu.classroom.programs import (
     MAX_SCENE_NAME_CHARS,
     ProgramRow,
 )
+from ai4u_edu.classroom.seat_rate import SeatRate
 from ai4u_edu.server.json_body import read_json
 
 MAX_BODY_BYTES = 6 * MAX_PROGRAM_CHARS + 4000
 """JSON takes at most six bytes for a character."""
 MAX_AGE_S = 10 * 366 * 24 * 3600.0
-REQUESTS_PER_S = 1.0
-"""Rate of a seat's requests, of which some may come at once."""
-MAX_REQUESTS_AT_ONCE = 30
 
 
 class SavedProgram(BaseModel):
@@ -46,19 +42,17 @@ class ProgramRoutes:
 
     Args:
         live: the class.
-        clock: returns seconds; to be replaced in tests.
     """
 
-    def __init__(self, live: LiveClass, clock: Callable[[], float] = time.monotonic) -> None:
-        self._live, self._programs, self._clock = live, live.programs, clock
-        self._requests: dict[int, tuple[float, float]] = {}  # how many of late, and when
+    def __init__(self, live: LiveClass) -> None:
+        self._live, self._programs, self._rate = live, live.programs, SeatRate()
 
     async def own(self, request: Request) -> Response:
         """Keep a program of the browser's seat (PUT), or return it (GET)."""
         seat = seat_of(self._live.seats, request)
         if seat is None:
             return _problem("This browser has no place in the class.", 403)
-        if not self._is_allowed(seat.number):
+        if not self._rate.is_allowed(seat.number):
             return _problem("Too many programs at once. Try again in some seconds.", 429)
         try:
             if request.method == "PUT":
@@ -115,15 +109,6 @@ class ProgramRoutes:
             "source": program.source,
             "age": round(self._programs.age_of(program), 3),
         }
-
-    def _is_allowed(self, seat: int) -> bool:
-        now = self._clock()
-        count, since = self._requests.get(seat, (0.0, now))
-        count = max(0.0, count - (now - since) * REQUESTS_PER_S)
-        if count >= MAX_REQUESTS_AT_ONCE:
-            return False
-        self._requests[seat] = (count + 1, now)
-        return True
 
 
 def _problem(text: str, status: int) -> Response:

@@ -21,6 +21,8 @@ def results_page(live: LiveClass) -> str:
         f"<h1>Results of the class</h1><p>{len(live.seats)} seats.</p>",
         "<h2>Exercises</h2>",
         _progress(live),
+        "<h2>Stars of programs</h2>",
+        _table(("student", "scene", "stars"), star_rows(live)),
         "<h2>Mistakes</h2>",
         _table(
             ("exercise", "seats", "times", "hint that students got", "what to say"),
@@ -63,6 +65,13 @@ def _progress(live: LiveClass) -> str:
             cells.append(f'<td class="{entry.state}">{html.escape(text)}</td>')
         rows.append(f"<tr><th>{html.escape(seat.name)}</th>{''.join(cells)}</tr>")
     return f"<table><tr><th></th>{head}</tr>{''.join(rows)}</table>"
+
+
+def star_rows(live: LiveClass) -> Iterator[tuple[str, str, int]]:
+    """Yield a seat's name, a scene's name and the stars of the seat's program there."""
+    for seat in live.seats.all():
+        for scene, count in sorted(live.stars.of_seat(seat.number).items()):
+            yield seat.name, scene, count
 
 
 def _races(live: LiveClass) -> Iterator[str]:

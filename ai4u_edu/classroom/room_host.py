@@ -21,6 +21,10 @@ class RoomAddress:
 class RoomHost(Protocol):
     """Runs rooms. Its methods belong to the event loop of the class."""
 
+    @property
+    def is_hosting(self) -> bool:
+        """True if seats have rooms here; False if all worlds are students' own."""
+
     async def enter(self, room: str, scene: str) -> RoomAddress:
         """Return the address of a room's server, which is started if it does not run.
 

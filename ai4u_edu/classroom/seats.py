@@ -127,7 +127,7 @@ class Seats:
             if own:
                 seat = self._take_again(own[0], request, token, replaced)
             else:
-                seat = self._new_seat(name, request, token)
+                seat = self._new_seat(name, TokenRow(hash_of(token), 0, request))
         return seat, token
 
     def _take_again(
@@ -158,7 +158,8 @@ class Seats:
         if not self.is_open:
             raise JoinError("Nobody else can join at present. Ask your teacher.")
 
-    def _new_seat(self, name: str, request: str, token: str) -> SeatRow:
+    def _new_seat(self, name: str, device: TokenRow) -> SeatRow:
+        """Store a new seat with its device, whose number is set here, and return it."""
         if len(self._seats) >= MAX_SEATS:
             raise JoinError(f"The class is full: it has {MAX_SEATS} seats. Ask your teacher.")
         if not is_name(name):
@@ -172,7 +173,7 @@ class Seats:
             room = secrets.token_hex(ROOM_ID_BYTES)
             new_room = RoomRow(room, self._scene)
         seat = SeatRow(number, name, colour_of(number), room, State.IN.value)
-        device = TokenRow(hash_of(token), number, request)
+        device = replace(device, seat=number)
         self._store.add_seat(seat, device, new_room)
         if new_room is not None:
             self._scenes[room] = self._scene
@@ -186,6 +187,41 @@ class Seats:
             device = self._tokens.get(hash_of(token))
             seat = None if device is None else self._seats[device.seat]
         return seat if seat is not None and seat.state == State.IN.value else None
+
+    def by_identity(self, identity: bytes) -> SeatRow | None:
+        """Return the seat of a person; None if there is none that may enter; see :meth:`admit`."""
+        with self._lock:
+            device = self._tokens.get(identity)
+            seat = None if device is None else self._seats[device.seat]
+        return seat if seat is not None and seat.state == State.IN.value else None
+
+    def admit(self, identity: bytes) -> SeatRow:
+        """Return the seat of a person whom another system has identified; a new one if needed.
+
+        Args:
+            identity: a hash of what that system calls the person.
+
+        Raises:
+            JoinError: the class is full or closed, the seat is banned, or no name is left.
+        """
+        with self._lock:
+            device = self._tokens.get(identity)
+            if device is None:
+                self._check_open()
+                taken = {each.name for each in self._seats.values()}
+                names = free_names(taken, 1, self._language)
+                if not names:
+                    raise JoinError("The class has no name left. Ask your teacher.")
+                return self._new_seat(names[0], TokenRow(identity, 0, identity.hex()))
+            seat = self._seats[device.seat]
+            if seat.state == State.BANNED.value:
+                raise JoinError("You may not join this class. Ask your teacher.")
+            if seat.state != State.IN.value:
+                self._check_open()
+                seat = replace(seat, state=State.IN.value)
+                self._store.update_seat(seat)
+                self._seats[seat.number] = seat
+            return seat
 
     def new_move_code(self, number: int) -> str:
         """Return a code with which a seat moves to another device; see :mod:`.move_codes`."""

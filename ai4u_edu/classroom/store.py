@@ -1,7 +1,7 @@
 """A class on disk, in one SQLite file: its code, rooms and seats, and the tables of its results.
 
-Results, progress, assignments, programs and races are read and written by the modules that own
-them, through :meth:`ClassStore.query` and :meth:`ClassStore.transaction`.
+Results, progress, assignments, programs, stars and races are read and written by the modules that
+own them, through :meth:`ClassStore.query` and :meth:`ClassStore.transaction`.
 """
 
 import sqlite3
@@ -20,7 +20,7 @@ from ai4u_edu.classroom.errors import StoreError
 FILE = "class.sqlite3"
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 5
+VERSION = 6
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -76,6 +76,12 @@ create table programs (
     source text not null,
     changed_at real not null,
     primary key (seat, scene, agent)
+) strict;
+create table stars (
+    seat integer not null references seats (number),
+    scene text not null,
+    count integer not null,
+    primary key (seat, scene)
 ) strict;
 create table races (
     id text primary key,

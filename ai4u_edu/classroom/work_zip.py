@@ -6,7 +6,7 @@ import json
 import re
 import tempfile
 import zipfile
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Iterable, Iterator
 from dataclasses import asdict
 from typing import IO
 
@@ -19,7 +19,7 @@ from ai4u_edu.classroom.live_rooms import remote_id
 from ai4u_edu.classroom.programs import FOLDER as PROGRAMS
 from ai4u_edu.classroom.progress import Entry
 from ai4u_edu.classroom.race import FOLDER as RACES
-from ai4u_edu.classroom.results_page import results_page
+from ai4u_edu.classroom.results_page import results_page, star_rows
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.lessons import progress_file
@@ -66,6 +66,7 @@ def _zipped(files: Files) -> IO[bytes]:
 def _class_files(live: LiveClass) -> Files:
     yield "results.html", results_page(live).encode()
     yield "progress.csv", _table(live).encode()
+    yield "stars.csv", _csv(("name", "scene", "stars"), star_rows(live)).encode()
     remote = [remote_id(each.number) for each in live.seats.all()]
     for each in [*live.seats.scenes(), *remote]:
         name = _room_name(live, each)
@@ -168,12 +169,22 @@ def _file_name(text: str) -> str:
 
 def _table(live: LiveClass) -> str:
     """Return one line of CSV for each seat and exercise."""
+    names = {each.number: each.name for each in live.seats.all()}
+    entries = sorted(live.progress.entries.items())
+    return _csv(
+        HEADER,
+        (
+            [seat, names.get(seat, ""), exercise, *_cells(entry)]
+            for (seat, exercise), entry in entries
+        ),
+    )
+
+
+def _csv(header: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(HEADER)
-    names = {each.number: each.name for each in live.seats.all()}
-    for (seat, exercise), entry in sorted(live.progress.entries.items()):
-        writer.writerow([seat, names.get(seat, ""), exercise, *_cells(entry)])
+    writer.writerow(header)
+    writer.writerows(rows)
     return out.getvalue()
 
 

@@ -9,6 +9,16 @@ import typer
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks
 
+Rooms = Annotated[
+    str, typer.Option(help="A room for each student, or shared: each, pairs, teams:N or one.")
+]
+Folder = Annotated[
+    Path, typer.Option(help="Folder of the class; started with it again, the class goes on.")
+]
+JoinCode = Annotated[str, typer.Option(help="Join code. Default: a random one.")]
+Language = Annotated[
+    str, typer.Option(help="Language of students' names: en, de, es, fr, ko or pt.")
+]
 SleepAfter = Annotated[
     float,
     typer.Option(
@@ -23,28 +33,47 @@ RoomMemory = Annotated[
     typer.Option(min=100, max=100_000, callback=finite, help="Memory (MB) that one world may use."),
 ]
 
+AtHub = Annotated[
+    bool,
+    typer.Option(
+        "--hub",
+        help="Run as a service of a JupyterHub, which says where to listen and who is who.",
+    ),
+]
+Teachers = Annotated[
+    list[str] | None,
+    typer.Option(
+        help="With --hub: a group of the hub whose members are teachers, as its admins are. "
+        "Repeat the option for several. Default: ai4u-teachers.",
+        show_default=False,
+    ),
+]
+
 
 def classroom(
+    context: typer.Context,
     scene: o.SceneName = "box_chase",
-    rooms: Annotated[
-        str, typer.Option(help="A room for each student, or shared: each, pairs, teams:N or one.")
-    ] = "each",
-    folder: Annotated[
-        Path, typer.Option(help="Folder of the class; started with it again, the class goes on.")
-    ] = Path("ai4u-class"),
+    rooms: Rooms = "each",
+    folder: Folder = Path("ai4u-class"),
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
-    code: Annotated[str, typer.Option(help="Join code. Default: a random one.")] = "",
-    language: Annotated[
-        str, typer.Option(help="Language of students' names: en, de, es, fr, ko or pt.")
-    ] = "en",
+    code: JoinCode = "",
+    language: Language = "en",
     sleep_after: SleepAfter = 5.0,
     room_memory: RoomMemory = 600.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,
+    hub: AtHub = False,
+    teachers: Teachers = None,  # noqa: ARG001 - serve_at_hub takes it from the context
 ) -> None:
     """Serve a class: students join with a code, and each drives in a world of their own."""
+    load_own_blocks(own_blocks)
+    if hub:
+        from ai4u_edu.cli.classroom_hub import serve_at_hub
+
+        serve_at_hub(context)
+        return
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
@@ -55,13 +84,10 @@ def classroom(
     from ai4u_edu.server import hosts_for, open_on_desktop, serve
     from ai4u_edu.server.process_exit import HAS_SERVED
 
-    load_own_blocks(own_blocks)
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
-    with (
-        ClassStore(folder) as store,
-        closing(LocalRooms(folder, own_blocks or (), limits)) as local,
-    ):
+    blocks = own_blocks or ()
+    with ClassStore(folder) as store, closing(LocalRooms(folder, blocks, limits)) as local:
         seats = Seats(store, scene, RoomRule.parse(rooms), code, language)
         token = teacher_token(store)
 
@@ -79,7 +105,7 @@ def classroom(
             join_address=lambda url: join_address(host, url),
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
-            blocks=own_blocks or (),
+            blocks=blocks,
         )
         with tuned_process(), released_memory():
             serve(app, host, port, announce, **SERVER_LIMITS)

@@ -8,6 +8,7 @@ import typer
 
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.cli import play_options as o
+from ai4u_edu.cli.joining import with_class
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def play(
         unsaved=unsaved_folder() if autosave or restore else None,
         autosave=autosave,
     )
-    settings = _with_class(_with_work(settings), class_url, code, name_choice)
+    settings = with_class(_with_work(settings), class_url, code, name_choice, port)
     _serve(settings, host, port, open_page, connections)
 
 
@@ -108,27 +109,6 @@ def _with_work(settings: "RoomSettings") -> "RoomSettings":
         scene=str(work.scene),
         saved_scenes=settings.saved_scenes or work.scenes,
         offers=(*settings.offers, str(work.episodes)),
-    )
-
-
-def _with_class(settings: "RoomSettings", url: str, code: str, name_choice: int) -> "RoomSettings":
-    """Join a class, if there is an address."""
-    if not url:
-        if code:
-            raise typer.BadParameter("expected --class with the address of the class, too")
-        return settings
-    from ai4u_edu.base.atomic_write import make_folder
-    from ai4u_edu.class_link import SeatFile
-    from ai4u_edu.class_member import ClassLinkSettings
-    from ai4u_edu.editing.autosave import unsaved_folder
-
-    seats = SeatFile(unsaved_folder().with_name("classes") / "seats.json")
-    seat = seats.take(url, code, name_choice)
-    folder = seats.folder(seat)
-    make_folder(folder, "the seat in the class")
-    typer.echo(f"Joined the class as {seat.name}.")
-    return replace(
-        settings, class_link=ClassLinkSettings(seat.url, seat.token), class_folder=folder
     )
 
 

@@ -45,9 +45,11 @@ AllowHost = Annotated[
     list[str] | None,
     typer.Option(help="Host name of a reverse proxy in front. Repeat the option for several."),
 ]
+TOKEN_VARIABLE = "AI4U_EDU_TOKEN"  # noqa: S105 - its name
 Token = Annotated[
     str,
     typer.Option(
+        envvar=TOKEN_VARIABLE,  # others may read a command line
         help="Token that pages and scripts have to send. Default: a random one if other machines "
         "can reach the server, else none.",
         show_default=False,
@@ -149,7 +151,8 @@ ClassUrl = Annotated[
     str,
     typer.Option(
         "--class",
-        help="Address of a class to join: the teacher sees this world. Default: none.",
+        help="Address of a class to join: the teacher sees this world. On a JupyterHub: hub, "
+        "without a code. Default: none.",
         show_default=False,
     ),
 ]

@@ -13,6 +13,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli import training_options as o
 from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+from ai4u_edu.cli.sweep import sweep
+from ai4u_edu.cli.tournament import tournament
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +27,9 @@ if TYPE_CHECKING:
 def add_to(app: typer.Typer) -> None:
     """Add the commands to a command line."""
     app.command()(train)
+    app.command()(sweep)
     app.command()(evaluate)
+    app.command()(tournament)
     app.command()(export)
 
 
@@ -40,6 +44,7 @@ def train(
     observe: o.Observed = None,
     resume: o.Resume = False,
     overwrite: o.Overwrite = False,
+    keep_checkpoints: o.KeepCheckpoints = False,
     watch: o.WatchFlag = False,
     port: o.WatchPort = 8080,
     own_blocks: OwnBlocks = None,
@@ -66,6 +71,7 @@ def train(
             observe=observe or (),
             resume=resume,
             overwrite=overwrite,
+            keep_checkpoints=keep_checkpoints,
             watch=page or False,
         )
         typer.echo(_summary(result))
@@ -180,6 +186,7 @@ def _evaluated_on(
 def export(
     model: Annotated[Path, typer.Argument(help="Folder of a training, or a model (.zip) in it.")],
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("policy.onnx"),
+    with_critic: o.WithCritic = False,
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Export a model as a network (.onnx) that drives without torch and can be shared."""
@@ -187,7 +194,7 @@ def export(
     from ai4u_edu.training.run import run_of
 
     load_own_blocks(own_blocks)
-    path = exported(model, out)
+    path = exported(model, out, with_critic=with_critic)
     name = run_of(model).config().scene
     typer.echo(
         f"{path}: {path.stat().st_size / 1000:.0f} kB\n"

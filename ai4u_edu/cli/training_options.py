@@ -51,6 +51,16 @@ Resume = Annotated[bool, typer.Option("--resume", help="Continue the training in
 Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Start again and delete the training in --out.")
 ]
+KeepCheckpoints = Annotated[
+    bool,
+    typer.Option(
+        "--keep-checkpoints", help="Keep the model of each check, as checkpoint-STEPS.zip in --out."
+    ),
+]
+WithCritic = Annotated[
+    bool,
+    typer.Option("--with-critic", help="Also keep the critic, which tells what a place is worth."),
+]
 WatchFlag = Annotated[
     bool,
     typer.Option(
@@ -90,6 +100,14 @@ EngineName = Annotated[
         "--engine",
         help="Where the episodes run: inline (here), processes (one for each core), or ray "
         "(a cluster). Starting processes takes seconds.",
+    ),
+]
+JobsEngine = Annotated[
+    str,
+    typer.Option(
+        "--engine",
+        help="Where the jobs run: inline (here), processes (one for each core), or ray "
+        "(a cluster).",
     ),
 ]
 ClusterAddress = Annotated[

@@ -8,6 +8,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.editing.scene_pictures import scene_picture
 from ai4u_edu.editing.scene_store import MAX_SCENES, SceneStore
 from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.star_goals import star_goals
 
 PICTURE_SIZE_PX = 144
 """Longer side of a picture: twice its size on the page, for high-resolution screens."""
@@ -25,6 +26,8 @@ class Card(NamedTuple):
     """Level of difficulty; empty if nobody has given one."""
     minutes: int | None = None
     """Time (minutes) that a person needs to reach the goal for the first time."""
+    stars: int = 0
+    """Number of stars that a program can earn; 0 for a saved scene."""
 
     @property
     def picture_url(self) -> str:
@@ -37,7 +40,8 @@ class Card(NamedTuple):
 def card(name: str) -> Card:
     """Return the card of a library scene; cached, because drawing takes a moment."""
     scene = Scene.load(name)
-    return _card(name, scene.description.title or name, scene)
+    found = _card(name, scene.description.title or name, scene)
+    return found._replace(stars=star_goals(scene.description).count)
 
 
 def library_cards() -> list[Card]:

@@ -9,6 +9,7 @@ from PIL import Image
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.scenes.scene import LIBRARY
+from ai4u_edu.scenes.star_goals import star_goals
 from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
@@ -32,6 +33,8 @@ class LibraryScene(NamedTuple):
     """``easy``, ``medium``, ``hard``, or empty."""
     minutes: int | None
     """Time that a person needs to reach the goal for the first time."""
+    stars: int
+    """Number of stars that a program can earn."""
 
 
 def scene_picture(scene: Scene, longest_px: int) -> bytes:
@@ -75,4 +78,5 @@ def _in_words(name: str) -> LibraryScene:
     text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
     about = SceneDescription.model_validate(YamlFile(text, name).data)
     title = about.title or about.name
-    return LibraryScene(about.name, title, about.goal, about.level or "", about.minutes)
+    level, stars = about.level or "", star_goals(about).count
+    return LibraryScene(about.name, title, about.goal, level, about.minutes, stars)

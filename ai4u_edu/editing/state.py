@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -11,6 +12,7 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
 from ai4u_edu.editing.input_checks import check_name
 from ai4u_edu.scenes import Scene, SceneDescription
+from ai4u_edu.scenes.star_goals import StarGoals, library_star_goals
 
 NO_DRIVERS: Mapping[str, str] = MappingProxyType({})
 
@@ -36,6 +38,11 @@ class EditState:
     def title(self) -> str:
         """The scene's title, or its name."""
         return self.description.title or self.description.name
+
+    @cached_property
+    def star_goals(self) -> StarGoals | None:
+        """Goals for programs; None unless this is a scene of the library without changes."""
+        return library_star_goals(self.description)
 
     def agent_index(self, agent_id: str) -> int:
         """Return the index of an agent in the description."""

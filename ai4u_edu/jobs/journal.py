@@ -10,6 +10,8 @@ from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.jobs.job import Job, Outcome
 
 FILE = "journal.jsonl"
+MAX_ARGUMENT_CHARS = 200
+"""Length of a text in a job's arguments; of longer ones, such as networks, a beginning is kept."""
 
 
 class Journal:
@@ -59,7 +61,7 @@ class Journal:
         line = {
             "key": job.key,
             "function": job.function,
-            "arguments": job.arguments,
+            "arguments": _shortened(job.arguments),
             "result": outcome.result,
             "error": outcome.error,
             "tries": outcome.tries,
@@ -102,3 +104,14 @@ class Journal:
                     "mend the line, or choose another folder"
                 ) from error
         return done
+
+
+def _shortened(value: Any) -> Any:
+    """Return data with short texts; the job's key has the whole of it."""
+    if isinstance(value, dict):
+        return {name: _shortened(each) for name, each in value.items()}
+    if isinstance(value, list):
+        return [_shortened(each) for each in value]
+    if isinstance(value, str) and len(value) > MAX_ARGUMENT_CHARS:
+        return f"{value[:20]}… ({len(value)} characters)"
+    return value

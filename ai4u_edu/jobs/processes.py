@@ -7,15 +7,21 @@ it had. Here each process has a pipe of its own.
 import multiprocessing
 import os
 import signal
+import threading
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Self
 
+from tqdm import tqdm
+
 from ai4u_edu.jobs.call import Answer, call, use_one_thread
 from ai4u_edu.jobs.job import Job
 
 END_TIMEOUT_S = 2.0
+"""Time in which a process whose pipe has closed is expected to end by itself."""
+KILL_TIMEOUT_S = 60.0
+"""Time in which the system removes a process that was killed; a busy machine takes seconds."""
 
 
 class ProcessEngine:
@@ -90,9 +96,10 @@ class _Worker:
         self._process.join(0.0 if self._process.is_alive() else END_TIMEOUT_S)
         code = self._process.exitcode
         self._process.kill()
-        self._process.join(END_TIMEOUT_S)
+        self._process.join(KILL_TIMEOUT_S)
         code = self._process.exitcode if code is None else code
-        self._process.close()
+        if self._process.exitcode is not None:
+            self._process.close()
         if code is not None and code < 0:
             killed = signal.Signals(-code).name
             return f"{killed}: out of memory?" if killed == "SIGKILL" else killed
@@ -102,6 +109,8 @@ class _Worker:
 def _work(pipe: Connection) -> None:
     use_one_thread()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
+    # torch shows progress with tqdm, whose usual lock a process that is killed leaves in the system
+    tqdm.set_lock(threading.RLock())
     while True:
         try:
             job = pipe.recv()

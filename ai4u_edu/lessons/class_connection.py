@@ -87,7 +87,7 @@ class ClassConnection:
                 self._world = None
                 self.client.clear()
                 if last is not None:  # else the teacher's page would show it as driving on
-                    self.client.send(replace(last, status="over", error=""))
+                    self.client.send(replace(last, status="over", error="", page=""))
 
     def _receive(self, message: FromClass) -> None:
         with self._lock:

@@ -8,11 +8,13 @@ import secrets
 from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Literal
+from urllib.parse import quote
 
 from ai4u_edu.lessons.notebook_output import card, put
 from ai4u_edu.lessons.progress_file import FOLDER
 
 if TYPE_CHECKING:
+    from ai4u_edu.class_link import Seat
     from ai4u_edu.lessons.class_connection import ClassConnection
     from ai4u_edu.lessons.live import Live
 
@@ -26,33 +28,52 @@ _lock = RLock()
 """Guards both; a world ends in a thread of its own when its page is gone."""
 
 
-def join_class(url: str, code: str, *, name_choice: int = 1) -> None:
+def join_class(
+    url: str = "", code: str = "", *, name_choice: int = 1, service: str = "ai4u-class"
+) -> None:
     """Join a class: the teacher sees the results of your checks and the world that you show.
 
-    After a restart of the kernel, the same call gives the same seat.
+    After a restart of the kernel, the same call gives the same seat. On a JupyterHub with a class,
+    call it without arguments: the hub tells the class who you are.
 
     Args:
-        url: address of the class, such as ``"http://192.168.0.10:8080"``.
-        code: the code on the board.
+        url: address of the class, such as ``"http://192.168.0.10:8080"``; empty on a JupyterHub.
+        code: the code on the board; empty on a JupyterHub.
         name_choice: number of the name to get among those that the class offers, from 1.
+        service: name of the class's service on a JupyterHub that has several.
     """
-    from ai4u_edu.class_link import NotJoinedError, SeatFile
+    from ai4u_edu.class_link import NotJoinedError
     from ai4u_edu.lessons.class_connection import ClassConnection
 
     _connect(None)
-    seats = SeatFile(Path.cwd() / FOLDER / SEAT_FILE)
     try:
-        seat = seats.take(url, code, name_choice, "notebook")
+        seat, folder = _take_seat(url, code, name_choice, service)
     except NotJoinedError as error:
         text = f"{error} Then run this cell again. Your checks work without a class, too."
         put(card("vermillion", "Not joined.", [text]), f"Not joined. {text}")
         return
-    _connect(ClassConnection(seat, seats.folder(seat)))
+    _connect(ClassConnection(seat, folder))
     text = (
         f"You are {seat.name}. Your teacher sees the results of your checks, and the world that "
         "you show. `leave_class()` ends that."
     )
     put(card("blue", "Joined.", [text]), f"Joined. {text}")
+
+
+def _take_seat(url: str, code: str, name_choice: int, service: str) -> "tuple[Seat, Path]":
+    """Return the notebook's seat, and the folder for its files.
+
+    Raises:
+        NotJoinedError: the class gives none.
+    """
+    from ai4u_edu.class_link import SeatFile, join_at_hub
+
+    seats = SeatFile(Path.cwd() / FOLDER / SEAT_FILE)
+    if url:
+        seat = seats.take(url, code, name_choice, "notebook")
+        return seat, seats.folder(seat)
+    # the token is another one after each start of the server; what was not delivered has to stay
+    return join_at_hub(service), seats.path.parent / f"class-at-hub-{quote(service, safe='')}"
 
 
 def leave_class() -> None:

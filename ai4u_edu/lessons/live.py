@@ -14,7 +14,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.lessons.class_feed import NotebookFeed
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
-from ai4u_edu.lessons.page_watch import PageWatch
+from ai4u_edu.lessons.page_watch import GONE_AT_HUB_S, GONE_S, PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
 from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.recording import Episode, Recorder
@@ -108,15 +108,21 @@ class Live:
         return [*self.recorder.episodes, *under_way]
 
     def end_without_page(self, end: Callable[["Live"], object]) -> None:
-        """Call a function when the page was open, and has been gone for a minute.
+        """Call a function when the page was open, and has been gone for some minutes.
 
         Worlds of closed tabs would run on for as long as the notebook's kernel does.
         """
-        self._page_watch = PageWatch(lambda: len(self._viewer.viewer_clients), lambda: end(self))
+        is_at_hub = "JUPYTERHUB_SERVICE_PREFIX" in os.environ
+        self._page_watch = PageWatch(
+            lambda: len(self._viewer.viewer_clients),
+            lambda: end(self),
+            GONE_AT_HUB_S if is_at_hub else GONE_S,
+        )
         self._page_watch.start()
 
     def join_class(self, connection: "ClassConnection") -> None:
         """Show the world on the teacher's page, and let the teacher stop it and open scenes."""
+        from ai4u_edu.class_link import page_at_hub
         from ai4u_edu.class_member import ClassMember
 
         self._class_member = member = ClassMember(
@@ -125,7 +131,8 @@ class Live:
             connection.link_for_world,
             connection.folder,
             title=self.title,
-            show_ghost=self._viewer.ghosts.race,
+            show_ghosts=self._viewer.ghosts.race_all,
+            page=page_at_hub(f"proxy/{self.port}/?token={TOKEN}"),
         )
         self._class_feed.follow(member.view)
         member.start()

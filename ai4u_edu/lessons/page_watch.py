@@ -5,6 +5,8 @@ from collections.abc import Callable
 
 GONE_S = 60.0
 """Time without a page after which a world ends; a reload or a short sleep takes less."""
+GONE_AT_HUB_S = 300.0
+"""The same at a JupyterHub: pages are gone, too, while the hub and its proxy are restarted."""
 POLL_S = 1.0
 
 

@@ -34,6 +34,8 @@ class PageView:
         self.show = Show(type="show", agent=agent)
         self._camera: Mode | None = None
         self.is_move_mode = False
+        self.is_why_shown = False
+        """True if the page shows why the agent acts as it does."""
         self.snap_m = 0.0
         self.trails: dict[str, bool] = {}
         """Trails that were switched on or off, by agent."""
@@ -117,6 +119,11 @@ class PageView:
         self.sensors[self.agent, key] = on
         self._apply(lambda client: client.show_sensor(key, on))
 
+    def show_why(self, on: bool) -> None:
+        """Show why the agent acts as it does, or no longer."""
+        self.is_why_shown = on
+        self._apply(self._choose_shown)
+
     def show_trail(self, on: bool) -> None:
         """Draw the agent's trail, or hide it."""
         self.trails[self.show.agent] = on
@@ -155,6 +162,7 @@ class PageView:
     def _choose_shown(self, client: ViewerClient) -> None:
         client.agent = self.show.agent
         client.selected = self.show.body or ""
+        client.is_why_shown = self.is_why_shown
         client.is_motion_reduced = self._is_motion_reduced
         client.is_move_mode, client.snap_m = self.is_move_mode, self.snap_m
         for agent, on in self.trails.items():

@@ -76,7 +76,7 @@ class Room:
                 self.editor,
                 settings.class_link,
                 settings.class_folder,
-                show_ghost=self._viewer.ghosts.race,
+                show_ghosts=self._viewer.ghosts.race_all,
             )
         self.app = room_app(
             self.runner,

@@ -30,6 +30,9 @@ class SceneDescription(Description):
     """The difficulty of the goal for a person."""
     minutes: Annotated[int, Field(ge=1, le=600)] | None = None
     """Time (minutes) that a person needs to reach the goal for the first time."""
+    few_decisions: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    """Most decisions for a program's third star, on average over ten starts; none where the goal
+    takes a fixed time."""
     controls: Text = ""
     rewards: Text = ""
     """The rewards in words."""

@@ -34,6 +34,9 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_build.css" />
     <link rel="stylesheet" href="./web/panel_code.css" />
     <link rel="stylesheet" href="./web/panel_test.css" />
+    <link rel="stylesheet" href="./web/panel_blocks.css" />
+    <link rel="stylesheet" href="./web/panel_stars.css" />
+    <link rel="stylesheet" href="./web/panel_why.css" />
     <link rel="stylesheet" href="./web/question.css" />
     <link rel="stylesheet" href="./web/class_bar.css" />
     <script type="module" src="./web/main.js"></script>

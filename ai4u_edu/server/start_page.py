@@ -29,6 +29,7 @@ class LibrarySceneView(BaseModel):
     goal: str
     level: Literal["", "easy", "medium", "hard"]
     minutes: int | None = Field(description="to reach the goal for the first time")
+    stars: int = Field(description="number of stars that a program can earn")
     picture: str = Field(description="address of a PNG file: relative to the page, or a data URL")
 
 

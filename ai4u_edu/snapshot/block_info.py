@@ -24,6 +24,7 @@ from ai4u_edu.blocks import (
     SpotPicture,
 )
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
+from ai4u_edu.snapshot.ray_layout import RayLayout, ray_layout_of
 
 MIN_VISIBLE = {"cosine": -1.0, "distance": 0.0}
 """Least readings of an OrientationSensor for a visible target."""
@@ -77,6 +78,8 @@ class SensorInfo:
     """The part of the world that the picture shows, if it is one from above."""
     eye: tuple[float, float, float] | None
     """Position of a ray sensor's origin on the body: (forward, left, up), metres."""
+    rays: RayLayout | None = None
+    """Order of the numbers of a flat fan of rays."""
 
 
 class Component(NamedTuple):
@@ -201,6 +204,7 @@ def _sense(sensor: Sensor) -> SensorInfo:
         legend=sensor.legend(),
         window=_window(sensor),
         eye=sensor.eye if isinstance(sensor, RaySensor) else None,
+        rays=ray_layout_of(sensor),
     )
 
 

@@ -38,7 +38,7 @@ def new_model(
         SetupError: the algorithm can't choose such actions, or doesn't know one of its settings.
     """
     torch.set_num_threads(TORCH_THREADS)
-    options = _checked(algorithm, settings)
+    options = checked_options(algorithm, settings)
     rate = options.pop("learning_rate", 1e-3)
     layers: Any = list(settings.layers)
     activation = torch.nn.ReLU if settings.activation == "relu" else torch.nn.Tanh
@@ -107,7 +107,12 @@ def _policy_for(space: spaces.Space[Any]) -> str:
     return "CnnPolicy"
 
 
-def _checked(algorithm: Algorithm, settings: AlgorithmSettings) -> dict[str, Any]:
+def checked_options(algorithm: Algorithm, settings: AlgorithmSettings) -> dict[str, Any]:
+    """Return the settings that go to Stable-Baselines3.
+
+    Raises:
+        SetupError: it doesn't know one of them.
+    """
     known = set(inspect.signature(CLASSES[algorithm]).parameters) - RESERVED_SETTINGS | {
         "log_std_init"
     }

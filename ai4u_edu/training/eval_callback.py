@@ -1,7 +1,7 @@
 """Stable-Baselines3 callback: evaluates the policy, keeps the best, stops when good enough."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -27,6 +27,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         table: the actions, where the model chooses them by number.
         every: decisions between two checks.
         has_goal: True if the scene defines a success.
+        keep_checkpoints: True keeps the model of each check.
+        stop: called with all checks after each one; True ends the training.
     """
 
     def __init__(
@@ -38,6 +40,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         table: npt.NDArray[np.float32] | None,
         every: int,
         has_goal: bool,
+        keep_checkpoints: bool = False,
+        stop: Callable[[Sequence[Check]], bool] | None = None,
     ) -> None:
         super().__init__()
         self.checks = run.checks()
@@ -48,6 +52,9 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         self._table = table
         self._every = every
         self._has_goal = has_goal
+        self._keep_checkpoints = keep_checkpoints
+        self._stop = stop
+        self._is_stopped = False
         self._envs = [scene_env() for _ in range(settings.check_episodes)]
         self._seconds_before = self.checks[-1].seconds if self.checks else 0.0
 
@@ -64,7 +71,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         if self.num_timesteps >= self._next:
             self._next += self._every
             self.check()
-        return not self.enough
+            self._is_stopped = self._stop is not None and self._stop(self.checks)
+        return not (self.enough or self._is_stopped)
 
     def check(self) -> Check:
         """Check the policy now."""
@@ -81,6 +89,8 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         self.checks.append(check)
         if best is None or check.rank >= best.rank:
             self._run.put(self._run.best, self.model.save)
+        if self._keep_checkpoints:
+            self._run.put(self._run.checkpoint(check.steps), self.model.save)
         self._run.note(self.checks)
         latest = [each.success for each in self.checks[-self._settings.enough :]]
         self.enough = 0 < self._settings.enough <= latest.count(1.0)

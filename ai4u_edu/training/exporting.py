@@ -20,7 +20,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.version import __version__
-from ai4u_edu.blocks.brains.network import TRAINING_KEY
+from ai4u_edu.blocks.brains.network import TRAINING_KEY, VALUE_OUTPUT
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import to_plain
@@ -43,9 +43,12 @@ class Exported:
         model: trained by :func:`~ai4u_edu.training.learning.train`.
         scene: the scene it was trained in.
         config: the training's set-up.
+        with_critic: True adds an output for the value that the critic expects.
     """
 
-    def __init__(self, model: BaseAlgorithm, scene: Scene, config: Config) -> None:
+    def __init__(
+        self, model: BaseAlgorithm, scene: Scene, config: Config, *, with_critic: bool = False
+    ) -> None:
         settings = config.settings
         sim = prepare(scene, settings, learning=False).build()
         agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
@@ -55,9 +58,10 @@ class Exported:
         chooses = config.algorithm == "dqn" and isinstance(space, spaces.Box)
         table = table_for(space, settings.actions) if chooses else None
         self._model = model
-        self._drive = Drive(model, list(inputs), table)
+        self._drive = Drive(model, list(inputs), table, with_critic=with_critic)
+        outputs = [output, VALUE_OUTPUT] if with_critic else [output]
         training = model.policy.training
-        self._network = graph_of(self._drive.eval(), inputs, output)
+        self._network = graph_of(self._drive.eval(), inputs, *outputs)
         model.policy.set_training_mode(training)
         self._about = {
             "version": __version__,
@@ -88,9 +92,11 @@ class Exported:
         return path
 
 
-def export(model: BaseAlgorithm, scene: Scene, config: Config, path: Path) -> Path:
+def export(
+    model: BaseAlgorithm, scene: Scene, config: Config, path: Path, *, with_critic: bool = False
+) -> Path:
     """Write a model as an ONNX file; see :class:`Exported`."""
-    return Exported(model, scene, config).write(path)
+    return Exported(model, scene, config, with_critic=with_critic).write(path)
 
 
 def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
@@ -107,14 +113,14 @@ def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[An
 
 
 def graph_of(
-    drive: Drive, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], output: str
+    drive: Drive, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], *outputs: str
 ) -> onnx.ModelProto:
     """Return the ONNX graph of a module that turns readings into an action.
 
     Args:
         drive: takes one array for each input, the first axis being the batch.
         inputs: shape and type of each input, by perception key.
-        output: the output's name.
+        outputs: names of what the module gives.
     """
     batch = torch.export.Dim("batch")
     with tempfile.TemporaryDirectory() as folder, _silence():
@@ -124,7 +130,7 @@ def graph_of(
             example(inputs),
             file,
             input_names=list(inputs),
-            output_names=[output],
+            output_names=list(outputs),
             opset_version=OPSET,
             dynamo=True,
             dynamic_shapes={"readings": tuple({0: batch} for _ in inputs)},

@@ -25,6 +25,9 @@ class Interrupt(BaseCallback):  # type: ignore[misc]  # seen without its types
         if threading.current_thread() is not threading.main_thread():
             yield  # signals come to the main thread only
             return
+        if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+            yield  # of a process whose parent decides, such as a job's
+            return
 
         def ask(_number: int, _frame: FrameType | None) -> None:
             if self.asked:

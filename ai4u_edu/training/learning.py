@@ -1,6 +1,7 @@
 """Training of an agent in a scene with Stable-Baselines3."""
 
 import sys
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -79,8 +80,10 @@ def train(
     steps: int | None = None,
     seed: int = 0,
     overwrite: bool = False,
+    keep_checkpoints: bool = False,
     quiet: bool = False,
     watch: "Watch | None" = None,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     """Start a training.
 
@@ -94,8 +97,10 @@ def train(
         steps: decisions to learn from; left out, as the settings say.
         seed: seed of the network, the worlds and all random choices.
         overwrite: True replaces a training that is in the folder.
+        keep_checkpoints: True keeps the model of each check.
         quiet: True shows nothing.
         watch: page that shows the policy driving as it learns.
+        stop: called with all checks after each one; True ends the training.
 
     Raises:
         SetupError: the settings don't fit the scene, or the folder holds a training already.
@@ -131,13 +136,14 @@ def train(
     if overwrite:
         run.clear()
     run.begin(config, scene)
-    return _learn(run, config, prepared, model, worlds, quiet, watch)
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints, stop)
 
 
 def resume(
     folder: Path,
     *,
     steps: int | None = None,
+    keep_checkpoints: bool = False,
     quiet: bool = False,
     watch: "Watch | None" = None,
 ) -> Trained:
@@ -148,6 +154,7 @@ def resume(
     Args:
         folder: the training's folder.
         steps: decisions to learn from, the ones before counted too; left out, as it was begun.
+        keep_checkpoints: True keeps the model of each check.
         quiet: True shows nothing.
         watch: page that shows the policy driving as it learns.
 
@@ -170,7 +177,7 @@ def resume(
             f"{folder} has learned from {model.num_timesteps} steps already; "
             f"expected --steps larger than that, got {config.steps}"
         )
-    return _learn(run, config, prepared, model, worlds, quiet, watch)
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints)
 
 
 def _learn(
@@ -181,6 +188,8 @@ def _learn(
     worlds: VecEnv,
     quiet: bool,
     watch: "Watch | None",
+    keep_checkpoints: bool,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
 ) -> Trained:
     settings = config.settings
     evaluation = EvalCallback(
@@ -190,6 +199,8 @@ def _learn(
         table=worlds.table if isinstance(worlds, Choices) else None,
         every=settings.of(config.algorithm).check_every,
         has_goal=prepared.description.success is not None,
+        keep_checkpoints=keep_checkpoints,
+        stop=stop,
     )
     interrupt = Interrupt()
     bar = ProgressCallback(evaluation, config.steps, quiet=quiet)

@@ -24,6 +24,7 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         model: a Stable-Baselines3 model: SAC, PPO or DQN.
         keys: the perception keys, in the order in which the readings come.
         table: (choices, numbers) the actions, where the model chooses them by number.
+        with_critic: True also gives the value that the model's critic expects from there on.
     """
 
     def __init__(
@@ -31,8 +32,11 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         model: BaseAlgorithm,
         keys: Sequence[str],
         table: npt.NDArray[np.float32] | None = None,
+        *,
+        with_critic: bool = False,
     ) -> None:
         super().__init__()
+        self._with_critic = with_critic
         self.policy: Any = model.policy
         self._kind = _kind_of(model)
         self._keys = tuple(keys)
@@ -49,9 +53,36 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         self.table: Tensor | None
         self.register_buffer("table", None if table is None else torch.as_tensor(table))
 
-    def forward(self, *readings: Tensor) -> Tensor:
-        """Return an action for each row of the readings."""
+    def forward(self, *readings: Tensor) -> Tensor | tuple[Tensor, Tensor]:
+        """Return an action for each row of the readings; with a critic, also its value, (n, 1)."""
         seen = self._observation(readings)
+        action = self._act(seen)
+        return (action, self._value(seen)) if self._with_critic else action
+
+    def _value(self, seen: Any) -> Tensor:
+        """Return the discounted reward that the critic expects: of SAC and DQN, of the action."""
+        policy = self.policy
+        if self._kind == "dqn":
+            net = policy.q_net
+            values: Tensor = net.q_net(self._features(seen, net.features_extractor))
+            return values.max(dim=1, keepdim=True).values
+        if self._kind == "sac":
+            actor, critic = policy.actor, policy.critic
+            latent = actor.latent_pi(self._features(seen, actor.features_extractor))
+            squashed = torch.tanh(actor.mu(latent))
+            inputs = torch.cat([self._features(seen, critic.features_extractor), squashed], dim=1)
+            each = torch.cat([net(inputs) for net in critic.q_networks], dim=1)
+            return each.min(dim=1, keepdim=True).values
+        extractor = (
+            policy.features_extractor
+            if policy.share_features_extractor
+            else policy.vf_features_extractor
+        )
+        latent = policy.mlp_extractor.forward_critic(self._features(seen, extractor))
+        expected: Tensor = policy.value_net(latent)
+        return expected
+
+    def _act(self, seen: Any) -> Tensor:
         if self._kind == "sac":
             actor = self.policy.actor
             latent = actor.latent_pi(self._features(seen, actor.features_extractor))

@@ -37,6 +37,7 @@ def train(
     observe: Sequence[str] = (),
     resume: bool = False,
     overwrite: bool = False,
+    keep_checkpoints: bool = False,
     watch: "bool | Watch" = False,
     quiet: bool = False,
 ) -> "Trained":
@@ -59,6 +60,7 @@ def train(
         resume: True goes on with the training in ``out``, up to ``steps`` in all.
         overwrite: True replaces a training that is in ``out`` already, as when a notebook's cell
             runs for the second time.
+        keep_checkpoints: True keeps the model of each check, as ``checkpoint-STEPS.zip``.
         watch: True shows the policy driving in the browser as it learns, until it has learned; a
             :class:`~ai4u_edu.training.watch.Watch` shows it until that is closed.
         quiet: True shows nothing.
@@ -78,7 +80,13 @@ def train(
         if out is None:
             raise SetupError("resume needs out, the folder of the training to go on with")
         with _page_of(watch) as page:
-            return learning.resume(Path(out), steps=steps, quiet=quiet, watch=page)
+            return learning.resume(
+                Path(out),
+                steps=steps,
+                keep_checkpoints=keep_checkpoints,
+                quiet=quiet,
+                watch=page,
+            )
     loaded = _scene(scene)
     name = loaded.description.name
     changes = dict(settings) if isinstance(settings, Mapping) else {}
@@ -98,6 +106,7 @@ def train(
                     steps=steps,
                     seed=seed,
                     overwrite=overwrite,
+                    keep_checkpoints=keep_checkpoints,
                     quiet=quiet,
                     watch=page,
                 )
@@ -146,12 +155,18 @@ def evaluate(
     return evaluated(driver, _scene(where), counted(seeds, driver.name, quiet=quiet))
 
 
-def export(model: "str | Path | Trained", out: str | Path = "policy.onnx") -> Path:
+def export(
+    model: "str | Path | Trained",
+    out: str | Path = "policy.onnx",
+    *,
+    with_critic: bool = False,
+) -> Path:
     """Write a model as a network (.onnx) that drives without torch and can be shared.
 
     Args:
         model: the result of :func:`train`, its folder, or a model (.zip) in it.
         out: the network's file.
+        with_critic: True keeps the critic too, for a map of values; see :mod:`ai4u_edu.explain`.
 
     Returns:
         The file; ``trained_brain(file)`` and ``evaluate(file)`` take it.
@@ -165,7 +180,7 @@ def export(model: "str | Path | Trained", out: str | Path = "policy.onnx") -> Pa
     run = run_of(path)
     config = run.config()
     loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
-    return exported(loaded, run.scene(), config, Path(out))
+    return exported(loaded, run.scene(), config, Path(out), with_critic=with_critic)
 
 
 def demonstrate(

@@ -34,37 +34,41 @@ class ProgressBar:
         file: TextIO | None = None,
     ) -> None:
         can_remove = (file or sys.stderr).isatty() or "ipykernel" in sys.modules
-        self._is_shown = not quiet and (keep or can_remove)
-        self._bar: Any = tqdm(
-            total=total,
-            unit=unit,
-            file=file,
-            leave=keep,
-            mininterval=REFRESH_S,
-            bar_format=FORMAT,
-            disable=not self._is_shown,
-        )
+        is_shown = not quiet and (keep or can_remove)
         self._file = file
+        self._bar: Any = None
+        if is_shown:  # tqdm makes a lock in the system, which a process that is killed leaves
+            self._bar = tqdm(
+                total=total,
+                unit=unit,
+                file=file,
+                leave=keep,
+                mininterval=REFRESH_S,
+                bar_format=FORMAT,
+            )
 
     def show(self, count: int, text: str = "") -> None:
         """Set the count, and the text beside the bar."""
-        self._bar.set_postfix_str(text, refresh=False)
-        self._bar.update(count - self._bar.n)
+        if self._bar is not None:
+            self._bar.set_postfix_str(text, refresh=False)
+            self._bar.update(count - self._bar.n)
 
     def add(self, count: int) -> None:
         """Add to the count."""
-        self._bar.update(count)
+        if self._bar is not None:
+            self._bar.update(count)
 
     def note(self, line: str) -> None:
         """Print a line above the bar, which stays."""
-        if self._is_shown:
+        if self._bar is not None:
             # a notebook marks what comes from stderr as an error
             usual = sys.stdout if "ipykernel" in sys.modules else sys.stderr
             self._bar.write(line, file=self._file or usual)
 
     def close(self) -> None:
         """Draw the bar for the last time, or remove it."""
-        self._bar.close()
+        if self._bar is not None:
+            self._bar.close()
 
 
 def counted(things: Iterable[T], name: str, *, quiet: bool = False) -> Iterator[T]:

@@ -82,7 +82,8 @@ class QTable:
 
     def best(self, state: Hashable) -> int:
         """Return the action with the largest value; the first of several."""
-        return int(self.of(state).argmax())
+        known = self.values.get(state)  # to ask must not fill the table
+        return 0 if known is None else int(known.argmax())
 
     def drive(self, percept: Any) -> dict[str, int]:
         """Act greedily, as a controller: ``LocalBrain(controller=table.drive)``."""

@@ -8,6 +8,7 @@
     DIR/last.zip        the model as it was last: --resume goes on from it
     DIR/replay.pkl      what SAC and DQN remember
     DIR/checks.json     every check on the way
+    DIR/checkpoint-*.zip   the model at each check, with --keep-checkpoints
     DIR/watched.*       model, weights and progress for the page of --watch
     DIR/tensorboard/    curves, for: tensorboard --logdir DIR
 """
@@ -23,6 +24,9 @@ from ai4u_edu.base.atomic_write import make_folder, partial_file
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.scenes import Scene
 from ai4u_edu.training.settings import Algorithm, Settings
+
+CHECKPOINT = "checkpoint-"
+"""Beginning of the names of models that were kept at checks; the number of steps follows."""
 
 
 class Config(BaseModel):
@@ -97,13 +101,22 @@ class Run:
         self.watched_weights = folder / "watched.pt"
         self.progress = folder / "watched.json"
 
+    def checkpoint(self, steps: int) -> Path:
+        """Return the file of the model that has learned from so many decisions."""
+        return self.folder / f"{CHECKPOINT}{steps:09}.zip"
+
+    @property
+    def checkpoints(self) -> list[Path]:
+        """Models of the checks that were kept, the earliest first."""
+        return sorted(self.folder.glob(f"{CHECKPOINT}*.zip"))
+
     def clear(self) -> None:
         """Delete what a training wrote, and nothing else in the folder."""
         for name in ("config.json", "scene.yaml", "checks.json"):
             (self.folder / name).unlink(missing_ok=True)
         watched = (self.watched_model, self.watched_weights, self.progress)
         events = self.tensorboard.glob("events.*")
-        for path in (self.best, self.last, self.replay, *watched, *events):
+        for path in (self.best, self.last, self.replay, *watched, *events, *self.checkpoints):
             path.unlink(missing_ok=True)
 
     def begin(self, config: Config, scene: Scene) -> None:

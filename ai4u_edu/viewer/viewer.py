@@ -5,7 +5,9 @@ import time
 import warnings
 
 from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.blocks import Brain
 from ai4u_edu.editing import SceneEditor
+from ai4u_edu.explain.live import LiveExplainer
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -69,6 +71,7 @@ class Viewer:
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         set_up_lights(server.scene)
         self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
+        self.explainer = LiveExplainer(lambda: runner.latest, self._brain_of)
         bodies = Bodies(server, self._choose, lambda: viewer_clients.is_motion_reduced)
         senses_per_s = runner.frame_budget.senses_per_s
         parts: list[tuple[Part, float]] = [
@@ -79,7 +82,7 @@ class Viewer:
             (self.ghosts, senses_per_s),
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
-            (SenseOverlay(viewer_clients, senses_per_s), MAX_FRAMES_PER_S),
+            (SenseOverlay(viewer_clients, senses_per_s, self.explainer), MAX_FRAMES_PER_S),
         ]
         if editor is not None:
             parts.append((PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S))
@@ -102,6 +105,7 @@ class Viewer:
         return. Threads that still run then are daemons.
         """
         self._stopping.set()
+        self.explainer.stop()
         ending = threading.Thread(target=self._end, name="viewer end", daemon=True)
         ending.start()
         ending.join(STOP_S)
@@ -134,6 +138,10 @@ class Viewer:
             due = max(due + period, began)  # a late frame does not move the later ones
             if time.monotonic() >= due:
                 self._stopping.wait(MIN_PAUSE_S)
+
+    def _brain_of(self, agent_id: str) -> Brain | None:
+        agents = self.runner.sim.agents
+        return next((agent.brain for agent in agents if agent.id == agent_id), None)
 
     def _choose(self, client_id: int, body: str) -> None:
         """Show the agent with that body on one page."""

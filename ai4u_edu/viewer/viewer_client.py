@@ -64,6 +64,8 @@ class ViewerClient:
         """True if its user may drag things."""
         self.is_motion_reduced = False
         """True if its user prefers pictures without motion that nothing in the world makes."""
+        self.is_why_shown = False
+        """True if rays are coloured by how much they matter to the agent's action."""
         self.snap_m = 0.0
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)

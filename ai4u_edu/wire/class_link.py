@@ -124,6 +124,8 @@ class State(TaggedMessage, frozen=True):
     is_solved: bool
     """True if the scene's goal was reached at least once."""
     error: Text = ""
+    page: Text = ""
+    """Path of its page at a JupyterHub, below the hub's own; empty without one."""
 
 
 class Work(TaggedMessage, frozen=True):

@@ -357,7 +357,7 @@ def test_the_program_of_the_docs_is_tested_in_a_real_world(chromium: Browser) ->
         page.keyboard.press("KeyW")
         expect(page.locator(".ai4u-row .ai4u-driver")).to_contain_text("You drive")
         tab.press("Test")
-        expect(tab.state).to_contain_text("of 10 reached the goal.", timeout=2 * LOADING_MS)
+        expect(tab.state).to_contain_text("of 10 reached the goal", timeout=2 * LOADING_MS)
         until(lambda: server.snapshot()["time_scale"] == 2)
         rows = page.locator(".ai4u-code-test tbody tr")
         expect(rows).to_have_count(10)

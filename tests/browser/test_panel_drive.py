@@ -228,3 +228,104 @@ def test_a_training_is_followed(desk: PanelPage) -> None:
     expect(section).to_contain_text("Learned from 500 decisions.")
     expect(section.get_by_role("img")).to_be_visible()
     expect(section).to_contain_text("Mean reward 3.00, reaches the goal in 50% of episodes")
+
+
+WHY: Json = {
+    "type": "part",
+    "name": "why",
+    "agent": "0",
+    "problem": "",
+    "sentence": "It turns left because ray 4 sees the box; without it, it would go straight.",
+    "baseline": "the middle of its range",
+    "limits": "Two slots that say the same can both seem unimportant.",
+    "components": ["forward", "turn"],
+    "slots": [
+        {"key": "box", "name": "box: direction", "sees": "", "share": 0.0, "shares": [0, 0]},
+        {"key": "box", "name": "box: distance", "sees": "", "share": 0.2, "shares": [-0.2, 0]},
+        *(
+            {
+                "key": "rays",
+                "name": f"ray {ray}",
+                "sees": "box",
+                "share": 0.4 * (ray == 4),
+                "shares": [0, -0.4 * (ray == 4)],
+            }
+            for ray in range(1, 7)
+        ),
+    ],
+}
+WHY["top"] = [WHY["slots"][5], WHY["slots"][1]]
+
+
+def test_because_of_what(desk: PanelPage) -> None:
+    section = desk.page.locator(".ai4u-why-sentence")
+    expect(section).to_be_hidden()
+    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.until(lambda: desk.panel.commands("why") == [{"on": True}])
+    desk.panel.send(WHY)
+    expect(section).to_have_text(WHY["sentence"])
+    items = desk.page.get_by_role("list", name="Slots that move the action most")
+    expect(items.get_by_role("listitem")).to_have_text(
+        [re.compile("^ray 4 . the boxturn .40 %$"), re.compile("^box: distanceforward .20 %$")]
+    )
+    expect(desk.page.get_by_text("both seem unimportant. Compared with the middle")).to_be_visible()
+    # bars beside the numbers of a sensor, and cells under the strips of another one
+    rows = desk.page.locator(".ai4u-bar-row[data-why]")
+    expect(rows).to_have_count(2)
+    shown = [row.evaluate("e => e.style.getPropertyValue('--why')") for row in rows.all()]
+    assert shown == ["0%", "50%"]
+    cells = desk.page.locator(".ai4u-why-weights:visible > i")
+    expect(cells).to_have_count(6)
+    expect(cells.nth(3)).to_have_attribute("title", "ray 4: moves the action by 40 %")
+    desk.panel.send(WHY | {"problem": "A person drives.", "sentence": "", "slots": [], "top": []})
+    expect(section).to_have_text("A person drives.")
+    expect(rows).to_have_count(0)
+    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.until(lambda: desk.panel.commands("why") == [{"on": True}, {"on": False}])
+    expect(section).to_be_hidden()
+    assert desk.problems == []
+
+
+def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> None:
+    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.until(lambda: len(desk.panel.commands("why")) == 1)
+    desk.panel.drop()
+    desk.until(lambda: len(desk.panel.commands("why")) == 2)
+    assert desk.panel.commands("why")[1] == {"on": True}
+
+
+def test_what_if(desk: PanelPage) -> None:
+    def reply(message: Json) -> Json:
+        then = message["changes"][0]["value"] if message["changes"] else 0.1
+        dials = [
+            {"key": "rays", "index": 2, "name": "ray 2: code", "value": 0.5, "low": 0, "high": 1},
+            {"key": "box", "index": 0, "name": "direction", "value": 0.1, "low": -1, "high": 1},
+        ]
+        turn = {"name": "turn", "low": -1, "high": 1, "has_effect": True, "now": 0.1, "then": then}
+        return {"dials": dials, "action": [turn]}
+
+    desk.panel.replies["what_if"] = reply
+    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.until(lambda: desk.panel.commands("why"))
+    desk.panel.send(WHY)
+    hint = desk.page.get_by_text("Pause the world to try other values.")
+    expect(hint).to_be_visible()
+    desk.panel.change("run", is_paused=True)
+    slot = desk.page.get_by_label("If this were another number")
+    expect(slot).to_be_visible()
+    expect(hint).to_be_hidden()
+    slot.select_option("direction")
+    slider = desk.page.get_by_role("slider", name="direction")
+    expect(slider).to_have_value("0.1")
+    slider.fill("-0.5")
+    row = desk.page.locator(".ai4u-what-if .ai4u-bar-row")
+    expect(row).to_have_text(re.compile("^turn0.10 . .0.50$"))
+    assert desk.panel.commands("what_if")[-1] == {
+        "changes": [{"key": "box", "index": 0, "value": -0.5}]
+    }
+    desk.button("As it is").click()
+    expect(row).to_have_text("turn0.10")
+    expect(slider).to_have_value("0.1")
+    desk.panel.change("run", is_paused=False)
+    expect(slot).to_be_hidden()
+    assert desk.problems == []

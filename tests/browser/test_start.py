@@ -102,6 +102,15 @@ def test_saved_scenes_are_among_those_to_play(world: World, page: Page, tmp_path
     assert world.scene == "sumo"
 
 
+def test_scenes_have_the_stars_that_programs_have_earned(page: Page) -> None:
+    page.evaluate("""localStorage.setItem("ai4u-stars-", '{"maze": 2, "forage": 2}')""")
+    page.reload()
+    for name, title in (("Maze", "2 of 3 stars"), ("Forage", "2 of 2 stars")):
+        scene = page.get_by_role("button", name=name, exact=True)
+        expect(scene.get_by_role("img", name=title)).to_be_visible(timeout=PATIENCE_MS)
+    expect(page.get_by_role("img", name="0 of 3 stars")).to_have_count(len(Scene.names()) - 2)
+
+
 def test_learn_lists_the_lessons(page: Page) -> None:
     page.get_by_role("button", name="Learn").click()
     expect(page.get_by_role("heading", name="Lessons")).to_be_visible()

@@ -244,6 +244,12 @@ def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> 
     page.get_by_role("button", name="Show to all").click()
     page.get_by_role("tab", name="Progress").click()
     expect(page.get_by_role("row", name=REAL_NAME)).to_be_visible()
+    stars = page.get_by_role("region", name="Stars of programs")
+    expect(stars.get_by_role("columnheader")).to_have_text(
+        ["Stars of programs", "Box chase", "Maze"]
+    )
+    expect(stars.get_by_role("row", name=name_of(3))).to_contain_text("★★★★☆☆")
+    expect(stars.get_by_role("img", name="2 of 3 stars")).to_be_visible()
     until(lambda: school.commands != [], 10)
     assert requests
     assert [each for each in requests if "Hopper" in each or "Lovelace" in each] == []

@@ -31,10 +31,10 @@ EXERCISES = [
     },
 ]
 SCENES = [
-    {"name": "box_chase", "title": "Box chase"},
-    {"name": "soccer", "title": "Soccer"},
-    {"name": "maze", "title": "Maze"},
-    {"name": "parking", "title": "Parking"},
+    {"name": "box_chase", "title": "Box chase", "stars": 3},
+    {"name": "soccer", "title": "Soccer", "stars": 3},
+    {"name": "maze", "title": "Maze", "stars": 3},
+    {"name": "parking", "title": "Parking", "stars": 3},
 ]
 STATUSES = ["driving"] * 5 + ["solved", "fell", "driving", "idle", "solved", "waiting", "error"]
 _IDS = [name for lesson in EXERCISES for name in lesson["ids"]]
@@ -84,6 +84,7 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "seats": seats,
         "rooms": [_room(number) for number in range(1, count + 1)],
         "progress": {str(number): _progress(number) for number in range(1, count + 1)},
+        "stars": {"3": {"box_chase": 3, "maze": 1}, "4": {"maze": 2}},
         "misconceptions": _misconceptions(count),
     }
     return {**message, **changes}
@@ -176,7 +177,7 @@ def _status(number: int) -> str:
     return "asleep" if number % 17 == 0 else STATUSES[(5 * number) % len(STATUSES)]
 
 
-def _scene(number: int) -> dict[str, str]:
+def _scene(number: int) -> dict[str, Any]:
     return SCENES[0 if number % 5 else (number // 5) % 3]
 
 
@@ -200,6 +201,7 @@ def _room(number: int) -> dict[str, Any]:
         "error": "NameError: name 'angel' is not defined (line 4)" if status == "error" else "",
         "is_running": status != "asleep",
         "kind": "local",
+        "look_in": f"./r/{room_id(number)}/",
         "help": needs,
         "why": why,
     }

@@ -127,7 +127,7 @@ def joined(
         editor,
         FakeLink,
         folder,
-        show_ghost=lambda episode, name: ghosts.append((episode, name)),
+        show_ghosts=ghosts.append,
         clock=clock,
     )
     assert isinstance(member.link, FakeLink)

@@ -24,6 +24,7 @@ from ai4u_edu.wire.class_link import (
     decode_from_class,
     encode_from_room,
 )
+from tests.classroom.fake_hub import HubClass
 from tests.classroom.served_class import ServedClass, Student
 
 TIMEOUT_S = 20.0
@@ -35,7 +36,11 @@ class RawLink:
     """A link that says hello with any secret, and then sends what a test gives it."""
 
     def __init__(
-        self, served: ServedClass, secret: str | Student, *, hello: FromRoom | None = None
+        self,
+        served: ServedClass | HubClass,
+        secret: str | Student,
+        *,
+        hello: FromRoom | None = None,
     ) -> None:
         if isinstance(secret, Student):
             secret = secret.client.cookies["ai4u_edu_seat"]

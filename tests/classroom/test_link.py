@@ -168,7 +168,7 @@ def test_whoever_is_sent_out_loses_the_link_at_once(served: ServedClass) -> None
         assert (code, problem and problem.code) == (1008, "over")
     with RawLink(served, ada) as link:
         assert link.end()[1] == Problem(
-            "secret", "This place in the class is not yours any more. Join again with the code."
+            "secret", "This place in the class is not yours any more. Join again."
         )
 
 

@@ -33,12 +33,16 @@ def engines() -> Iterator[Callable[[str], Engine]]:
         yield started
 
 
-@pytest.fixture(params=["inline", "processes", "ray"])
+ON_RAY = pytest.param("ray", marks=pytest.mark.nightly)
+"""Ray takes seconds to start, and gives up where a busy machine lets it wait for half a minute."""
+
+
+@pytest.fixture(params=["inline", "processes", ON_RAY])
 def any_engine(request: pytest.FixtureRequest, engines: Callable[[str], Engine]) -> Engine:
     return engines(request.param)
 
 
-@pytest.fixture(params=["processes", "ray"])
+@pytest.fixture(params=["processes", ON_RAY])
 def apart(request: pytest.FixtureRequest, engines: Callable[[str], Engine]) -> Engine:
     """An engine whose jobs run in other processes."""
     return engines(request.param)
@@ -102,11 +106,16 @@ def test_a_process_that_dies_takes_no_other_job_with_it(apart: Engine, tmp_path:
     assert [done[job.key].result for job in others] == [0, 1, 4, 9, 16, 25]
 
 
-def test_jobs_run_beside_each_other_with_a_thread_each(apart: Engine) -> None:
-    done = [*run_jobs([Job.of(functions.pid, number=number) for number in range(4)], apart)]
-    found = {each.result for each in done}
+def test_jobs_run_beside_each_other(engines: Callable[[str], Engine]) -> None:
+    jobs = [Job.of(functions.pid, number=number) for number in range(4)]
+    found = {each.result for each in run_jobs(jobs, engines("processes"))}
     assert len(found) == 2
     assert os.getpid() not in found
+
+
+def test_jobs_run_elsewhere_with_a_thread_each(apart: Engine) -> None:
+    (own,) = run_jobs([Job.of(functions.pid, number=0)], apart)
+    assert own.result != os.getpid()
     (threads,) = run_jobs([Job.of(functions.threads)], apart)
     assert threads.result["OMP_NUM_THREADS"] == "1"
 

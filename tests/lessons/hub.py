@@ -9,6 +9,7 @@ import argparse
 import contextlib
 import os
 import subprocess
+import sys
 import tempfile
 import time
 import urllib.error
@@ -34,6 +35,8 @@ c.Authenticator.allow_all = True
 c.JupyterHub.spawner_class = "simple"
 c.SimpleLocalProcessSpawner.home_dir_template = "{folder}/home/{{username}}"
 c.Spawner.args += ["--allow-root"]
+c.Spawner.http_timeout = c.Spawner.start_timeout = {patience}  # the machine may be busy
+ai4u_class["url"] = "http://127.0.0.1:{class_port}"
 """
 WORD = "hub"
 """Password of all students."""
@@ -48,17 +51,45 @@ KINDS = {
 PATIENCE_S = 180
 
 
+Ports = tuple[int, int, int, int]
+
+
+def new_ports() -> Ports:
+    """Return free ports."""
+    return free_port(), free_port(), free_port(), free_port()
+
+
 @contextlib.contextmanager
-def hub(folder: Path) -> Iterator[tuple[str, psutil.Process]]:
-    """A JupyterHub; gives its address and its process."""
-    port, hub_port, api_port = free_port(), free_port(), free_port()
+def hub(
+    folder: Path, more: str = "", ports: Ports | None = None
+) -> Iterator[tuple[str, psutil.Process]]:
+    """A JupyterHub; gives its address and its process.
+
+    Args:
+        folder: of its files and homes.
+        more: settings at the end of its configuration.
+        ports: of the proxy, the hub, the proxy's API and the class.
+    """
+    port, hub_port, api_port, class_port = ports or new_ports()
     config = folder / "jupyterhub_config.py"
-    own = OWN.format(port=port, hub_port=hub_port, api_port=api_port, word=WORD, folder=folder)
-    config.write_text(CONFIG.read_text(encoding="utf-8") + own, encoding="utf-8")
+    own = OWN.format(
+        port=port,
+        hub_port=hub_port,
+        api_port=api_port,
+        class_port=class_port,
+        word=WORD,
+        folder=folder,
+        patience=PATIENCE_S,
+    )
+    config.write_text(CONFIG.read_text(encoding="utf-8") + own + more, encoding="utf-8")
     url = f"http://127.0.0.1:{port}/hub/"
-    with (folder / "log").open("w") as log:
+    with (folder / "log").open("a") as log:
         process = subprocess.Popen(
-            ["jupyterhub", "-f", str(config)], cwd=folder, stdout=log, stderr=log, env=_env()
+            [sys.executable, "-m", "jupyterhub", "-f", str(config)],
+            cwd=folder,
+            stdout=log,
+            stderr=log,
+            env=_env(),
         )
         try:
             _wait_for(url + "login", process, folder / "log")
@@ -69,7 +100,8 @@ def hub(folder: Path) -> Iterator[tuple[str, psutil.Process]]:
 
 
 def _env() -> dict[str, str]:
-    return {name: value for name, value in os.environ.items() if not name.startswith("JUPYTER")}
+    own = {name: value for name, value in os.environ.items() if not name.startswith("JUPYTER")}
+    return {**own, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{own['PATH']}"}
 
 
 def _wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:

@@ -57,6 +57,22 @@ def test_readings_action_and_rewards() -> None:
         assert (move["name"], move["is_choice"]) == ("move", False)
         forward = {"name": "forward", "low": -1.0, "high": 1.0, "has_effect": True}
         assert move["components"][0] == forward
+        vision, heading, *_ = python["sensors"]
+        assert (vision["key"], vision["slots"], vision["shape"]) == ("vision", [], [26])
+        assert vision["rays"]["angles_deg"] == list(range(-90, 91, 15))
+        assert vision["rays"]["codes"] == [["wall", 0.5], ["target", 1.0]]
+        assert (vision["rays"]["reach"], vision["rays"]["reach_m"]) == (1.0, 12.0)
+        cosine = {"name": "cosine", "unit": "", "low": -1.0, "high": 1.0}
+        assert heading["slots"][1] == cosine
+
+
+def test_a_program_knows_the_numbers_that_sensors_read() -> None:
+    with panel_room("box_chase") as room, room.page() as page:
+        page.show("0", "agent")
+        sensors = {sensor["key"]: sensor for sensor in page.part("python")["sensors"]}
+        assert (sensors["vision"]["stack"], sensors["vision"]["slots"]) == (4, [])
+        assert [slot["name"] for slot in sensors["orientation"]["slots"]] == ["cosine", "distance"]
+        assert [sensors[key]["kind"] for key in ("done", "id")] == ["bool", "text"]
 
 
 def test_sensors_of_a_kind_can_be_told_apart() -> None:

@@ -13,9 +13,12 @@ import ai4u_edu.program
 from ai4u_edu import BasicAgent, Percept, Scene
 from ai4u_edu.program import host
 from ai4u_edu.training.policies import entrant
-from tests.program.sources import SCENES
+from tests.program.solutions import entry_of, solution
 
 DTYPES = {"float32": "<f4", "int32": "<i4", "uint8": "|u1", "bool": "|b1"}
+FEW = ["box_chase", "line_follow", "maze", "grid_world", "jumper"]
+"""Scenes with different kinds of readings and actions."""
+REST = [name for name in Scene.names() if name not in FEW]
 IN_A_PAGE = """
 import json, sys
 sys.path.insert(0, sys.argv[1])
@@ -71,17 +74,19 @@ def load_in_page(source: str, agent: BasicAgent) -> None:
     told(host.begin())
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize(
+    "name", [*FEW, *(pytest.param(name, marks=pytest.mark.nightly) for name in REST)]
+)
 def test_decisions_are_the_same(name: str, tmp_path: Path) -> None:
+    source = solution(name)
     file = tmp_path / f"{name}.py"
-    file.write_text(SCENES[name])
+    file.write_text(source)
     scene = Scene.load(name)
     sim = scene.build()
     agent = sim.agents[0]
-    entry = "Explorer" if name == "maze" else "decide"
-    agent.use_brain(entrant(f"{file}:{entry}").brain(agent))
+    agent.use_brain(entrant(f"{file}:{entry_of(name)}").brain(agent))
     sim.reset(3)
-    load_in_page(SCENES[name], agent)
+    load_in_page(source, agent)
     while not agent.done:
         percept = {key: for_page(agent.percept[key]) for key in agent.percept}
         answer = told(host.decide(json.dumps({"percept": percept, "decision": agent.steps})))

@@ -12,7 +12,7 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu import Command, Scene
 from ai4u_edu.base.version import __version__
-from ai4u_edu.blocks.brains.network import TRAINING_KEY, Network, Port
+from ai4u_edu.blocks.brains.network import TRAINING_KEY, VALUE_OUTPUT, Network, Port
 from ai4u_edu.training.algorithms import load_model, new_model
 from ai4u_edu.training.exporting import export
 from ai4u_edu.training.prepare import prepare
@@ -158,3 +158,33 @@ def test_a_network_decides_as_its_model_does(tmp_path: Path) -> None:
         sim.step()
         if agent.done:
             sim.reset()
+
+
+@pytest.mark.nightly  # writes three networks
+@pytest.mark.parametrize("algorithm", ["ppo", "sac", "dqn"])
+def test_the_critic_is_exported_too(tmp_path: Path, algorithm: Algorithm) -> None:
+    import torch
+
+    scene, settings = Scene.load("box_chase"), small_settings()
+    model, _ = untrained(scene, algorithm, settings)
+    how = config(algorithm, settings)
+    network = Network(export(model, scene, how, tmp_path / "a.onnx", with_critic=True))
+    assert [port.name for port in network.outputs] == ["move", VALUE_OUTPUT]
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        percept = {port.name: drawn(port, rng) for port in network.inputs}
+        seen = np.concatenate([each.ravel().astype(np.float32) for each in percept.values()])
+        found = network.decide(percept)
+        if algorithm != "dqn":
+            action, _ = model.predict(seen, deterministic=True)
+            np.testing.assert_allclose(found["move"], action, atol=1e-5)
+        row = torch.as_tensor(seen)[None]
+        with torch.no_grad():
+            if algorithm == "ppo":
+                value = model.policy.predict_values(row)
+            elif algorithm == "dqn":
+                value = model.q_net(row).max()
+            else:
+                action = model.policy.actor(row, deterministic=True)
+                value = torch.cat(model.critic(row, action)).min()
+        assert float(found[VALUE_OUTPUT][0]) == pytest.approx(float(value), rel=1e-3, abs=1e-4)

@@ -13,7 +13,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.learning import resume, train
-from ai4u_edu.training.run import Check, Run
+from ai4u_edu.training.run import Check, Run, run_of
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
 from tests.training.small import copied_training, small_settings, small_training
 
@@ -204,3 +204,16 @@ def test_what_sac_and_one_actuator_can_not_do(tmp_path: Path) -> None:
     ):
         train(Scene.load("box_chase"), "ppo", wrong, tmp_path, quiet=True)
     assert not tmp_path.joinpath("config.json").exists()
+
+
+def test_the_model_of_each_check_is_kept_if_asked_for(tmp_path: Path) -> None:
+    scene = Scene.load("box_chase")
+    result = train(scene, "ppo", small_settings(), tmp_path, keep_checkpoints=True, quiet=True)
+    kept = result.run.checkpoints
+    assert [int(path.stem.removeprefix("checkpoint-")) for path in kept] == [
+        check.steps for check in result.checks
+    ]
+    assert len(kept) > 1
+    assert run_of(kept[0]).folder == tmp_path  # so that it can be exported
+    result.run.clear()
+    assert result.run.checkpoints == []

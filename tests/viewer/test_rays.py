@@ -7,7 +7,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot.theme import RAY_MISS, WALL, group_colours
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.light import line_colours, surface_colours
-from ai4u_edu.viewer.scene.rays import Rays, RayStyle, ray_dots, ray_lines
+from ai4u_edu.viewer.scene.rays import Rays, RayStyle, ray_dots, ray_lines, weight_colours
 
 PICTURE = RayPicture(
     origin=(0.0, 0.0, 0.5),
@@ -75,3 +75,16 @@ def test_more_and_fewer_rays(rays: Rays, runner: Runner) -> None:
 def test_every_group_of_the_stage_has_a_colour(viewer: Viewer) -> None:
     static_scene = viewer.runner.latest.static_scene
     assert {"agent", "target", "wall", "floor"} <= group_colours(static_scene).keys()
+
+
+def test_rays_are_coloured_by_how_much_they_matter(rays: Rays) -> None:
+    ends = np.array([[3.0, 1.0, 0.5], [1.0, 4.0, 0.5]])
+    pair = RayPicture((1.0, 1.0, 0.5), ends, ("target", ""))
+    rays.draw([pair, pair])
+    by_group = rays.lines.colors.copy()
+    rays.draw([pair, pair], weights=[None, np.array([0.0, 1.0])])
+    assert np.array_equal(rays.lines.colors[:2], by_group[:2])
+    expected = line_colours(weight_colours(np.array([0.0, 1.0])))
+    assert np.array_equal(rays.lines.colors[2:, 0], expected)
+    rays.draw([pair, pair])
+    assert np.array_equal(rays.lines.colors, by_group)

@@ -34,6 +34,9 @@ ZOO_PREFIX = "zoo:"
 TRAINING_KEY = "ai4u_edu"
 """Key of our entry in the file's metadata, which describes the training."""
 
+VALUE_OUTPUT = "critic_value"
+"""Name of the output of a network that also gives the value of a percept; it drives nothing."""
+
 _FOLDER: ContextVar[Path | None] = ContextVar("_FOLDER", default=None)
 
 RHYTHM = ("skip_frame", "repeat_action")
@@ -141,6 +144,7 @@ class Network:
                 f"{path.name}: expected a network that onnxruntime can run, got: {_told(error)}"
             ) from None
         self._session = session
+        self._run_options = onnxruntime.RunOptions()
         self._names = [port.name for port in self.outputs]
         self._feeds = [(port.name, (1, *port.shape), port.dtype) for port in self.inputs]
         self._shapes = [(1, *port.shape) for port in self.outputs]
@@ -151,6 +155,10 @@ class Network:
     def rhythm(self) -> dict[str, Any]:
         """The brain's parameters in its training; empty for a network from elsewhere."""
         return {name: self.about[name] for name in RHYTHM if name in self.about}
+
+    def stop(self) -> None:
+        """End a decision that takes too long, from another thread; it and later ones fail."""
+        self._run_options.terminate = True
 
     def decide(self, percept: Mapping[str, Any]) -> dict[str, npt.NDArray[Any]]:
         """Return the network's outputs by name, for one percept.
@@ -164,7 +172,7 @@ class Network:
                 name: np.asarray(percept[name], dtype).reshape(shape)
                 for name, shape, dtype in self._feeds
             }
-            answers = self._session.run(self._names, feed)
+            answers = self._session.run(self._names, feed, self._run_options)
         except Exception as error:  # its errors have no common base of their own
             raise BlockError(
                 f"{self.path.name}: onnxruntime can't run this network: {_told(error)}; expected "

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
@@ -18,10 +20,12 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
 )
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.explain import RewardTerms
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import finite_number
+from ai4u_edu.lessons.numeric import chance_for, finite_number
 from ai4u_edu.lessons.rollouts import drive, seeds_of
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.world import BodyView, WorldView
 
@@ -274,6 +278,42 @@ def is_quick(make: Any) -> Done:
     if min(found, key=lambda name: found[name]) != "jumper":
         raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
     return Done(f"Quick, and jumping does not pay: {_shown(found)}.")
+
+
+@exercise(
+    "09.4",
+    "What paid most?",
+    hints={
+        "first": "That is the first name. Add up what each term paid over all decisions, and "
+        "compare the sums.",
+        "once": "That term paid the largest single amount. Another one paid less at a time, but "
+        "more in all: add the amounts up.",
+        "size": "A term can cost a lot: then its sum is far below 0, and it did not pay.",
+        "name": "Return one of the names in `told.terms`.",
+    },
+)
+def finds_what_paid(paid_most: Any) -> str:
+    """Check on made-up episodes that the term with the largest sum is found."""
+    a_function(paid_most)
+    rng = chance_for("09.4", paid_most)
+    names = ("near", "time", "touch", "fall")
+    for shift in range(len(names)):
+        terms = names[shift:] + names[:shift]
+        small = rng.integers(2, 5, size=(20, 1)) * [[1.0, -9.0, 0.0, 0.0]]
+        small[-1] += [0.0, 0.0, 30.0, -40.0]
+        order = [names.index(name) for name in terms]
+        told = RewardTerms(np.arange(20) / 4, terms, small[:, order])
+        got = paid_most(told)
+        if got is None:
+            raise NotYet(NOTHING_RETURNED, hint="no-return")
+        if not isinstance(got, str) or got not in terms:
+            raise NotYet(f"Expected one of {terms!r}, got {named(got)}.", hint="name")
+        if got != "near":
+            reasons = {"touch": "once", "time": "size", "fall": "size"}
+            hint = "first" if got == terms[0] else reasons[got]
+            sums = dict(zip(terms, told.totals.round(1).tolist(), strict=True))
+            raise NotYet(f"Expected 'near', got {got!r}. The sums are {sums}.", hint=hint)
+    return "You found the term that paid most in four episodes."
 
 
 exit_ticket(

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ai4u_edu.explain import Group, Occlusion
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import Slip, chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drive, driven_by, seeds_of
+from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
 
 if TYPE_CHECKING:
@@ -322,6 +324,42 @@ def predicts_the_learner(prediction: Any, hacked: Any) -> Done:
     if counts[prediction] < max(counts.values()):
         raise NotYet(told, hint=prediction, picture=last.picture())
     return Done(f"You saw it coming. {told}", last.picture())
+
+
+@exercise(
+    "10.5",
+    "What does it look at most?",
+    hints={
+        "first": "That is the first slot. Compare them all: `told.shift[n]` is a list, and its "
+        "largest number, without its sign, says how far slot n moves the action.",
+        "sign": "To the left or to the right: both are movements. Compare the sizes, as "
+        "`abs(...)` gives them.",
+        "sum": "Movements to both sides do not cancel, and small ones do not add up: for each slot "
+        "only the largest one counts.",
+        "name": "Return one of the names in `told.names`.",
+    },
+)
+def finds_what_matters(looks_most_at: Any) -> str:
+    """Check on made-up explanations that the slot with the largest movement is found."""
+    a_function(looks_most_at)
+    rng = chance_for("10.5", looks_most_at)
+    names = ("ray 1", "ray 2", "speed", "box")
+    moved = np.array([[0.5, 0.0, 0.4], [0.0, -0.8, 0.1], [0.6, 0.6, 0.6], [-0.7, 0.1, 0.7]])
+    for shift in range(len(names)):
+        order = [(number + shift) % len(names) for number in range(len(names))]
+        groups = tuple(Group(names[each], "all", np.arange(4) == each) for each in order)
+        action = rng.uniform(-1, 1, size=3)
+        told = Occlusion(groups, ("left", "right", "jump"), action, action - moved[order])
+        got = looks_most_at(told)
+        if got is None:
+            raise NotYet(NOTHING_RETURNED, hint="no-return")
+        if not isinstance(got, str) or got not in names:
+            raise NotYet(f"Expected one of {told.names!r}, got {named(got)}.", hint="name")
+        if got != "ray 2":
+            reasons = {"box": "sign", "speed": "sum", "ray 1": "first"}
+            hint = "first" if got == told.names[0] else reasons[got]
+            raise NotYet(f"Expected 'ray 2', which moves a number by -0.8, got {got!r}.", hint=hint)
+    return "You found the slot that matters most in four explanations."
 
 
 exit_ticket(

@@ -11,6 +11,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exercises.lesson_11_choice import straight_on
+from ai4u_edu.lessons.exercises.lesson_11_why import HINTS, is_blind
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drives, seeds_of
@@ -325,6 +326,9 @@ def _result(sim: ControlRequestor, seed: int) -> tuple[str | None, Drive]:
         if agent.done:
             return (agent if touched(agent) else other).id, drive
     return None, drive
+
+
+exercise("11.4", "What does it not look at?", hints=HINTS)(is_blind)
 
 
 exit_ticket(

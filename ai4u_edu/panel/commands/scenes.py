@@ -104,6 +104,7 @@ def _card(card: Card, *, is_saved: bool) -> dict[str, Any]:
         "goal": card.goal,
         "level": card.level,
         "minutes": card.minutes,
+        "stars": card.stars,
         "picture": card.picture_url,
         "is_saved": is_saved,
     }

@@ -26,6 +26,11 @@ async def _sensor(page: Page, command: m.ShowSensor) -> Answer:
     return Answer()
 
 
+async def _why(page: Page, command: m.ShowWhy) -> Answer:
+    page.view.show_why(command.on)
+    return Answer()
+
+
 async def _trail(page: Page, command: m.ShowTrail) -> Answer:
     page.view.show_trail(command.on)
     return Answer()
@@ -45,6 +50,7 @@ HANDLERS: Mapping[type[Command], Handler] = {
     m.ShowAgent: _agent,
     m.Camera: _camera,
     m.ShowSensor: _sensor,
+    m.ShowWhy: _why,
     m.ShowTrail: _trail,
     m.Dark: _dark,
     m.ReduceMotion: _reduce_motion,

@@ -2,9 +2,12 @@
 
 from typing import Annotated, Literal
 
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 from ai4u_edu.panel.messages.base import Command, Name, Number, Seed
+
+MAX_CHANGES = 128
+"""Most numbers of a percept that are changed at once."""
 
 
 class Pause(Command, tag="pause"):
@@ -66,6 +69,26 @@ class ShowSensor(Command, tag="sensor"):
 
     key: Name
     on: bool
+
+
+class ShowWhy(Command, tag="why"):
+    """Show why the agent acts as it does, or no longer."""
+
+    on: bool
+
+
+class Change(Struct, forbid_unknown_fields=True):
+    """Another value of one number of a percept."""
+
+    key: Name
+    index: Number
+    value: Annotated[float, Meta(ge=-1e9, le=1e9)]
+
+
+class AskWhatIf(Command, tag="what_if"):
+    """Return the action on the agent's percept, and on a changed one."""
+
+    changes: Annotated[list[Change], Meta(max_length=MAX_CHANGES)]
 
 
 class ShowTrail(Command, tag="trail"):

@@ -12,6 +12,7 @@ from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.gallery import words_of
 from ai4u_edu.panel.parts.colours import hex_colour
+from ai4u_edu.panel.parts.sensor_slots import sensor_slots
 from ai4u_edu.panel.parts.sensors import sensor_json
 from ai4u_edu.snapshot import AgentState, Need, Snapshot
 from ai4u_edu.snapshot.agent_words import ending, script_problem, title
@@ -101,7 +102,7 @@ def curve_part(agent: AgentState) -> dict[str, Any]:
 
 
 def python_part(context: PanelContext, agent: AgentState, address: str) -> dict[str, Any]:
-    """Return the code that drives an agent from a notebook, and the actuators that it can name."""
+    """Return the code that drives an agent from a notebook, and what a program can name."""
     driven = next((each for each in context.runner.sim.agents if each.id == agent.id), None)
     return {
         "type": "part",
@@ -109,6 +110,7 @@ def python_part(context: PanelContext, agent: AgentState, address: str) -> dict[
         "agent": agent.id,
         "lines": "" if driven is None else script_lines(address or DEFAULT_ADDRESS, driven),
         "actuators": [_actuator(each) for each in agent.actuator_infos if each.components],
+        "sensors": [sensor_slots(each, agent.percept[each.key]) for each in agent.sensor_infos],
     }
 
 

@@ -14,6 +14,7 @@ from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
 from ai4u_edu.panel.parts.training import training_part
 from ai4u_edu.panel.parts.view import view_part
+from ai4u_edu.panel.parts.why import why_part
 from ai4u_edu.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
@@ -64,11 +65,15 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     )
     if view.is_curve_due():
         yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
+    if view.is_why_shown:
+        why = context.viewer.explainer.why(agent.id)
+        if why is not None:
+            yield "why", cache.of_snapshot(snapshot, ("why", why), lambda: why_part(why))
     address = view.address
     yield (
         "python",
         cache.by_key(
-            ("python", agent.id, address, agent.actuator_infos),
+            ("python", agent.id, address, agent.actuator_infos, agent.sensor_infos),
             lambda: python_part(context, agent, address),
         ),
     )

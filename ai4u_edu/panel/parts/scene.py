@@ -1,5 +1,6 @@
 """The part "scene": title, goal, legend and agents."""
 
+from dataclasses import asdict
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
@@ -7,6 +8,7 @@ from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.blocks import changes_json
 from ai4u_edu.panel.parts.colours import hex_colour
+from ai4u_edu.scenes.star_goals import StarGoals
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.agent_words import driver_title, title
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, Rgb, body_colour, group_colours
@@ -27,12 +29,18 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "goal": static_scene.goal if description is None else description.goal,
         "controls": "" if description is None else description.controls,
         "rewards": "" if description is None else description.rewards,
+        "stars": None if editor is None else _stars(editor.state.star_goals),
         "legend": _legend(static_scene),
         "agents": _agents(context, static_scene),
         "can_edit": editor is not None,
         "has_past": context.runner.recorder is not None,
         **({} if editor is None else changes_json(editor)),
     }
+
+
+def _stars(goals: StarGoals | None) -> dict[str, Any] | None:
+    """Return the goals for programs; None in a scene that has none."""
+    return asdict(goals) if goals is not None and goals.count else None
 
 
 def _legend(static_scene: StaticScene) -> list[dict[str, str]]:

@@ -28,13 +28,18 @@ def write_html(replay: Replay, path: Path) -> Path:
         replay: of the episode; it is shown as far as it is exact.
         path: of the file.
     """
+    write_atomically(path, html_of(replay))
+    return path
+
+
+def html_of(replay: Replay) -> str:
+    """Return an episode as an HTML page."""
     text = json.dumps(_data(replay), ensure_ascii=True, separators=(",", ":"), allow_nan=False)
     # escaped so that no text in the data can end the script element
     for risky in "<>&":
         text = text.replace(risky, f"\\u{ord(risky):04x}")
     page = TEMPLATE.read_text(encoding="utf-8")
-    write_atomically(path, page.replace(PLACEHOLDER, text))
-    return path
+    return page.replace(PLACEHOLDER, text)
 
 
 def _data(replay: Replay) -> dict[str, Any]:

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from viser import SceneApi
 
+from ai4u_edu.base.colors import rgb
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
@@ -17,6 +18,8 @@ from ai4u_edu.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.viewer.scene.subtree import Subtree
 
 Points = npt.NDArray[np.float32]
+Weights = npt.NDArray[np.float64]
+NOT_COLOURED: tuple[list[str], list[list[float]]] = ([], [])
 DOT_RADIUS = 0.0055
 """Radius of a dot, as a share of the arena's size."""
 
@@ -45,13 +48,18 @@ class Rays:
         self._scene = scene
         self._subtree = Subtree(scene, "rays")
         self._style, self._count = style, 0
-        self._groups: list[str] = []
+        self._coloured = NOT_COLOURED
 
     def build(self, style: RayStyle) -> None:
         """Rebuild the rays at the next drawing, in the style of another static scene."""
         self._style, self._count = style, -1
 
-    def draw(self, pictures: Sequence[RayPicture], heading: float = 0.0) -> None:
+    def draw(
+        self,
+        pictures: Sequence[RayPicture],
+        heading: float = 0.0,
+        weights: Sequence[Weights | None] = (),
+    ) -> None:
         """Draw these rays, and remove all others.
 
         A page moves nodes at once, and shows new points some frames later. So the points are
@@ -60,6 +68,8 @@ class Rays:
         Args:
             pictures: the rays of each sensor.
             heading: heading (rad) of the sensors' body.
+            weights: for each sensor how much each ray matters, 0..1, as its colour; by default, and
+                for None, the colour is that of what the ray hits.
         """
         groups = [group for picture in pictures for group in picture.groups]
         if len(groups) != self._count:
@@ -75,11 +85,17 @@ class Rays:
         self._subtree.place(eye + np.array([0.0, 0.0, style.layers.body]), heading)
         self.lines.points = lines
         self.dots.batched_positions = ray_dots(lines, style.dot_radius)
-        if groups == self._groups:
+        rounded = [[] if each is None else each.round(2).tolist() for each in weights]
+        if (groups, rounded) == self._coloured:
             return
-        self._groups = groups
+        self._coloured = groups, rounded
         indices = np.array([style.index_of_group.get(group, 0) for group in groups])
-        self.lines.colors = style.line_colours[indices][:, None].repeat(2, axis=1)
+        colours = style.line_colours[indices]
+        ends = np.cumsum([len(picture.groups) for picture in pictures])
+        for end, each in zip(ends, weights, strict=False):
+            if each is not None:
+                colours[end - len(each) : end] = line_colours(weight_colours(each))
+        self.lines.colors = colours[:, None].repeat(2, axis=1)
         self.dots.batched_scales = np.array([group != "" for group in groups], dtype=np.float32)
         # meshes, because the page recompiles a point cloud's shader at every change of colour
         self.dots.batched_colors = style.dot_colours[indices]
@@ -91,7 +107,21 @@ class Rays:
                 self.lines = drawer.moving_lines("lines", count)
                 dot = cap(circle(self._style.dot_radius, corners=12))
                 self.dots = drawer.batch("dots", dot, count * [RAY_MISS])
-        self._count, self._groups = count, []
+        self._count, self._coloured = count, NOT_COLOURED
+
+
+def weight_colours(weights: Weights) -> npt.NDArray[np.uint8]:
+    """Return the colours of rays by how much they matter: from grey to vermillion.
+
+    >>> weight_colours(np.array([0.0, 1.0])).tolist()
+    [[201, 206, 212], [213, 94, 0]]
+    """
+    ends = np.array([rgb("light grey"), rgb("vermillion")], np.float64)
+    shares = np.clip(weights, 0, 1)[:, None]
+    colours: npt.NDArray[np.uint8] = np.rint(ends[0] + shares * (ends[1] - ends[0])).astype(
+        np.uint8
+    )
+    return colours
 
 
 def ray_lines(picture: RayPicture) -> Array:

@@ -1,5 +1,6 @@
 """Sensor readings drawn in the scene: on each page, those of the agent that it shows."""
 
+from ai4u_edu.explain.live import LiveExplainer, Why
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.snapshot.block_info import SensorInfo
@@ -26,10 +27,17 @@ class SenseOverlay:
     Args:
         viewer_clients: the pages.
         rate: how many times a second each page is drawn, at most.
+        explainer: tells how much each ray matters, for pages that show it.
     """
 
-    def __init__(self, viewer_clients: ViewerClients, rate: float = SENSES_PER_S) -> None:
+    def __init__(
+        self,
+        viewer_clients: ViewerClients,
+        rate: float = SENSES_PER_S,
+        explainer: LiveExplainer | None = None,
+    ) -> None:
         self._viewer_clients, self._rate = viewer_clients, rate
+        self._explainer = explainer
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -53,7 +61,9 @@ class SenseOverlay:
                 self._pages[number] = _Page(viewer_client, self._style)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
-                self._pages[number].draw(snapshot, agent, self._tops[agent.body])
+                shows_why = viewer_client.is_why_shown and self._explainer is not None
+                why = self._explainer.why(agent.id) if shows_why and self._explainer else None
+                self._pages[number].draw(snapshot, agent, self._tops[agent.body], why)
 
 
 class _Page:
@@ -64,10 +74,10 @@ class _Page:
         self._viewer_client = viewer_client
         self._rays, self._spots = Rays(scene, style), Spots(scene)
         self._pointers = Pointers(scene)
-        self._drawn_rays: object = None
+        self._drawn: tuple[object, object] = (None, None)
         self._keys: list[str] = []
 
-    def draw(self, snapshot: Snapshot, agent: AgentState, top: float) -> None:
+    def draw(self, snapshot: Snapshot, agent: AgentState, top: float, why: Why | None) -> None:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
         shown = [
             sensor
@@ -80,13 +90,16 @@ class _Page:
         keys = [sensor.key for sensor in shown]
         with self._viewer_client.client.atomic():
             # `rays` is a new object after every reading
-            if agent.rays is not self._drawn_rays or keys != self._keys:
-                self._drawn_rays, self._keys = agent.rays, keys
-                rays = [agent.rays[key] for key in keys if key in agent.rays]
-                self._rays.draw(rays, body.heading)
+            drawn = self._drawn
+            if agent.rays is not drawn[0] or why is not drawn[1] or keys != self._keys:
+                self._drawn, self._keys = (agent.rays, why), keys
+                seeing = [key for key in keys if key in agent.rays]
+                matters = {} if why is None else why.ray_weights
+                weights = [matters.get(key) for key in seeing]
+                self._rays.draw([agent.rays[key] for key in seeing], body.heading, weights)
                 self._spots.draw([agent.spots[key] for key in keys if key in agent.spots], top)
             self._pointers.draw(snapshot, body, shown)
 
     def build(self, style: RayStyle) -> None:
-        self._drawn_rays = None
+        self._drawn = (None, None)
         self._rays.build(style)

@@ -44,3 +44,9 @@ class Subtree:
         """Move the parent node to a position (m) and a heading (rad)."""
         if self._frame is not None:
             self._frame.position, self._frame.wxyz = position, heading_wxyz(heading)
+
+    def remove(self) -> None:
+        """Take this part from the scene; :meth:`rebuild` brings another one."""
+        if self._frame is not None:
+            self._frame.remove()
+            self._frame = None

@@ -10,7 +10,13 @@ from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
-from ai4u_edu.blocks.brains.network import Network, Port, find_network, folder_of_files
+from ai4u_edu.blocks.brains.network import (
+    VALUE_OUTPUT,
+    Network,
+    Port,
+    find_network,
+    folder_of_files,
+)
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.world import WorldView
@@ -69,12 +75,13 @@ class NeuralNetController(Controller):
         if found:
             raise BlockError(f"the network {name} does not fit agent {agent.id!r}: {found}")
         actuators = {each.action_name: each for each in agent.actuators if each.is_active}
-        only = len(network.outputs) == 1
+        outputs = [port for port in network.outputs if port.name != VALUE_OUTPUT]
+        only = len(outputs) == 1
         self._targets = [
             (port.name, self.main_output if only and port.name not in actuators else port.name)
-            for port in network.outputs
+            for port in outputs
         ]
-        for port, (_, target) in zip(network.outputs, self._targets, strict=True):
+        for port, (_, target) in zip(outputs, self._targets, strict=True):
             if target not in actuators:
                 raise BlockError(
                     f"the network {name} drives an actuator {target!r}, and agent {agent.id!r} "

@@ -1,0 +1,7 @@
+"""A class as a service of a JupyterHub, whose users are its students and teachers."""
+
+from ai4u_edu.classroom.hub.app import hub_class_app
+from ai4u_edu.classroom.hub.environment import HubEnvironment
+from ai4u_edu.classroom.hub.no_rooms import NoRooms
+
+__all__ = ["HubEnvironment", "NoRooms", "hub_class_app"]

@@ -1,0 +1,119 @@
+"""Sign-in of browsers by the hub's OAuth (RFC 6749, authorization code with RFC 7636)."""
+
+import base64
+import hashlib
+import json
+import secrets
+from typing import Any
+from urllib.parse import urlencode
+
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
+
+from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
+from ai4u_edu.classroom.hub.environment import HubEnvironment
+from ai4u_edu.server.token_auth import is_same_secret
+
+COOKIE = "ai4u-edu-hub"
+"""Cookie with the browser's token of the hub; scripts in a page can't read it."""
+STATE_COOKIE = "ai4u-edu-hub-state"
+STATE_LIFE_S = 600
+TOKEN_LIFE_S = 14 * 24 * 3600
+PAGES = ("", "teacher", "projector")
+"""Pages to which a browser goes after the sign-in."""
+NO_STORE = {"Cache-Control": "no-store"}
+
+
+class SignIn:
+    """Finds out whose browser sends a request, and sends browsers to the hub to sign in.
+
+    Args:
+        hub: environment of the service.
+        api: of the hub.
+    """
+
+    def __init__(self, hub: HubEnvironment, api: HubApi) -> None:
+        self._hub, self._api = hub, api
+
+    async def user_of(self, given: HTTPConnection) -> HubUser | None:
+        """Return the user of a browser's cookie; None if it has to sign in.
+
+        Raises:
+            HubUnreachableError: the hub does not answer.
+            NoAccessError: the user may not use this service.
+        """
+        token = given.cookies.get(COOKIE, "")
+        return await self._api.user_of(token) if token else None
+
+    def begin(self, request: HTTPConnection) -> Response:
+        """Return the redirect with which a browser begins to sign in."""
+        page = request.url.path.removeprefix("/")
+        state, verifier = secrets.token_urlsafe(24), secrets.token_urlsafe(32)
+        query = {
+            "client_id": self._hub.client_id,
+            "redirect_uri": self._hub.redirect_uri,
+            "response_type": "code",
+            "state": state,
+            "code_challenge": _challenge_of(verifier),
+            "code_challenge_method": "S256",
+        }
+        address = f"{self._hub.hub_url}api/oauth2/authorize?{urlencode(query)}"
+        response = RedirectResponse(address, 302, NO_STORE)
+        kept = {"state": state, "verifier": verifier, "page": page if page in PAGES else ""}
+        value = base64.urlsafe_b64encode(json.dumps(kept).encode()).decode()
+        self._set(response, request, STATE_COOKIE, value, STATE_LIFE_S)
+        return response
+
+    async def callback(self, request: Request) -> Response:
+        """Return the redirect to the page, with the cookie of a browser that has signed in."""
+        kept = _read_state(request.cookies.get(STATE_COOKIE, ""))
+        given = request.query_params
+        if kept is None or not is_same_secret(kept["state"], given.get("state", "")):
+            text = "This sign-in was begun in another window, or too long ago. Open the class again"
+            return PlainTextResponse(f"{text}: {self._hub.prefix}\n", 403, NO_STORE)
+        if not given.get("code"):
+            why = given.get("error_description") or given.get("error") or "it gave no reason"
+            return PlainTextResponse(f"The hub did not sign you in: {why[:200]}\n", 403, NO_STORE)
+        try:
+            token = await self._api.token_for(given["code"], kept["verifier"])
+            user = await self._api.user_of(token) if token else None
+        except HubUnreachableError as error:
+            return PlainTextResponse(f"{error}\n", 503, NO_STORE)
+        except NoAccessError as error:
+            return PlainTextResponse(f"{error}\n", 403, NO_STORE)
+        if user is None:
+            text = f"The hub does not know this sign-in. Open the class again: {self._hub.prefix}"
+            return PlainTextResponse(f"{text}\n", 403, NO_STORE)
+        response = RedirectResponse(f"{self._hub.prefix}{kept['page']}", 303, NO_STORE)
+        self._set(response, request, COOKIE, token, TOKEN_LIFE_S)
+        response.delete_cookie(STATE_COOKIE, path=self._hub.prefix)
+        return response
+
+    def _set(
+        self, response: Response, request: HTTPConnection, name: str, value: str, life_s: int
+    ) -> None:
+        response.set_cookie(
+            name,
+            value,
+            max_age=life_s,
+            path=self._hub.prefix,  # so students' servers at the same host don't get it
+            secure=request.url.scheme == "https",
+            httponly=True,
+            samesite="lax",
+        )
+
+
+def _challenge_of(verifier: str) -> str:
+    digest = hashlib.sha256(verifier.encode()).digest()
+    return base64.urlsafe_b64encode(digest).decode().rstrip("=")
+
+
+def _read_state(cookie: str) -> dict[str, str] | None:
+    """Return what :meth:`SignIn.begin` kept in the browser; None if that is not there."""
+    try:
+        kept: Any = json.loads(base64.urlsafe_b64decode(cookie))
+    except ValueError:
+        return None
+    is_fine = isinstance(kept, dict) and kept.keys() == {"state", "verifier", "page"}
+    is_fine = is_fine and all(isinstance(each, str) for each in kept.values())
+    return kept if is_fine and kept["page"] in PAGES else None

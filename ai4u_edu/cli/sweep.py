@@ -1,0 +1,267 @@
+"""The command ``sweep``; heavy imports happen when it runs."""
+
+import re
+import shlex
+from contextlib import closing
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.base.seeding import MAX_TRAINING_SEED
+from ai4u_edu.cli import training_options as o
+from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, load_own_blocks
+
+if TYPE_CHECKING:
+    from ai4u_edu.training.settings import Algorithm
+    from ai4u_edu.training.sweep.plan import Plan
+    from ai4u_edu.training.sweep.result import TrialResult
+    from ai4u_edu.training.sweep.run import Sweep
+
+MAX_SEEDS = 1000
+EVALUATION_EPISODES = 100
+SHOWN_TRIALS = 10
+INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells have it."""
+
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        help="A setting to vary: NAME=LOW..HIGH, NAME=LOW..HIGH:log or NAME=VALUE,VALUE. "
+        "Repeat the option for several; sac.NAME is for SAC alone.",
+    ),
+]
+Trials = Annotated[
+    int,
+    typer.Option(
+        help="Number of trials that Optuna proposes. Default: all combinations of the values.",
+        min=0,
+        max=100_000,
+        show_default=False,
+    ),
+]
+Batch = Annotated[
+    int,
+    typer.Option(
+        help="Trials that Optuna proposes at once: more keep more cores busy, and know less "
+        "of each other.",
+        min=1,
+        max=10_000,
+    ),
+]
+
+
+def sweep(
+    scene: Annotated[str, typer.Argument(help="Scene name or YAML file. Not with --resume.")] = "",
+    algo: Annotated[
+        str, typer.Option(help="Algorithms, as in sac,ppo. Default: as in the settings.")
+    ] = "",
+    seeds: Annotated[str, typer.Option(help="Seeds, as in 0-9 or 1,5,7.")] = "0",
+    vary: Vary = None,
+    trials: Trials = 0,
+    batch: Batch = 8,
+    steps: Annotated[
+        int | None,
+        typer.Option(
+            help="Decisions of each trial. Default: as in the settings.",
+            min=1,
+            max=MAX_TRAINING_STEPS,
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results. Default: runs/SCENE-sweep.")
+    ] = None,
+    settings: o.SettingsFile = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue the sweep in --out as it was begun.")
+    ] = False,
+    engine: o.JobsEngine = "processes",
+    address: o.ClusterAddress = "",
+    own_blocks: OwnBlocks = None,
+) -> None:
+    r"""Train with many settings and seeds, and keep the best network.
+
+    Ctrl-C keeps what is finished; the same command, or --resume --out DIR, goes on.
+    Needs: pip install "ai4u-edu\[train]", and "ai4u-edu\[sweep]" for --trials.
+    """
+    need("train", "torch", "stable_baselines3", "onnx", "matplotlib")
+    load_own_blocks(own_blocks)
+    if resume:
+        plan, folder = _kept_plan(scene, out, trials)
+    else:
+        plan = _plan(scene, algo, seeds, vary or (), trials, batch, steps, settings, own_blocks)
+        name = Path(str(plan.scene["name"])).stem
+        folder = out or Path("runs") / f"{name}-sweep"
+        plan = _begun(plan, folder)
+    plan.check()
+    plan.save(folder)
+    _report(_run(plan, folder, engine, address), engine)
+
+
+def _plan(
+    scene: str,
+    algo: str,
+    seeds: str,
+    vary: "list[str] | tuple[()]",
+    trials: int,
+    batch: int,
+    steps: int | None,
+    settings: Path | None,
+    own_blocks: list[Path] | None,
+) -> "Plan":
+    from ai4u_edu.scenes.scene_data import scene_data, scene_from
+    from ai4u_edu.training.settings import settings_for
+    from ai4u_edu.training.sweep.plan import Plan
+    from ai4u_edu.training.sweep.search_space import Parameter
+
+    if trials:
+        need("sweep", "optuna")
+    if not scene:
+        raise SetupError("expected the scene to train in, as in: ai4u-edu sweep box_chase")
+    data = scene_data(scene, own_blocks or ())
+    how = settings_for(scene_from(data).description.name, settings)
+    parameters = tuple(Parameter.parse(each) for each in vary)
+    names = [each.name for each in parameters]
+    for name in names:
+        if names.count(name) > 1:
+            raise SetupError(f"--set: expected each setting once, got {name!r} twice")
+    return Plan(
+        scene=data,
+        algorithms=_algorithms(algo or how.algorithm),
+        seeds=parse_seeds(seeds),
+        parameters=parameters,
+        trials=trials,
+        batch=batch if trials else 1,
+        steps=steps,
+        settings=how.model_dump(mode="json"),
+    )
+
+
+def _algorithms(text: str) -> "tuple[Algorithm, ...]":
+    from ai4u_edu.training.settings import ALGORITHMS
+
+    found = []
+    for each in dict.fromkeys(text.lower().split(",")):
+        known = next((name for name in ALGORITHMS if name == each.strip()), None)
+        if known is None:
+            raise SetupError(
+                f"--algo: expected some of {', '.join(ALGORITHMS)}, got {each!r}; "
+                f"{suggest(each, ALGORITHMS)}"
+            )
+        found.append(known)
+    return tuple(found)
+
+
+def parse_seeds(text: str) -> tuple[int, ...]:
+    """Return the seeds that a text names.
+
+    Raises:
+        SetupError: it names none, or too many.
+
+    >>> parse_seeds("0-3,7")
+    (0, 1, 2, 3, 7)
+    """
+    found: dict[int, None] = {}
+    for part in text.split(","):
+        match = re.fullmatch(r"\s*(\d{1,10})(?:-(\d{1,10}))?\s*", part)
+        first, last = (int(match[1]), int(match[2] or match[1])) if match else (1, 0)
+        if not first <= last <= MAX_TRAINING_SEED or last - first >= MAX_SEEDS:
+            raise SetupError(
+                f"--seeds: expected numbers up to {MAX_TRAINING_SEED}, as in 0-9 or 1,5,7 (at most "
+                f"{MAX_SEEDS} of them), got {text!r}"
+            )
+        found.update(dict.fromkeys(range(first, last + 1)))
+    return tuple(found)
+
+
+def _kept_plan(scene: str, out: Path | None, trials: int) -> "tuple[Plan, Path]":
+    from ai4u_edu.training.sweep.plan import Plan
+
+    if out is None or scene:
+        raise SetupError(
+            "--resume goes on as it was begun: expected --out, the sweep's folder, and no scene"
+        )
+    plan = Plan.load(out)
+    if trials and not plan.is_search:
+        raise SetupError(f"{out} tries all combinations; expected no --trials")
+    return (plan.model_copy(update={"trials": trials}) if trials else plan), out
+
+
+def _begun(plan: "Plan", folder: Path) -> "Plan":
+    """Return the plan, unless the folder holds a sweep of another one."""
+    from ai4u_edu.training.sweep.plan import FILE, Plan
+
+    if (folder / FILE).exists():
+        different = plan.difference(Plan.load(folder))
+        if different:
+            raise SetupError(
+                f"{folder} holds a sweep with other {different}; go on with that one (--resume "
+                f"--out {folder}), or choose another folder (--out)"
+            )
+    return plan
+
+
+def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Sweep":
+    from ai4u_edu.base.seeding import seeds_from
+    from ai4u_edu.jobs import engine
+    from ai4u_edu.training.progress_bar import ProgressBar
+    from ai4u_edu.training.sweep.result import ranked
+    from ai4u_edu.training.sweep.run import evaluated, run_sweep, total_of, write_report
+
+    results: list[TrialResult] = []
+    bar = ProgressBar(total_of(plan), "trials")
+
+    def tell(result: "TrialResult") -> None:
+        results.append(result)
+        if result.error:
+            bar.note(f"trial {result.number} ({result.label}) failed: {result.error}")
+        best = ranked(results)[0]
+        shown = f"best {best.cells(())['success'] or f'{best.value:.2f}'}" if best.checks else ""
+        bar.show(len(results), shown)
+
+    with closing(bar), engine(engine_name, address=address) as running:
+        done = run_sweep(plan, folder, running, tell=tell)
+    if not done.is_interrupted:
+        seeds = seeds_from(0, EVALUATION_EPISODES)
+        bar = ProgressBar(len(seeds), "episodes, best", keep=False)
+        with closing(bar):
+            done = evaluated(done, seeds, lambda: bar.add(1))
+    write_report(done)
+    return done
+
+
+def _report(done: "Sweep", engine: str) -> None:
+    from ai4u_edu.training.sweep.result import ranked
+    from ai4u_edu.training.sweep.run import BEST, PAGE, total_of
+
+    folder = done.folder
+    again = f"ai4u-edu sweep --resume --out {shlex.quote(str(folder))}"
+    if engine != "processes":
+        again += f" --engine {engine}"
+    if done.results:
+        names = [each.name for each in done.plan.parameters]
+        rows = [each.cells(names) for each in ranked(done.results)[:SHOWN_TRIALS]]
+        shown = Table(box=None, pad_edge=False)
+        for heading in rows[0]:
+            shown.add_column(heading, justify="left" if heading == "algorithm" else "right")
+        for row in rows:
+            shown.add_row(*row.values())
+        Console().print(shown)
+    if done.evaluation is not None:
+        typer.echo(f"best network, {done.evaluation!r}")
+        typer.echo(f"let it drive: ai4u-edu play {done.plan.scene['name']} --brain {folder / BEST}")
+    if done.results:
+        typer.echo(f"report: {folder / PAGE}")
+    if done.is_interrupted:
+        count = len(done.results)
+        typer.echo(
+            f"interrupted after {count} of {total_of(done.plan)} trials; go on with: {again}"
+        )
+        raise typer.Exit(INTERRUPTED)
+    if not any(each.checks for each in done.results):
+        raise SetupError(f"no trial has finished: {done.results[0].error}")

@@ -1,0 +1,216 @@
+"""The command ``tournament``; heavy imports happen when it runs."""
+
+import shlex
+from contextlib import closing
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.cli import training_options as o
+from ai4u_edu.cli.options import OwnBlocks, load_own_blocks, seed_option
+from ai4u_edu.cli.sweep import INTERRUPTED
+
+if TYPE_CHECKING:
+    from ai4u_edu.jobs import Outcome
+    from ai4u_edu.tournament.plan import Plan
+    from ai4u_edu.tournament.run import Tournament
+
+MAX_SEEDS = 1000
+VERIFY = "verify"
+Words = Annotated[
+    list[str] | None,
+    typer.Argument(
+        metavar="SCENE ENTRY...",
+        help="The scene, then the entries: NAME=SPEC or SPEC, where SPEC is a network (FILE.onnx), "
+        "a controller's name, scene (the scene's scripted controllers), random, a recorded "
+        "episode, or FILE.py. NAME=PART:SPEC,PART:SPEC for agents that need different ones. Or: "
+        "verify FOLDER.",
+    ),
+]
+Seeds = Annotated[
+    int, typer.Option(help="Number of seeds for each pair, or of races.", min=1, max=MAX_SEEDS)
+]
+System = Annotated[
+    Literal["round-robin", "swiss"],
+    typer.Option(help="round-robin: all pairs; swiss: neighbours in the standings, in rounds."),
+]
+Rounds = Annotated[
+    int,
+    typer.Option(
+        help="Rounds of swiss. Default: enough to find the best.",
+        min=0,
+        max=1000,
+        show_default=False,
+    ),
+]
+TrustPython = Annotated[
+    bool,
+    typer.Option(
+        "--trust-python",
+        help="Run Python files, each in a process with limits. They can read your files.",
+    ),
+]
+
+
+def tournament(
+    words: Words = None,
+    seeds: Seeds = 2,
+    seed: Annotated[int, seed_option("The first seed; the next ones count up.")] = 0,
+    system: System = "round-robin",
+    rounds: Rounds = 0,
+    trust_python: TrustPython = False,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results. Default: runs/SCENE-tournament.")
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue the tournament in --out as it was begun.")
+    ] = False,
+    engine: o.JobsEngine = "processes",
+    address: o.ClusterAddress = "",
+    own_blocks: OwnBlocks = None,
+) -> None:
+    r"""Let networks and programs play each other, and rate them.
+
+    Every game is kept as a recording; "tournament verify FOLDER" plays all again and compares bit
+    for bit. Ctrl-C keeps what is finished; the same command, or --resume --out DIR, goes on.
+    Needs: pip install "ai4u-edu\[tournament]"
+    """
+    need("tournament", "openskill", "onnxruntime")
+    load_own_blocks(own_blocks)
+    given = words or []
+    if given[:1] == [VERIFY]:
+        if len(given) != 2:
+            raise SetupError("expected one folder: ai4u-edu tournament verify FOLDER")
+        _verify(Path(given[1]), engine, address)
+        return
+    if resume:
+        if out is None or given:
+            raise SetupError(
+                "--resume goes on as it was begun: expected --out, the tournament's folder, and "
+                "no scene"
+            )
+        from ai4u_edu.tournament.plan import Plan
+
+        plan, folder = Plan.load(out), out
+    else:
+        first = range(seed, seed + seeds)
+        plan = _plan(given, first, system, rounds, trust_python, own_blocks)
+        folder = out or Path("runs") / f"{plan.title}-tournament"
+        _check_folder(plan, folder)
+    plan.save(folder)
+    _report(_run(plan, folder, engine, address), engine)
+
+
+def _plan(
+    words: list[str],
+    seeds: range,
+    system: Literal["round-robin", "swiss"],
+    rounds: int,
+    trust_python: bool,
+    own_blocks: list[Path] | None,
+) -> "Plan":
+    from ai4u_edu.base.seeding import seeds_from
+    from ai4u_edu.scenes.scene_data import scene_data, scene_from
+    from ai4u_edu.tournament.entry import parse_entry, with_names
+    from ai4u_edu.tournament.plan import Plan
+    from ai4u_edu.tournament.sides import sides_of
+
+    if len(words) < 3:
+        raise SetupError(
+            "expected a scene and two entries at least, as in: ai4u-edu tournament sumo a.onnx "
+            "b.onnx scene"
+        )
+    scene, *specs = words
+    data = scene_data(scene, own_blocks or ())
+    loaded = scene_from(data)
+    sides, name = sides_of(loaded), loaded.description.name
+    entries = with_names(
+        parse_entry(each, sides, scene=name, trust_python=trust_python) for each in specs
+    )
+    return Plan(
+        scene=data,
+        entries=entries,
+        seeds=tuple(seeds_from(seeds.start, len(seeds))),
+        system=system,
+        rounds=rounds,
+    )
+
+
+def _check_folder(plan: "Plan", folder: Path) -> None:
+    from ai4u_edu.tournament.plan import FILE, Plan
+
+    if (folder / FILE).exists():
+        different = plan.difference(Plan.load(folder))
+        if different:
+            raise SetupError(
+                f"{folder} holds a tournament with other {different}; go on with that one "
+                f"(--resume --out {folder}), or choose another folder (--out)"
+            )
+
+
+def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournament":
+    from ai4u_edu.base.atomic_write import write_atomically
+    from ai4u_edu.jobs import engine
+    from ai4u_edu.tournament.page import page_of
+    from ai4u_edu.tournament.run import PAGE, run_tournament, write_results
+    from ai4u_edu.training.progress_bar import ProgressBar
+
+    count = len(plan.entries)
+    bar = ProgressBar(count + plan.games_for(count), "games")
+
+    def tell(outcome: "Outcome") -> None:
+        bar.add(1)
+        result = outcome.result or {"reason": outcome.error, "forfeit": -1}
+        if result["reason"]:
+            entries = outcome.job.arguments["entries"]
+            names = " - ".join(dict.fromkeys(str(each["name"]) for each in entries))
+            bar.note(f"{names}: {result['reason']}")
+
+    with closing(bar), engine(engine_name, address=address) as running:
+        done = run_tournament(plan, folder, running, tell=tell)
+    write_results(done)
+    write_atomically(folder / PAGE, page_of(done))
+    return done
+
+
+def _report(done: "Tournament", engine: str) -> None:
+    from ai4u_edu.tournament.run import PAGE
+
+    shown = Table(box=None, pad_edge=False)
+    for heading in ("place", "entry", "rating", "won", "drawn", "lost", "failed"):
+        shown.add_column(heading, justify="left" if heading in ("entry", "rating") else "right")
+    for place, each in enumerate(done.standings, 1):
+        row = (place, each.name, each.rating, each.won, each.drawn, each.lost, each.forfeits)
+        shown.add_row(*map(str, row))
+    Console().print(shown, markup=False)
+    for name, reason in done.refused.items():
+        typer.echo(f"refused: {name}: {reason}")
+    folder = shlex.quote(str(done.folder))
+    typer.echo(f"report: {done.folder / PAGE}\nverify: ai4u-edu tournament verify {folder}")
+    if done.is_interrupted:
+        again = f"ai4u-edu tournament --resume --out {folder}"
+        again += f" --engine {engine}" if engine != "processes" else ""
+        typer.echo(f"interrupted after {len(done.games)} games; go on with: {again}")
+        raise typer.Exit(INTERRUPTED)
+
+
+def _verify(folder: Path, engine_name: str, address: str) -> None:
+    from ai4u_edu.jobs import engine
+    from ai4u_edu.tournament.plan import Plan
+    from ai4u_edu.tournament.verify import verify
+    from ai4u_edu.training.progress_bar import ProgressBar
+
+    plan = Plan.load(folder)
+    bar = ProgressBar(plan.games_for(len(plan.entries)), "games")
+    with closing(bar), engine(engine_name, address=address) as running:
+        count, problems = verify(folder, running, lambda: bar.add(1))
+    for each in problems:
+        typer.echo(each)
+    if problems:
+        raise SetupError(f"{len(problems)} of {count} games differ")
+    typer.echo(f"{count} games, played again: all are the same, bit for bit")

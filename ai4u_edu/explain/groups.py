@@ -1,0 +1,159 @@
+"""Groups of a percept's numbers: single slots, rays, and whole sensors."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.blocks import CodeLegend, RayPicture
+from ai4u_edu.snapshot.block_info import SensorInfo, block_info_of, sensor_pictures_of
+
+Kind = Literal["slot", "sensor"]
+KINDS = ("slot", "sensor")
+
+Mask = npt.NDArray[np.bool_]
+
+
+class Group(NamedTuple):
+    """Numbers of one reading that are replaced together."""
+
+    name: str
+    """Name for people, as ``ray 7`` or ``orientation: cosine``."""
+    key: str
+    """Perception key of the reading."""
+    mask: Mask
+    """(size,) True for each number of the flattened reading that belongs to it."""
+    sees: str = ""
+    """Group that a ray meets at this moment; ``nothing`` if none, empty for what is no ray."""
+
+
+def slots_of(percept: Mapping[str, Any], keys: Iterable[str]) -> list[Group]:
+    """Return a group for each single number of these readings.
+
+    >>> [group.name for group in slots_of({"eyes": np.zeros(2), "speed": 1.0}, ["eyes", "speed"])]
+    ['eyes 0', 'eyes 1', 'speed']
+    """
+    return [
+        Group(f"{key} {index}" if size > 1 else key, key, np.arange(size) == index)
+        for key in keys
+        for size in [np.asarray(percept[key]).size]
+        for index in range(size)
+    ]
+
+
+def sensors_of(percept: Mapping[str, Any], keys: Iterable[str]) -> list[Group]:
+    """Return a group for each whole reading."""
+    return [Group(key, key, np.ones(np.asarray(percept[key]).size, np.bool_)) for key in keys]
+
+
+def groups_by(kind: Kind, percept: Mapping[str, Any], keys: Iterable[str]) -> list[Group]:
+    """Return groups of one kind, with the names of keys and positions.
+
+    Raises:
+        SetupError: there is no such kind.
+    """
+    if kind not in KINDS:
+        raise SetupError(f"groups: {suggest(str(kind), KINDS)}; expected one of {KINDS}")
+    return slots_of(percept, keys) if kind == "slot" else sensors_of(percept, keys)
+
+
+def groups_of_agent(agent: BasicAgent, *, whole: bool = False) -> list[Group]:
+    """Return the groups of an agent's present percept, with names for people.
+
+    A number with a name is a group, a ray's code and distance are one, and stacked readings of the
+    same number are one, since a beginner sees them as one thing.
+
+    Args:
+        agent: its sensors with ``is_input`` count.
+        whole: True adds each whole sensor, and all codes and all distances of its rays.
+    """
+    inputs = {each.perception_key for each in agent.bound_blocks.sensors if each.is_input}
+    infos = [info for info in block_info_of(agent).sensor_infos if info.key in inputs]
+    rays = sensor_pictures_of(agent).rays
+    return groups_of(infos, rays, whole=whole)
+
+
+def groups_of(
+    infos: Sequence[SensorInfo], rays: Mapping[str, RayPicture], *, whole: bool = False
+) -> list[Group]:
+    """Return the groups of sensors that are described, as :func:`groups_of_agent` does."""
+    found: list[Group] = []
+    for info in infos:
+        parts = _parts(info, rays.get(info.key))
+        found += parts
+        if whole and len(parts) > 1:
+            found += _wholes(info, rays.get(info.key))
+    return found
+
+
+def _parts(info: SensorInfo, picture: RayPicture | None) -> list[Group]:
+    if picture is not None:
+        planes = _planes(info, len(picture.groups))
+        if planes:
+            return _rays(info, picture, planes)
+    count = len(info.low)
+    names = info.slots or tuple(map(str, range(count)))
+    return [
+        _group(f"{info.key}: {name.replace('_', ' ')}" if count > 1 else info.key, info, [index])
+        for index, name in enumerate(names)
+    ]
+
+
+def _rays(info: SensorInfo, picture: RayPicture, planes: int) -> list[Group]:
+    """Return a group for each ray, from the leftmost on."""
+    count = len(picture.groups)
+    found = []
+    for name, ray in _ray_names(info, count):
+        met = picture.groups[ray] or "nothing"
+        met = "something" if met == "?" else met
+        found.append(_group(name, info, _numbers(info, ray, count, planes), met))
+    return found
+
+
+def _ray_names(info: SensorInfo, count: int) -> list[tuple[str, int]]:
+    """Return each ray's name, and its index in the picture."""
+    if isinstance(info.legend, CodeLegend):
+        rows, columns = info.legend.shape
+        one = rows == 1
+        return [
+            (f"ray {column + 1}" + ("" if one else f" of row {row + 1}"), row * columns + column)
+            for row in range(rows)
+            for column in range(columns)
+        ]
+    # a fan reads its rightmost ray first
+    return [(f"ray {count - ray}", ray) for ray in reversed(range(count))]
+
+
+def _numbers(info: SensorInfo, ray: int, count: int, planes: int) -> list[int]:
+    """Return the positions of a ray's numbers in one reading: its code, its distance, or both."""
+    if isinstance(info.legend, CodeLegend):
+        return [plane * count + ray for plane in range(planes)]
+    return [planes * ray + plane for plane in range(planes)]
+
+
+def _wholes(info: SensorInfo, picture: RayPicture | None) -> list[Group]:
+    """Return a whole sensor, and of rays with both all codes and all distances."""
+    count = len(info.low)
+    found = [_group(f"all of {info.key}", info, range(count))]
+    if picture is None or _planes(info, len(picture.groups)) != 2:
+        return found
+    half = count // 2
+    codes = range(half) if isinstance(info.legend, CodeLegend) else range(0, count, 2)
+    distances = sorted(set(range(count)) - set(codes))
+    found.append(_group(f"all codes of {info.key}", info, codes))
+    found.append(_group(f"all distances of {info.key}", info, distances))
+    return found
+
+
+def _planes(info: SensorInfo, rays: int) -> int:
+    """Return how many numbers a ray has; 0 if that is not known."""
+    return next((planes for planes in (1, 2) if rays and len(info.low) == planes * rays), 0)
+
+
+def _group(name: str, info: SensorInfo, numbers: Iterable[int], sees: str = "") -> Group:
+    mask = np.zeros(len(info.low), np.bool_)
+    mask[list(numbers)] = True
+    return Group(name, info.key, np.tile(mask, info.stack), sees)

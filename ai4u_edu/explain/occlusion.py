@@ -1,0 +1,154 @@
+"""Occlusion: how far each number of an action moves when a slot of the percept says nothing.
+
+Limits, to be said wherever a result is shown (:data:`LIMITS`): a slot that tells the same as
+another one seems to matter less than it does, and a percept with one slot replaced may be one
+that never occurs, for which nobody trained the network.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.blocks import Percept
+from ai4u_edu.explain.baseline import Baseline, middle_for
+from ai4u_edu.explain.errors import NotExplainableError
+from ai4u_edu.explain.groups import Group, Kind, groups_by
+from ai4u_edu.explain.policy import Floats, Percepts, Policy, PolicyLike
+
+LIMITS = (
+    "Each slot alone is set to its mean (or the middle of its range). Two slots that say the same "
+    "can both seem unimportant, and the changed percept may be one that never occurs."
+)
+"""The method's limits, in words for people."""
+
+
+@dataclass(frozen=True)
+class Occlusion:
+    """The result of leaving out n groups of slots, for an action of c numbers."""
+
+    groups: tuple[Group, ...]
+    """The groups that were left out, one at a time."""
+    components: tuple[str, ...]
+    """Names of the action's numbers."""
+    action: Floats
+    """(c,) the action with everything there."""
+    without: Floats
+    """(n, c) the action without each group."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the groups."""
+        return tuple(group.name for group in self.groups)
+
+    @property
+    def shift(self) -> Floats:
+        """(n, c) how far each group moves each number: the action minus the one without it."""
+        return np.asarray(self.action - self.without)
+
+    @property
+    def importance(self) -> Floats:
+        """(n,) the largest movement of any number, in its own unit."""
+        if not len(self.components):
+            return np.zeros(len(self.groups))
+        return np.asarray(np.abs(self.shift).max(axis=1, initial=0.0))
+
+    def strongest(self) -> int:
+        """Return the index of the group that matters most."""
+        return int(self.importance.argmax())
+
+
+def occlusion(
+    policy: PolicyLike,
+    percept: Percepts,
+    *,
+    baseline: Baseline | None = None,
+    groups: Kind | Sequence[Group] = "slot",
+) -> Occlusion:
+    """Return how far each number of the action moves without each slot of a percept.
+
+    Args:
+        policy: a function from percept to action, a Controller, a network or its file.
+        percept: an agent's, or a mapping from perception key to numbers.
+        baseline: a reading for each key, from ``mean_of(percepts)`` or ``middle_of(agent)``; by
+            default the middle of the ranges that a network's file describes.
+        groups: ``slot`` for each number, ``sensor`` for each reading, or groups of one's own, such
+            as ``groups_of_agent(agent)``.
+
+    Raises:
+        NotExplainableError: the decision is no function of the percept; says why.
+        SetupError: there is no baseline, or it does not fit the percept.
+
+    >>> steer = lambda percept: {"move": [1.0, 2 * percept["eyes"][0]]}
+    >>> told = occlusion(steer, {"eyes": np.array([0.5, 0.9])}, baseline={"eyes": np.zeros(2)})
+    >>> told.names, told.shift.tolist()
+    (('eyes 0', 'eyes 1'), [[0.0, 1.0], [0.0, 0.0]])
+    """
+    asked = policy if isinstance(policy, Policy) else Policy(policy)
+    if baseline is None:
+        baseline = _baseline_for(asked)
+    keys = asked.inputs(percept)
+    chosen = groups_by(groups, percept, keys) if isinstance(groups, str) else list(groups)
+    if isinstance(groups, str):
+        chosen = [group for group in chosen if group.key in baseline]
+    action = asked.decide(percept)
+    rows = [asked.decide(without(percept, group, baseline)) for group in chosen]
+    again = asked.decide(percept)
+    if again.shape != action.shape or not np.array_equal(again, action, equal_nan=True):
+        raise NotExplainableError(
+            "the policy gave two different actions for the same percept, so its action does not "
+            "follow from the percept alone; expected one that neither draws at random nor "
+            "remembers"
+        )
+    if any(len(row) != len(action) for row in rows):
+        raise NotExplainableError(
+            "the policy's action has other numbers for a changed percept; expected the same "
+            "actuators in each answer"
+        )
+    table = np.stack(rows) if rows else np.zeros((0, len(action)))
+    return Occlusion(tuple(chosen), asked.components, action, table)
+
+
+def without(percept: Percepts, group: Group, baseline: Baseline) -> Percepts:
+    """Return a percept in which a group of numbers has the baseline's values.
+
+    Raises:
+        SetupError: the baseline has no such reading, or one of another size.
+    """
+    if group.key not in baseline:
+        raise SetupError(f"the baseline has no {group.key!r}; {suggest(group.key, baseline)}")
+    reading = np.asarray(percept[group.key])
+    other = np.asarray(baseline[group.key])
+    if other.size != reading.size or len(group.mask) != reading.size:
+        raise SetupError(
+            f"{group.key!r}: expected {reading.size} numbers in the baseline and in the group, got "
+            f"{other.size} and {len(group.mask)}"
+        )
+    changed = np.where(group.mask.reshape(reading.shape), other.reshape(reading.shape), reading)
+    return changed_percept(percept, {group.key: changed.astype(reading.dtype)})
+
+
+def changed_percept(percept: Percepts, values: Mapping[str, npt.NDArray[Any]]) -> Percepts:
+    """Return a percept with other readings; of the same kind, so that a controller can't tell."""
+    if not isinstance(percept, Percept):
+        return {**percept, **values}
+    layout = percept.layout
+    memory = bytearray(percept.data)
+    for key, value in values.items():
+        if key not in layout.slots:
+            raise SetupError(f"no numeric reading is called {key!r}; {suggest(key, layout.slots)}")
+        layout.view(memory, key)[...] = value
+    return Percept(layout, bytes(memory), percept.texts)
+
+
+def _baseline_for(policy: Policy) -> Baseline:
+    found = None if policy.network is None else middle_for(policy.network)
+    if found is None:
+        raise SetupError(
+            "expected a baseline, as nothing here tells the ranges of the readings: "
+            "baseline=middle_of(agent), or baseline=mean_of(percepts) of recorded episodes"
+        )
+    return found

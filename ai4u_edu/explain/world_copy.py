@@ -1,0 +1,191 @@
+"""Copies of a world in which an agent is put somewhere else, while the world itself stays."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks import Brain, LocalBrain, Percept
+from ai4u_edu.explain.policy import Policy
+from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.description import make_agents
+from ai4u_edu.world import World
+from ai4u_edu.world.overlap import find_overlap
+
+DEFAULT_COLUMNS = 12
+"""Columns of a grid of poses; rows follow from the shape of the world."""
+MAX_POSES = 10_000
+
+Poses = npt.NDArray[np.float64]
+WorldLike = Scene | ControlRequestor | str
+"""A scene, its name, or a world that has been built, which is copied as it stands now."""
+
+
+class _Place(NamedTuple):
+    """Pose of one body: metres and radians; fallen bodies are out of the world."""
+
+    x: float
+    y: float
+    z: float
+    heading: float
+    is_fallen: bool
+
+
+class WorldCopy:
+    """A copy of a world, in which one agent is put at any pose while all else stays.
+
+    Other agents that are driven by what no file can hold, such as Python functions, stand still.
+
+    Args:
+        world: as :data:`WorldLike`; a scene is taken as it begins with a seed.
+        policy: drives the agent in the copy.
+        agent: id of the agent; by default the one that acts first.
+        seed: the episode's seed, for a scene.
+    """
+
+    def __init__(
+        self, world: WorldLike, policy: Policy, *, agent: str | None = None, seed: int = 0
+    ) -> None:
+        if isinstance(world, str):
+            world = Scene.load(world)
+        places: Mapping[str, _Place] = {}
+        if isinstance(world, ControlRequestor):
+            seed, places = world.world.seeds.seed, _places_in(world)
+            agent = agent or world.agents[0].id
+            rhythm = world.agent(agent).brain
+            world = Scene(without_unknown_brains(export_scene(world)))
+            self.sim, self.agent = _built(world, agent)
+        else:
+            self.sim = world.build(seed)
+            self.agent = self.sim.agents[0] if agent is None else self.sim.agent(agent)
+            rhythm = self.agent.brain
+        self.policy = policy
+        self._seed = seed
+        self.agent.use_brain(_brain_of(policy, rhythm))
+        self.sim.reset(seed)
+        self._places = places or _places_in(self.sim)
+
+    def grid(self, columns: int = DEFAULT_COLUMNS, heading: float | None = None) -> Poses:
+        """Return poses on a grid over the floor, row by row from below, (n, 3): x, y, heading.
+
+        Args:
+            columns: of the grid.
+            heading: of all poses (rad); by default the agent's present one.
+
+        Raises:
+            SetupError: that would be no poses, or more than 10 000.
+        """
+        (left, low), (right, high) = self.sim.world.bounds()
+        # walls around a floor are wider than where anybody can stand
+        side = max(right - left, 1e-6) / max(columns, 1)
+        rows = max(1, round((high - low) / side))
+        if not 0 < columns * rows <= MAX_POSES:
+            raise SetupError(
+                f"expected 1 to {MAX_POSES} poses, got {columns} columns and {rows} rows"
+            )
+        xs = left + side * (np.arange(columns) + 0.5)
+        ys = low + (high - low) / rows * (np.arange(rows) + 0.5)
+        angle = self.home[2] if heading is None else heading
+        return np.array([(x, y, angle) for y in ys for x in xs])
+
+    @property
+    def home(self) -> tuple[float, float, float]:
+        """The agent's pose in the world that was copied: x, y, heading."""
+        place = self._places[self.agent.body_name]
+        return place.x, place.y, place.heading
+
+    def towards(self, poses: Poses, target: str) -> Poses:
+        """Return the poses turned to a body or an area.
+
+        Raises:
+            NameNotFoundError: there is nothing of that name.
+        """
+        areas = self.sim.world.areas
+        x, y = (
+            (areas[target].x, areas[target].y)
+            if target in areas
+            else self.sim.world[target].position
+        )
+        turned = poses.copy()
+        turned[:, 2] = np.arctan2(y - poses[:, 1], x - poses[:, 0])
+        return turned
+
+    def percept_at(self, pose: Sequence[float]) -> Percept | None:
+        """Return what the agent would sense at a pose, as if its episode began there.
+
+        Returns:
+            None if it can't stand there: there is no floor, or something else.
+        """
+        self.sim.reset(self._seed)
+        for name, place in self._places.items():
+            body = self.sim.world[name]
+            if place.is_fallen:
+                body.leave()
+            elif body.moves:
+                body.move_to(place.x, place.y, heading=place.heading, z=place.z)
+        x, y, heading = map(float, pose)
+        if self.sim.world.ground(x, y) is None:
+            return None
+        self.agent.body.move_to(x, y, heading=heading)
+        if find_overlap(self.sim.world, self.agent.body) is not None:
+            return None
+        self._begin_here()
+        return self.agent.sense()
+
+    def _begin_here(self) -> None:
+        """Let rewards and sensors begin anew; an actuator could put the body somewhere else."""
+        bound, view = self.agent.bound_blocks, self.agent.view
+        for reward in bound.rewards:
+            reward.on_reset(self.agent, view)
+        for sensor in bound.sensors:
+            if sensor.resetable:
+                sensor.on_reset(self.agent, view)
+            sensor.restart()
+
+    def step(self) -> Percept:
+        """Run one decision of the agent from where it was put."""
+        return self.sim.step(self.agent)
+
+
+def _built(scene: Scene, agent: str) -> tuple[ControlRequestor, BasicAgent]:
+    """Build a world whose agents need no brains that a file can't hold."""
+    description = scene.description
+    world = World(**dict(description.world))
+    world.add_all(description.things)
+    agents = make_agents(description)
+    for each in agents:
+        if each.id == agent or not each.brains:
+            each.brains = [LocalBrain(controller=_stand_still)]
+    sim = ControlRequestor(world, agents, spread_decisions=description.spread_decisions)
+    return sim, sim.agent(agent)
+
+
+def _stand_still(_percept: Percept) -> dict[str, float]:
+    """Do nothing, as a function from percept to action."""
+    return {}
+
+
+def _brain_of(policy: Policy, like: Brain) -> LocalBrain:
+    """Return a brain that decides as often as a network was trained to, or as another brain."""
+    rhythm = {} if policy.network is None else policy.network.rhythm
+    return LocalBrain(
+        controller=policy.answer,
+        skip_frame=rhythm.get("skip_frame", like.skip_frame),
+        repeat_action=rhythm.get("repeat_action", like.repeat_action),
+    )
+
+
+def _places_in(sim: ControlRequestor) -> dict[str, _Place]:
+    return {name: _place(body) for name, body in sim.world.bodies.items()}
+
+
+def _place(body: Any) -> _Place:
+    x, y, z, heading = body.pose
+    is_fallen = body.fallen or not math.isfinite(x + y + z)
+    return _Place(x, y, z, heading, is_fallen)

@@ -1,0 +1,130 @@
+"""One game: a job's function."""
+
+import base64
+import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from ai4u_edu.agent import ControlRequestor
+from ai4u_edu.agent.block_errors import message_of
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.recording.file import encode
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.scene_data import scene_from
+from ai4u_edu.tournament.drivers import driver_for, make
+from ai4u_edu.tournament.limits import CpuMeter, memory_limit
+from ai4u_edu.tournament.match_brain import MatchBrain, reason_of
+from ai4u_edu.tournament.sides import Sides, sides_of
+
+DEFAULT_MAX_DECISIONS = 3_000
+"""Decisions after which a game ends in a scene without a limit of its own."""
+
+
+def game(
+    scene: Mapping[str, Any], seed: int, entries: Sequence[Mapping[str, Any]]
+) -> dict[str, Any]:
+    """Play one game, and return its result and its recording as data.
+
+    Args:
+        scene: as :func:`~ai4u_edu.scenes.scene_data.scene_data` made it.
+        seed: of the episode.
+        entries: an entry for each side of the scene, as :class:`~ai4u_edu.tournament.entry.Entry`
+            has it: name and drivers.
+
+    Returns:
+        ``points`` of each side (sum of its agents' rewards), ``goal`` (True for a side that
+        reached the scene's goal), ``ticks``, the ``episode`` (a file's bytes in base64; empty if
+        the game did not begin), and for a side that failed its index as ``forfeit`` (else -1) and
+        the ``reason``.
+    """
+    loaded = scene_from(scene)
+    sides = sides_of(loaded)
+    faults: list[tuple[int, str]] = []
+    with ExitStack() as ending:
+        folder = Path(ending.enter_context(tempfile.TemporaryDirectory(prefix="ai4u-game-")))
+        ending.enter_context(memory_limit())
+        sim = loaded.build()
+        for index, entry in enumerate(entries):
+            try:
+                _seat(sim, sides, index, entry, folder, seed, faults, ending)
+            except Exception as error:  # whatever is wrong with an entry
+                if not isinstance(error, AI4UError | MemoryError):
+                    raise
+                faults.append((index, reason_of(error)))
+        episode = None if faults else _played(sim, loaded, seed, faults)
+    return _result(episode, sides, loaded.description.success, faults)
+
+
+def _seat(
+    sim: ControlRequestor,
+    sides: Sides,
+    index: int,
+    entry: Mapping[str, Any],
+    folder: Path,
+    seed: int,
+    faults: list[tuple[int, str]],
+    ending: ExitStack,
+) -> None:
+    """Give the agents of a side brains that ask an entry's controllers."""
+    networks: list[Any] = []
+    meter = CpuMeter(lambda: [each.stop() for each in networks])
+    ending.callback(meter.close)
+    for name in sides.agents[index]:
+        agent = sim.agent(name)
+        made = make(driver_for(entry["drivers"], sides, name), sim, sides, agent, folder, seed)
+        network = getattr(made.controller, "network", None)
+        networks += [] if network is None else [network]
+        close = getattr(made.controller, "close", None)
+        if close is not None:
+            ending.callback(close)
+        brain = MatchBrain(skip_frame=made.skip_frame, repeat_action=made.repeat_action)
+        brain.attach(
+            made.controller, str(entry["name"]), meter, lambda why: faults.append((index, why))
+        )
+        agent.use_brain(brain)
+
+
+def _played(
+    sim: ControlRequestor, scene: Scene, seed: int, faults: list[tuple[int, str]]
+) -> Episode | None:
+    recorder = Recorder(sim, scene=scene.description)
+    sim.reset(seed)
+    limits = [
+        (each.max_steps_per_episode or DEFAULT_MAX_DECISIONS) * (each.brain.skip_frame + 1)
+        for each in sim.agents
+    ]
+    last = max(limits)
+    try:
+        while not faults and sim.world.ticks < last:
+            if all(each.done or each.stopped for each in sim.agents) and sim.between_decisions():
+                break
+            sim.tick()
+    except AI4UError as error:  # of the scene's own blocks: nobody's fault
+        raise AI4UError(f"the scene failed: {message_of(error)}") from error
+    recorder.finish()
+    return recorder.episodes[-1] if len(recorder.episodes) else None
+
+
+def _result(
+    episode: Episode | None, sides: Sides, goal: str | None, faults: list[tuple[int, str]]
+) -> dict[str, Any]:
+    index, reason = faults[0] if faults else (-1, "")
+    points, reached = [0.0 for _ in sides.names], [False for _ in sides.names]
+    if episode is not None:
+        for side, agents in enumerate(sides.agents):
+            records = [episode.agent(each) for each in agents]
+            points[side] = float(sum(each.total for each in records))
+            reached[side] = goal is not None and any(
+                decision.reward_terms.get(goal, 0.0) > 0 for each in records for decision in each
+            )
+    return {
+        "points": points,
+        "goal": reached,
+        "ticks": 0 if episode is None else episode.ticks,
+        "episode": "" if episode is None else base64.b64encode(encode(episode)).decode(),
+        "forfeit": index,
+        "reason": reason,
+    }

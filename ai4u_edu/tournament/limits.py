@@ -1,0 +1,108 @@
+"""Limits of what an entry may use in a game."""
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+if sys.platform != "win32":
+    import resource
+
+DECISION_CPU_S = 1.0
+"""Processor time of one decision."""
+GAME_CPU_S = 60.0
+"""Processor time of all decisions of a game."""
+MEMORY_BYTES = 2**31
+"""Memory that a game may take beyond what its process has (on Linux)."""
+CHECK_INTERVAL_S = 0.1
+
+
+class CpuMeter:
+    """Measures the processor time of an entry's decisions, and ends one that takes too long.
+
+    Wall time does not count: other programs on the machine take nothing from an entry.
+
+    Args:
+        stop: called in another thread if a decision has taken too long and is still under way.
+    """
+
+    def __init__(self, stop: Callable[[], object]) -> None:
+        self._stop = stop
+        self._began: float | None = None
+        self._used_s = 0.0
+        self._ended = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    @contextmanager
+    def measuring(self) -> Iterator[None]:
+        """Measure a decision.
+
+        Raises:
+            OverTimeError: it took too long, or the entry did in this game.
+        """
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._watch, name="cpu meter", daemon=True)
+            self._thread.start()
+        began = time.thread_time()
+        self._began = time.process_time()
+        try:
+            yield
+        finally:
+            self._began = None
+            used = time.thread_time() - began
+            self._used_s += used
+            # also in place of the error of a network that was stopped
+            if used > DECISION_CPU_S:
+                raise OverTimeError(over_time(used))
+            if self._used_s > GAME_CPU_S:
+                raise OverTimeError(over_game_time())
+
+    def close(self) -> None:
+        """End the thread."""
+        self._ended.set()
+
+    def _watch(self) -> None:
+        while not self._ended.wait(CHECK_INTERVAL_S):
+            began = self._began
+            if began is not None and time.process_time() - began > DECISION_CPU_S:
+                self._stop()
+
+
+class OverTimeError(Exception):
+    """An entry took more processor time than it may."""
+
+
+def over_time(used_s: float) -> str:
+    """Return the sentence on a decision that took too long."""
+    return (
+        f"it took {used_s:.1f} s of processor time for a decision; expected at most "
+        f"{DECISION_CPU_S:g} s"
+    )
+
+
+def over_game_time() -> str:
+    """Return the sentence on a game that took too long."""
+    return f"it took more than {GAME_CPU_S:g} s of processor time in one game"
+
+
+@contextmanager
+def memory_limit() -> Iterator[None]:
+    """Limit the memory of this process beyond what it has; an allocation of more raises an error.
+
+    It holds on Linux only.
+    """
+    if not sys.platform.startswith("linux"):
+        yield
+        return
+    pages = int(Path("/proc/self/statm").read_text("ascii").split()[0])
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    wanted = pages * resource.getpagesize() + MEMORY_BYTES
+    if soft != resource.RLIM_INFINITY:
+        wanted = min(wanted, soft)
+    resource.setrlimit(resource.RLIMIT_AS, (wanted, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))

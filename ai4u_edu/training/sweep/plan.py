@@ -1,0 +1,151 @@
+"""Plan of a sweep: all that its results depend on, kept in its folder."""
+
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from ai4u_edu.base.atomic_write import make_folder, write_atomically
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.jobs import Job
+from ai4u_edu.scenes.scene_data import scene_from
+from ai4u_edu.training.settings import Algorithm, AlgorithmSettings, Settings
+from ai4u_edu.training.sweep.search_space import Parameter, Value, changes_of, grid
+from ai4u_edu.training.sweep.trial import CHECKS, trial
+
+FILE = "sweep.json"
+
+
+class Choice(BaseModel):
+    """Choices that a trial is made of."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    algorithm: Algorithm
+    seed: int
+    settings: dict[str, Value]
+    """Values of the parameters, by their names."""
+
+
+class Plan(BaseModel):
+    """Scene, settings, seeds and trials of a sweep."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    scene: dict[str, Any]
+    """See :func:`ai4u_edu.scenes.scene_data.scene_data`."""
+    algorithms: tuple[Algorithm, ...]
+    seeds: tuple[int, ...]
+    parameters: tuple[Parameter, ...]
+    trials: int
+    """Number of trials that Optuna proposes; 0 for all combinations."""
+    batch: int
+    """Trials that are proposed at once; more of them keep more cores busy, and know less."""
+    steps: int | None
+    """Decisions of a trial; None for as many as the settings say."""
+    settings: dict[str, Any]
+    """Settings that all trials share, complete."""
+
+    @property
+    def is_search(self) -> bool:
+        """True if Optuna proposes the trials."""
+        return self.trials > 0
+
+    @property
+    def has_goal(self) -> bool:
+        """True if the scene defines a success."""
+        return scene_from(self.scene).description.success is not None
+
+    def choices(self) -> list[Choice]:
+        """Return all combinations of algorithms, values and seeds."""
+        return [
+            Choice(algorithm=algorithm, seed=seed, settings=chosen)
+            for algorithm in self.algorithms
+            for chosen in grid(self.parameters, algorithm)
+            for seed in self.seeds
+        ]
+
+    def job(self, choice: Choice, rivals: list[list[float]] | None = None) -> Job:
+        """Return the job of a trial.
+
+        Raises:
+            SetupError: a value is none that its setting may have.
+        """
+        changes = changes_of(choice.algorithm, choice.settings)
+        own = {**self.settings[choice.algorithm], **changes.pop(choice.algorithm)}
+        budget = self.steps or int(own["steps"])
+        own |= {"steps": budget, "check_every": max(1, budget // CHECKS)}
+        given = {**self.settings, **changes, choice.algorithm: own}
+        try:
+            settings = Settings.model_validate(given)
+        except ValidationError as error:
+            told = "; ".join(f"{each['loc'][-1]}: {each['msg']}" for each in error.errors())
+            raise SetupError(f"--set: {told}") from None
+        return Job.of(
+            trial,
+            scene=self.scene,
+            algorithm=choice.algorithm,
+            settings=settings.model_dump(mode="json"),
+            seed=choice.seed,
+            budget=budget,
+            rivals=rivals or [],
+        )
+
+    def check(self) -> None:
+        """Check the settings before anything runs.
+
+        Raises:
+            SetupError: one of them is unknown, or there is nothing to do.
+        """
+        from ai4u_edu.training.algorithms import checked_options
+
+        unlisted = [str(each) for each in self.parameters if each.is_range]
+        if unlisted and not self.is_search:
+            raise SetupError(
+                f"--set {unlisted[0]}: a range has too many values to try all; expected --trials, "
+                "the number of trials, or values as in NAME=0.001,0.01"
+            )
+        for algorithm in self.algorithms:
+            chosen = {
+                each.name: each.values[0] if each.values else _end(each)
+                for each in self.parameters
+                if each.is_for(algorithm)
+            }
+            job = self.job(Choice(algorithm=algorithm, seed=self.seeds[0], settings=chosen))
+            own = AlgorithmSettings.model_validate(job.arguments["settings"][algorithm])
+            checked_options(algorithm, own)
+
+    def save(self, folder: Path) -> None:
+        """Write the plan into a sweep's folder."""
+        make_folder(folder, "a sweep")
+        write_atomically(folder / FILE, self.model_dump_json(indent=1) + "\n")
+
+    @classmethod
+    def load(cls, folder: Path) -> "Plan":
+        """Read the plan of a sweep's folder.
+
+        Raises:
+            SetupError: there is no sweep in the folder.
+        """
+        path = folder / FILE
+        try:
+            return cls.model_validate_json(path.read_bytes())
+        except OSError:
+            raise SetupError(
+                f"{folder} holds no sweep; begin one with: ai4u-edu sweep SCENE --out {folder}"
+            ) from None
+        except ValidationError as error:
+            raise SetupError(f"{path}: not as a sweep writes it: {error}") from None
+
+    def difference(self, other: "Plan") -> str:
+        """Return the name of a part that differs; empty if one goes on where the other ended."""
+        for name in type(self).model_fields:
+            if name == "trials" and self.is_search == other.is_search:
+                continue  # more trials may follow
+            if getattr(self, name) != getattr(other, name):
+                return name
+        return ""
+
+
+def _end(parameter: Parameter) -> Value:
+    return int(parameter.low) if parameter.is_whole else parameter.low

@@ -1,0 +1,158 @@
+"""Results of a sweep's trials, their order, and the files made of them."""
+
+import base64
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.jobs import Outcome
+from ai4u_edu.training.run import Check
+from ai4u_edu.training.sweep.plan import Choice
+from ai4u_edu.training.sweep.search_space import text_of
+from ai4u_edu.training.sweep.trial import curve_of, value_of
+
+
+@dataclass(frozen=True)
+class TrialResult:
+    """Result of one trial."""
+
+    number: int
+    choice: Choice
+    checks: tuple[Check, ...]
+    steps: int
+    pruned: bool
+    network: bytes
+    """ONNX; empty if it was pruned or failed."""
+    error: str
+    """Sentence on why there is no result; empty if there is one."""
+    seconds: float
+    has_goal: bool
+
+    @classmethod
+    def of(cls, number: int, choice: Choice, outcome: Outcome, has_goal: bool) -> "TrialResult":
+        """Return the result that a job's outcome means."""
+        told: dict[str, Any] = outcome.result or {}
+        return cls(
+            number,
+            choice,
+            tuple(Check.model_validate(each) for each in told.get("checks", ())),
+            told.get("steps", 0),
+            told.get("pruned", False),
+            base64.b64decode(told.get("network", "")),
+            outcome.error,
+            outcome.seconds,
+            has_goal,
+        )
+
+    @property
+    def best(self) -> Check:
+        """Its best check."""
+        return max(self.checks, key=lambda check: check.rank)
+
+    @property
+    def value(self) -> float:
+        """Value of its best check, which the sweep maximizes."""
+        return value_of(self.best, self.has_goal)
+
+    @property
+    def curve(self) -> list[float]:
+        """Its evaluation curve."""
+        return curve_of(self.checks, self.has_goal)
+
+    @property
+    def state(self) -> str:
+        """``finished``, ``pruned`` or ``failed``."""
+        return "failed" if self.error else "pruned" if self.pruned else "finished"
+
+    @property
+    def label(self) -> str:
+        """Algorithm and settings in a few words."""
+        chosen = (f"{name}={text_of(value)}" for name, value in self.choice.settings.items())
+        return ", ".join((self.choice.algorithm, *chosen))
+
+    def cells(self, names: Sequence[str]) -> dict[str, str]:
+        """Return a table's cells by heading.
+
+        Args:
+            names: of the settings that the sweep varies.
+        """
+        best = self.best if self.checks else None
+        success = None if best is None else best.success
+        return {
+            "trial": str(self.number),
+            "algorithm": self.choice.algorithm,
+            **{name: text_of(self.choice.settings.get(name, "")) for name in names},
+            "seed": str(self.choice.seed),
+            "success": "" if success is None else f"{success:.0%}",
+            "reward": "" if best is None else f"{best.reward:.2f}",
+            "length": "" if best is None else f"{best.length:.1f}",
+            "at step": "" if best is None else str(best.steps),
+            "steps": str(self.steps or ""),
+            "state": self.state,
+        }
+
+
+def ranked(results: Sequence[TrialResult]) -> list[TrialResult]:
+    """Return results in order, the best one first: by their best checks, then the faster one."""
+
+    def key(result: TrialResult) -> tuple[bool, bool, tuple[float, float], int, int]:
+        has_checks = bool(result.checks)
+        rank = result.best.rank if has_checks else (0.0, 0.0)
+        at = result.best.steps if has_checks else 0
+        return has_checks, bool(result.network), rank, -at, -result.number
+
+    return sorted(results, key=key, reverse=True)
+
+
+def groups(results: Sequence[TrialResult]) -> list[dict[str, str]]:
+    """Return a row for each algorithm with its settings, over all seeds; the best one first."""
+    found: dict[str, list[TrialResult]] = {}
+    for each in results:
+        if each.checks:
+            found.setdefault(each.label, []).append(each)
+    order = sorted(found.items(), key=lambda pair: -float(np.mean([e.value for e in pair[1]])))
+    rows = []
+    for label, members in order:
+        values = [each.value for each in members]
+        sign = "{:.0%}" if members[0].has_goal else "{:.2f}"
+        rows.append(
+            {
+                "settings": label,
+                "seeds": str(len(values)),
+                "mean": sign.format(np.mean(values)),
+                "worst": sign.format(min(values)),
+                "best": sign.format(max(values)),
+            }
+        )
+    return rows
+
+
+def csv_text(results: Sequence[TrialResult], names: Sequence[str]) -> str:
+    """Return all trials as CSV, with full numbers and the evaluation curve's points."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    head = "trial algorithm", "seed state success reward length", "best_at_step steps seconds"
+    first, middle, last = (each.split() for each in head)
+    writer.writerow([*first, *names, *middle, *last, "curve", "error"])
+    for each in results:
+        best = each.best if each.checks else None
+        told = ["", "", "", ""]
+        if best is not None:
+            success = "" if best.success is None else best.success
+            told = [str(v) for v in (success, best.reward, best.length, best.steps)]
+        settings = each.choice.settings
+        writer.writerow(
+            [each.number, each.choice.algorithm]
+            + [_full(settings.get(name, "")) for name in names]
+            + [each.choice.seed, each.state, *told, each.steps, f"{each.seconds:.1f}"]
+            + [" ".join(f"{v:.6g}" for v in (each.curve if each.checks else ())), each.error]
+        )
+    return out.getvalue()
+
+
+def _full(value: object) -> object:
+    return text_of(value) if isinstance(value, list) else value

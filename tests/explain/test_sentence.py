@@ -1,0 +1,135 @@
+"""The names of rays, and the sentence about the one that matters."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ai4u_edu import (
+    BasicAgent,
+    BoxShape,
+    CircleShape,
+    ControlRequestor,
+    LocalBrain,
+    RayCastingSensor,
+    World,
+)
+from ai4u_edu.explain import axes_of_agent, groups_of_agent, middle_of, occlusion, sentence
+from ai4u_edu.explain.groups import Group
+from tests.explain.worlds import robot_and_box
+
+
+def told_of(sim: ControlRequestor, actuators: tuple[str, ...] = ("move",)) -> str:
+    agent = sim.agents[0]
+    nothing = {"eyes": np.zeros_like(agent.percept["eyes"])}
+    told = occlusion(
+        agent.brain,
+        agent.percept,
+        baseline=middle_of(agent) | nothing,
+        groups=groups_of_agent(agent),
+    )
+    return sentence(told, axes_of_agent(agent, actuators))
+
+
+def turns_for_ray(ray: int, rays: int = 9) -> Any:
+    """Turn left if one ray, counted from the left from 1, sees something."""
+    index = 2 * (rays - ray)
+    return lambda percept: {"move": [1.0, -percept["eyes"][index], 0, 0]}
+
+
+def test_the_sentence_names_the_planted_ray() -> None:
+    # 1 m to the left at 3 m: 18 degrees; ray 3 of 9 in 90 degrees is at 18
+    assert told_of(robot_and_box(turns_for_ray(3))) == (
+        "It turns left because ray 3 sees the box; without it, it would go straight."
+    )
+
+
+def test_rays_are_counted_from_the_left() -> None:
+    for side, seen in ((1.0, {"ray 3", "ray 4"}), (-1.0, {"ray 6", "ray 7"})):
+        agent = robot_and_box(lambda percept: {}, box=(3.0, side)).agents[0]
+        rays = [each for each in groups_of_agent(agent) if each.name.startswith("ray")]
+        assert [each.name for each in rays] == [f"ray {number + 1}" for number in range(9)]
+        found = {each.name for each in rays if each.sees == "box"}
+        assert found & seen
+        assert {each.sees for each in rays} == {"box", "nothing"}
+        for ray in rays:  # the numbers of a ray are those that tell of the box
+            assert agent.percept["eyes"][ray.mask].any() == (ray.sees == "box")
+
+
+def test_the_rays_of_a_grid_are_counted_by_row() -> None:
+    world = World()
+    world.add_floor("floor", BoxShape(size=(12, 12)))
+    world.add_body("robot", CircleShape(radius=0.4))
+    world.add_body("box", BoxShape(size=(0.8, 0.8)), position=(3.0, 1.3), tags=["box"])
+    sensor = RayCastingSensor(
+        perception_key="eyes",
+        rows=2,
+        columns=3,
+        vertical_shift=0,
+        vertical_field_of_view=10,
+        group_code={"box": 1},
+        return_distance=True,
+        stacked_observations=2,
+    )
+    brain = LocalBrain(controller=lambda percept: {})
+    agent = BasicAgent(body="robot", sensors=[sensor], brains=[brain])
+    ControlRequestor(world, [agent]).reset(seed=0)
+    groups = groups_of_agent(agent, whole=True)
+    by_name = {each.name: each for each in groups}
+    assert list(by_name)[:3] == ["ray 1 of row 1", "ray 2 of row 1", "ray 3 of row 1"]
+    assert by_name["ray 1 of row 1"].sees == "box"
+    for group in groups[:6]:
+        assert agent.percept["eyes"].ravel()[group.mask].any() == (group.sees == "box")
+        assert group.mask.sum() == 4  # code and distance, now and before
+    codes, distances = by_name["all codes of eyes"].mask, by_name["all distances of eyes"].mask
+    assert (codes ^ distances).all()
+    assert by_name["all of eyes"].mask.all()
+    assert agent.percept["eyes"].ravel()[codes].max() == 1.0
+
+
+@pytest.mark.parametrize("distances", [False, True])
+def test_all_codes_and_all_distances_of_a_fan(distances: bool) -> None:
+    agent = robot_and_box(lambda percept: {}, return_distance=distances).agents[0]
+    groups = {each.name: each for each in groups_of_agent(agent, whole=True)}
+    assert ("all codes of eyes" in groups) == distances
+    if distances:
+        seen = agent.percept["eyes"]
+        assert set(seen[groups["all codes of eyes"].mask]) == {0.0, 1.0}
+        assert 0 < seen[groups["all distances of eyes"].mask].max() < 1
+
+
+def test_nothing_decides() -> None:
+    said = told_of(robot_and_box(lambda percept: {"move": [1, 0, 0, 0]}))
+    assert said == (
+        "No single slot decides: without any one of them the action moves by less than 5% of its "
+        "range."
+    )
+
+
+def test_more_and_less_of_the_same() -> None:
+    more = told_of(
+        robot_and_box(lambda percept: {"move": [0.2 + 0.5 * percept["bearing"][1], 0, 0, 0]})
+    )
+    assert more == (
+        "It drives forward by 0.67 because of bearing: cosine; without it, it would by only 0.20."
+    )
+    less = told_of(
+        robot_and_box(lambda percept: {"move": [1 - percept["bearing"][1] / 2, 0, 0, 0]})
+    )
+    assert less == (
+        "It drives forward by only 0.53 because of bearing: cosine; without it, it would by 1.00."
+    )
+
+
+def test_what_has_no_effect_is_not_told() -> None:
+    # the robot's jump_power is 0
+    said = told_of(robot_and_box(lambda percept: {"move": [0, 0, percept["bearing"][1], 0]}))
+    assert said.startswith("No single slot decides")
+
+
+def test_an_action_nobody_described_has_its_own_names() -> None:
+    told = occlusion(lambda percept: [percept["a"]], {"a": 0.5}, baseline={"a": np.zeros(())})
+    assert sentence(told, []) == (
+        "It has action above 0 because of a; without it, it would have action near 0."
+    )
+    assert told.groups == (Group("a", "a", told.groups[0].mask),)

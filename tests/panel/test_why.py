@@ -1,0 +1,70 @@
+"""The part "why": off by default, per page, and as the planted policy says."""
+
+from typing import Any
+
+import pytest
+
+from ai4u_edu import trained_brain
+from tests.panel.rooms import panel_room
+from tests.server.rooms import until
+
+
+def test_it_comes_when_it_is_asked_for() -> None:
+    with panel_room("maze") as room, room.page() as page, room.page() as other:
+        agent = room.runner.sim.agents[0]
+        room.runner.submit(lambda: agent.use_brain(trained_brain("zoo:maze"))).result(10)
+        for each in (page, other):
+            each.show("0", "agent")
+            each.part("agent")
+        assert "why" not in page.parts
+        page.done("why", on=True)
+        part = page.part("why")
+        until(lambda: not page.part("why")["problem"])
+        part = page.part("why")
+        assert part["agent"] == "0"
+        assert part["components"] == ["forward", "turn", "jump", "forward jump"]
+        assert [slot["name"] for slot in part["slots"]][:2] == ["ray 1", "ray 2"]
+        assert {slot["key"] for slot in part["slots"]} == {"vision", "heading", "last_action"}
+        assert part["sentence"].startswith(("It ", "No single slot"))
+        assert "Two slots that say the same" in part["limits"]
+        shares = [slot["share"] for slot in part["top"]]
+        assert shares == sorted(shares, reverse=True)
+        assert "why" not in other.parts
+
+
+def test_a_person_needs_no_explanation() -> None:
+    with panel_room() as room, room.page() as page:
+        page.show("0", "agent")
+        page.done("why", on=True)
+        assert page.part("why")["problem"].startswith("A person drives")
+        assert page.part("why")["slots"] == []
+
+
+def test_what_if_a_number_were_another_one() -> None:
+    with panel_room() as room, room.page() as page:
+        agent = room.runner.sim.agents[0]
+
+        def steer(percept: Any) -> Any:
+            return {"move": [1, percept["orientation"][0] / 2, 0, 0]}
+
+        room.runner.submit(lambda: agent.use_brain(steer)).result(10)
+        page.show("0", "agent")
+        told = page.done("what_if", changes=[])
+        (dial,) = [each for each in told["dials"] if each["name"] == "orientation: cosine"]
+        assert (dial["key"], dial["index"], dial["low"], dial["high"]) == ("orientation", 0, -1, 1)
+        assert dial["value"] == pytest.approx(agent.percept["orientation"][0], abs=1e-6)
+        forward, turn = told["action"][:2]
+        assert (forward["name"], forward["now"], forward["then"]) == ("forward", 1, 1)
+        assert turn["now"] == turn["then"] == pytest.approx(dial["value"] / 2, abs=1e-4)
+        change = {"key": "orientation", "index": 0, "value": -0.5}
+        told = page.done("what_if", changes=[change])
+        assert told["action"][1]["then"] == -0.25
+        assert told["action"][1]["now"] == turn["now"]
+        # numbers stay in the sensor's range, and the world stays as it is
+        told = page.done("what_if", changes=[change | {"value": -7.0}])
+        assert told["action"][1]["then"] == -0.5
+        assert agent.percept["orientation"][0] == pytest.approx(dial["value"])
+        text = page.failed("what_if", changes=[change | {"index": 2}])["text"]
+        assert "expected a number from 0 to 1, got 2" in text
+        text = page.failed("what_if", changes=[change | {"key": "orientatoin"}])["text"]
+        assert "did you mean 'orientation'" in text

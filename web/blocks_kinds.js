@@ -1,0 +1,57 @@
+/** The blocks that every agent has: events, control, logic, numbers and memory. */
+
+const STATEMENT = { previousStatement: null, nextStatement: null };
+const value = (name, check) => ({ type: "input_value", name, check });
+const body = (name) => ({ type: "input_statement", name });
+const list = (name, options) => ({ type: "field_dropdown", name, options });
+const variable = { type: "field_variable", name: "VAR", variable: "count" };
+
+/** Blocks in the form of Blockly, but for the colors, which come from the style. */
+export const KINDS = [
+  hat("on_decision", "at each decision", [], "What stands below decides what the robot does next, again and again."),
+  hat("on_begin", "when an episode begins", [], "Once, before the first decision of each episode."),
+  hat("on_becomes", "as soon as %1", [value("IF", "Boolean")], "Once, at the decision at which the condition becomes true."),
+  statement("if", "control", "if %1 %2", [value("IF", "Boolean"), body("DO")]),
+  statement("if_else", "control", "if %1 %2 else %3", [value("IF", "Boolean"), body("DO"), body("ELSE")]),
+  statement("repeat", "control", "repeat %1 times %2", [{ type: "field_number", name: "TIMES", value: 3, min: 0, max: 1000, precision: 1 }, body("DO")], "All of it in one decision."),
+  output("compare", "numbers", "%1 %2 %3", "Boolean", [
+    value("A", "Number"),
+    list("OP", [["<", "LT"], ["≤", "LTE"], [">", "GT"], ["≥", "GTE"], ["=", "EQ"], ["≠", "NEQ"]]),
+    value("B", "Number"),
+  ]),
+  output("and_or", "numbers", "%1 %2 %3", "Boolean", [value("A", "Boolean"), list("OP", [["and", "and"], ["or", "or"]]), value("B", "Boolean")]),
+  output("not", "numbers", "not %1", "Boolean", [value("A", "Boolean")]),
+  output("true_false", "numbers", "%1", "Boolean", [list("BOOL", [["true", "TRUE"], ["false", "FALSE"]])]),
+  output("number", "numbers", "%1", "Number", [{ type: "field_number", name: "NUM", value: 0 }]),
+  output("arithmetic", "numbers", "%1 %2 %3", "Number", [
+    value("A", "Number"),
+    list("OP", [["+", "ADD"], ["−", "MINUS"], ["×", "MULTIPLY"], ["÷", "DIVIDE"]]),
+    value("B", "Number"),
+  ]),
+  output("of_two", "numbers", "%1 of %2 and %3", "Number", [list("OP", [["smaller", "min"], ["larger", "max"]]), value("A", "Number"), value("B", "Number")]),
+  output("absolute", "numbers", "size of %1", "Number", [value("A", "Number")], "Without the sign: 3 for -3."),
+  output("random", "numbers", "any number from %1 to %2", "Number", [value("A", "Number"), value("B", "Number")]),
+  output("variables_get", "memory", "%1", null, [variable]),
+  statement("variables_set", "memory", "set %1 to %2", [variable, value("VALUE", null)], "It stays until the episode ends."),
+  statement("math_change", "memory", "change %1 by %2", [variable, value("DELTA", "Number")]),
+  statement("print", "memory", "show %1 %2", [{ type: "field_input", name: "TEXT", text: "value" }, value("VALUE", null)], "Writes it into Output, at each decision."),
+];
+
+const ORDINARY = new Set(KINDS.map(({ type }) => type));
+
+/** Return {isOwn}: true for a type of block that is made of an agent's senses or actions. */
+export function blockOf(type) {
+  return { isOwn: !ORDINARY.has(type) };
+}
+
+function hat(type, message0, args0, tooltip) {
+  return { type, message0, args0, nextStatement: null, style: "events", tooltip };
+}
+
+function statement(type, style, message0, args0, tooltip = "") {
+  return { type, message0, args0, ...STATEMENT, inputsInline: true, style, tooltip };
+}
+
+function output(type, style, message0, outputType, args0, tooltip = "") {
+  return { type, message0, args0, output: outputType, inputsInline: true, style, tooltip };
+}

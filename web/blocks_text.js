@@ -1,0 +1,39 @@
+/** A program of blocks as text: its Python, and the blocks as a comment in the last line, so no copy loses them. */
+
+const MARK = "\n# blocks: ";
+const VERSION = 1;
+
+/**
+ * Return a program's Python and its blocks.
+ * @returns {{python: string, blocks: object|null, isOfBlocks: boolean}} isOfBlocks is true if the Python is still the
+ *   one that the blocks mean, and nobody went on in Python
+ */
+export function splitProgram(text) {
+  const at = text.lastIndexOf(MARK);
+  const none = { python: text, blocks: null, isOfBlocks: false };
+  if (at < 0) return none;
+  const [line, ...rest] = text.slice(at + MARK.length).split("\n");
+  if (rest.join("").trim()) return none;
+  try {
+    const { version, of, blocks } = JSON.parse(line);
+    if (version !== VERSION || typeof blocks !== "object" || blocks === null) return none;
+    const python = text.slice(0, at);
+    return { python, blocks, isOfBlocks: of === checksum(python) };
+  } catch {
+    return none; // somebody has changed the line
+  }
+}
+
+/** Return the text of a program with blocks; `isOfBlocks` as in splitProgram(). */
+export function joinProgram(python, blocks, isOfBlocks) {
+  if (blocks === null) return python;
+  const kept = { version: VERSION, of: isOfBlocks ? checksum(python) : "", blocks };
+  return `${python}${MARK}${JSON.stringify(kept)}\n`;
+}
+
+/** Return a number for a text, in hexadecimal digits (FNV-1a, 32 bits). */
+function checksum(text) {
+  let sum = 0x811c9dc5;
+  for (let at = 0; at < text.length; at += 1) sum = Math.imul(sum ^ text.charCodeAt(at), 0x01000193);
+  return (sum >>> 0).toString(16).padStart(8, "0");
+}

@@ -1,0 +1,38 @@
+/** Colors of the blocks: dark enough for white letters, and told apart by the words on them, too. */
+
+const COLORS = {
+  events: "#7d5500",
+  actions: "#0069a6",
+  senses: "#00694e",
+  control: "#8a3a7e",
+  numbers: "#4a55a8",
+  memory: "#a33500",
+};
+
+/** Return the theme; the surfaces are the panel's own colors, so they follow the page's scheme. */
+export function blocksTheme(Blockly) {
+  const blockStyles = {};
+  const categoryStyles = {};
+  for (const [name, color] of Object.entries(COLORS)) {
+    blockStyles[name] = { colourPrimary: color, hat: name === "events" ? "cap" : "" };
+    categoryStyles[name] = { colour: color };
+  }
+  return Blockly.Theme.defineTheme("ai4u", {
+    name: "ai4u",
+    blockStyles,
+    categoryStyles,
+    componentStyles: {
+      workspaceBackgroundColour: "var(--surface)",
+      toolboxBackgroundColour: "var(--raised)",
+      toolboxForegroundColour: "var(--ink)",
+      flyoutBackgroundColour: "var(--well)",
+      flyoutForegroundColour: "var(--ink)",
+      flyoutOpacity: 1,
+      scrollbarColour: "var(--edge)",
+      scrollbarOpacity: 0.4,
+      insertionMarkerColour: "var(--ink)",
+      insertionMarkerOpacity: 0.3,
+    },
+    fontStyle: { family: "system-ui, sans-serif", size: 11 },
+  });
+}
