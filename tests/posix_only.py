@@ -76,6 +76,8 @@ def _asks(node: ast.expr, asks: tuple[str, ...]) -> bool:
 def _find(node: ast.AST, asks: tuple[str, ...], has_branch: bool) -> Iterator[tuple[int, str]]:
     if isinstance(node, ast.If | ast.IfExp) and _asks(node.test, asks):
         has_branch = True
+    if isinstance(node, ast.keyword) and _asks(node.value, asks):
+        has_branch = True
     if isinstance(node, ast.Try) and any(
         handler.type and any(each in ast.unparse(handler.type) for each in MISSING_ERRORS)
         for handler in node.handlers

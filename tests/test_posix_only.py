@@ -22,6 +22,7 @@ def test_everything_has_its_branch() -> None:
         ("from os import fork", ["os.fork"]),
         ("import os\nos.kill(1, 9)", ["os.kill"]),
         ("run(start_new_session=True)", ["start_new_session"]),
+        ("run(start_new_session=sys.platform != 'win32')", []),
         ("loop.add_signal_handler(2, end)", ["add_signal_handler"]),
         ("import multiprocessing\nmultiprocessing.get_context('fork')",
          ["multiprocessing.get_context"]),

@@ -1,4 +1,4 @@
-"""The command ``ai4u-edu doctor``: what is installed, what is missing for what, and what to do.
+"""The command ``ai4u-edu doctor``: a report of what is installed and what is missing for what.
 
 What it prints is meant for a bug report, so it names neither folders nor people nor hosts.
 """
@@ -30,7 +30,7 @@ USES = {
     "train": "training networks",
     "video": "episodes as MP4",
 }
-"""What each extra is for."""
+"""Purpose of each extra."""
 BROWSERS = "firefox", "chromium", "chromium-browser", "google-chrome", "microsoft-edge", "brave"
 """Programs that are searched for on Linux."""
 SHOWN_VERSIONS = "gymnasium", "numpy", "pymunk", "starlette", "uvicorn", "viser", "websockets"
@@ -42,7 +42,7 @@ class Finding(NamedTuple):
     subject: str
     state: str
     advice: str = ""
-    """How to mend it; empty if all is well."""
+    """Sentence that says how to mend it; empty if all is well."""
 
 
 def doctor(
@@ -97,13 +97,13 @@ def _installation() -> str:
 
 def _system() -> str:
     """Return the system's name and version, without the machine's."""
-    if sys.platform == "linux":
+    if platform.system() == "Linux":
         try:
             name = platform.freedesktop_os_release()["PRETTY_NAME"]
         except (OSError, KeyError):
             name = "Linux"
         return f"{name}, {platform.libc_ver()[0] or 'other libc'} {platform.libc_ver()[1]}".strip()
-    if sys.platform == "darwin":
+    if platform.system() == "Darwin":
         return f"macOS {platform.mac_ver()[0]}"
     return f"{platform.system()} {platform.release()}"
 

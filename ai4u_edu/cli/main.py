@@ -17,6 +17,7 @@ from rich.text import Text
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.version import __version__
 from ai4u_edu.cli import episodes, lessons, training
+from ai4u_edu.cli.bundle import bundle
 from ai4u_edu.cli.classroom import classroom
 from ai4u_edu.cli.doctor import doctor
 from ai4u_edu.cli.options import OnMissing, OwnBlocks, load_own_blocks
@@ -77,6 +78,7 @@ def options(
 app.command()(play)
 app.command("class")(classroom)
 app.command()(doctor)
+app.command()(bundle)
 
 
 @app.command()

@@ -29,7 +29,7 @@ COMMANDS = {
     for each in app.registered_commands
     if each.callback
 }
-NO_SCENE = {"bridge", "blocks", "doctor", "schema", "lessons"}
+NO_SCENE = {"bridge", "blocks", "bundle", "doctor", "schema", "lessons"}
 """Commands that read neither a scene nor a recording that somebody else may have written."""
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from ai4u_edu.base.version import __version__
 from ai4u_edu.cli import doctor
 
 
@@ -19,7 +20,7 @@ def states(port: int = 0) -> dict[str, str]:
 
 def test_it_says_what_a_bug_report_needs() -> None:
     found = states()
-    assert doctor.__version__ in found["AI4U Edu"]
+    assert __version__ in found["AI4U Edu"]
     assert found["Python"].startswith(".".join(map(str, sys.version_info[:3])))
     assert f"pymunk {metadata.version('pymunk')}" in found["versions"]
     assert found["packages"] == "all that are needed are installed"
