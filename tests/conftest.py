@@ -18,7 +18,7 @@ NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
 LEFT_OUT = pytest.StashKey[int]()
-COMPILE_RAYS = ROOT / "build_tools" / "compile_rays.py"
+COMPILE_RAYS = ROOT / ".ci" / "compile_rays.py"
 """Makes the compiled part of a checkout; the tests of a wheel are run without it."""
 
 # Small networks gain nothing from threads, which wait actively: several tests at once would slow

@@ -10,7 +10,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def test_everything_has_its_branch() -> None:
-    files = [*(ROOT / "ai4u_edu").rglob("*.py"), *(ROOT / "build_tools").rglob("*.py")]
+    files = [*(ROOT / "ai4u_edu").rglob("*.py"), *(ROOT / ".ci").rglob("*.py")]
     assert len(files) > 500
     assert [use for path in sorted(files) for use in uses_without_branch(path)] == []
 

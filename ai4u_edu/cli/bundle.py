@@ -71,7 +71,7 @@ def collect_wheels(folder: Path, extras: list[str], wheel: Path | None) -> None:
 def _build(folder: Path) -> Path | None:
     """Build the wheel, if this is a clone; return its path."""
     root = Path(__file__).resolve().parents[2]
-    if not (root / "build_tools").is_dir():
+    if not (root / "pyproject.toml").is_file():
         return None
     for old in folder.glob("ai4u_edu-*.whl"):
         old.unlink()

@@ -1,7 +1,7 @@
 """The library of rays.c, which is optional: it is compiled when the package is built.
 
 Without it everything gives the same bits, more slowly. Its name holds a hash of the source, so that
-in a checkout a library of another version is not used; ``python build_tools/compile_rays.py`` makes
+in a checkout a library of another version is not used; ``python .ci/compile_rays.py`` makes
 it anew. ``AI4U_COMPILED=0`` switches it off.
 """
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from tests.world.vectors.record import record
 
 ROOT = Path(__file__).resolve().parents[3]
-SCRIPT = ROOT / "build_tools" / "compile_rays.py"
+SCRIPT = ROOT / ".ci" / "compile_rays.py"
 PROGRAM = Path(__file__).with_name("replay.c")
 VECTORS = "vectors.bin"
 START_TIMEOUT_S = 300.0

@@ -1,4 +1,4 @@
-"""Compile rays.c into the package: ``python build_tools/compile_rays.py``, or into a FOLDER.
+"""Compile rays.c into the package: ``python .ci/compile_rays.py``, or into a FOLDER.
 
 The wheel's build does the same; see wheel_hook.py. Standard library only.
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "build_tools" / "compile_rays.py"
+SCRIPT = ROOT / ".ci" / "compile_rays.py"
 needs_compiler = pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler here")
 posix_only = pytest.mark.skipif(os.name != "posix", reason="puts a script in a compiler's place")
 

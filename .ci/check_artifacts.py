@@ -1,4 +1,4 @@
-"""Check what is published: ``python -m build_tools.check_artifacts dist again``.
+"""Check what is published: ``python .ci/check_artifacts.py dist again``.
 
 ``dist`` and ``again`` are the folders of two builds, which have to give the same bytes::
 
@@ -23,7 +23,7 @@ NEEDED = (
     "ai4u_edu/zoo/box_chase.onnx",
 )
 """Files that each wheel has."""
-SOURCES = "build_tools/wheel_hook.py", "pyproject.toml", "tests/conftest.py", "web/main.js"
+SOURCES = ".ci/wheel_hook.py", "pyproject.toml", "tests/conftest.py", "web/main.js"
 """Files that the source distribution has besides the package."""
 MAX_WHEEL_BYTES = 20_000_000
 
@@ -82,5 +82,5 @@ def differences(path: Path, other: Path) -> list[str]:
 if __name__ == "__main__":
     folders = [Path(each) for each in sys.argv[1:3]]
     if not folders:
-        sys.exit("usage: python -m build_tools.check_artifacts DIST [AGAIN]")
+        sys.exit("usage: python .ci/check_artifacts.py DIST [AGAIN]")
     sys.exit(main(folders[0], folders[1] if len(folders) > 1 else None))
