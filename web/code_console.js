@@ -7,13 +7,14 @@ const MAX_LINES = 200;
 const MAX_LINE_CHARS = 2000;
 
 export class CodeConsole {
-  #lines = element("ol", { role: "log", ariaLabel: "Output", tabIndex: 0 });
+  #lines = element("ol");
+  /** A role of its own would take the list's, and with it the meaning of its items. */
+  #log = element("div", { className: "ai4u-code-output", role: "log", ariaLabel: "Output", tabIndex: 0 }, this.#lines);
   #none = element("p", { className: "ai4u-hint-text", textContent: "What your program prints appears here." });
   #waiting = [];
-  element = section("code-output", "Output", {}, this.#none, this.#lines);
+  element = section("code-output", "Output", {}, this.#none, this.#log);
 
   constructor() {
-    this.#lines.className = "ai4u-code-output";
     this.clear();
   }
 
@@ -32,17 +33,18 @@ export class CodeConsole {
 
   #flush() {
     const list = this.#lines;
-    const isAtEnd = list.scrollTop + list.clientHeight >= list.scrollHeight - 4;
+    const log = this.#log;
+    const isAtEnd = log.scrollTop + log.clientHeight >= log.scrollHeight - 4;
     list.append(...this.#waiting.splice(0).slice(-MAX_LINES).map(lineElement));
     while (list.childElementCount > MAX_LINES) list.firstElementChild.remove();
     this.#show();
-    if (isAtEnd) list.scrollTop = list.scrollHeight;
+    if (isAtEnd) log.scrollTop = log.scrollHeight;
   }
 
   #show() {
     const isEmpty = !this.#lines.childElementCount;
     this.#none.hidden = !isEmpty;
-    this.#lines.hidden = isEmpty;
+    this.#log.hidden = isEmpty;
   }
 }
 

@@ -71,11 +71,18 @@ class LocalRooms:
         folder: of the class; each room has a folder below it.
         blocks: Python files with the teacher's blocks, which every room loads.
         limits: of each process.
+        are_shared: True if several students may be in a room.
     """
 
     def __init__(
-        self, folder: Path, blocks: Iterable[Path] = (), limits: RoomLimits | None = None
+        self,
+        folder: Path,
+        blocks: Iterable[Path] = (),
+        limits: RoomLimits | None = None,
+        *,
+        are_shared: bool = False,
     ) -> None:
+        self._are_shared = are_shared
         self._limits = limits or RoomLimits()
         self._watching: asyncio.Task[None] | None = None
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
@@ -189,7 +196,9 @@ class LocalRooms:
         ours, theirs = self._context.Pipe()
         token = self._secrets[room] = secrets.token_urlsafe(24)
         folder = self._folder / "rooms" / room
-        order = RoomOrder(room, scene, folder, token, self._blocks, self.class_url)
+        order = RoomOrder(
+            room, scene, folder, token, self._blocks, self.class_url, self._are_shared
+        )
         process = self._context.Process(  # type: ignore[attr-defined]  # all contexts have it
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True
         )

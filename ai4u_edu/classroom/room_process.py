@@ -44,6 +44,9 @@ class RoomOrder:
     """Python files with the teacher's blocks."""
     class_url: str = ""
     """Address of the class, to which the room opens its link with the token; empty for none."""
+    is_shared: bool = False
+    """True if several students are in it: then no program of one may halt or restart the world of
+    all, unless it drives the only agent."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         seed=last_seed(order.folder),
         # the class checks both: the name under which a browser has the page is in its requests
         allowed_hosts=("*",),
-        rules=Rules(token=order.token),
+        rules=_rules(order),
         saved_scenes=order.folder / "scenes",
         class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
         class_folder=order.folder,
@@ -105,6 +108,12 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
     ports = partial(RoomReady, viser_port=room.viser_port)
     with tuned_process(), room, SceneFile(order.folder, room.editor, room.runner):
         serve(app, HOST, 0, on_ready=lambda url: parent.send(ports(_port(url))))
+
+
+def _rules(order: RoomOrder) -> Rules:
+    if order.is_shared:
+        return Rules(token=order.token)
+    return Rules(token=order.token, seeded_resets=True, lockstep=True)
 
 
 def _end_with(parent: Connection) -> None:

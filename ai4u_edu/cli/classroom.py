@@ -86,9 +86,10 @@ def classroom(
 
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
-    blocks = own_blocks or ()
-    with ClassStore(folder) as store, closing(LocalRooms(folder, blocks, limits)) as local:
-        seats = Seats(store, scene, RoomRule.parse(rooms), code, language)
+    rule, blocks = RoomRule.parse(rooms), own_blocks or ()
+    made = LocalRooms(folder, blocks, limits, are_shared=rule.kind != "each")
+    with ClassStore(folder) as store, closing(made) as local:
+        seats = Seats(store, scene, rule, code, language)
         token = teacher_token(store)
 
         def announce(url: str) -> None:

@@ -105,8 +105,7 @@ def test_no_secret_reaches_a_browser(served: ServedClass) -> None:
 
 def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClass) -> None:
     ada, ben = served.joined(), served.joined()
-    lines = _python_lines(ada)
-    address = re.findall(r"http://[^\s'\"]+", lines)[0]
+    address = _script_address(ada)
     assert address.startswith(ada.address)
     with connect_script(address) as robot:
         for _ in range(5):
@@ -121,6 +120,25 @@ def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClas
         assert other.client.get(f"{ada.room}?token={key}").status_code != 401
     stranger = httpx.get(f"{ada.address}api/snapshot", headers={"Authorization": f"Bearer {key}"})
     assert stranger.status_code == 403
+
+
+@pytest.mark.parametrize("rooms", ["each", pytest.param("one", marks=pytest.mark.nightly)])
+def test_a_program_has_the_world_wait_for_it_where_nobody_else_is_in_it(
+    tmp_path: Path, rooms: str
+) -> None:
+    with served_class(tmp_path, "sumo", "--rooms", rooms) as school:
+        address = _script_address(school.joined())
+        if rooms == "each":
+            with connect_script(address, agent="blue", mode="lockstep") as robot:
+                assert robot.reset(seed=5).episode
+            return
+        with pytest.raises(RemoteError, match="expected mode='realtime'"):
+            connect_script(address, agent="blue", mode="lockstep")
+
+
+def _script_address(student: Student) -> str:
+    """Return the address for scripts that the student's page shows."""
+    return re.findall(r"http://[^\s'\"]+", _python_lines(student))[0]
 
 
 def _picture(student: Student, query: str = "") -> ClientConnection:
