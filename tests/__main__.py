@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -53,6 +54,9 @@ def main() -> int:
     if for_pytest and only != "pytest":
         parser.error(f"{only} takes no arguments here, and got: {' '.join(for_pytest)}")
 
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # a shell's background job ignores Ctrl-C, and so would all that the tests start
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     # else each program that a test starts compiles the package anew
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     python, missing = set_up(options.fast, only)

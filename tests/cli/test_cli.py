@@ -135,7 +135,7 @@ def test_every_number_has_bounds(command: str, option: str) -> None:
     assert high is not None
     assert 0 <= low < high <= MAX_SEED
     assert default is None or low <= default <= high
-    if "seed" in option:
+    if option.endswith("seed"):  # --seeds is a count
         assert (low, high) == (0, MAX_TRAINING_SEED if command == "train" else MAX_SEED)
     needed = [
         "x"

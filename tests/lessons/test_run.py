@@ -78,7 +78,7 @@ def test_solved_they_run_as_scripts_and_every_check_passes(
     for number in numbers:
         entries = told[number]["entries"]
         assert {name: each["text"] for name, each in entries.items() if not each["passed"]} == {}
-        assert sorted(entries) == lesson(number).exercises
+        assert sorted(entries) == sorted(lesson(number).exercises)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_solved_it_runs_in_a_kernel_and_every_check_passes(
     one = lesson(number)
     done = executed(one, tmp_path)
     assert {name: entry.text for name, entry in done.entries.items() if not entry.passed} == {}
-    assert sorted(done.entries) == one.exercises
+    assert sorted(done.entries) == sorted(one.exercises)
     assert done.complaints == []
     kept = {name: entry.code for name, entry in done.entries.items()}
     assert kept == {each: solution_of(each) for each in one.exercises}
