@@ -14,6 +14,7 @@ from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
+from ai4u_edu.server.library_pictures import picture_address
 
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
 Event = dict[str, Any]
@@ -72,7 +73,7 @@ class ClassEvents:
             "race": live.race.event(is_projected=is_projected),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
-            "lessons": [{"number": each.number, "title": each.title} for each in course_lessons()],
+            "lessons": _lessons(),
             "seats": self._seats(),
             "rooms": self._rooms(),
         }
@@ -176,6 +177,13 @@ def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
     return sorted(rows, key=lambda row: (-len(row["seats"]), -row["count"], row["exercise"]))
 
 
+def _lessons() -> list[Event]:
+    return [
+        {"number": each.number, "title": each.title, "scene": each.scene}
+        for each in course_lessons()
+    ]
+
+
 @lru_cache(maxsize=1)
 def _library() -> list[Event]:
     """Return the scenes of the library, by title.
@@ -187,5 +195,12 @@ def _library() -> list[Event]:
     for name in Scene.names():
         text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
         title = _TITLE.search(text)
-        found.append({"name": name, "title": title[1] if title else name, "stars": stars[name]})
+        found.append(
+            {
+                "name": name,
+                "title": title[1] if title else name,
+                "stars": stars[name],
+                "picture": picture_address(name),
+            }
+        )
     return sorted(found, key=lambda each: each["title"].lower())
