@@ -15,7 +15,7 @@ from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.my_work import my_work_route
-from ai4u_edu.classroom.pages import page_route, web_file
+from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.program_routes import ProgramRoutes
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
@@ -28,7 +28,6 @@ from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.server.attempts import Attempts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
-from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
 from ai4u_edu.server.token_auth import PageCookie, TokenAuth
 from ai4u_edu.server.token_page import TokenPage
@@ -93,8 +92,7 @@ def class_app(
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
-            Route("/web/{file}", web_file),
-            Route(PICTURE_PATH, library_picture_route),
+            *FILE_ROUTES,
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),

@@ -13,9 +13,8 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from ai4u_edu.classroom.echo import echo
-from ai4u_edu.classroom.pages import html_page, web_file
+from ai4u_edu.classroom.pages import FILE_ROUTES, html_page
 from ai4u_edu.server import ServerThread
-from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 
 POSES_PER_S = 4
@@ -58,8 +57,7 @@ class WallServer:
                 Route("/api/join", self._command, methods=["POST"]),
                 WebSocketRoute("/check/socket", echo),
                 WebSocketRoute("/{page}/socket", self._socket),
-                Route("/web/{file}", web_file),
-                Route(PICTURE_PATH, library_picture_route),
+                *FILE_ROUTES,
             ]
         )
 

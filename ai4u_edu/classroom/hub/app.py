@@ -24,14 +24,13 @@ from ai4u_edu.classroom.hub.teacher_auth import TeacherAuth
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.classroom.pages import page_route, web_file
+from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, qr_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.server.host_origin import HostOriginCheck
-from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
 PAGES = re.compile(r"/|/teacher|/teacher/look/[\w-]+|/projector|/check|/privacy|/oauth_callback")
@@ -77,8 +76,7 @@ def hub_class_app(
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
-            Route("/web/{file}", web_file),
-            Route(PICTURE_PATH, library_picture_route),
+            *FILE_ROUTES,
             WebSocketRoute(LINK_PATH, LinkEndpoint(live, student.room_of)),
             Route("/api/names", Join(seats).names, middleware=[auth]),
             Route("/teacher", teacher.page, middleware=[auth]),
