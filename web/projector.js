@@ -4,6 +4,7 @@ import { openClassSocket } from "./class_socket.js";
 import { Countdown } from "./class_strips.js";
 import { element, keyed, setText } from "./dom.js";
 import { clock, counted } from "./room_words.js";
+import { ProjectedTournament } from "./projected_tournament.js";
 import { Wall } from "./wall.js";
 
 const TICK_MS = 100;
@@ -13,6 +14,7 @@ const MAX_PLACES = 12;
 const OUTCOMES = { lost: "lost", fell: "fell", time: "out of time", over: "ended" };
 const find = (selector) => document.querySelector(selector);
 const starts = new Countdown();
+const tournament = new ProjectedTournament(find("#tournament"));
 let state = null;
 
 const wall = new Wall(find("#wall"), { heightLeft: () => innerHeight - find("#wall").getBoundingClientRect().top - scrollY - MARGIN_PX });
@@ -30,10 +32,12 @@ function show(message) {
   const { kind, room } = state.shown;
   find("#join").hidden = kind !== "join";
   find("#race").hidden = kind !== "race";
+  find("#tournament").hidden = kind !== "tournament";
   find("#rooms").hidden = kind !== "room" && kind !== "board";
   setText(find("#attention"), state.attention.message);
   showJoin();
   showRace();
+  tournament.show(state);
   const shown = kind === "room" ? state.rooms.filter((each) => each.id === room) : state.rooms;
   // without what is between a student and the teacher
   wall.show({ ...state, rooms: shown.map((each) => ({ ...each, help: 0, why: "" })), progress: {} });

@@ -5,7 +5,7 @@ import { element } from "./dom.js";
 import { choices, chosenIn, field, select, showForm } from "./form_dialog.js";
 import { roomName } from "./room_words.js";
 
-const KINDS = { join: "How to join: address, code and QR code", board: "The wall", room: "One room, live", race: "The race" };
+const KINDS = { join: "How to join: address, code and QR code", board: "The wall", room: "One room, live", race: "The race", tournament: "The tournament" };
 
 export function showProjector(state) {
   const rooms = state.rooms.map((room) => [room.id, roomName(room, state)]);
