@@ -2,7 +2,7 @@
 
 import { element, setText } from "./dom.js";
 import { counted } from "./room_words.js";
-import { contestLine, crossTable, dot, standingsTable } from "./tournament_tables.js";
+import { contestLine, dot, standingsTable } from "./tournament_tables.js";
 
 /** Entries up to which there is a table with ratings; more have a list in columns. */
 const MAX_ROWS = 10;
@@ -43,7 +43,7 @@ function courseOf({ phase, players, results }) {
 
 function tablesOf(results) {
   if (results.standings.length > MAX_ROWS) return [listOf(results)];
-  return [standingsTable(results), !results.is_race && crossTable(results)].filter(Boolean);
+  return [standingsTable(results, { isShort: true })];
 }
 
 /** Return the standings of many as a list in columns. */

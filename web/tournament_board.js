@@ -4,7 +4,7 @@ import { commandOrTell } from "./class_command.js";
 import { element } from "./dom.js";
 import { counted } from "./room_words.js";
 import { showBegin, showStart } from "./tournament_dialogs.js";
-import { contestLine, crossTable, dot, standingsTable } from "./tournament_tables.js";
+import { contestLine, dot, standingsTable } from "./tournament_tables.js";
 
 const HOW =
   "No tournament yet. Choose its scene; then students hand in networks that they have trained: with “Hand in” above their world, or with submit(…) in a notebook. Here you see who did, and start the games.";
@@ -27,8 +27,8 @@ export class TournamentBoard {
       head: part("div", { className: "ai4u-tournament-head" }),
       problem: part("p", { className: "ai4u-tournament-problem", role: "alert" }),
       course: part("p", { role: "status" }),
-      networks: part("div", {}),
       results: part("div", { className: "ai4u-results" }),
+      networks: part("div", {}),
     };
     place.append(...Object.values(this.#parts).map((each) => each.element));
   }
@@ -108,15 +108,13 @@ export class TournamentBoard {
 
   #results(results) {
     const nameOf = (row) => this.#nameOf(this.#state.seats.find(({ number }) => number === row.seat) ?? row);
-    const cross = !results.is_race && crossTable(results, nameOf);
     const latest = results.latest.map((contest) =>
       element("li", {}, contestLine(contest), contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }), ...contest.games.map(watch)),
     );
     const best = results.best.map((game) => element("li", {}, game.who.map(({ name }) => name).join(" – "), " ", watch(game)));
     const refused = results.refused.map(({ name, reason }) => element("li", { textContent: `${name}: ${reason}` }));
     return [
-      scrolled("Standings", standingsTable(results, nameOf)),
-      cross && scrolled("Row against column", cross),
+      scrolled("Standings", standingsTable(results, { nameOf })),
       listed("Played last", latest),
       listed("Best games to watch", best),
       listed("Taken out: they could not play against themselves", refused),
@@ -138,7 +136,7 @@ function courseOf({ phase, results, players }) {
 function watch({ number, who, points }) {
   if (!number) return "";
   const text = `Watch game ${number}`;
-  const label = `${text}: ${who.map(({ name }, index) => `${name} ${points[index].toFixed(1)}`).join(", ")}`;
+  const label = `${text}: ${who.map(({ name }, index) => `${name} ${points[index].toFixed(1).replace("-", "−")}`).join(", ")}`;
   return element("a", { className: "ai4u-watch", href: `./teacher/tournament/${number}`, target: "_blank", rel: "noopener", title: label, "aria-label": label, textContent: text });
 }
 

@@ -5,35 +5,39 @@ import { element } from "./dom.js";
 /** Most entries of a cross table that can be read. */
 const MAX_CROSSED = 16;
 
-/** Return the table of standings. */
-export function standingsTable({ standings, is_race: isRace }, nameOf = ({ name }) => name) {
-  const heads = ["Place", "Name", "Rating", "Won", "Drawn", "Lost", isRace ? "Reward" : "Points"];
+/**
+ * Return the table of standings; with few entries also who won how often against whom, as in chess.
+ *
+ * @param {(row) => string} nameOf returns the name of a row
+ * @param {boolean} isShort without the points, for the projector
+ */
+export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ name }) => name, isShort = false } = {}) {
+  const isCrossed = !isRace && standings.length <= MAX_CROSSED;
+  const numbers = isCrossed ? standings.map((_, index) => String(index + 1)) : [];
+  const heads = ["", "Name", ...numbers, "Won", "Drawn", "Lost", !isShort && (isRace ? "Reward" : "Points"), "Rating"].filter((each) => each !== false);
   const rows = standings.map((row, index) =>
     element(
       "tr",
       {},
       cell(index + 1),
       element("th", { scope: "row" }, dot(row), nameOf(row)),
-      element("td", { title: row.is_provisional ? "Not sure yet: it has played few games" : "" }, `${row.rating.toFixed(1)} ± ${row.range.toFixed(1)}${row.is_provisional ? "?" : ""}`),
+      ...(isCrossed ? row.against.map((counts, other) => crossing(row, standings, index, other, counts, nameOf)) : []),
       ...[row.won, row.drawn, row.lost].map(cell),
-      cell(row.points.toFixed(1)),
+      !isShort && cell(number(row.points)),
+      element("td", { title: row.is_provisional ? "Not sure yet: it has played few games" : "" }, `${row.rating.toFixed(1)} ± ${row.range.toFixed(1)}${row.is_provisional ? "?" : ""}`),
     ),
   );
-  return table("Standings", heads, rows, "ai4u-standings");
+  const caption = isCrossed ? "Standings. Row against column: a point for each match won, ½ for a draw" : "Standings";
+  const head = element("tr", {}, ...heads.map((text) => (text ? element("th", { scope: "col", textContent: text, className: numbers.includes(text) ? "ai4u-crossing" : "" }) : element("td"))));
+  return element("table", { className: "ai4u-standings" }, element("caption", { textContent: caption }), element("thead", {}, head), element("tbody", {}, ...rows));
 }
 
-/** Return the table of who won how often against whom; null if it would be too large, or has nothing. */
-export function crossTable({ standings }, nameOf = ({ name }) => name) {
-  if (standings.length > MAX_CROSSED || standings.every(({ against }) => against.every((each) => !each))) return null;
-  const heads = ["", ...standings.map((_, index) => String(index + 1))];
-  const rows = standings.map((row, index) => {
-    const cells = row.against.map((counts, other) => {
-      if (other === index) return element("td", { className: "ai4u-own", "aria-label": "itself" });
-      return element("td", { title: counts ? against(row, standings[other], counts) : "" }, counts ? score(counts) : "");
-    });
-    return element("tr", {}, element("th", { scope: "row" }, `${index + 1} `, dot(row), nameOf(row)), ...cells);
-  });
-  return table("Row against column: a point for each match won, ½ for a draw", heads, rows, "ai4u-cross");
+/** Return the cell of a row and the column of another entry. */
+function crossing(row, standings, index, other, counts, nameOf) {
+  if (other === index) return element("td", { className: "ai4u-crossing ai4u-own" });
+  const [won, drawn, lost] = counts ?? [];
+  const title = counts ? `${nameOf(row)} against ${nameOf(standings[other])}: ${won} won, ${drawn} drawn, ${lost} lost` : "";
+  return element("td", { className: "ai4u-crossing", title }, counts ? score(counts) : "");
 }
 
 /** Return a contest in words and numbers: who played, the points, and who won. */
@@ -47,7 +51,7 @@ export function contestLine({ entries, has_failed: hasFailed }, count = 5) {
       { className: "ai4u-contestant", dataset: entry.rank === 0 && !isDrawn ? { winner: "" } : {} },
       dot(entry),
       element("span", { className: "ai4u-name", textContent: entry.name }),
-      element("span", { className: "ai4u-points", textContent: entry.points.toFixed(1) }),
+      element("span", { className: "ai4u-points", textContent: number(entry.points) }),
     ),
   ]);
   const end = hasFailed ? "a network failed" : isDrawn ? "a draw" : `${entries[0].name} wins`;
@@ -67,15 +71,11 @@ export function score([won, drawn]) {
   return `${halves > 1 || halves === 0 ? Math.floor(halves / 2) : ""}${halves % 2 ? "½" : ""}`;
 }
 
-function against(row, other, [won, drawn, lost]) {
-  return `${row.name} against ${other.name}: ${won} won, ${drawn} drawn, ${lost} lost`;
-}
-
 function cell(text) {
   return element("td", { textContent: text });
 }
 
-function table(caption, heads, rows, className) {
-  const head = element("tr", {}, ...heads.map((text) => (text ? element("th", { scope: "col", textContent: text }) : element("td"))));
-  return element("table", { className }, element("caption", { textContent: caption }), element("thead", {}, head), element("tbody", {}, ...rows));
+/** Return points with a real minus. */
+function number(value) {
+  return value.toFixed(1).replace("-", "−");
 }

@@ -69,7 +69,8 @@ def join(page: Page, school: ServedClass) -> str:
 def hand_in_by_page(page: Page, bad: Path, good: Path) -> None:
     page.get_by_role("button", name="Hand in").click()
     dialog = page.get_by_role("dialog", name="Hand in a network")
-    expect(dialog.get_by_label("Scene")).to_have_value("sumo")
+    scene = dialog.get_by_role("combobox", name=re.compile("^Scene"))
+    expect(scene).to_have_value("sumo")
     send = dialog.get_by_role("button", name="Hand in")
     send.click()
     expect(dialog.get_by_role("alert")).to_contain_text("Choose the .onnx file")
