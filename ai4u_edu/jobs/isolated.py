@@ -101,7 +101,7 @@ def serve_jobs(jobs: Connection, folder: Path) -> None:
         jobs: gives each job, and gets its answer.
         folder: for temporary files.
     """
-    tempfile.tempdir = str(folder)
+    tempfile.tempdir = str(folder.absolute())
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
     use_one_thread()
     lower_priority()

@@ -12,7 +12,7 @@ import signal
 import sys
 import threading
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import psutil
 
@@ -32,7 +32,7 @@ def main() -> None:
     # what a library prints is no line of ours, and processes for games inherit this one
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-    threading.Thread(target=_end_with, args=[sys.stdin.buffer], daemon=True).start()
+    threading.Thread(target=_end_with, args=[sys.stdin.fileno()], daemon=True).start()
     lower_priority()
 
     def tell(**fields: Any) -> None:
@@ -59,9 +59,10 @@ def _width() -> int:
     return max(1, (os.cpu_count() or 1) // 2)
 
 
-def _end_with(owner: BinaryIO) -> None:
+def _end_with(owner: int) -> None:
     """End this process and those that it has started when the other end is closed."""
-    owner.read()
+    while os.read(owner, 1024):  # not buffered: its lock would be held at the end
+        pass
     for child in psutil.Process().children(recursive=True):
         try:
             child.kill()

@@ -29,6 +29,19 @@ def plan(system: Any = "round-robin", seeds: int = 1) -> Plan:
     )
 
 
+def output_of(folder: Path) -> str:
+    """Play the plan in a folder in a process of its own, and return what it tells."""
+    command = [sys.executable, "-m", "ai4u_edu.tournament.live_process", str(folder)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        told = process.stdout.read()  # its input stays open, as it ends with that
+        assert process.stderr.read() == ""
+    assert process.returncode == 0
+    return told
+
+
 def last_line(output: str) -> dict[str, Any]:
     found: dict[str, Any] = json.loads(output.splitlines()[-1])
     return found
@@ -59,19 +72,11 @@ def test_each_contest_is_shown_and_the_process_goes_on_where_it_was(tmp_path: Pa
 
     plan().save(tmp_path)
     journal = (tmp_path / "journal.jsonl").read_bytes()
-    command = [sys.executable, "-m", "ai4u_edu.tournament.live_process", str(tmp_path)]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-        assert process.stdout is not None
-        told = process.stdout.read().decode()
-    end = last_line(told)
+    end = last_line(output_of(tmp_path))
     assert (end["is_over"], end["view"]) == (True, views[-1] | {"latest": end["view"]["latest"]})
     assert (tmp_path / "journal.jsonl").read_bytes() == journal, "nothing is played again"
     assert (tmp_path / "index.html").exists()
 
 
 def test_a_process_without_a_plan_tells_the_problem(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "ai4u_edu.tournament.live_process", str(tmp_path)]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-        assert process.stdout is not None
-        told = process.stdout.read().decode()
-    assert "holds no tournament" in last_line(told)["problem"]
+    assert "holds no tournament" in last_line(output_of(tmp_path))["problem"]

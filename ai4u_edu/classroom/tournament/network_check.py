@@ -40,7 +40,7 @@ class NetworkCheck:
     """
 
     def __init__(self, networks: Networks, folder: Path) -> None:
-        self._networks = networks
+        self._networks, self._folder = networks, folder
         self._process = IsolatedJobs(MAX_CHECK_CPU_S, MAX_CHECK_WALL_S, folder)
 
     async def run(self) -> None:
@@ -69,13 +69,13 @@ class NetworkCheck:
         except OSError:
             return "The file is not there any more. Hand it in again."
         answer = await self._process.run(job)
-        if not answer.error:
-            return str(answer.result["reason"])
-        return f"Its game against itself could not be played: {answer.error}."
+        reason = answer.error or str(answer.result["reason"])
+        reason = reason.replace(str(self._folder.absolute()), "")  # it is the teacher's
+        return f"Its game could not be played: {reason}" if answer.error else reason
 
     def _job(self, row: NetworkRow) -> Job:
         scene = network_scenes()[row.scene]
-        entry = scene.entry(row.file, {row.part: driver_of(self._networks, row)})
+        entry = scene.entry("this network", {row.part: driver_of(self._networks, row)})
         return game_job({"name": row.scene}, CHECK_SEED, [entry] * len(scene.sides.names))
 
 
