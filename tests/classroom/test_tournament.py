@@ -81,6 +81,7 @@ def good(tmp_path: Path) -> bytes:
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_networks_are_handed_in_checked_played_exported_and_forgotten(
     tmp_path: Path, good: bytes
 ) -> None:

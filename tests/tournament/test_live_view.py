@@ -78,5 +78,7 @@ def test_each_contest_is_shown_and_the_process_goes_on_where_it_was(tmp_path: Pa
     assert (tmp_path / "index.html").exists()
 
 
+@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_process_without_a_plan_tells_the_problem(tmp_path: Path) -> None:
     assert "holds no tournament" in last_line(output_of(tmp_path))["problem"]
