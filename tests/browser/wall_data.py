@@ -142,14 +142,15 @@ def tournament(count: int, phase: str = "running") -> dict[str, Any]:
             "rating": 34.0 - 18.0 * place / count,
             "range": 9.5 if place % 4 else 13.5,
             "is_provisional": place % 4 == 0,
-            "won": count - 1 - place,
-            "drawn": place % 2,
-            "lost": place,
+            "won": sum(row[0] for row in against if row),
+            "drawn": sum(row[1] for row in against if row),
+            "lost": sum(row[2] for row in against if row),
             "failed": 0,
             "points": 12.5 - 3.25 * place,
-            "against": [_against(place, other) for other in range(count)],
+            "against": against,
         }
         for place, entry in enumerate(entries)
+        for against in [[_against(place, other) for other in range(count)]]
     ]
     latest: list[dict[str, Any]] = [
         {
@@ -192,9 +193,13 @@ def _entry(number: int) -> dict[str, Any]:
 
 
 def _against(place: int, other: int) -> list[int] | None:
+    """Return what an entry has won, drawn and lost against another one; None if they still have to
+    play."""
     if place == other or (place + other) % 5 == 4:
         return None
-    return [2, 0, 0] if place < other else [0, (place + other) % 2, 1]
+    if (place + other) % 4 == 3:
+        return [0, 1, 0]
+    return [1, 0, 0] if place < other else [0, 0, 1]
 
 
 def _game(number: int, one: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
