@@ -76,7 +76,7 @@ def class_app(
 
     events = ClassEvents(live, join_here)
     join, teacher = Join(seats, live.tell_people), Teacher(live, events, proxy)
-    programs, games = ProgramRoutes(live), TournamentFiles(live.tournament)
+    programs = ProgramRoutes(live)
     auth = Middleware(TokenAuth, token=teacher_token, attempts=attempts)
     page_auth = Middleware(
         TokenAuth, token=teacher_token, attempts=attempts, token_page=TokenPage()
@@ -102,19 +102,17 @@ def class_app(
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/programs", programs.of_room, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
-            Route("/teacher/tournament", games.report, middleware=[auth]),
-            Route("/teacher/tournament/{number:int}", games.game, middleware=[auth]),
+            *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
             Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
         ],
-        middleware=[
-            Middleware(
-                HostOriginCheck,
-                allowed_hosts=allowed_hosts,
-                proxy_hosts=proxy_hosts,
-                pages=PAGES,
-            )
-        ],
+        middleware=[_origin_check(allowed_hosts, proxy_hosts)],
+    )
+
+
+def _origin_check(allowed_hosts: Collection[str], proxy_hosts: Collection[str]) -> Middleware:
+    return Middleware(
+        HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts, pages=PAGES
     )

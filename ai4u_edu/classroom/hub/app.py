@@ -66,7 +66,6 @@ def hub_class_app(
     events = ClassEvents(live, join_here, asks_for_code=False)
     student = HubStudent(live, hub, api, sign_in, hub_seats, groups)
     teacher = Teacher(live, events, RoomProxy((), lambda _: ""))
-    games = TournamentFiles(live.tournament)
     auth = Middleware(TeacherAuth, sign_in=sign_in, groups=groups)
     projector = WallSocket(live, events, is_projected=True)
     app = Starlette(
@@ -86,8 +85,7 @@ def hub_class_app(
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
             Route("/teacher/look/{room}", LookIn(live, hub, hub_seats).page, middleware=[auth]),
-            Route("/teacher/tournament", games.report, middleware=[auth]),
-            Route("/teacher/tournament/{number:int}", games.game, middleware=[auth]),
+            *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),

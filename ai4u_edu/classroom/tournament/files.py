@@ -3,8 +3,10 @@
 import asyncio
 
 from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
+from starlette.routing import Route
 
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.jobs import Job
@@ -33,7 +35,7 @@ HEADERS = {"Content-Security-Policy": POLICY, "Cache-Control": "no-store"}
 
 
 class TournamentFiles:
-    """Routes for the teacher's page and the projector page; the token is checked before.
+    """Files for the teacher's page.
 
     Belongs to the event loop.
 
@@ -46,6 +48,17 @@ class TournamentFiles:
         folder = runner.tournaments.folder / "pages"
         self._pages = IsolatedJobs(MAX_PAGE_CPU_S, MAX_PAGE_WALL_S, folder)
         self._open = 0
+
+    def routes(self, auth: Middleware) -> list[Route]:
+        """Return the routes.
+
+        Args:
+            auth: lets only the teacher pass.
+        """
+        return [
+            Route("/teacher/tournament", self.report, middleware=[auth]),
+            Route("/teacher/tournament/{number:int}", self.game, middleware=[auth]),
+        ]
 
     async def report(self, _: Request) -> Response:
         """Return the report, which is there when a tournament is over."""
