@@ -11,7 +11,7 @@ export function showProjector(state) {
   const rooms = state.rooms.map((room) => [room.id, roomName(room, state)]);
   const kinds = { ...KINDS };
   if (rooms.length === 0) delete kinds.room;
-  const kind = choices("The projector shows", "kind", kinds, state.shown.kind);
+  const kind = choices("The projector shows", "kind", kinds, state.shown.kind in kinds ? state.shown.kind : "tournament");
   const room = select(rooms, state.shown.room);
   const whose = field("Whose room", room);
   const update = () => (whose.hidden = chosenIn(kind) !== "room");

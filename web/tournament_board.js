@@ -109,9 +109,9 @@ export class TournamentBoard {
   #results(results) {
     const nameOf = (row) => this.#nameOf(this.#state.seats.find(({ number }) => number === row.seat) ?? row);
     const latest = results.latest.map((contest) =>
-      element("li", {}, contestLine(contest), contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }), ...contest.games.map(watch)),
+      element("li", {}, contestLine(contest), contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }), ...watched(contest, results).map(watch)),
     );
-    const best = results.best.map((game) => element("li", {}, game.who.map(({ name }) => name).join(" – "), " ", watch(game)));
+    const best = results.best.map((game) => element("li", {}, game.who.map(({ name }) => name).join(" – "), " ", watch(game), project(game)));
     const refused = results.refused.map(({ name, reason }) => element("li", { textContent: `${name}: ${reason}` }));
     return [
       scrolled("Standings", standingsTable(results, { nameOf })),
@@ -132,12 +132,24 @@ function courseOf({ phase, results, players }) {
   return PHASES[phase] + (phase === "open" ? ` ${counted(players, "player")} can play.` : games);
 }
 
+/** Return the games of a contest that are offered to watch: both of a match, and the best drive of a race. */
+function watched({ entries, games }, { is_race: isRace }) {
+  return isRace ? games.filter(({ who }) => who[0].seat === entries[0].seat).slice(0, 1) : games;
+}
+
 /** Return a link to the recording of a game. */
 function watch({ number, who, points }) {
   if (!number) return "";
   const text = `Watch game ${number}`;
   const label = `${text}: ${who.map(({ name }, index) => `${name} ${points[index].toFixed(1).replace("-", "−")}`).join(", ")}`;
   return element("a", { className: "ai4u-watch", href: `./teacher/tournament/${number}`, target: "_blank", rel: "noopener", title: label, "aria-label": label, textContent: text });
+}
+
+/** Return a button that shows the recording of a game to all. */
+function project({ number }) {
+  const shown = button("To the projector", () => commandOrTell({ do: "show", kind: "game", game: number }));
+  shown.ariaLabel = `Game ${number} to the projector`;
+  return shown;
 }
 
 function listed(title, items) {

@@ -12,6 +12,7 @@ from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS, MAX_STARTING_PROGRAM_CHA
 
 MAX_COUNTDOWN_S = 60.0
 MAX_TOURNAMENT_SEEDS = 20
+MAX_GAMES = 10**6
 RoomId = Annotated[str, Field(max_length=40)]
 Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
 Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]
@@ -106,8 +107,10 @@ class Show(_Command):
     """Choose what the projector page shows."""
 
     do: Literal["show"]
-    kind: Literal["join", "room", "race", "tournament", "board"]
+    kind: Literal["join", "room", "race", "tournament", "game", "board"]
     room: RoomId = ""
+    game: int = Field(default=0, ge=0, le=MAX_GAMES)
+    """Number of a game of the tournament, for its recording."""
 
 
 class Sleep(_Command):

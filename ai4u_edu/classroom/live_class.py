@@ -42,7 +42,7 @@ TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
 NOTHING_SHOWN = '{"kind": "join", "room": ""}'
-ShownKind = Literal["join", "room", "race", "tournament", "board"]
+ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
 
 
 class LiveClass:
@@ -102,9 +102,9 @@ class LiveClass:
             except Exception as error:  # a full disk, say: the next tick tries again
                 log_limited(_logger, logging.ERROR, "tick", "a class's clock failed: %r", error)
 
-    def show(self, kind: ShownKind, room: str) -> None:
+    def show(self, kind: ShownKind, room: str, game: int = 0) -> None:
         """Store what the projector page shows."""
-        shown = {"kind": kind, "room": room}
+        shown = {"kind": kind, "room": room, "game": game}
         self.store.set_setting(SHOWN, json.dumps(shown))
         self.shown = shown
 

@@ -111,10 +111,10 @@ class Teacher:
             case HideBoard(hide=hide):
                 live.races.change(hide=hide)
                 live.race.tell()
-            case Show(kind=kind, room=room):
+            case Show(kind=kind, room=room, game=game):
                 if kind == "room":
                     self._check_room(room)
-                live.show(kind, room if kind == "room" else "")
+                live.show(kind, room if kind == "room" else "", game if kind == "game" else 0)
             case Sleep(room=room):
                 self._check_room(room)
                 await live.host.end(room)

@@ -7,12 +7,30 @@ from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.exports.html_page import html_of
 from ai4u_edu.recording.file import decode
 
+PROJECTED = """<style>
+main { display: block; max-width: none; text-align: center; }
+section + section, footer, #goal, #about, .bar { display: none; }
+h1 { font-size: clamp(22px, 2.8vw, 60px); }
+</style>
+<script>
+set(true);
+setInterval(() => {
+  if (playing) return;
+  time = 0;
+  set(true);
+}, 3000);
+</script>
+"""
+"""Addition to the page of :mod:`ai4u_edu.recording.exports.html_page` for the projector."""
 
-def game_page(path: str) -> str:
+
+def game_page(path: str, *, is_projected: bool = False) -> str:
     """Return the HTML page that plays a recorded game, with its players in the title.
 
     Args:
         path: of the episode's file.
+        is_projected: True for a page that plays by itself, again and again, and shows the world
+            alone.
 
     Raises:
         RecordingError: it is no episode.
@@ -22,7 +40,8 @@ def game_page(path: str) -> str:
     episode = decode(Episode, file.read_bytes(), file.name)
     scene = episode.scene
     title = f"{scene.title or scene.name}: {_players(episode)}"
-    return html_of(Replay(replace(episode, scene=scene.model_copy(update={"title": title}))))
+    page = html_of(Replay(replace(episode, scene=scene.model_copy(update={"title": title}))))
+    return page.replace("</body>", f"{PROJECTED}</body>") if is_projected else page
 
 
 def _players(episode: Episode) -> str:

@@ -1,9 +1,9 @@
 """A tournament that another program shows: ``python -m ai4u_edu.tournament.live_process DIR``.
 
-It plays the plan in the folder, and writes a line of JSON with the tournament so far whenever a
-contest has ended. It ends with all its processes as soon as its input is closed, as when the other
-program has ended. The journal in the folder has what was played by then, and the same command goes
-on from there.
+It plays the plan in the folder, and writes a line of JSON with the tournament so far when contests
+have ended. It ends with all its processes as soon as its input is closed, as when the other program
+has ended. The journal in the folder has what was played by then, and the same command goes on from
+there.
 """
 
 import json
@@ -11,6 +11,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,9 @@ from ai4u_edu.tournament.live_view import live_view
 from ai4u_edu.tournament.page import page_of
 from ai4u_edu.tournament.plan import Plan
 from ai4u_edu.tournament.run import PAGE, Tournament, run_tournament, write_results
+
+MIN_SHOW_INTERVAL_S = 0.5
+"""Shortest time between two lines: to rate hundreds of contests takes some time."""
 
 
 def main() -> None:
@@ -39,8 +43,13 @@ def main() -> None:
         out.write(json.dumps(fields).encode() + b"\n")
         out.flush()
 
+    shown_at = -MIN_SHOW_INTERVAL_S
+
     def show(done: Tournament) -> None:
-        tell(view=live_view(done))
+        nonlocal shown_at
+        if time.monotonic() - shown_at >= MIN_SHOW_INTERVAL_S:
+            shown_at = time.monotonic()
+            tell(view=live_view(done))
 
     folder = Path(sys.argv[1])
     try:

@@ -53,6 +53,13 @@ def test_two_students_hand_in_and_the_projector_shows_who_won(
             expect(standings).to_contain_text(student, timeout=PATIENCE_MS)
         expect(shown).to_contain_text("4 of 4 games. It is over.", timeout=PATIENCE_MS)
         a_game_can_be_watched(teacher)
+        teacher.get_by_role("button", name=re.compile("Game . to the projector")).first.click()
+        frame = projector.frame_locator("#game iframe")
+        expect(frame.get_by_role("heading", name=re.compile("Sumo: "))).to_be_visible(
+            timeout=PATIENCE_MS
+        )
+        expect(frame.locator("#play")).to_have_attribute("aria-pressed", "true")
+        expect(frame.locator("#play")).to_be_hidden()
         for page in (teacher, projector, ada):
             page.context.close()
 

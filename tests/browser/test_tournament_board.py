@@ -75,6 +75,8 @@ def test_the_teacher_begins_starts_and_ends_a_tournament_by_keyboard(
     until(lambda: school.commands[-1] == {"do": "cancel tournament"})
     game = board.get_by_role("link", name="Watch game 3").first
     expect(game).to_have_attribute("href", "./teacher/tournament/3")
+    board.get_by_role("button", name="Game 3 to the projector").click()
+    until(lambda: school.commands[-1] == {"do": "show", "kind": "game", "game": 3})
     board.get_by_role("button", name="Show on the projector").click()
     until(lambda: school.commands[-1] == {"do": "show", "kind": "tournament"})
     school.send(tournament=tournament(6, "over"))

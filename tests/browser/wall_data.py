@@ -76,7 +76,7 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "qr": join_code(ADDRESS, CODE),
         "open": True,
         "attention": {"kind": "", "message": "", "ends_in": 0.0},
-        "shown": {"kind": "join", "room": ""},
+        "shown": {"kind": "join", "room": "", "game": 0},
         "race": None,
         "tournament": None,
         "handed_in": {"missing": "", "networks": []},

@@ -35,7 +35,7 @@ HEADERS = {"Content-Security-Policy": POLICY, "Cache-Control": "no-store"}
 
 
 class TournamentFiles:
-    """Files for the teacher's page.
+    """Files for the teacher's page and the projector page.
 
     Belongs to the event loop.
 
@@ -58,6 +58,7 @@ class TournamentFiles:
         return [
             Route("/teacher/tournament", self.report, middleware=[auth]),
             Route("/teacher/tournament/{number:int}", self.game, middleware=[auth]),
+            Route("/projector/game/{number:int}", self.projected, middleware=[auth]),
         ]
 
     async def report(self, _: Request) -> Response:
@@ -71,6 +72,13 @@ class TournamentFiles:
 
     async def game(self, request: Request) -> Response:
         """Return the page that plays a recorded game."""
+        return await self._page(request, is_projected=False)
+
+    async def projected(self, request: Request) -> Response:
+        """Return the page of a recorded game that the projector page shows."""
+        return await self._page(request, is_projected=True)
+
+    async def _page(self, request: Request, *, is_projected: bool) -> Response:
         row, number = self._runner.tournaments.now, request.path_params["number"]
         found = []
         if row is not None:
@@ -80,7 +88,8 @@ class TournamentFiles:
             raise HTTPException(404, f"There is no recording of game {number}.")
         self._open += 1
         try:
-            answer = await self._pages.run(Job.of(game_page, path=str(found[0].absolute())))
+            path = str(found[0].absolute())
+            answer = await self._pages.run(Job.of(game_page, path=path, is_projected=is_projected))
         finally:
             self._open -= 1
             if self._open == 0:

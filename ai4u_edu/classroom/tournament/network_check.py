@@ -14,8 +14,9 @@ from ai4u_edu.tournament.contest import game_job
 from ai4u_edu.tournament.entry import Driver
 from ai4u_edu.tournament.plan import CHECK_SEED
 
-MAX_CHECK_CPU_S = 90.0
-"""Processor time in which a network has to be loaded and to play a game against itself."""
+MAX_CHECK_CPU_S = 30.0
+"""Processor time in which a network has to be loaded and to play a game against itself: the
+tournament of a class has hundreds of games."""
 MAX_CHECK_WALL_S = 600.0
 IDLE_S = 20.0
 """Time for which the process waits for other networks: to start one takes seconds."""
