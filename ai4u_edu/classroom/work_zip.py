@@ -7,12 +7,14 @@ import re
 import tempfile
 import zipfile
 from collections.abc import AsyncIterator, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import asdict
 from typing import IO
 
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import StreamingResponse
 
+from ai4u_edu.base.atomic_write import PREFIX
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import remote_id
@@ -164,7 +166,9 @@ def _tournaments(live: LiveClass) -> Files:
         place = f"{TOURNAMENTS}/{number} {_file_name(each.title)}"
         for path in sorted(folder.rglob("*")):
             name = path.relative_to(folder).as_posix()
-            if path.is_file() and not name.startswith((TEMPORARY, JOURNAL)):
+            if not path.is_file() or name.startswith((TEMPORARY, JOURNAL, PREFIX)):
+                continue
+            with suppress(FileNotFoundError):  # it is played now
                 yield f"{place}/{name}", path.read_bytes()
 
 

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.wire.class_link import Ack, Network
@@ -87,6 +88,8 @@ def hand_in_by_page(page: Page, bad: Path, good: Path) -> None:
         item = dialog.get_by_role("listitem").filter(has_text=file.name)
         expect(item).to_contain_text(told, timeout=PATIENCE_MS)
     expect(dialog.get_by_role("listitem")).to_have_count(1)
+    found = Axe().run(page, context="dialog").response["violations"]
+    assert [each["id"] for each in found if each["impact"] in {"serious", "critical"}] == []
     dialog.get_by_role("button", name="Close").click()
 
 

@@ -197,6 +197,14 @@ def test_a_tournament_goes_on_after_the_class_was_killed(tmp_path: Path, good: b
         games_can_be_watched(served, results["best"][0]["number"])
     with served_class(folder) as served:
         assert tournament(served, is_over)["results"] == results
+        assert served.command("start tournament", seeds=20).status_code == 200
+        tournament(served, lambda found: found["results"] and found["results"]["games"] >= 6)
+        (name,) = {each for each in zip_of(served.export()) if each.endswith("tournament.json")}
+        assert name == "tournaments/1 Sumo/tournament.json"
+        children = psutil.Process(served.process.pid).children(recursive=True)
+        assert served.command("forget").status_code == 200
+        assert psutil.wait_procs(children, 20)[1] == []
+        assert [each.name for each in folder.iterdir() if each.is_dir()] == []
         assert "Fatal" not in "".join(served.told)
 
 
