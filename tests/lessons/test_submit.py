@@ -1,5 +1,6 @@
 """``submit``: a notebook hands in a network, and hears what the class says of it."""
 
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from threading import Thread
@@ -9,6 +10,7 @@ import pytest
 from ai4u_edu.class_link import Seat, SeatFile
 from ai4u_edu.lessons import join_class, leave_class, submit
 from ai4u_edu.lessons import network_submission as module
+from ai4u_edu.lessons.class_connection import POLL_S
 from ai4u_edu.wire.class_link import (
     MAX_NETWORK_BYTES,
     Ack,
@@ -67,7 +69,9 @@ def test_the_class_tells_its_verdict(there: TinyClass, capsys: pytest.CaptureFix
 
     def judge() -> None:
         for number, reason in enumerate(answers):
-            there.send(checked(network_in(there, number), reason))
+            network = network_in(there, number)
+            time.sleep(2 * POLL_S)  # a check takes longer than the acknowledgement
+            there.send(checked(network, reason))
 
     thread = Thread(target=judge)
     thread.start()
