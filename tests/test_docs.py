@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import GifImagePlugin, Image
 
 import ai4u_edu
 from tests import architecture
@@ -19,6 +20,7 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
+MAX_FILM_BYTES = 1_500_000
 PROGRAMS = {
     "python.md": ["'touch': 1.0"],
     "explain.md": ["(19, 4)", "It turns left because ray "],
@@ -56,10 +58,20 @@ def test_no_other_page_has_a_program_that_is_not_run() -> None:
 def test_links_lead_to_files_that_are_there(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text)
+    links += re.findall(r'<img src="([^"]+)"', text)
     missing = [
         link for link in links if "://" not in link and not (page.parent / link).resolve().exists()
     ]
     assert missing == []
+
+
+def test_the_film_moves_and_is_small() -> None:
+    (name,) = re.findall(r'src="(tests/pictures/\w+\.gif)"', PAGES[0].read_text(encoding="utf-8"))
+    assert (ROOT / name).stat().st_size < MAX_FILM_BYTES
+    with Image.open(ROOT / name) as film:
+        assert isinstance(film, GifImagePlugin.GifImageFile)
+        assert film.info["loop"] == 0, "endless"
+        assert film.n_frames > 100
 
 
 PLACES = re.compile(r"`((?:ai4u_edu|tests|lessons|web)/[\w./]*)(?:::(\w+))?`")

@@ -4,6 +4,7 @@ import { command } from "./class_command.js";
 import { element, setText } from "./dom.js";
 import { choice, choices, chosenIn, field, select, showForm } from "./form_dialog.js";
 import { counted } from "./room_words.js";
+import { scenePicture } from "./scene_picture.js";
 
 const SEEDS = [1, 2, 3, 5, 10];
 const DEFAULT_SEED = "2";
@@ -14,8 +15,15 @@ export function showBegin(state) {
   const scenes = [...state.scenes].sort((a, b) => Number(b.is_duel) - Number(a.is_duel));
   const scene = select(scenes.map(({ name, title, is_duel: isDuel }) => [name, `${title} (${isDuel ? "a duel" : "a race"})`]), "sumo");
   const hint = "In a duel two networks play against each other. In a race each drives alone on the same starts.";
+  const place = element("div");
+  const update = () => {
+    const { picture, title } = scenes.find(({ name }) => name === scene.value) ?? {};
+    place.replaceChildren(...(picture ? [scenePicture(picture, title)] : []));
+  };
+  scene.addEventListener("change", update);
+  update();
   const text = "Students hand in networks for this scene: with “Hand in” above their world, or with submit(…) in a notebook. Then you start the games.";
-  return showForm({ title: "Tournament", text, content: [field("Scene", scene, hint)], yes: "Collect networks" }, () =>
+  return showForm({ title: "Tournament", text, content: [field("Scene", scene, hint), place], yes: "Collect networks" }, () =>
     command({ do: "tournament", scene: scene.value }),
   );
 }

@@ -15,6 +15,7 @@ from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
+from ai4u_edu.server.library_pictures import picture_address
 
 _AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
@@ -77,7 +78,7 @@ class ClassEvents:
             ),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
-            "lessons": [{"number": each.number, "title": each.title} for each in course_lessons()],
+            "lessons": _lessons(),
             "seats": self._seats(),
             "rooms": self._rooms(),
         }
@@ -182,6 +183,13 @@ def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
     return sorted(rows, key=lambda row: (-len(row["seats"]), -row["count"], row["exercise"]))
 
 
+def _lessons() -> list[Event]:
+    return [
+        {"number": each.number, "title": each.title, "scene": each.scene}
+        for each in course_lessons()
+    ]
+
+
 @lru_cache(maxsize=1)
 def _library() -> list[Event]:
     """Return the scenes of the library, by title.
@@ -199,6 +207,7 @@ def _library() -> list[Event]:
                 "title": title[1] if title else name,
                 "stars": stars[name],
                 "is_duel": len(set(_AGENT.findall(text))) > 1,
+                "picture": picture_address(name),
             }
         )
     return sorted(found, key=lambda each: each["title"].lower())

@@ -30,6 +30,7 @@ from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.classroom.tournament.network_routes import NetworkRoutes
 from ai4u_edu.server.attempts import Attempts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
+from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
 from ai4u_edu.server.token_auth import PageCookie, TokenAuth
 from ai4u_edu.server.token_page import TokenPage
@@ -96,6 +97,7 @@ def class_app(
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
             Route("/web/{file}", web_file),
+            Route(PICTURE_PATH, library_picture_route),
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),

@@ -28,6 +28,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_layout.css" />
     <link rel="stylesheet" href="./web/panel_controls.css" />
     <link rel="stylesheet" href="./web/panel_run.css" />
+    <link rel="stylesheet" href="./web/scene_picture.css" />
     <link rel="stylesheet" href="./web/panel_cards.css" />
     <link rel="stylesheet" href="./web/panel_windows.css" />
     <link rel="stylesheet" href="./web/panel_drive.css" />

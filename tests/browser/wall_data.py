@@ -10,6 +10,7 @@ from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.names import COLOURS, words_of
 from ai4u_edu.classroom.teacher import join_code
 from ai4u_edu.scenes import Scene
+from ai4u_edu.server.library_pictures import picture_address
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.wire.class_link import Drawing, Poses
 
@@ -31,10 +32,19 @@ EXERCISES = [
     },
 ]
 SCENES = [
-    {"name": "box_chase", "title": "Box chase", "stars": 3, "is_duel": False},
-    {"name": "soccer", "title": "Soccer", "stars": 3, "is_duel": True},
-    {"name": "maze", "title": "Maze", "stars": 3, "is_duel": False},
-    {"name": "parking", "title": "Parking", "stars": 3, "is_duel": False},
+    {
+        "name": name,
+        "title": title,
+        "stars": 3,
+        "picture": picture_address(name),
+        "is_duel": name == "soccer",
+    }
+    for name, title in (
+        ("box_chase", "Box chase"),
+        ("soccer", "Soccer"),
+        ("maze", "Maze"),
+        ("parking", "Parking"),
+    )
 ]
 STATUSES = ["driving"] * 5 + ["solved", "fell", "driving", "idle", "solved", "waiting", "error"]
 _IDS = [name for lesson in EXERCISES for name in lesson["ids"]]
@@ -82,7 +92,10 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "handed_in": {"missing": "", "networks": []},
         "scenes": SCENES,
         "exercises": EXERCISES,
-        "lessons": [{"number": each["lesson"], "title": each["title"]} for each in EXERCISES],
+        "lessons": [
+            {"number": each["lesson"], "title": each["title"], "scene": scene}
+            for each, scene in zip(EXERCISES, ("box_chase", "", "maze"), strict=True)
+        ],
         "seats": seats,
         "rooms": [_room(number) for number in range(1, count + 1)],
         "progress": {str(number): _progress(number) for number in range(1, count + 1)},

@@ -15,6 +15,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from ai4u_edu.classroom.echo import echo
 from ai4u_edu.classroom.pages import html_page, web_file
 from ai4u_edu.server import ServerThread
+from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 
 POSES_PER_S = 4
@@ -58,6 +59,7 @@ class WallServer:
                 WebSocketRoute("/check/socket", echo),
                 WebSocketRoute("/{page}/socket", self._socket),
                 Route("/web/{file}", web_file),
+                Route(PICTURE_PATH, library_picture_route),
             ]
         )
 

@@ -32,6 +32,7 @@ from ai4u_edu.classroom.teacher import Teacher, qr_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.server.host_origin import HostOriginCheck
+from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
 PAGES = re.compile(r"/|/teacher|/teacher/look/[\w-]+|/projector|/check|/privacy|/oauth_callback")
@@ -78,6 +79,7 @@ def hub_class_app(
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
             Route("/web/{file}", web_file),
+            Route(PICTURE_PATH, library_picture_route),
             WebSocketRoute(LINK_PATH, LinkEndpoint(live, student.room_of)),
             Route("/api/names", Join(seats).names, middleware=[auth]),
             Route("/teacher", teacher.page, middleware=[auth]),
