@@ -11,11 +11,13 @@ from typing import Any
 from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
+from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
 from ai4u_edu.server.library_pictures import picture_address
 
+_AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
 Event = dict[str, Any]
 QrCode = Callable[[str], tuple[str, str]]
@@ -71,6 +73,9 @@ class ClassEvents:
             "attention": live.attention.as_event(),
             "shown": live.shown,
             "race": live.race.event(is_projected=is_projected),
+            "tournament": tournament_event(
+                live.tournament, live.seats.all(), is_projected=is_projected
+            ),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
             "lessons": _lessons(),
@@ -82,6 +87,7 @@ class ClassEvents:
                 del room["help"], room["why"], room["look_in"]
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
+        event["handed_in"] = networks_event(live.tournament)
         event["progress"] = live.progress.by_seat()
         event["stars"] = live.stars.by_seat()
         event["misconceptions"] = misconceptions(live.progress.mistakes)
@@ -200,6 +206,7 @@ def _library() -> list[Event]:
                 "name": name,
                 "title": title[1] if title else name,
                 "stars": stars[name],
+                "is_duel": len(set(_AGENT.findall(text))) > 1,
                 "picture": picture_address(name),
             }
         )

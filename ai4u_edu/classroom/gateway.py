@@ -26,6 +26,8 @@ from ai4u_edu.classroom.star_routes import StarRoutes
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
+from ai4u_edu.classroom.tournament.files import TournamentFiles
+from ai4u_edu.classroom.tournament.network_routes import NetworkRoutes
 from ai4u_edu.server.attempts import Attempts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
@@ -89,6 +91,7 @@ def class_app(
             Route("/api/my-work", my_work_route(live)),
             Route("/api/program", programs.own, methods=["GET", "PUT"]),
             Route("/api/stars", StarRoutes(live).own, methods=["GET", "PUT"]),
+            Route("/api/network", NetworkRoutes(live).own, methods=["GET", "PUT"]),
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
@@ -99,17 +102,17 @@ def class_app(
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/programs", programs.of_room, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
+            *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
             Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
         ],
-        middleware=[
-            Middleware(
-                HostOriginCheck,
-                allowed_hosts=allowed_hosts,
-                proxy_hosts=proxy_hosts,
-                pages=PAGES,
-            )
-        ],
+        middleware=[_origin_check(allowed_hosts, proxy_hosts)],
+    )
+
+
+def _origin_check(allowed_hosts: Collection[str], proxy_hosts: Collection[str]) -> Middleware:
+    return Middleware(
+        HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts, pages=PAGES
     )

@@ -30,6 +30,7 @@ from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, qr_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
+from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.server.host_origin import HostOriginCheck
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
@@ -84,6 +85,7 @@ def hub_class_app(
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
             Route("/teacher/look/{room}", LookIn(live, hub, hub_seats).page, middleware=[auth]),
+            *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
