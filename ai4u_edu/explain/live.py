@@ -115,11 +115,15 @@ class LiveExplainer:
         Raises:
             NotExplainableError: its decision is no function of the percept.
         """
-        brain, state = self._brain_of(agent_id), self._state(agent_id)
+        brain, state = self.brain(agent_id), self._state(agent_id)
         driver = None if brain is None else Driver(brain, state)
         if driver is None or driver.policy is None:
             raise NotExplainableError(driver.problem if driver else GONE)
         return driver.policy
+
+    def brain(self, agent_id: str) -> Brain | None:
+        """Return an agent's present brain; None if there is no such agent."""
+        return self._brain_of(agent_id)
 
     def _state(self, agent_id: str) -> AgentState:
         for agent in self._latest().agents:
