@@ -15,7 +15,7 @@ from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import ChangeResult, SceneEditor
 from ai4u_edu.explain.elsewhere import Pose
 from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
-from ai4u_edu.panel.commands import blocks, past, run, scenes, view, why, world
+from ai4u_edu.panel.commands import blocks, compare, past, run, scenes, view, why, world
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.labels import past_tense
@@ -46,6 +46,7 @@ HANDLERS: Mapping[type[Command], Handler] = {
     **scenes.HANDLERS,
     **past.HANDLERS,
     **why.HANDLERS,
+    **compare.HANDLERS,
 }
 """Handlers of all commands by the type of their message."""
 

@@ -171,6 +171,17 @@ class RemoveGhost(Command, tag="remove_ghost"):
     """Remove the ghost."""
 
 
+class ListRivals(Command, tag="rivals"):
+    """Return the drivers that the present one can be compared with."""
+
+
+class CompareDrivers(Command, tag="compare"):
+    """Return where two drivers first disagree in the chosen episode; empty for the present one."""
+
+    first: Name
+    second: Name
+
+
 class Pin(Command, tag="pin"):
     """Keep an episode however many others come, or no longer."""
 
