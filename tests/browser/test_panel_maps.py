@@ -8,6 +8,7 @@ from playwright.sync_api import Browser, expect
 
 from tests.browser.fake_panel import Json
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
+from tests.browser.test_panel_accessibility import findings
 from tests.server.rooms import Room
 
 pytestmark = pytest.mark.browser
@@ -38,9 +39,9 @@ def room() -> Iterator[Room]:
         yield room
 
 
-@pytest.fixture(scope="module")
-def warm(chromium: Browser, room: Room) -> Iterator[PanelPage]:
-    with panel_page(chromium, room, height=1000) as page:
+@pytest.fixture(scope="module", params=["light", pytest.param("dark", marks=pytest.mark.nightly)])
+def warm(chromium: Browser, room: Room, request: pytest.FixtureRequest) -> Iterator[PanelPage]:
+    with panel_page(chromium, room, height=1000, color_scheme=request.param) as page:
         yield page
 
 
@@ -76,6 +77,7 @@ def test_maps_over_the_floor(desk: PanelPage) -> None:
     desk.panel.send(MAPS | {"values": VALUES})
     expect(desk.page.locator(".ai4u-map-scale")).to_have_text(re.compile("^.0.5098.2$"))
     expect(desk.page.get_by_text("Worth is what one episode from there pays.")).to_be_visible()
+    assert findings(desk.page, ".ai4u-maps") == []
     desk.button("Cancel: arrows").press("Enter")
     desk.until(lambda: not desk.panel.commands("maps")[-1]["field"])
     expect(arrows).to_have_attribute("aria-checked", "false")
@@ -114,6 +116,7 @@ def test_if_it_stood_here(desk: PanelPage) -> None:
     x.fill("7")
     expect(desk.page.get_by_text("It can't stand there")).to_be_visible()
     expect(row).to_be_hidden()
+    assert findings(desk.page, ".ai4u-elsewhere") == []
     # dragged in the world
     desk.panel.send({"type": "stand_in", "x": -2.0, "y": 3.0, "heading_deg": 90})
     expect(x).to_have_value("-2")

@@ -98,3 +98,35 @@ def test_if_it_stood_elsewhere() -> None:
         page.done("hide_elsewhere")
         until(lambda: client.elsewhere is None)
         assert "expected" in page.failed("elsewhere", x="left", y=0, heading_deg=0)["text"]
+
+
+def test_at_a_moment_of_the_past() -> None:
+    page_id = uuid4().hex
+    with (
+        panel_room() as room,
+        room.page(f"?page={page_id}") as page,
+        picture(room, page_id) as client,
+    ):
+        drive(room, trained_brain("zoo:box_chase"))
+        page.show("0", "agent", "past")
+        before = page.done("elsewhere")
+        for _ in range(5):
+            page.done("decision")
+        page.done("new_start")
+        part = page.part("past", lambda m: m["episodes"])
+        page.done("episode", number=part["episodes"][0]["number"])
+        page.done("step", step=3)
+        page.part("past", lambda m: m["is_showing"])
+        until(lambda: room.runner.latest.past)
+        there = page.done("elsewhere")
+        shown = room.runner.latest.bodies[0]
+        assert (there["x"], there["y"]) == (
+            pytest.approx(shown.x, abs=1e-3),
+            pytest.approx(shown.y, abs=1e-3),
+        )
+        assert (there["x"], there["y"]) != (before["x"], before["y"])
+        assert there["can_stand"]
+        page.done("maps", field=True, values=False)
+        told = page.part("maps", is_complete)
+        assert told["field"]["seconds"] == pytest.approx(room.runner.latest.time, abs=0.01)
+        until(lambda: client.elsewhere is not None)
