@@ -15,6 +15,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.part import Part, RatedPart
+from ai4u_edu.viewer.episode_baseline import EpisodeBaseline
 from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 from ai4u_edu.viewer.scene.actions import Actions
@@ -80,7 +81,9 @@ class Viewer:
         def latest() -> Snapshot:
             return runner.latest
 
-        self.explainer = explainer = LiveExplainer(latest, self._brain_of)
+        self.explainer = explainer = LiveExplainer(
+            latest, self._brain_of, EpisodeBaseline(self.player)
+        )
         senses_per_s = runner.frame_budget.senses_per_s
         thrift = senses_per_s / SENSES_PER_S  # less than 1 in the rooms of a class
         self.maps = LiveMaps(
