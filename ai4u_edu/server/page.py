@@ -38,6 +38,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_blocks.css" />
     <link rel="stylesheet" href="./web/panel_stars.css" />
     <link rel="stylesheet" href="./web/panel_why.css" />
+    <link rel="stylesheet" href="./web/panel_maps.css" />
     <link rel="stylesheet" href="./web/question.css" />
     <link rel="stylesheet" href="./web/class_bar.css" />
     <script type="module" src="./web/main.js"></script>
