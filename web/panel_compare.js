@@ -50,7 +50,8 @@ export class Comparison {
   update(number) {
     const isOther = number !== this.#number;
     this.#number = number;
-    this.element.hidden = number === null;
+    // who may not choose a driver may not ask one either
+    this.element.hidden = number === null || this.#panel.part("scene")?.can_edit === false;
     if (!isOther) return;
     this.#forget();
     this.#list();

@@ -46,7 +46,7 @@ export class Elsewhere {
   }
 
   #input(step) {
-    const made = element("input", { type: "number", id: freeId(), step: "any", inputMode: "decimal" });
+    const made = element("input", { type: "number", id: freeId(), step: "any" }); // no inputMode: phones would leave out the minus
     made.addEventListener("input", () => made.value !== "" && this.#askSoon());
     made.addEventListener("keydown", (event) => stepBy(event, step));
     return made;

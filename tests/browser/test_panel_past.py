@@ -249,3 +249,6 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     assert tab.unnamed_controls() == []
     tab.give({**PART, "playing": {**PLAYING, "number": 4}})
     expect(tab.page.get_by_text("They agree in all 80 steps")).to_be_hidden()
+    tab.give({"can_edit": False}, "scene")
+    tab.give({**PART, "playing": PLAYING})
+    expect(title).to_be_hidden()

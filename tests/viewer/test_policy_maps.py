@@ -143,6 +143,7 @@ def test_the_stand_in_is_dragged_and_turned(viewer: Viewer, here: Page) -> None:
     seen(viewer, lambda: found.pose is None)
 
 
+@pytest.mark.nightly
 def test_colours_of_values_are_cividis() -> None:
     matplotlib = pytest.importorskip("matplotlib")
     shares = np.linspace(0, 1, 101)
