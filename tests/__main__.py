@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -30,8 +31,9 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", str(3 * (os.cpu_count() or 2) // 2)]
-"""Tests wait for pages and servers a third of their time."""
+PARALLEL = ["-n", str(3 * (os.cpu_count() or 2) // 2), "--max-worker-restart=0"]
+"""Tests wait for pages and servers a third of their time. In place of a worker that was ended xdist
+starts another one, and with ``--dist=loadfile`` it then waits for ever."""
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
@@ -53,6 +55,9 @@ def main() -> int:
     if for_pytest and only != "pytest":
         parser.error(f"{only} takes no arguments here, and got: {' '.join(for_pytest)}")
 
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # a shell's background job ignores Ctrl-C, and so would all that the tests start
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     # else each program that a test starts compiles the package anew
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     python, missing = set_up(options.fast, only)

@@ -15,7 +15,7 @@ from typing import Any, Literal
 from PIL import Image
 from playwright.sync_api import Browser
 
-from tests.browser.wall_data import race
+from tests.browser.wall_data import handed_in, race, tournament
 from tests.browser.wall_server import wall_server
 from tests.chromium import browser
 from tests.classroom.served_class import CODE, served_class
@@ -63,6 +63,37 @@ SHOTS = [
     Shot("class_projector", "projector", (1280, 720), state=_shown("join")),
     Shot("class_projector_room", "projector", (1280, 720), state=_shown("room", "room5")),
     Shot("class_race", "projector", (1280, 720), state={**_shown("race"), "race": race(9)}),
+    Shot(
+        "class_tournament",
+        "teacher",
+        (1280, 1000),
+        rooms=8,
+        click="#tab-tournament",
+        state={"tournament": tournament(6), "handed_in": handed_in(7)},
+    ),
+    Shot(
+        "class_tournament_projector",
+        "projector",
+        (1280, 720),
+        state={**_shown("tournament"), "tournament": tournament(7)},
+    ),
+    Shot(
+        "class_tournament_many",
+        "projector",
+        (1280, 720),
+        state={**_shown("tournament"), "tournament": tournament(30)},
+        is_in_docs=False,
+    ),
+    Shot("class_tournament_none", "teacher", rooms=8, click="#tab-tournament", is_in_docs=False),
+    Shot(
+        "class_tournament_phone",
+        "teacher",
+        (390, 1400),
+        rooms=8,
+        click="#tab-tournament",
+        state={"tournament": tournament(6, "over"), "handed_in": handed_in(7)},
+        is_in_docs=False,
+    ),
     Shot("class_check", "check", (760, 620)),
     Shot("class_privacy", "privacy", (900, 1300), is_in_docs=False),
     Shot("class_wall_0", "teacher", rooms=0, is_in_docs=False),

@@ -1,7 +1,7 @@
 """Takes the pictures of programs in the page for the docs: ``python -m tests.code_sheet``.
 
-With ``--all DIR``, it takes them light, dark and on a phone instead, to look at. World, page and
-Python are real.
+With ``--all DIR``, it takes them light, dark, on a phone and with words of Portuguese's length
+instead, to look at. World, page and Python are real.
 """
 
 import argparse
@@ -31,6 +31,15 @@ LOADING_MS = 60_000
 SETTLE_MS = 1200
 COLORS = 256
 Scheme = Literal["light", "dark"]
+LENGTHEN = """() => { const panel = document.querySelector(".ai4u-panel");
+  const texts = document.createTreeWalker(panel, NodeFilter.SHOW_TEXT);
+  const longer = (word) => word + word.slice(0, Math.ceil(word.length * 0.35));
+  while (texts.nextNode()) {
+    const text = texts.currentNode;
+    if (!text.parentElement.closest(".cm-content, pre, style"))
+      text.data = text.data.replace(/[a-z]{4,}/gi, longer);
+  } }"""
+"""A script that makes the panel's words a third longer, as a translation into Portuguese does."""
 
 
 def main() -> None:
@@ -45,16 +54,25 @@ def main() -> None:
             return
         folder.mkdir(parents=True, exist_ok=True)
         for size, name in ((DESK, "desk"), (PHONE, "phone")):
+            _take(chromium, folder / f"{name}_long_{{}}.png", size, "light", is_long=True)
             for scheme in ("light", "dark"):
                 _take(chromium, folder / f"{name}_{scheme}_{{}}.png", size, scheme)
                 _take_blocks(chromium, folder / f"{name}_{scheme}_{{}}.png", size, scheme)
 
 
-def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
+def _take(
+    chromium: Browser,
+    path: Path,
+    size: tuple[int, int],
+    scheme: Scheme,
+    *,
+    is_long: bool = False,
+) -> None:
     """Take the pictures of a run and of a mistake.
 
     Args:
         path: of a picture, with a place for its name.
+        is_long: make the words longer, see :data:`LENGTHEN`.
     """
     viewport: Any = {"width": size[0], "height": size[1]}
     context = chromium.new_context(viewport=viewport, color_scheme=scheme)
@@ -74,7 +92,12 @@ def _take(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) 
         _run(page, program)
         expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)
         page.wait_for_timeout(SETTLE_MS)
+        if is_long:
+            page.get_by_role("button", name="Pause", exact=True).click()  # else all is written anew
+            page.evaluate(LENGTHEN)
         _save(page.screenshot(), path, "tab")
+        if is_long:
+            return
         _run(page, program.replace("if cosine", "if cosin"))
         mistake = page.locator(".ai4u-code-mistake")
         expect(mistake).to_be_visible(timeout=LOADING_MS)

@@ -5,11 +5,13 @@ With ``--all DIR``, it takes the page light, dark and on a phone instead, to loo
 
 import argparse
 import io
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
 
 from PIL import Image
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu import Scene, trained_brain
 from ai4u_edu import explain as why
@@ -20,6 +22,12 @@ from tests.playing import played
 PICTURES = Path(__file__).parents[1] / "docs" / "pictures"
 SCENES = {"box_chase": "box", "maze": None, "parking": None}
 """Scenes of the pictures, and what the poses of their maps face."""
+STAND_INS = {
+    "box_chase": ("2.5", "-3", "90"),
+    "maze": ("-3", "4", "0"),
+    "parking": ("-5.5", "0", "0"),
+}
+"""Other poses that are tried in the pictures: x, y (m) and heading (degrees)."""
 DESK, PHONE = (1180, 900), (390, 844)
 SETTLE_MS = 3000
 COLORS = 256
@@ -37,6 +45,7 @@ def main() -> None:
         if folder is None:
             for scene in SCENES:
                 _take(chromium, scene, PICTURES / f"explain_{scene}.png", DESK, "light")
+                _take_maps(chromium, scene, PICTURES / f"explain_floor_{scene}.png", DESK, "light")
             for scene, target in SCENES.items():
                 _maps(scene, target)
             return
@@ -45,10 +54,46 @@ def main() -> None:
             for scheme in ("light", "dark"):
                 for scene in SCENES:
                     _take(chromium, scene, folder / f"{scene}_{name}_{scheme}.png", size, scheme)
+                    floor = folder / f"{scene}_floor_{name}_{scheme}.png"
+                    _take_maps(chromium, scene, floor, size, scheme)
 
 
 def _take(chromium: Browser, scene: str, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
-    """Take a picture of the page while a network of the zoo drives."""
+    """Take a picture of the page that tells because of what a network of the zoo acts."""
+    with _page(chromium, scene, size, scheme) as page:
+        page.get_by_role("switch", name="Show because of what").click()
+        expect(page.locator(".ai4u-why-sentence")).to_contain_text("because", timeout=20_000)
+        page.get_by_role("button", name="Pause", exact=True).click()
+        page.locator(".ai4u-why-sentence").scroll_into_view_if_needed()
+        page.wait_for_timeout(SETTLE_MS)
+        _save(Image.open(io.BytesIO(page.screenshot())), path)
+
+
+def _take_maps(
+    chromium: Browser, scene: str, path: Path, size: tuple[int, int], scheme: Scheme
+) -> None:
+    """Take a picture of the page with arrows, values and a stand-in over the floor."""
+    with _page(chromium, scene, size, scheme) as page:
+        page.get_by_role("button", name="Pause", exact=True).click()
+        for name in ("Arrows: what it would do there", "Colours: what each place is worth"):
+            page.get_by_role("switch", name=name).click()
+        if SCENES[scene]:
+            page.get_by_label("It would look").select_option(SCENES[scene])
+        expect(page.locator(".ai4u-map-scale")).to_be_visible(timeout=60_000)
+        expect(page.locator(".ai4u-map-progress:visible")).to_have_count(0, timeout=120_000)
+        page.get_by_role("switch", name="Try another place").click()
+        expect(page.get_by_label("x (m)")).to_be_visible(timeout=20_000)
+        for label, value in zip(("x (m)", "y (m)", "Heading (°)"), STAND_INS[scene], strict=True):
+            page.get_by_label(label).fill(value)
+            page.get_by_label(label).blur()
+        page.locator(".ai4u-maps").scroll_into_view_if_needed()
+        page.wait_for_timeout(SETTLE_MS)
+        _save(Image.open(io.BytesIO(page.screenshot())), path)
+
+
+@contextmanager
+def _page(chromium: Browser, scene: str, size: tuple[int, int], scheme: Scheme) -> Iterator[Page]:
+    """Open the page of a scene in which a network of the zoo drives."""
     viewport: Any = {"width": size[0], "height": size[1]}
     context = chromium.new_context(viewport=viewport, color_scheme=scheme)
     with (
@@ -60,13 +105,7 @@ def _take(chromium: Browser, scene: str, path: Path, size: tuple[int, int], sche
         unfold = page.get_by_role("button", name="Open the panel")
         if unfold.count():
             unfold.click()
-        switch = page.get_by_role("switch", name="Show because of what")
-        switch.click()
-        expect(page.locator(".ai4u-why-sentence")).to_contain_text("because", timeout=20_000)
-        page.get_by_role("button", name="Pause", exact=True).click()
-        page.locator(".ai4u-why-sentence").scroll_into_view_if_needed()
-        page.wait_for_timeout(SETTLE_MS)
-        _save(Image.open(io.BytesIO(page.screenshot())), path)
+        yield page
     context.close()
 
 

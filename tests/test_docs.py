@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import GifImagePlugin, Image
 
 import ai4u_edu
 from ai4u_edu import Scene
@@ -20,6 +21,7 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
+MAX_FILM_BYTES = 1_500_000
 PROGRAMS = {
     "build-an-agent.md": ["touched the lamp: True"],
     "python.md": ["'touch': 1.0"],
@@ -58,6 +60,7 @@ def test_no_other_page_has_a_program_that_is_not_run() -> None:
 def test_links_lead_to_files_that_are_there(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text)
+    links += re.findall(r'<img src="([^"]+)"', text)
     missing = [
         link for link in links if "://" not in link and not (page.parent / link).resolve().exists()
     ]
@@ -68,16 +71,27 @@ def test_links_lead_to_files_that_are_there(page: Path) -> None:
 def test_every_page_is_in_the_list_of_its_folder(folder: str) -> None:
     """The lists are the docs site's table of contents."""
     here = ROOT / "docs" / folder
-    listed = re.findall(r"^- \[.*?\]\(([\w./-]+)\)", (here / "README.md").read_text(), re.MULTILINE)
+    listed = re.findall(
+        r"^- \[.*?\]\(([\w./-]+)\)", (here / "README.md").read_text("utf-8"), re.MULTILINE
+    )
     assert len(set(listed)) == len(listed)
     assert {page.name for page in here.glob("*.md")} - {"README.md", *listed} == set()
 
 
 def test_every_scene_is_said_to_be_for_something() -> None:
     listed = re.findall(
-        r"^\| `(\w+)` \| .+ \|$", (ROOT / "docs/scenes.md").read_text(), re.MULTILINE
+        r"^\| `(\w+)` \| .+ \|$", (ROOT / "docs/scenes.md").read_text("utf-8"), re.MULTILINE
     )
     assert listed == Scene.names()
+
+
+def test_the_film_moves_and_is_small() -> None:
+    (name,) = re.findall(r'src="(tests/pictures/\w+\.gif)"', PAGES[0].read_text(encoding="utf-8"))
+    assert (ROOT / name).stat().st_size < MAX_FILM_BYTES
+    with Image.open(ROOT / name) as film:
+        assert isinstance(film, GifImagePlugin.GifImageFile)
+        assert film.info["loop"] == 0, "endless"
+        assert film.n_frames > 100
 
 
 PLACES = re.compile(r"`((?:ai4u_edu|tests|lessons|web)/[\w./]*)(?:::(\w+))?`")

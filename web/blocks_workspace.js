@@ -57,6 +57,7 @@ export class BlocksWorkspace {
     this.#workspace.addChangeListener((event) => this.#onEvent(event));
     parent.querySelector("svg.blocklySvg, .blocklySvg")?.setAttribute("aria-label", label);
     new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
+    keepFocus(parent);
     // the panel scrolls, which Blockly does not notice
     addEventListener("scroll", ({ target }) => target.contains?.(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
   }
@@ -139,6 +140,17 @@ export class BlocksWorkspace {
     this.#kept = kept;
     this.onChange();
   }
+}
+
+/** Give the focus back to what Blockly moves: a frame after a highlight it puts blocks in another order. */
+function keepFocus(parent) {
+  let latest = null;
+  parent.addEventListener("focusin", ({ target }) => (latest = target));
+  new MutationObserver((changes) => {
+    if (document.activeElement !== document.body || !latest?.isConnected) return;
+    const moved = changes.flatMap(({ removedNodes }) => [...removedNodes]);
+    if (moved.some((each) => each.contains(latest))) latest.focus();
+  }).observe(parent, { childList: true, subtree: true });
 }
 
 /** Define an agent's blocks, or a block that it does not have, with its fields as they are. */

@@ -6,6 +6,7 @@
 
 import { BlankScreen, clockText, RaceCountdown } from "./class_overlay.js";
 import { element, keyed, setAttributes, setText } from "./dom.js";
+import { showHandIn } from "./hand_in_dialog.js";
 import { icon } from "./panel_icons.js";
 import { ask, tell } from "./question.js";
 
@@ -168,14 +169,17 @@ function raceText(race, toRace) {
   return best ? `Race, ${best}` : "Race";
 }
 
-/** Return the buttons with which a student takes the work home, or goes on at another device. */
+/** Return the buttons with which a student hands in a network, takes the work home, or goes on at another device. */
 function studentActions() {
+  const handIn = element("button", { type: "button", className: "ai4u-plain", title: "Hand in a network for a tournament" });
+  handIn.append(icon("upload", 16), element("span", { textContent: "Hand in" }));
+  handIn.addEventListener("click", showHandIn);
   const work = element("a", { className: "ai4u-plain", href: "../../api/my-work", download: "", title: "Download my work" });
   work.append(icon("download", 16), element("span", { textContent: "My work" }));
   const move = element("button", { type: "button", className: "ai4u-plain", title: "Go on at another device" });
   move.append(icon("phone", 16), element("span", { textContent: "Other device" }));
   move.addEventListener("click", showMoveCode);
-  return [work, move];
+  return [handIn, work, move];
 }
 
 async function showMoveCode() {

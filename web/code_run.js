@@ -32,6 +32,8 @@ export class CodeRun extends EventTarget {
   #engine = null;
   #isWarm = false;
   #client = null;
+  /** The end of the latest connection, or of its attempt. */
+  #ended = Promise.resolve();
   #ticket = 0;
   #source = null;
   /** The percept that the next step decides about. */
@@ -135,14 +137,23 @@ export class CodeRun extends EventTarget {
   async #join(agent, mode, ticket) {
     this.agent = agent;
     await this.#until(this.#parts.prepare(), ticket);
-    const client = await this.#parts.connect({ agent, mode });
-    if (this.#isStale(ticket)) {
-      client.close();
-      throw STOPPED;
-    }
+    const client = await this.#connect(agent, mode, ticket);
     this.#client = client;
     this.success = client.welcome.success ?? "";
     return this.#until(client.sense(), ticket);
+  }
+
+  /** Connect when the connection before has ended: the world gives an agent to one at a time. */
+  #connect(agent, mode, ticket) {
+    const connected = this.#ended.then(async () => {
+      if (this.#isStale(ticket)) throw STOPPED;
+      const client = await this.#parts.connect({ agent, mode });
+      if (!this.#isStale(ticket)) return client;
+      await client.close();
+      throw STOPPED;
+    });
+    this.#ended = connected.then(() => {}, () => {}); // the caller is told
+    return connected;
   }
 
   async #beginAgain(agent, mode, ticket) {
@@ -203,7 +214,8 @@ export class CodeRun extends EventTarget {
   #leave() {
     clearInterval(this.#timer);
     this.#pending = null;
-    Promise.resolve(this.#client?.close()).catch(() => {}); // it is gone already
+    const closed = Promise.resolve(this.#client?.close()).catch(() => {}); // it is gone already
+    this.#ended = this.#ended.then(() => closed);
     this.#client = null;
   }
 

@@ -14,13 +14,13 @@ export async function showEnd(state, onForgotten) {
   download.addEventListener("click", () => (without.checked = true));
   const content = [
     element("h3", { textContent: "1. Keep what you need" }),
-    element("p", { textContent: "One file with all scenes, recorded drives and the table of progress. Students can take their own work home from their pages." }),
+    element("p", { textContent: "One file with all scenes, recorded drives, networks, tournaments and the table of progress. Students can take their own work home from their pages." }),
     element("p", {}, download),
     choice("I have the file, or need none", without),
     element("h3", { textContent: "2. Forget everything" }),
     element("p", {
       textContent:
-        "Deletes all seats, scenes, drives and results from this computer, and the real names from this browser. All rooms end. This can’t be undone.",
+        "Deletes all seats, scenes, networks, drives and results from this computer, and the real names from this browser. All rooms end. This can’t be undone.",
     }),
     field(`Type the code ${state.code} to confirm`, code),
   ];

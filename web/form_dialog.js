@@ -9,7 +9,8 @@ let count = 0;
  *
  * @param {{title: string, text?: string, content: Node[], yes?: string, no?: string, isDanger?: boolean}} form
  *   without `yes`, it has only a button that closes it
- * @param {() => Promise<void>} send called when the form is sent; its error's message is shown
+ * @param {() => Promise<boolean | void>} send called when the form is sent; its error's message is shown, and after false
+ *   the form stays
  * @returns {Promise<boolean>} true if it was sent
  */
 export function showForm({ title, text = "", content, yes = "", no = "Cancel", isDanger = false }, send = async () => {}) {
@@ -36,13 +37,13 @@ export function showForm({ title, text = "", content, yes = "", no = "Cancel", i
     accept.disabled = true;
     problem.textContent = "";
     try {
-      await send();
-      dialog.close("sent");
+      if ((await send()) !== false) dialog.close("sent");
     } catch (error) {
       problem.textContent = error.message;
     }
     accept.disabled = false;
   });
+  dialog.addEventListener("keydown", (event) => event.stopPropagation()); // else a world behind it is driven
   document.body.append(dialog);
   dialog.showModal();
   dialog.scrollTop = 0;

@@ -185,6 +185,8 @@ export class Panel extends EventTarget {
       this.#showHistory();
     } else if (message.type === "note") {
       this.notice(message.text, message.level);
+    } else if (message.type === "stand_in") {
+      this.dispatchEvent(new CustomEvent("stand_in", { detail: message }));
     } else if (message.type === "selected") {
       if (message.agent) this.show({ agent: message.agent });
       this.dispatchEvent(new CustomEvent("selected", { detail: message }));

@@ -21,6 +21,12 @@ export class Bars {
   }
 }
 
+/** Return the row of a number of an action that would be another one. */
+export function changedRow({ name, low, high, has_effect: hasEffect, now, then }) {
+  const text = now === then ? number(now) : `${number(now)} → ${number(then)}`;
+  return { name: hasEffect ? name : `${name} (no effect)`, value: then, low, high, text };
+}
+
 function makeRow() {
   return element(
     "div",

@@ -3,6 +3,8 @@
 import { DriverStatus } from "./driver_status.js";
 import { button, element, keyed, setText } from "./dom.js";
 import { Bars } from "./panel_bars.js";
+import { Elsewhere } from "./panel_elsewhere.js";
+import { Maps } from "./panel_maps.js";
 import { number } from "./panel_numbers.js";
 import { choice, section } from "./panel_parts.js";
 import { PythonLines } from "./panel_python.js";
@@ -31,6 +33,8 @@ export class DriveTab {
   #training = new Training();
   #python;
   #why;
+  #maps;
+  #elsewhere;
   #latest = null;
   #howTo = element("p");
   #sections;
@@ -40,6 +44,8 @@ export class DriveTab {
     this.#root = root;
     this.#panel = panel;
     this.#python = new PythonLines(panel);
+    this.#maps = new Maps(panel);
+    this.#elsewhere = new Elsewhere(panel);
     this.#why = new Why(panel, () => this.#latest && this.#drawSensors(this.#latest));
     this.#agents = choice("Robot", (agent) => panel.show({ agent }));
     this.#agents.element.hidden = true;
@@ -54,11 +60,12 @@ export class DriveTab {
       needs: section("needs", "Needs", {}, this.#needs.element),
       sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
       why: section("why", "Because of what", {}, this.#why.element),
+      maps: section("maps", "What it would do elsewhere", {}, this.#maps.element, this.#elsewhere.element),
       rewards: section("rewards", "Rewards", {}, this.#rewards.element),
       action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
     };
-    const { training, driver, robots, needs, why, sensors, rewards, action, python } = this.#sections;
-    root.append(this.#agents.element, training, driver, needs, why, sensors, rewards, action, robots, python);
+    const { training, driver, robots, needs, why, maps, sensors, rewards, action, python } = this.#sections;
+    root.append(this.#agents.element, training, driver, needs, why, maps, sensors, rewards, action, robots, python);
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
     panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
     panel.addEventListener("agent", () => this.#drawShown());

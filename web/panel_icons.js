@@ -57,6 +57,7 @@ const PATHS = {
   save: "M5 4h11l3 3v13H5zM8 4v5h7V4M8 20v-6h8v6",
   phone: "M7 3h10v18H7zM10.5 18h3",
   download: "M12 4v11M7 10l5 5 5-5M5 20h14",
+  upload: "M12 15V4M7 9l5-5 5 5M5 20h14",
   open: "M3 19V6h6l2 2h8v3M3 19l3-8h16l-3 8z",
   scenes: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",
   pin: "M9 4h6l-1 6 3 3H7l3-3zM12 13v7",

@@ -88,15 +88,12 @@ export function segments(label, options, onChange) {
 
 /**
  * A card of a gallery.
- * @param tile.picture the address of a picture, or the name of an icon
  * @param tile.reason why it can't be chosen; empty if it can
  */
-export function tile({ picture, title, text = "", note = "", reason = "" }, onClick) {
-  const isAddress = /^data:|[/.]/.test(picture ?? "");
+export function tile({ title, text = "", note = "", reason = "" }, onClick) {
   const made = element(
     "button",
     { type: "button", className: "ai4u-tile" },
-    picture && (isAddress ? element("img", { src: picture, alt: "" }) : icon(picture, 32)),
     element("strong", { textContent: title }),
     text && element("span", { textContent: text }),
     note && element("small", { textContent: note }),

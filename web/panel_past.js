@@ -1,6 +1,7 @@
 /** The tab "Past": finished episodes, and the player of the chosen one. */
 
 import { button, element, keyed } from "./dom.js";
+import { Comparison } from "./panel_compare.js";
 import { EpisodeCard } from "./panel_episode_card.js";
 import { section } from "./panel_parts.js";
 import { Player } from "./panel_player.js";
@@ -14,6 +15,7 @@ const MAX_RECORDING_BYTES = 20_000_000;
 export class PastTab {
   #panel;
   #player;
+  #comparison;
   #cards = new Map();
   #groups;
   /** True until the running episode's frames are there, which are shown then. */
@@ -23,6 +25,7 @@ export class PastTab {
   constructor(root, panel) {
     this.#panel = panel;
     this.#player = new Player(panel);
+    this.#comparison = new Comparison(panel);
     const current = button("Current episode", () => this.#showRunning(), { icon: "clock" });
     const open = fileButton("Open a recording", ".episode", (file) => this.#open(file));
     this.#groups = [
@@ -31,12 +34,13 @@ export class PastTab {
       group("past-program", "Networks and scripts", (episode) => !episode.is_pinned && !episode.is_person),
     ];
     const tools = element("div", { className: "ai4u-tools" }, current, open);
-    root.append(this.#player.element, tools, this.#none, ...this.#groups.map((each) => each.element));
+    root.append(this.#player.element, this.#comparison.element, tools, this.#none, ...this.#groups.map((each) => each.element));
   }
 
   /** @param part as "past" in the protocol */
   update(part) {
     this.#player.update(part);
+    this.#comparison.update(part.playing?.number ?? null);
     if (this.#wantsRunning && part.playing?.number === RUNNING_EPISODE) {
       this.#wantsRunning = false;
       this.#panel.send("step", { step: part.playing.step }, { quiet: true });

@@ -3,9 +3,10 @@
 import { syncStars } from "./class_stars.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { icon } from "./panel_icons.js";
-import { tile, tiles } from "./panel_parts.js";
+import { freeId, tile, tiles } from "./panel_parts.js";
 import { ask } from "./question.js";
 import { unsavedSentence } from "./scene_api.js";
+import { scenePicture } from "./scene_picture.js";
 import { starRow, starsOf } from "./stars.js";
 
 const [MINE, OTHERS] = ["My scenes", "More scenes"];
@@ -55,11 +56,16 @@ export class ScenePicker {
   #tile(scene, close) {
     const { title, goal, minutes, picture } = scene;
     const note = minutes ? `about ${minutes} min` : "";
-    const made = tile({ picture, title, text: goal, note }, async () => {
+    const made = tile({ title, text: goal, note }, async () => {
       close();
       await this.#load(scene);
     });
     if (scene.stars) made.append(starRow(starsOf(scene.name), scene.stars).element);
+    for (const each of made.children) each.id = freeId();
+    const [name, ...facts] = [...made.children].map(({ id }) => id);
+    // so that the name does not begin with the text of the picture
+    setAttributes(made, { "aria-labelledby": name, "aria-describedby": facts.join(" ") || null });
+    made.prepend(scenePicture(picture, title));
     return made;
   }
 

@@ -1,7 +1,7 @@
 /** "What if": other values for the numbers that an agent senses, and the action that would follow. */
 
 import { button, element, setAttributes, setText } from "./dom.js";
-import { Bars } from "./panel_bars.js";
+import { Bars, changedRow } from "./panel_bars.js";
 import { number } from "./panel_numbers.js";
 import { choice, freeId } from "./panel_parts.js";
 
@@ -88,7 +88,7 @@ export class WhatIf {
     if (!this.#dial()) this.#chosen = this.#dials.length ? idOf(this.#dials[0]) : "";
     this.#slot.set(this.#dials.map((dial) => ({ value: idOf(dial), text: dial.name })), this.#chosen);
     this.#drawDial();
-    this.#action.update(answer.action.map(actionRow));
+    this.#action.update(answer.action.map(changedRow));
   }
 
   #dial() {
@@ -108,9 +108,4 @@ export class WhatIf {
 
 function idOf({ key, index }) {
   return `${key} ${index}`;
-}
-
-function actionRow({ name, low, high, has_effect: hasEffect, now, then }) {
-  const text = now === then ? number(now) : `${number(now)} → ${number(then)}`;
-  return { name: hasEffect ? name : `${name} (no effect)`, value: then, low, high, text };
 }

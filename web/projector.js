@@ -4,6 +4,7 @@ import { openClassSocket } from "./class_socket.js";
 import { Countdown } from "./class_strips.js";
 import { element, keyed, setText } from "./dom.js";
 import { clock, counted } from "./room_words.js";
+import { ProjectedTournament } from "./projected_tournament.js";
 import { Wall } from "./wall.js";
 
 const TICK_MS = 100;
@@ -13,6 +14,7 @@ const MAX_PLACES = 12;
 const OUTCOMES = { lost: "lost", fell: "fell", time: "out of time", over: "ended" };
 const find = (selector) => document.querySelector(selector);
 const starts = new Countdown();
+const tournament = new ProjectedTournament(find("#tournament"));
 let state = null;
 
 const wall = new Wall(find("#wall"), { heightLeft: () => innerHeight - find("#wall").getBoundingClientRect().top - scrollY - MARGIN_PX });
@@ -30,10 +32,14 @@ function show(message) {
   const { kind, room } = state.shown;
   find("#join").hidden = kind !== "join";
   find("#race").hidden = kind !== "race";
+  find("#tournament").hidden = kind !== "tournament";
+  find("#game").hidden = kind !== "game";
   find("#rooms").hidden = kind !== "room" && kind !== "board";
   setText(find("#attention"), state.attention.message);
   showJoin();
   showRace();
+  tournament.show(state);
+  showGame();
   const shown = kind === "room" ? state.rooms.filter((each) => each.id === room) : state.rooms;
   // without what is between a student and the teacher
   wall.show({ ...state, rooms: shown.map((each) => ({ ...each, help: 0, why: "" })), progress: {} });
@@ -61,6 +67,16 @@ function showRace() {
   const rows = isHidden || !race ? [] : race.board.slice(0, MAX_PLACES).map((row, index) => ({ ...row, place: index + 1 }));
   find("#race ol").dataset.columns = rows.length > MAX_PLACES / 2 ? "2" : "1";
   keyed(find("#race ol"), rows, (row) => row.room || row.name, raceRow, updateRow);
+}
+
+/** Show the recording of a game, which plays by itself; it is in a frame, as it may do nothing else. */
+function showGame() {
+  const { shown, tournament } = state;
+  const address = shown.kind === "game" && tournament ? `./projector/game/${shown.game}?of=${tournament.id}` : "";
+  const frame = find("#game iframe");
+  if ((frame?.getAttribute("src") ?? "") === address) return;
+  const made = element("iframe", { title: `Recording of game ${shown.game}`, src: address });
+  find("#game").replaceChildren(...(address ? [made] : []));
 }
 
 function showCountdown(race) {

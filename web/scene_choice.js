@@ -3,6 +3,7 @@
 import { choices, chosenIn, field, select } from "./form_dialog.js";
 import { element } from "./dom.js";
 import { roomName } from "./room_words.js";
+import { scenePicture } from "./scene_picture.js";
 
 /** Largest scene file; as MAX_SCENE_CHARS of the class link. */
 const MAX_SCENE_CHARS = 200_000;
@@ -30,10 +31,16 @@ export function sceneChoice(state, { withLessons = false } = {}) {
     room: field("Whose", ofRoom),
     file: field("Scene file (YAML)", file),
   };
+  const place = element("div");
   const update = () => {
-    for (const [name, each] of Object.entries(fields)) each.hidden = name !== chosenIn(source);
+    const from = chosenIn(source);
+    for (const [name, each] of Object.entries(fields)) each.hidden = name !== from;
+    const lesson = state.lessons.find(({ number }) => number === ofLesson.value);
+    const chosen = { library: inLibrary.value, lesson: lesson?.scene }[from];
+    const shown = state.scenes.filter(({ name }) => name === chosen);
+    place.replaceChildren(...shown.map(({ picture, title }) => scenePicture(picture, title)));
   };
-  source.addEventListener("change", update);
+  for (const each of [source, inLibrary, ofLesson]) each.addEventListener("change", update);
   update();
 
   async function value() {
@@ -46,7 +53,7 @@ export function sceneChoice(state, { withLessons = false } = {}) {
     if (yaml.length > MAX_SCENE_CHARS) throw new Error(`This file has ${yaml.length} characters; a scene has at most ${MAX_SCENE_CHARS}.`);
     return { yaml };
   }
-  return { nodes: [source, ...Object.values(fields)], value };
+  return { nodes: [source, ...Object.values(fields), place], value };
 }
 
 /** Return {node, value}: a field for a seed, and a function that returns it, or null if it is left empty. */

@@ -5,13 +5,13 @@ import { element } from "./dom.js";
 import { choices, chosenIn, field, select, showForm } from "./form_dialog.js";
 import { roomName } from "./room_words.js";
 
-const KINDS = { join: "How to join: address, code and QR code", board: "The wall", room: "One room, live", race: "The race" };
+const KINDS = { join: "How to join: address, code and QR code", board: "The wall", room: "One room, live", race: "The race", tournament: "The tournament" };
 
 export function showProjector(state) {
   const rooms = state.rooms.map((room) => [room.id, roomName(room, state)]);
   const kinds = { ...KINDS };
   if (rooms.length === 0) delete kinds.room;
-  const kind = choices("The projector shows", "kind", kinds, state.shown.kind);
+  const kind = choices("The projector shows", "kind", kinds, state.shown.kind in kinds ? state.shown.kind : "tournament");
   const room = select(rooms, state.shown.room);
   const whose = field("Whose room", room);
   const update = () => (whose.hidden = chosenIn(kind) !== "room");

@@ -4,6 +4,7 @@ import { syncStars } from "./class_stars.js";
 import { element } from "./dom.js";
 import { ask, tell } from "./question.js";
 import { request, unsavedSentence } from "./scene_api.js";
+import { scenePicture } from "./scene_picture.js";
 import { watchSharedScene } from "./share.js";
 import { starRow, starsOf } from "./stars.js";
 
@@ -78,7 +79,7 @@ function sceneCard({ name, title, goal, level, minutes, stars, picture }, wanted
   const button = element(
     "button",
     { type: "button" },
-    picture && element("img", { src: picture, alt: "", loading: "lazy", width: 400, height: 300 }),
+    scenePicture(picture, title),
     element("span", { className: "ai4u-name", id: `title-${id}`, textContent: title }),
     element("span", { className: "ai4u-facts", id: `facts-${id}`, hidden: !facts && !row }, facts, row),
     element("span", { id: `goal-${id}`, textContent: goal }),

@@ -16,6 +16,7 @@ import { showRace } from "./race_dialog.js";
 import { RealNames } from "./real_names.js";
 import { showRoom } from "./room_dialog.js";
 import { showProjector } from "./show_dialog.js";
+import { TournamentBoard } from "./tournament_board.js";
 import { Wall } from "./wall.js";
 import { WallControls } from "./wall_controls.js";
 import { FILTERS } from "./wall_order.js";
@@ -38,6 +39,7 @@ const header = new JoinHeader();
 const strips = new ClassStrips(find("#held"), find("#running-race"));
 const progress = new ProgressTable(find("#view-progress"), realNames);
 const misconceptions = new Misconceptions(find("#view-mistakes"), realNames);
+const tournament = new TournamentBoard(find("#view-tournament"), realNames);
 const controls = new WallControls(find("#wall-controls"), wall);
 
 const resized = new ResizeObserver(() => wall.fit());
@@ -82,6 +84,7 @@ function show(message) {
   sayNobody();
   progress.show(state);
   misconceptions.show(state);
+  tournament.show(state);
   const mistakes = state.misconceptions?.length ?? 0;
   setText(find("#mistake-count"), mistakes ? `(${mistakes})` : "");
   find("#wall ul").removeAttribute("aria-busy");

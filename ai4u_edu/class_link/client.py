@@ -22,9 +22,9 @@ from ai4u_edu.wire.class_link import (
     PATH,
     SUBPROTOCOL,
     VERSION,
+    Delivery,
     FromClass,
     Hello,
-    Result,
 )
 
 OPEN_TIMEOUT_S = 5.0
@@ -138,7 +138,7 @@ class LinkClient:
         with self._changed:
             self._dialogue.clear()
 
-    def send_result(self, result: Result) -> None:
+    def send_result(self, result: Delivery) -> None:
         """Deliver a result, now or as soon as there is a connection, until it is acknowledged.
 
         If the outbox has a folder this waits for the disk, so don't call it in a world's thread.

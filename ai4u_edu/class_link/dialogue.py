@@ -33,6 +33,8 @@ WELCOME_TIMEOUT_S = 10.0
 """Timeout of the answer to the hello."""
 ACK_TIMEOUT_S = 10.0
 """Time after which a result that was not acknowledged is sent again over the same connection."""
+MIN_BYTES_PER_S = 50_000
+"""Rate of a slow network; a large result has more time until it is sent again."""
 MAX_RESULTS_IN_FLIGHT = 8
 """Limit of the results that were sent and are not acknowledged yet."""
 POLICY_VIOLATION = 1008
@@ -90,7 +92,7 @@ class LinkDialogue:
         self._unsent: dict[type, None] = {}
         """Kinds of present states to send, in this order."""
         self._in_flight: dict[str, float] = {}
-        """Results that were sent over this connection, and when."""
+        """Results that were sent over this connection, and when to send them again."""
 
     # -- the connection --------------------------------------------------------------------------
 
@@ -194,14 +196,14 @@ class LinkDialogue:
         if self.phase is not Phase.LINKED:
             return None
         keys = self._outbox.keys()
-        self._in_flight = {key: at for key, at in self._in_flight.items() if key in keys}
+        self._in_flight = {key: due for key, due in self._in_flight.items() if key in keys}
         for key in keys:
-            sent_at = self._in_flight.get(key)
-            if sent_at is None and len(self._in_flight) >= MAX_RESULTS_IN_FLIGHT:
+            due = self._in_flight.get(key)
+            if due is None and len(self._in_flight) >= MAX_RESULTS_IN_FLIGHT:
                 break
             frame = self._outbox.frame(key)
-            if frame is not None and (sent_at is None or now >= sent_at + ACK_TIMEOUT_S):
-                self._in_flight[key] = now
+            if frame is not None and (due is None or now >= due):
+                self._in_flight[key] = now + ACK_TIMEOUT_S + len(frame) // MIN_BYTES_PER_S
                 return frame
         while self._unsent:
             kind = next(iter(self._unsent))
@@ -223,7 +225,7 @@ class LinkDialogue:
             case Phase.GREETING:
                 due = self._greeted_at + WELCOME_TIMEOUT_S
             case Phase.LINKED if self._in_flight:
-                due = min(self._in_flight.values()) + ACK_TIMEOUT_S
+                due = min(self._in_flight.values())
             case _:
                 return None
         return max(0.0, due - now)

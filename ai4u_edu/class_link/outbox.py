@@ -7,9 +7,10 @@ from threading import Lock
 from ai4u_edu.base.atomic_write import reason, write_atomically
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
+    Delivery,
     EpisodeResult,
     ExerciseResult,
-    Result,
+    Network,
     decode_from_room,
     encode_from_room,
 )
@@ -28,7 +29,7 @@ class Outbox:
     the class stores once.
 
     If there are more than :data:`MAX_RESULTS`, or more than :data:`MAX_BYTES`, the oldest ones are
-    dropped.
+    dropped. A network takes the place of one before for the same scene and part.
 
     Args:
         folder: for the files, made if needed; left out, results are kept in memory only.
@@ -40,6 +41,8 @@ class Outbox:
         self._folder = folder
         self._frames: dict[str, bytes] = {}
         self._files: dict[str, Path] = {}
+        self._networks: dict[tuple[str, str], str] = {}
+        """Key of the network for each scene and part."""
         self._lock = Lock()
         if folder is not None:
             self._load(folder)
@@ -56,7 +59,7 @@ class Outbox:
         """Return a result's frame; None if it was acknowledged or dropped."""
         return self._frames.get(key)
 
-    def add(self, result: Result) -> None:
+    def add(self, result: Delivery) -> None:
         """Keep a result; with a folder it is on disk afterwards, which takes some milliseconds.
 
         A result whose key is known is ignored.
@@ -65,7 +68,7 @@ class Outbox:
         with self._lock:
             if result.key in self._frames:
                 return
-            self._frames[result.key] = frame
+            self._keep(result, frame)
             if self._folder is not None:
                 self._write(self._folder, result.key, frame)
             self._drop_oldest()
@@ -74,6 +77,13 @@ class Outbox:
         """Forget a result; an unknown key is ignored."""
         with self._lock:
             self._forget(key)
+
+    def _keep(self, result: Delivery, frame: bytes) -> None:
+        if isinstance(result, Network):
+            place = (result.scene, result.part)
+            self._forget(self._networks.get(place, ""))
+            self._networks[place] = result.key
+        self._frames[result.key] = frame
 
     def _write(self, folder: Path, key: str, frame: bytes) -> None:
         path = folder / f"{time.time_ns():020}-{key}{ENDING}"
@@ -117,7 +127,7 @@ class Outbox:
                 result = decode_from_room(frame)
             except (OSError, WireError):
                 continue
-            if isinstance(result, EpisodeResult | ExerciseResult):
-                self._frames[result.key] = frame
+            if isinstance(result, EpisodeResult | ExerciseResult | Network):
+                self._keep(result, frame)
                 self._files[result.key] = path
         self._drop_oldest()

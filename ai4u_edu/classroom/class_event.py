@@ -11,10 +11,13 @@ from typing import Any
 from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
+from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
+from ai4u_edu.server.library_pictures import picture_address
 
+_AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
 Event = dict[str, Any]
 QrCode = Callable[[str], tuple[str, str]]
@@ -70,9 +73,12 @@ class ClassEvents:
             "attention": live.attention.as_event(),
             "shown": live.shown,
             "race": live.race.event(is_projected=is_projected),
+            "tournament": tournament_event(
+                live.tournament, live.seats.all(), is_projected=is_projected
+            ),
             "scenes": _library(),
             "exercises": [each._asdict() for each in course_index()],
-            "lessons": [{"number": each.number, "title": each.title} for each in course_lessons()],
+            "lessons": _lessons(),
             "seats": self._seats(),
             "rooms": self._rooms(),
         }
@@ -81,6 +87,7 @@ class ClassEvents:
                 del room["help"], room["why"], room["look_in"]
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
+        event["handed_in"] = networks_event(live.tournament)
         event["progress"] = live.progress.by_seat()
         event["stars"] = live.stars.by_seat()
         event["misconceptions"] = misconceptions(live.progress.mistakes)
@@ -176,6 +183,13 @@ def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
     return sorted(rows, key=lambda row: (-len(row["seats"]), -row["count"], row["exercise"]))
 
 
+def _lessons() -> list[Event]:
+    return [
+        {"number": each.number, "title": each.title, "scene": each.scene}
+        for each in course_lessons()
+    ]
+
+
 @lru_cache(maxsize=1)
 def _library() -> list[Event]:
     """Return the scenes of the library, by title.
@@ -187,5 +201,13 @@ def _library() -> list[Event]:
     for name in Scene.names():
         text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
         title = _TITLE.search(text)
-        found.append({"name": name, "title": title[1] if title else name, "stars": stars[name]})
+        found.append(
+            {
+                "name": name,
+                "title": title[1] if title else name,
+                "stars": stars[name],
+                "is_duel": len(set(_AGENT.findall(text))) > 1,
+                "picture": picture_address(name),
+            }
+        )
     return sorted(found, key=lambda each: each["title"].lower())

@@ -7,9 +7,12 @@ from pydantic import BaseModel, ConfigDict, Field, RootModel
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.classroom.attention import MAX_SECONDS
 from ai4u_edu.classroom.scene_source import LessonOrScene, SceneSource
+from ai4u_edu.classroom.tournament.entrants import System
 from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS, MAX_STARTING_PROGRAM_CHARS
 
 MAX_COUNTDOWN_S = 60.0
+MAX_TOURNAMENT_SEEDS = 20
+MAX_GAMES = 10**6
 RoomId = Annotated[str, Field(max_length=40)]
 Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
 Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]
@@ -30,7 +33,15 @@ class SeatCommand(_Command):
 class PlainCommand(_Command):
     """A command without arguments."""
 
-    do: Literal["new code", "open", "close", "end race", "forget"]
+    do: Literal[
+        "new code",
+        "open",
+        "close",
+        "end race",
+        "cancel tournament",
+        "close tournament",
+        "forget",
+    ]
 
 
 class Assign(_Command):
@@ -66,6 +77,25 @@ class StartRace(_Command):
     hide_board: bool = False
 
 
+class BeginTournament(_Command):
+    """Begin a tournament: students hand in networks for its scene."""
+
+    do: Literal["tournament"]
+    scene: str = Field(max_length=60)
+    """Name in the library."""
+
+
+class StartTournament(_Command):
+    """Play the present tournament."""
+
+    do: Literal["start tournament"]
+    seeds: int = Field(default=1, ge=1, le=MAX_TOURNAMENT_SEEDS)
+    """Seeds of each pair's duels, or of races."""
+    system: System = "round-robin"
+    own_player: bool = False
+    """True if the scene's own player takes part."""
+
+
 class HideBoard(_Command):
     """Hide the board of the race from students, or show it."""
 
@@ -77,8 +107,10 @@ class Show(_Command):
     """Choose what the projector page shows."""
 
     do: Literal["show"]
-    kind: Literal["join", "room", "race", "board"]
+    kind: Literal["join", "room", "race", "tournament", "game", "board"]
     room: RoomId = ""
+    game: int = Field(default=0, ge=0, le=MAX_GAMES)
+    """Number of a game of the tournament, for its recording."""
 
 
 class Sleep(_Command):
@@ -88,7 +120,18 @@ class Sleep(_Command):
     room: RoomId
 
 
-AnyCommand = SeatCommand | PlainCommand | Assign | Attend | StartRace | HideBoard | Show | Sleep
+AnyCommand = (
+    SeatCommand
+    | PlainCommand
+    | Assign
+    | Attend
+    | StartRace
+    | BeginTournament
+    | StartTournament
+    | HideBoard
+    | Show
+    | Sleep
+)
 
 
 class Command(RootModel[Annotated[AnyCommand, Field(discriminator="do")]]):

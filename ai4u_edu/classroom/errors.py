@@ -31,5 +31,9 @@ class NewerProgramError(ProgramNotKeptError):
     """A newer program is kept already."""
 
 
+class NetworkError(AI4UError):
+    """A network can't be taken; the message is for the student."""
+
+
 class CommandError(AI4UError):
     """A teacher's command can't be done; the message is for the teacher."""

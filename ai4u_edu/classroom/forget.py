@@ -9,8 +9,10 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.store import TEACHER_SETTING
+from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
+from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 
-FOLDERS = ("rooms", RACES)
+FOLDERS = ("rooms", RACES, NETWORKS, TOURNAMENTS)
 """Folders of a class beside its file."""
 SENTENCE = "The class is over, and your teacher has deleted everything of it."
 
@@ -30,6 +32,7 @@ async def forget(live: LiveClass, proxy: RoomProxy) -> None:
         proxy.end(seat.number, "the class is over")
     await asyncio.gather(*(live.host.end(each) for each in rooms))
     await live.results.finish()
+    await live.tournament.end()
     live.attention.end()  # so that no message of the teacher is saved again
     await asyncio.to_thread(_delete, live)
     live.begin_anew()

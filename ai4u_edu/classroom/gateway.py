@@ -15,7 +15,7 @@ from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.my_work import my_work_route
-from ai4u_edu.classroom.pages import page_route, web_file
+from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.program_routes import ProgramRoutes
 from ai4u_edu.classroom.room_entrance import RoomEntrance
 from ai4u_edu.classroom.room_host import RoomHost
@@ -26,6 +26,8 @@ from ai4u_edu.classroom.star_routes import StarRoutes
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
+from ai4u_edu.classroom.tournament.files import TournamentFiles
+from ai4u_edu.classroom.tournament.network_routes import NetworkRoutes
 from ai4u_edu.server.attempts import Attempts
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
@@ -89,27 +91,28 @@ def class_app(
             Route("/api/my-work", my_work_route(live)),
             Route("/api/program", programs.own, methods=["GET", "PUT"]),
             Route("/api/stars", StarRoutes(live).own, methods=["GET", "PUT"]),
+            Route("/api/network", NetworkRoutes(live).own, methods=["GET", "PUT"]),
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
-            Route("/web/{file}", web_file),
+            *FILE_ROUTES,
             WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/programs", programs.of_room, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
+            *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
             Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
         ],
-        middleware=[
-            Middleware(
-                HostOriginCheck,
-                allowed_hosts=allowed_hosts,
-                proxy_hosts=proxy_hosts,
-                pages=PAGES,
-            )
-        ],
+        middleware=[_origin_check(allowed_hosts, proxy_hosts)],
+    )
+
+
+def _origin_check(allowed_hosts: Collection[str], proxy_hosts: Collection[str]) -> Middleware:
+    return Middleware(
+        HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts, pages=PAGES
     )

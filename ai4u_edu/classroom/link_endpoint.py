@@ -9,6 +9,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.course_index import known_exercises
+from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
@@ -25,6 +26,7 @@ from ai4u_edu.wire.class_link import (
     FromClass,
     FromRoom,
     Hello,
+    Network,
     Poses,
     Problem,
     Result,
@@ -157,6 +159,9 @@ class LinkEndpoint:
             case EpisodeResult() | ExerciseResult():
                 self._take_result(room, link, message)
                 return
+            case Network():
+                await self._take_network(room, link, message)
+                return
             case Drawing():
                 room.note_drawing(message)
                 return
@@ -171,6 +176,22 @@ class LinkEndpoint:
             case Applied():
                 room.problem = message.problem
         self._live.note_change()
+
+    async def _take_network(self, room: LiveRoom, link: "Link", network: Network) -> None:
+        """Keep a network, and acknowledge it when it is on disk."""
+        given = (network.scene, network.part, network.file, network.data, network.key)
+        if not room.seat:
+            link.add(Problem("message", "network: expected a link of one seat; use the page"))
+            link.add(Ack(network.key))
+            return
+        try:
+            await asyncio.to_thread(self._live.tournament.networks.add, room.seat, *given)
+        except NetworkError as error:
+            link.add(Problem("message", str(error)))  # sent again it would be refused again
+        except StoreError:
+            link.close_later()
+            return
+        link.add(Ack(network.key))
 
     def _take_result(self, room: LiveRoom, link: "Link", result: Result) -> None:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():

@@ -24,10 +24,13 @@ from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, State
 from ai4u_edu.classroom.stars import Stars
 from ai4u_edu.classroom.store import ClassStore, SeatRow
+from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.wire.class_link import (
     VERSION,
+    CheckedNetwork,
     ExerciseResult,
     FromClass,
+    HandedIn,
     People,
     Person,
     Welcome,
@@ -39,7 +42,7 @@ TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
 NOTHING_SHOWN = '{"kind": "join", "room": ""}'
-ShownKind = Literal["join", "room", "race", "board"]
+ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
 
 
 class LiveClass:
@@ -68,6 +71,7 @@ class LiveClass:
         self.stars = Stars(store)
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
+        self.tournament = TournamentRunner(store, self._tell_networks, self.note_change)
         self.results = ResultWriter(
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
@@ -93,13 +97,14 @@ class LiveClass:
                     self.attention.end()
                     self.tell_attention()
                 self.race.tick()
+                self.tournament.tick()
                 await asyncio.to_thread(self.attention.save_rest)
             except Exception as error:  # a full disk, say: the next tick tries again
                 log_limited(_logger, logging.ERROR, "tick", "a class's clock failed: %r", error)
 
-    def show(self, kind: ShownKind, room: str) -> None:
+    def show(self, kind: ShownKind, room: str, game: int = 0) -> None:
         """Store what the projector page shows."""
-        shown = {"kind": kind, "room": room}
+        shown = {"kind": kind, "room": room, "game": game}
         self.store.set_setting(SHOWN, json.dumps(shown))
         self.shown = shown
 
@@ -152,6 +157,8 @@ class LiveClass:
         link.send(self.assignments.of(room.id))
         link.send(self.attention.as_message())
         link.send(self.race.message())
+        if room.seat:
+            link.send(self._handed_in(room.seat))
         self.tell_people()
 
     def disconnect(self, room: LiveRoom, link: OpenLink) -> None:
@@ -195,6 +202,21 @@ class LiveClass:
         message = self.race.message()
         self._send(lambda _: message)
 
+    def _tell_networks(self, seat: int) -> None:
+        room = self.rooms.get(remote_id(seat))
+        if room is not None and room.link is not None:
+            room.link.send(self._handed_in(seat))
+
+    def _handed_in(self, seat: int) -> HandedIn:
+        return HandedIn(
+            tuple(
+                CheckedNetwork(
+                    each.request, each.scene, each.part, each.file, each.verdict, each.reason
+                )
+                for each in self.tournament.networks.of_seat(seat)
+            )
+        )
+
     def _send(self, message: Callable[[LiveRoom], FromClass]) -> None:
         for room in self.rooms.values():
             if room.link is not None:
@@ -235,6 +257,7 @@ class LiveClass:
         self.progress.read()
         self.stars.read()
         self.races.read()
+        self.tournament.read()
         self.shown = json.loads(NOTHING_SHOWN)
         self.tell_people()
 

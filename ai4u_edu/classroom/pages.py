@@ -5,7 +5,9 @@ from functools import lru_cache
 
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
+from starlette.routing import Route
 
+from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.server.standalone import STANDALONE_POLICY
 from ai4u_edu.server.web_files import WebFiles, web_folder
 
@@ -13,6 +15,10 @@ from ai4u_edu.server.web_files import WebFiles, web_folder
 async def web_file(request: Request) -> Response:
     """Return a script or a style."""
     return _web_files().response(request.path_params["file"], request)
+
+
+FILE_ROUTES = [Route("/web/{file}", web_file), Route(PICTURE_PATH, library_picture_route)]
+"""Routes of the files that these pages load; everybody may have them."""
 
 
 def html_page(name: str) -> HTMLResponse:

@@ -1,12 +1,14 @@
 """Results of a class as one HTML page that needs nothing else; all texts are escaped."""
 
 import html
+import json
 from collections.abc import Iterable, Iterator
 
 from ai4u_edu.classroom.class_event import misconceptions
 from ai4u_edu.classroom.course_index import course_index
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.race import WINNING
+from ai4u_edu.classroom.tournament.runner import VIEW
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 STYLE = """body{font:15px/1.4 system-ui,sans-serif;margin:1em;color:#1b2530}
@@ -38,6 +40,7 @@ def results_page(live: LiveClass) -> str:
             ),
         ),
         *_races(live),
+        *_tournaments(live),
     ]
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
@@ -89,6 +92,29 @@ def _races(live: LiveClass) -> Iterator[str]:
             if outcome in WINNING
         ]
         yield _table(("place", "who", "time"), found)
+
+
+def _tournaments(live: LiveClass) -> Iterator[str]:
+    """Yield a table for each tournament that was played: its standings."""
+    tournaments = live.tournament.tournaments
+    for each in tournaments.all():
+        try:
+            view = json.loads((tournaments.folder_of(each) / VIEW).read_bytes())
+        except (OSError, ValueError):  # it was not played
+            continue
+        yield f"<h2>Tournament: {html.escape(each.title)}</h2>"
+        yield _table(
+            ("place", "who", "rating", "won", "drawn", "lost", "points"),
+            (
+                (
+                    place,
+                    row["name"],
+                    f"{row['rating']} ± {row['range']}",
+                    *(row[name] for name in ("won", "drawn", "lost", "points")),
+                )
+                for place, row in enumerate(view["standings"] if view else (), 1)
+            ),
+        )
 
 
 def _names(live: LiveClass, room: str) -> str:

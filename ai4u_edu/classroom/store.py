@@ -20,7 +20,7 @@ from ai4u_edu.classroom.errors import StoreError
 FILE = "class.sqlite3"
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 6
+VERSION = 7
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -82,6 +82,24 @@ create table stars (
     scene text not null,
     count integer not null,
     primary key (seat, scene)
+) strict;
+create table networks (
+    key text primary key,
+    seat integer not null references seats (number),
+    scene text not null,
+    part text not null,
+    file text not null,
+    size integer not null,
+    verdict text not null check (verdict in ('open', 'right', 'refused')),
+    reason text not null,
+    request text not null
+) strict;
+create table tournaments (
+    id text primary key,
+    scene text not null,
+    title text not null,
+    phase text not null check (phase in ('open', 'running', 'over', 'cancelled', 'failed')),
+    problem text not null
 ) strict;
 create table races (
     id text primary key,

@@ -18,6 +18,7 @@ from ai4u_edu.classroom.commands import (
     AnyCommand,
     Assign,
     Attend,
+    BeginTournament,
     Command,
     HideBoard,
     PlainCommand,
@@ -25,6 +26,7 @@ from ai4u_edu.classroom.commands import (
     Show,
     Sleep,
     StartRace,
+    StartTournament,
 )
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.forget import forget
@@ -61,6 +63,7 @@ class Teacher:
 
     async def state(self, request: Request) -> Response:
         """Return the class, as the page's socket tells it."""
+        self._live.ensure_ticking()
         url = str(request.url.replace(path="/", query=""))
         text = self._events.text(url, is_projected=False)
         return Response(text, media_type="application/json", headers=NO_STORE)
@@ -98,13 +101,20 @@ class Teacher:
                 scene = await asyncio.to_thread(find_scene, live, wanted.scene)
                 live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)
                 live.race.tell()
+            case BeginTournament(scene=name):
+                await live.tournament.begin(name)
+            case StartTournament():
+                seats = [each for each in self._seats.all() if each.state == State.IN.value]
+                await live.tournament.start(
+                    seats, wanted.seeds, wanted.system, has_own_player=wanted.own_player
+                )
             case HideBoard(hide=hide):
                 live.races.change(hide=hide)
                 live.race.tell()
-            case Show(kind=kind, room=room):
+            case Show(kind=kind, room=room, game=game):
                 if kind == "room":
                     self._check_room(room)
-                live.show(kind, room if kind == "room" else "")
+                live.show(kind, room if kind == "room" else "", game if kind == "game" else 0)
             case Sleep(room=room):
                 self._check_room(room)
                 await live.host.end(room)
@@ -128,6 +138,10 @@ class Teacher:
                 await asyncio.to_thread(self._seats.change_code)
             case "open" | "close":
                 await asyncio.to_thread(self._seats.set_open, wanted.do == "open")
+            case "cancel tournament":
+                await self._live.tournament.cancel()
+            case "close tournament":
+                await self._live.tournament.dismiss()
             case "forget":
                 await forget(self._live, self._proxy)
             case "end race":

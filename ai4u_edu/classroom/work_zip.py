@@ -7,12 +7,14 @@ import re
 import tempfile
 import zipfile
 from collections.abc import AsyncIterator, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import asdict
 from typing import IO
 
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import StreamingResponse
 
+from ai4u_edu.base.atomic_write import PREFIX
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import remote_id
@@ -22,6 +24,10 @@ from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.results_page import results_page, star_rows
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
+from ai4u_edu.classroom.tournament.played import TEMPORARY
+from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
+from ai4u_edu.jobs.journal import FILE as JOURNAL
 from ai4u_edu.lessons import progress_file
 from ai4u_edu.scenes import Scene
 
@@ -73,8 +79,12 @@ def _class_files(live: LiveClass) -> Files:
         for file, data in _room_files(live, each):
             yield f"rooms/{name}/{file}", data
     for seat in live.seats.all():
+        own = _file_name(f"{seat.name} {seat.number}")
         for file, data in _programs(live, seat.number):
-            yield f"{PROGRAMS}/{_file_name(f'{seat.name} {seat.number}')}/{file}", data
+            yield f"{PROGRAMS}/{own}/{file}", data
+        for file, data in _networks(live, seat.number):
+            yield f"{NETWORKS}/{own}/{file}", data
+    yield from _tournaments(live)
     races = live.store.query("select id, title from races order by rowid")
     for number, (race, title) in enumerate(races, 1):
         rows = live.store.query(
@@ -114,6 +124,8 @@ def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
             yield f"episodes/race {seconds:.2f} s {key}.episode", path.read_bytes()
     for file, data in _programs(live, seat.number):
         yield f"{PROGRAMS}/{file}", data
+    for file, data in _networks(live, seat.number):
+        yield f"{NETWORKS}/{file}", data
     exercises = {
         exercise: asdict(progress_file.Entry(entry.state == "solved", tries=entry.tries))
         for (number, exercise), entry in live.progress.entries.items()
@@ -134,6 +146,30 @@ def _programs(live: LiveClass, seat: int) -> Files:
             name = f"{stem}-{number}"
         known.add(name.casefold())
         yield f"{name}.py", each.source.encode()
+
+
+def _networks(live: LiveClass, seat: int) -> Files:
+    """Yield the latest network of a seat for each scene and part that was not refused."""
+    networks = live.tournament.networks
+    latest = {each.place: each for each in networks.of_seat(seat) if each.verdict != "refused"}
+    for each in latest.values():
+        path = networks.path_of(each)
+        if path.is_file():
+            yield f"{each.scene}{each.part and f'-{each.part}'}.onnx", path.read_bytes()
+
+
+def _tournaments(live: LiveClass) -> Files:
+    """Yield the files of all tournaments, each in a folder as ``ai4u-edu tournament`` has it."""
+    tournaments = live.tournament.tournaments
+    for number, each in enumerate(tournaments.all(), 1):
+        folder = tournaments.folder_of(each)
+        place = f"{TOURNAMENTS}/{number} {_file_name(each.title)}"
+        for path in sorted(folder.rglob("*")):
+            name = path.relative_to(folder).as_posix()
+            if not path.is_file() or name.startswith((TEMPORARY, JOURNAL, PREFIX)):
+                continue
+            with suppress(FileNotFoundError):  # it is played now
+                yield f"{place}/{name}", path.read_bytes()
 
 
 def _room_files(live: LiveClass, room: str) -> Files:

@@ -23,10 +23,13 @@ PORT = 8080
 """The port that `play` uses unless told otherwise."""
 USES = {
     "data": "episodes as a dataset of Minari",
+    "hub": "a class on a JupyterHub",
     "lessons": "the course of notebooks",
     "multi": "PettingZoo's interface",
     "onnx": "running trained networks",
     "ray": "jobs on several machines",
+    "sweep": "comparing many trainings",
+    "tournament": "tournaments of networks and programs",
     "train": "training networks",
     "video": "episodes as MP4",
 }

@@ -130,15 +130,30 @@ def bridge(
 
 @app.command()
 def scenes(
-    name: Annotated[str, typer.Argument(help="Show only this scene.")] = "",
+    name: Annotated[str, typer.Argument(help="Only this scene, or a scene file.")] = "",
+    pictures: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder for a picture (PNG) of each scene from above, instead of the list.",
+            show_default=False,
+        ),
+    ] = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """List the scenes of the library with goal, controls and rewards."""
+    """List the scenes of the library with goal, controls and rewards, or draw them."""
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
+    names = [name] if name else Scene.names()
+    if pictures is not None:
+        from ai4u_edu.editing.scene_pictures import write_picture
+
+        for each in names:
+            path = write_picture(Scene.load(each), pictures)
+            typer.echo(f"{path}: {path.stat().st_size / 1000:.1f} kB")
+        return
     console = Console(highlight=False)
-    for each in [name] if name else Scene.names():
+    for each in names:
         described = Scene.load(each).description
         title = f" ({described.title})" if described.title else ""
         console.print(Text.assemble((each, "bold"), title))

@@ -56,6 +56,15 @@ Batch = Annotated[
 ]
 
 
+LeaveOutRewards = Annotated[
+    bool,
+    typer.Option(
+        "--leave-out-rewards",
+        help="Train with all reward terms, and without each of them in turn; draws terms.png.",
+    ),
+]
+
+
 def sweep(
     scene: Annotated[str, typer.Argument(help="Scene name or YAML file. Not with --resume.")] = "",
     algo: Annotated[
@@ -80,6 +89,7 @@ def sweep(
     resume: Annotated[
         bool, typer.Option("--resume", help="Continue the sweep in --out as it was begun.")
     ] = False,
+    leave_out_rewards: LeaveOutRewards = False,
     engine: o.JobsEngine = "processes",
     address: o.ClusterAddress = "",
     own_blocks: OwnBlocks = None,
@@ -95,6 +105,7 @@ def sweep(
         plan, folder = _kept_plan(scene, out, trials)
     else:
         plan = _plan(scene, algo, seeds, vary or (), trials, batch, steps, settings, own_blocks)
+        plan = with_rewards_left_out(plan) if leave_out_rewards else plan
         name = Path(str(plan.scene["name"])).stem
         folder = out or Path("runs") / f"{name}-sweep"
         plan = _begun(plan, folder)
@@ -140,6 +151,27 @@ def _plan(
         steps=steps,
         settings=how.model_dump(mode="json"),
     )
+
+
+def with_rewards_left_out(plan: "Plan") -> "Plan":
+    """Return a plan that also trains without each of the learner's reward terms.
+
+    Raises:
+        SetupError: there is no term that could be left out, or ``--set`` chooses them already.
+    """
+    from ai4u_edu.scenes.scene_data import scene_from
+    from ai4u_edu.training.settings import NO_REWARD
+    from ai4u_edu.training.sweep.search_space import LEFT_OUT, Parameter
+
+    if any(each.name == LEFT_OUT for each in plan.parameters):
+        raise SetupError(f"expected --set {LEFT_OUT} or --leave-out-rewards, got both")
+    sim = scene_from(plan.scene).build()
+    agent = sim.agent(plan.settings["agent"]) if plan.settings["agent"] else sim.agents[0]
+    names = [reward.name for reward in agent.rewards if reward.is_active]
+    if len(names) < 2:
+        raise SetupError(f"--leave-out-rewards: expected several reward terms, got {names}")
+    varied = Parameter(name=LEFT_OUT, values=(NO_REWARD, *names))
+    return plan.model_copy(update={"parameters": (*plan.parameters, varied)})
 
 
 def _algorithms(text: str) -> "tuple[Algorithm, ...]":

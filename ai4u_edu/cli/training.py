@@ -187,13 +187,23 @@ def export(
     model: Annotated[Path, typer.Argument(help="Folder of a training, or a model (.zip) in it.")],
     out: Annotated[Path, typer.Option(help="File to write.")] = Path("policy.onnx"),
     with_critic: o.WithCritic = False,
+    checkpoints: o.Checkpoints = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Export a model as a network (.onnx) that drives without torch and can be shared."""
     from ai4u_edu.training import export as exported
+    from ai4u_edu.training.notebook import export_checkpoints
     from ai4u_edu.training.run import run_of
 
     load_own_blocks(own_blocks)
+    if checkpoints is not None:
+        files = export_checkpoints(model, checkpoints, with_critic=with_critic)
+        scene = run_of(model).config().scene
+        typer.echo(
+            f"{len(files)} networks in {checkpoints}\n"
+            f"compare them:  ai4u-edu play {scene} --offer {checkpoints}"
+        )
+        return
     path = exported(model, out, with_critic=with_critic)
     name = run_of(model).config().scene
     typer.echo(

@@ -61,6 +61,13 @@ WithCritic = Annotated[
     bool,
     typer.Option("--with-critic", help="Also keep the critic, which tells what a place is worth."),
 ]
+Checkpoints = Annotated[
+    Path | None,
+    typer.Option(
+        help="Folder: export the model of each check that the training kept, to compare them.",
+        show_default=False,
+    ),
+]
 WatchFlag = Annotated[
     bool,
     typer.Option(

@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, SetupError, shown
+from ai4u_edu.blocks import Brain
 from ai4u_edu.editing import blocks, proposals, things
 from ai4u_edu.editing.change_result import ChangeResult, failed
-from ai4u_edu.editing.driver_options import driver_of, driver_options
+from ai4u_edu.editing.driver_options import driver_of, driver_options, with_driver
 from ai4u_edu.editing.drivers import Driver, DriverRegistry
 from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.proposals import Proposal
@@ -140,6 +141,22 @@ class SceneEditor:
         It takes a decision in a copy of the world, which takes a few milliseconds.
         """
         return reason_against_driver(self.state, agent_id, name, self._drivers)
+
+    def driver_brain(self, agent_id: str, name: str) -> Brain:
+        """Return the brain of a driver for an agent, without letting it drive.
+
+        Args:
+            agent_id: the agent.
+            name: of one of :meth:`drivers`.
+
+        Raises:
+            AI4UError: there is no such driver, or its file can't be read or run.
+        """
+        if self._drivers.has(name):
+            like = self._runner.sim.agent(agent_id).brain
+            return self._drivers.brain(name, agent_id, like)
+        scene = with_driver(self.state, agent_id, name, self._drivers).scene
+        return scene.build().agent(agent_id).brain
 
     def change_block(self, agent_id: str, path: BlockPath, values: Plain) -> "Future[ChangeResult]":
         """Change parameters of a block.

@@ -1,11 +1,15 @@
 """Pictures of scenes from above, and the library's scenes with their pictures."""
 
 import io
+import re
+from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 from PIL import Image
 
+from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.scenes.scene import LIBRARY
@@ -14,10 +18,15 @@ from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 
-PALETTE_SIZE = 32
-"""Number of colours in a picture: scenes have few, so a small one takes 2 or 3 kB."""
+PALETTE_SIZE = 64
+"""Number of colours in a picture: scenes have few, so a picture takes 3 kB."""
+PICTURE_SUFFIX = ".png"
 LIBRARY_PICTURE_PX = 400
 """Longer side of a library scene's picture."""
+PICTURES = LIBRARY / "pictures"
+"""Pictures of the library's scenes. They are part of the package, so that no room of a class builds
+all these worlds when its first page asks for them; ``ai4u-edu scenes --pictures`` draws them."""
+MAX_FILE_NAME_CHARS = 60
 EMPTY_SCENE = "my_scene"
 """Name of the empty plate with a robot, which is not among the library's scenes."""
 TEMPLATES = LIBRARY.parent / "templates"
@@ -40,16 +49,40 @@ class LibraryScene(NamedTuple):
 def scene_picture(scene: Scene, longest_px: int) -> bytes:
     """Return a picture of a scene at the start of an episode, as a PNG file.
 
+    It has no rays of sensors, which would hide a small scene.
+
     Args:
         scene: the scene.
         longest_px: longer side of the picture.
     """
     sim = scene.build()
     sim.reset(1)
-    picture = Image.fromarray(draw_snapshot(capture_snapshot(sim), longest=longest_px))
+    snapshot = capture_snapshot(sim)
+    agents = tuple(each._replace(rays={}) for each in snapshot.agents)
+    picture = Image.fromarray(draw_snapshot(replace(snapshot, agents=agents), longest=longest_px))
     out = io.BytesIO()
-    picture.quantize(PALETTE_SIZE).save(out, "PNG", optimize=True)
+    # by coverage, small things keep their colours; by means, the large areas do
+    picture.quantize(PALETTE_SIZE, Image.Quantize.MAXCOVERAGE, kmeans=1).save(
+        out, "PNG", optimize=True
+    )
     return out.getvalue()
+
+
+def write_picture(scene: Scene, folder: Path) -> Path:
+    """Draw a scene as a PNG file that has its name, and return the path.
+
+    Args:
+        scene: the scene.
+        folder: is made if it is not there.
+
+    Raises:
+        SetupError: the folder can't be created.
+    """
+    make_folder(folder, "pictures")
+    name = re.sub(r"[^\w-]", "_", scene.description.name)[:MAX_FILE_NAME_CHARS]
+    path = folder / f"{name}{PICTURE_SUFFIX}"
+    write_atomically(path, scene_picture(scene, LIBRARY_PICTURE_PX))
+    return path
 
 
 @cache
@@ -62,8 +95,20 @@ def library_scenes() -> tuple[LibraryScene, ...]:
 
 @cache
 def library_picture(name: str) -> bytes:
-    """Return the picture of a scene of the library, as a PNG file."""
-    return scene_picture(Scene.load(name), LIBRARY_PICTURE_PX)
+    """Return the picture of a scene of the library, as a PNG file.
+
+    That of a scene that somebody has just added is drawn.
+    """
+    file = picture_file(name)
+    return (
+        scene_picture(Scene.load(name), LIBRARY_PICTURE_PX) if file is None else file.read_bytes()
+    )
+
+
+def picture_file(name: str) -> Path | None:
+    """Return the file with the picture of a scene of the library; None if there is none."""
+    file = PICTURES / f"{name}{PICTURE_SUFFIX}"
+    return file if name in Scene.names() and file.is_file() else None
 
 
 def load_by_name(name: str) -> Scene | None:

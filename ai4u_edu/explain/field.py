@@ -67,17 +67,28 @@ def field(
     actions: list[Floats | None] = []
     moves = np.full((len(poses), 3), np.nan)
     for index, pose in enumerate(poses):
-        percept = copy.percept_at(pose)
-        if percept is None:
-            actions.append(None)
-        else:
-            actions.append(copy.policy.decide(percept))
-            copy.step()
-            (x, y), angle = copy.agent.body.position, copy.agent.body.heading
-            turned = np.remainder(angle - pose[2] + np.pi, 2 * np.pi) - np.pi
-            moves[index] = x - pose[0], y - pose[1], turned
+        found = action_at(copy, pose)
+        actions.append(None if found is None else found[0])
+        if found is not None:
+            moves[index] = found[1]
         on_pose(index + 1, len(poses))
     return Field(poses, copy.policy.components, _table(actions), moves)
+
+
+def action_at(copy: WorldCopy, pose: Floats) -> tuple[Floats, Floats] | None:
+    """Return the action at a pose, (c,), and how the pose changes then, (3,).
+
+    Returns:
+        None if the agent can't stand there.
+    """
+    percept = copy.percept_at(pose)
+    if percept is None:
+        return None
+    action = copy.policy.decide(percept)
+    copy.step()
+    (x, y), angle = copy.agent.body.position, copy.agent.body.heading
+    turned = np.remainder(angle - pose[2] + np.pi, 2 * np.pi) - np.pi
+    return action, np.array([x - pose[0], y - pose[1], turned])
 
 
 def poses_for(

@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -42,6 +43,14 @@ GONE = "There is no such agent any more."
 SCRIPT_DRIVES = "A script elsewhere drives; only it can say why."
 
 
+class NamedBaseline(NamedTuple):
+    """A baseline, and where it is from."""
+
+    words: str
+    """The baseline in words."""
+    readings: Baseline
+
+
 @dataclass(frozen=True, eq=False)
 class Why:
     """The explanation of one decision."""
@@ -74,12 +83,17 @@ class LiveExplainer:
     Args:
         latest: returns the latest snapshot.
         brain_of: returns an agent's present brain by its id; None if there is no such agent.
+        recorded: returns a baseline for an agent's state in a snapshot of the past; None for that
+            of the live world.
     """
 
     def __init__(
-        self, latest: Callable[[], Snapshot], brain_of: Callable[[str], Brain | None]
+        self,
+        latest: Callable[[], Snapshot],
+        brain_of: Callable[[str], Brain | None],
+        recorded: Callable[[Snapshot, str], NamedBaseline | None] = lambda _snapshot, _id: None,
     ) -> None:
-        self._latest, self._brain_of = latest, brain_of
+        self._latest, self._brain_of, self._recorded = latest, brain_of, recorded
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
         self._stopping = threading.Event()
@@ -115,11 +129,15 @@ class LiveExplainer:
         Raises:
             NotExplainableError: its decision is no function of the percept.
         """
-        brain, state = self._brain_of(agent_id), self._state(agent_id)
+        brain, state = self.brain(agent_id), self._state(agent_id)
         driver = None if brain is None else Driver(brain, state)
         if driver is None or driver.policy is None:
             raise NotExplainableError(driver.problem if driver else GONE)
         return driver.policy
+
+    def brain(self, agent_id: str) -> Brain | None:
+        """Return an agent's present brain; None if there is no such agent."""
+        return self._brain_of(agent_id)
 
     def _state(self, agent_id: str) -> AgentState:
         for agent in self._latest().agents:
@@ -156,7 +174,7 @@ class LiveExplainer:
         driver = self._drivers.get(agent_id)
         if driver is None or not driver.drives(brain, agent):
             driver = self._drivers[agent_id] = Driver(brain, agent)
-        return driver.why(agent)
+        return driver.why(agent, self._recorded(snapshot, agent_id))
 
 
 class Driver:
@@ -190,12 +208,17 @@ class Driver:
         """Return True if a brain and an agent's blocks are still these."""
         return brain is self._brain and agent.sensor_infos is self._infos
 
-    def why(self, agent: AgentState) -> Why:
-        """Return why the brain acts as it does on the agent's present percept."""
+    def why(self, agent: AgentState, recorded: NamedBaseline | None = None) -> Why:
+        """Return why the brain acts as it does on the agent's present percept.
+
+        Args:
+            agent: the agent's state.
+            recorded: the baseline; left out, the mean of what the agent sensed lately.
+        """
         if self.policy is None:
             return Why(agent.id, problem=self.problem)
         try:
-            return self._why(self.policy, agent)
+            return self._why(self.policy, agent, recorded)
         except AI4UError as error:
             return Why(agent.id, problem=str(error))
         except Exception as error:  # a student's function may raise anything
@@ -203,35 +226,33 @@ class Driver:
             self.problem = f"{type(error).__name__}: {error}"
             return Why(agent.id, problem=self.problem)
 
-    def _why(self, policy: Policy, agent: AgentState) -> Why:
+    def _why(self, policy: Policy, agent: AgentState, recorded: NamedBaseline | None) -> Why:
         percept = agent.percept
         inputs = set(policy.inputs(percept))
         infos = [info for info in agent.sensor_infos if info.key in inputs]
         groups = parts_of(infos, agent)
-        told = occlusion(policy, percept, baseline=self._baseline(percept), groups=groups)
+        chosen = recorded or self._baseline(percept)
+        told = occlusion(policy, percept, baseline=chosen.readings, groups=groups)
         axes = axes_of(agent.actuator_infos, list(policy.answer(percept)))
         shares = shares_of(told, axes)
-        words = (
-            f"the mean of the last {len(self._seen)} percepts"
-            if self._mean is not None
-            else "the middle of its range"
-        )
         return Why(
             agent.id,
             sentence=sentence(told, axes),
-            baseline=words,
+            baseline=chosen.words,
             axes=tuple(axes),
             groups=told.groups,
             shares=tuple(tuple(each) for each in shares),
             ray_weights=_ray_weights(told, shares, agent),
         )
 
-    def _baseline(self, percept: Percept) -> Baseline:
+    def _baseline(self, percept: Percept) -> NamedBaseline:
         if not self._seen or self._seen[-1] is not percept:
             self._seen = [*self._seen[1 - MAX_MEAN_PERCEPTS :], percept]
             if len(self._seen) >= MIN_MEAN_PERCEPTS and len(self._seen) % MEAN_EVERY == 0:
                 self._mean = mean_of(self._seen)
-        return self._middle if self._mean is None else self._mean
+        if self._mean is None:
+            return NamedBaseline("the middle of its range", self._middle)
+        return NamedBaseline(f"the mean of the last {len(self._seen)} percepts", self._mean)
 
 
 def parts_of(infos: Sequence[SensorInfo], agent: AgentState) -> list[Group]:

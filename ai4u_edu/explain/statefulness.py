@@ -22,12 +22,22 @@ def dependence_on_more(controller: Controller) -> str:
     >>> dependence_on_more(ArrowController())[:40]
     'ArrowController prepares itself with the'
     """
+    kind = type(controller)
+    reason = dependence_of(kind)
+    if not reason:
+        return ""
+    return f"{kind.__name__} {reason}; an explanation by leaving out readings does not apply to it"
+
+
+def dependence_of(kind: type[Controller]) -> str:
+    """Return why the actions of a class of controllers may depend on more than the percept.
+
+    Returns:
+        The rest of a sentence that begins with the class; empty if they don't.
+    """
     for method, reason in REASONS.items():
-        if getattr(type(controller), method) is not getattr(Controller, method):
-            return (
-                f"{type(controller).__name__} {reason}; an explanation by leaving out readings "
-                "does not apply to it"
-            )
+        if getattr(kind, method) is not getattr(Controller, method):
+            return reason
     return ""
 
 

@@ -65,29 +65,55 @@ def value_map(
         SetupError: the network has no critic, or there is no such source.
     """
     asked = policy if isinstance(policy, Policy) else Policy(policy)
-    network = asked.network
-    source = source or ("critic" if network is not None and has_critic(network) else "rollouts")
-    if source not in ("critic", "rollouts"):
-        raise SetupError(f"source: expected 'critic' or 'rollouts', got {source!r}")
-    if source == "critic" and network is None:
-        raise SetupError("source: expected a network with a critic; a function has none")
+    source = source_of(asked, source)
     copy = WorldCopy(world, asked, agent=agent, seed=seed)
     poses = poses_for(copy, poses, columns, heading)
     values = np.full(len(poses), np.nan)
     for index, pose in enumerate(poses):
-        percept = copy.percept_at(pose)
-        if percept is not None:
-            values[index] = (
-                values_of(network, percept)
-                if source == "critic" and network is not None
-                else _rollout(copy, decisions, discount)
-            )
+        values[index] = value_at(copy, pose, source, decisions=decisions, discount=discount)
         on_pose(index + 1, len(poses))
     return ValueMap(poses, values, source)
 
 
-def _rollout(copy: WorldCopy, decisions: int, discount: float) -> float:
-    """Return the discounted sum of rewards of an episode from where the agent stands."""
+def source_of(policy: Policy, wanted: str = "") -> str:
+    """Return what tells the values of a policy: ``critic`` or ``rollouts``.
+
+    Raises:
+        SetupError: there is no such source, or a function is to have a critic.
+    """
+    network = policy.network
+    source = wanted or ("critic" if network is not None and has_critic(network) else "rollouts")
+    if source not in ("critic", "rollouts"):
+        raise SetupError(f"source: expected 'critic' or 'rollouts', got {source!r}")
+    if source == "critic" and network is None:
+        raise SetupError("source: expected a network with a critic; a function has none")
+    return source
+
+
+def value_at(
+    copy: WorldCopy,
+    pose: Floats,
+    source: str,
+    *,
+    decisions: int = DEFAULT_DECISIONS,
+    discount: float = DISCOUNT,
+    on_decision: Callable[[], object] = lambda: None,
+) -> float:
+    """Return what a pose is worth; NaN if the agent can't stand there.
+
+    Args:
+        copy: of the world.
+        pose: x, y (m), heading (rad).
+        source: as :func:`source_of` returns it.
+        decisions: longest rollout.
+        discount: of a rollout.
+        on_decision: called after each decision of a rollout; an exception that it raises ends it.
+    """
+    percept = copy.percept_at(pose)
+    if percept is None:
+        return float("nan")
+    if source == "critic" and copy.policy.network is not None:
+        return values_of(copy.policy.network, percept)
     total, weight, agent = 0.0, 1.0, copy.agent
     for _ in range(decisions):
         if agent.done:
@@ -95,4 +121,5 @@ def _rollout(copy: WorldCopy, decisions: int, discount: float) -> float:
         copy.step()
         total += weight * agent.reward
         weight *= discount
+        on_decision()
     return total

@@ -1,8 +1,6 @@
 """Copies of a world in which an agent is put somewhere else, while the world itself stays."""
 
-import math
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -11,8 +9,8 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Brain, LocalBrain, Percept
+from ai4u_edu.explain.moment import Moment, Place, places_in
 from ai4u_edu.explain.policy import Policy
-from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.description import make_agents
 from ai4u_edu.world import World
@@ -23,24 +21,15 @@ DEFAULT_COLUMNS = 12
 MAX_POSES = 10_000
 
 Poses = npt.NDArray[np.float64]
-WorldLike = Scene | ControlRequestor | str
+WorldLike = Scene | ControlRequestor | Moment | str
 """A scene, its name, or a world that has been built, which is copied as it stands now."""
-
-
-class _Place(NamedTuple):
-    """Pose of one body: metres and radians; fallen bodies are out of the world."""
-
-    x: float
-    y: float
-    z: float
-    heading: float
-    is_fallen: bool
 
 
 class WorldCopy:
     """A copy of a world, in which one agent is put at any pose while all else stays.
 
-    Other agents that are driven by what no file can hold, such as Python functions, stand still.
+    Other agents stand still if a script elsewhere drives them, or what no file can hold, such as a
+    Python function.
 
     Args:
         world: as :data:`WorldLike`; a scene is taken as it begins with a seed.
@@ -54,13 +43,13 @@ class WorldCopy:
     ) -> None:
         if isinstance(world, str):
             world = Scene.load(world)
-        places: Mapping[str, _Place] = {}
+        places: Mapping[str, Place] = {}
         if isinstance(world, ControlRequestor):
-            seed, places = world.world.seeds.seed, _places_in(world)
-            agent = agent or world.agents[0].id
-            rhythm = world.agent(agent).brain
-            world = Scene(without_unknown_brains(export_scene(world)))
-            self.sim, self.agent = _built(world, agent)
+            world = Moment.of_sim(world, agent)
+        if isinstance(world, Moment):
+            seed, places = world.seed, world.places
+            self.sim, self.agent = _built(Scene(world.scene), world.agent)
+            rhythm = world.brain
         else:
             self.sim = world.build(seed)
             self.agent = self.sim.agents[0] if agent is None else self.sim.agent(agent)
@@ -69,7 +58,11 @@ class WorldCopy:
         self._seed = seed
         self.agent.use_brain(_brain_of(policy, rhythm))
         self.sim.reset(seed)
-        self._places = places or _places_in(self.sim)
+        self._places = places or places_in(self.sim)
+
+    def take_over(self, moment: Moment) -> None:
+        """Stand as the same scene stood at another moment."""
+        self._seed, self._places = moment.seed, moment.places
 
     def grid(self, columns: int = DEFAULT_COLUMNS, heading: float | None = None) -> Poses:
         """Return poses on a grid over the floor, row by row from below, (n, 3): x, y, heading.
@@ -116,7 +109,7 @@ class WorldCopy:
         turned[:, 2] = np.arctan2(y - poses[:, 1], x - poses[:, 0])
         return turned
 
-    def percept_at(self, pose: Sequence[float]) -> Percept | None:
+    def percept_at(self, pose: Iterable[float]) -> Percept | None:
         """Return what the agent would sense at a pose, as if its episode began there.
 
         Returns:
@@ -160,7 +153,8 @@ def _built(scene: Scene, agent: str) -> tuple[ControlRequestor, BasicAgent]:
     world.add_all(description.things)
     agents = make_agents(description)
     for each in agents:
-        if each.id == agent or not each.brains:
+        is_local = all(isinstance(brain, LocalBrain) for brain in each.brains if brain.enabled)
+        if each.id == agent or not each.brains or not is_local:
             each.brains = [LocalBrain(controller=_stand_still)]
     sim = ControlRequestor(world, agents, spread_decisions=description.spread_decisions)
     return sim, sim.agent(agent)
@@ -179,13 +173,3 @@ def _brain_of(policy: Policy, like: Brain) -> LocalBrain:
         skip_frame=rhythm.get("skip_frame", like.skip_frame),
         repeat_action=rhythm.get("repeat_action", like.repeat_action),
     )
-
-
-def _places_in(sim: ControlRequestor) -> dict[str, _Place]:
-    return {name: _place(body) for name, body in sim.world.bodies.items()}
-
-
-def _place(body: Any) -> _Place:
-    x, y, z, heading = body.pose
-    is_fallen = body.fallen or not math.isfinite(x + y + z)
-    return _Place(x, y, z, heading, is_fallen)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ai4u_edu.lessons.class_membership import join_class, leave_class
     from ai4u_edu.lessons.controls import cards, sliders
     from ai4u_edu.lessons.filming import film
+    from ai4u_edu.lessons.network_submission import submit
     from ai4u_edu.lessons.plots import bars, plot
     from ai4u_edu.lessons.predictions import compare, predict
     from ai4u_edu.lessons.readiness import ready
@@ -38,6 +39,7 @@ __all__ = [
     "sliders",
     "solution",
     "stop",
+    "submit",
 ]
 
 _HOMES = {
@@ -45,6 +47,7 @@ _HOMES = {
     "class_membership": ("join_class", "leave_class"),
     "controls": ("cards", "sliders"),
     "filming": ("film",),
+    "network_submission": ("submit",),
     "predictions": ("compare", "predict"),
     "report_page": ("report",),
     "showing": ("show", "stop"),

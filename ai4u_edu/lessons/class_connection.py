@@ -1,9 +1,11 @@
 """A notebook's link with its class, and the part of it that the shown world uses."""
 
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from threading import Lock
+from threading import Condition, Lock
+from typing import NamedTuple
 
 from msgspec.structs import replace
 
@@ -14,7 +16,10 @@ from ai4u_edu.wire.class_link import (
     Assignment,
     Attention,
     FromClass,
+    HandedIn,
+    Network,
     People,
+    Problem,
     Race,
     Result,
     State,
@@ -23,12 +28,24 @@ from ai4u_edu.wire.class_link import (
 
 OUTBOX = "outbox"
 """Folder of results that are not delivered yet, in the seat's folder."""
+POLL_S = 0.25
+"""Interval at which a lost connection is looked for."""
 NO_WORLD = "The notebook shows no world at present."
 _REPLAYED = (Welcome, People, Attention, Race)
 """Messages of which a world that is shown later gets the latest one. Of assignments it gets only a
 lesson's: a scene would replace the world that a cell has just shown."""
 
 Receive = Callable[[FromClass], object]
+
+
+class Answer(NamedTuple):
+    """Answer of the class to a network that was handed in."""
+
+    is_stored: bool = False
+    is_checked: bool = False
+    """True if it can play."""
+    refusal: str = ""
+    """Sentence on why it can't."""
 
 
 class ClassConnection:
@@ -47,6 +64,11 @@ class ClassConnection:
         self._assignment = ""
         """Id of the latest assignment; the class sends it again after each reconnect."""
         self._lock = Lock()
+        self._changed = Condition(self._lock)
+        """Notified when the class has said something of networks."""
+        self._handed_in = HandedIn(())
+        self._problem = ""
+        """Problem with the latest network."""
         self._latest: dict[type, FromClass] = {}
         self._world: Receive | None = None
 
@@ -59,6 +81,35 @@ class ClassConnection:
     def stop(self) -> None:
         """Deliver what can be delivered soon, and end the link."""
         self.client.stop()
+
+    def hand_in(self, network: Network, timeout_s: float) -> Answer:
+        """Deliver a network, and wait for the class's check.
+
+        Args:
+            network: the network.
+            timeout_s: longest time to wait (s); the network is delivered afterwards, too.
+        """
+        with self._lock:
+            self._problem = ""
+        self.client.renew()  # another notebook of this seat may have taken its place
+        self.client.send_result(network)
+        end_at = time.monotonic() + timeout_s
+        with self._changed:
+            while True:
+                answer = self._answer(network.key)
+                left_s = end_at - time.monotonic()
+                is_lost = not answer.is_stored and not self.client.is_connected
+                is_lost = is_lost and bool(self.client.problem)
+                if answer.is_checked or answer.refusal or is_lost or left_s <= 0:
+                    return answer
+                self._changed.wait(min(left_s, POLL_S))
+
+    def _answer(self, key: str) -> Answer:
+        for each in self._handed_in.networks:
+            if each.key == key:
+                return Answer(True, each.verdict == "right", each.reason)
+        is_stored = key not in self.client.outbox.keys()  # noqa: SIM118 - it is no mapping
+        return Answer(is_stored, False, self._problem if is_stored else "")
 
     def link_for_world(self, receive: Receive) -> "WorldLink":
         """Return a link for a world.
@@ -94,6 +145,11 @@ class ClassConnection:
             if isinstance(message, Assignment):
                 self._assign(message)
                 return
+            if isinstance(message, HandedIn):
+                self._handed_in = message
+                self._changed.notify_all()
+            if isinstance(message, Problem):
+                self._problem = message.text
             if isinstance(message, _REPLAYED):
                 self._latest[type(message)] = message
             if self._world is not None:

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+from ai4u_edu.explain.elsewhere import Elsewhere
+from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.panel.messages.base import Show
 from ai4u_edu.viewer.scene.view import Mode
 from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
@@ -36,6 +38,10 @@ class PageView:
         self.is_move_mode = False
         self.is_why_shown = False
         """True if the page shows why the agent acts as it does."""
+        self.maps = MapChoice()
+        """The maps over the floor that the page shows."""
+        self.elsewhere: Elsewhere | None = None
+        """The place at which the page tries the agent; None if it does not."""
         self.snap_m = 0.0
         self.trails: dict[str, bool] = {}
         """Trails that were switched on or off, by agent."""
@@ -124,6 +130,16 @@ class PageView:
         self.is_why_shown = on
         self._apply(self._choose_shown)
 
+    def show_maps(self, maps: MapChoice) -> None:
+        """Show these maps over the floor."""
+        self.maps = maps
+        self._apply(self._choose_shown)
+
+    def show_elsewhere(self, elsewhere: Elsewhere | None) -> None:
+        """Show what the agent would do at another place, or no longer."""
+        self.elsewhere = elsewhere
+        self._apply(self._choose_shown)
+
     def show_trail(self, on: bool) -> None:
         """Draw the agent's trail, or hide it."""
         self.trails[self.show.agent] = on
@@ -163,6 +179,7 @@ class PageView:
         client.agent = self.show.agent
         client.selected = self.show.body or ""
         client.is_why_shown = self.is_why_shown
+        client.maps, client.elsewhere = self.maps, self.elsewhere
         client.is_motion_reduced = self._is_motion_reduced
         client.is_move_mode, client.snap_m = self.is_move_mode, self.snap_m
         for agent, on in self.trails.items():

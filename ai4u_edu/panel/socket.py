@@ -1,6 +1,7 @@
 """The panel's sockets: each page gets the parts that it looks at, and sends commands."""
 
 import asyncio
+import math
 from collections.abc import Coroutine, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
@@ -12,8 +13,9 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import ChangeResult, SceneEditor
+from ai4u_edu.explain.elsewhere import Pose
 from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
-from ai4u_edu.panel.commands import blocks, past, run, scenes, view, why, world
+from ai4u_edu.panel.commands import blocks, compare, past, run, scenes, view, why, world
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.labels import past_tense
@@ -44,6 +46,7 @@ HANDLERS: Mapping[type[Command], Handler] = {
     **scenes.HANDLERS,
     **past.HANDLERS,
     **why.HANDLERS,
+    **compare.HANDLERS,
 }
 """Handlers of all commands by the type of their message."""
 
@@ -76,7 +79,8 @@ class PanelSockets:
 class _Connection:
     """One page's connection.
 
-    The server's event loop calls everything but :meth:`on_selected` and :meth:`on_dropped`.
+    The server's event loop calls everything but :meth:`on_selected`, :meth:`on_dropped` and
+    :meth:`on_stand_in`.
     """
 
     def __init__(self, socket: WebSocket, context: PanelContext, page_id: str) -> None:
@@ -113,6 +117,13 @@ class _Connection:
         """Report the result of a move with the mouse."""
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(lambda: self._spawn(self._report_drop(change)))
+
+    def on_stand_in(self, pose: Pose) -> None:
+        """Tell the page that somebody put the agent's stand-in somewhere."""
+        degrees = round(math.degrees(pose.heading), 1)
+        message = {"type": "stand_in", "x": pose.x, "y": pose.y, "heading_deg": degrees}
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(lambda: self._spawn_send(message))
 
     async def _report_drop(self, change: "Future[ChangeResult]") -> None:
         try:

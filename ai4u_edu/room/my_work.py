@@ -6,6 +6,7 @@
     scenes/NAME.yaml        saved scenes
     episodes/NAME.episode   recorded episodes
     programs/NAME.py        programs in Python, which are not opened
+    networks/NAME.onnx      networks that were handed in for tournaments
     progress.json           progress in the lessons
 
 Everything else in the file is ignored.
@@ -29,9 +30,10 @@ from ai4u_edu.editing.scene_store import DEVICES, MAX_SCENES
 from ai4u_edu.editing.scene_store import NAME as SCENE_NAME
 from ai4u_edu.recording.file import MAX_FILE_BYTES as MAX_EPISODE_BYTES
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS, YamlFile
+from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 SCENE, PROGRESS = "scene.yaml", "progress.json"
-SCENES, EPISODES, PROGRAMS = "scenes", "episodes", "programs"
+SCENES, EPISODES, PROGRAMS, NETWORKS = "scenes", "episodes", "programs", "networks"
 MAX_ZIP_BYTES = 64 * 2**20
 MAX_TOTAL_BYTES = 256 * 2**20
 """Limit of everything in the file, unpacked."""
@@ -39,6 +41,7 @@ MAX_EPISODES = 300
 MAX_PROGRAMS = 50
 MAX_PROGRAM_BYTES = 4 * 100_000
 """A class keeps programs of 100,000 characters, each of at most four bytes."""
+MAX_NETWORKS = 20
 MAX_PROGRESS_BYTES = 4 * 2**20
 MAX_FOLDERS = 100
 """Limit of folders for ZIP files of the same name."""
@@ -46,6 +49,7 @@ MARK = ".my-work"
 """File with the digest of the ZIP file that a folder was made from."""
 _MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS  # no character takes more bytes
 _PROGRAM = re.compile(r"[\w&-][\w &-]{0,180}\.py")
+_NETWORK = re.compile(r"[a-z][a-z0-9_-]{0,100}\.onnx")
 _EPISODE = re.compile(r"[A-Za-z0-9_][\w. -]{0,180}\.episode")
 
 
@@ -176,6 +180,8 @@ def _limit_of(name: str, known: dict[str, bytes]) -> int | None:
         return MAX_EPISODE_BYTES if count < MAX_EPISODES else None
     if folder == PROGRAMS and _PROGRAM.fullmatch(last):
         return MAX_PROGRAM_BYTES if count < MAX_PROGRAMS else None
+    if folder == NETWORKS and _NETWORK.fullmatch(last):
+        return MAX_NETWORK_BYTES if count < MAX_NETWORKS else None
     return None
 
 

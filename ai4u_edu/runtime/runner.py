@@ -1,5 +1,6 @@
 """A world that runs by the wall clock, and what other threads may ask of it."""
 
+import math
 import warnings
 from concurrent.futures import Future
 from typing import TYPE_CHECKING
@@ -84,6 +85,16 @@ class Runner(WorldThread):
         """Identifier of the world's thread; 0 while it does not run."""
         thread = self._thread
         return thread.ident or 0 if thread is not None and thread.is_alive() else 0
+
+    @property
+    def next_tick_at(self) -> float:
+        """Time (s, of ``time.monotonic``) at which the next tick is due; infinity if none is.
+
+        It lies in the past while that tick runs.
+        """
+        if self.paused or self.error or self.is_held or self.is_unpaced():
+            return math.inf
+        return self._schedule.due
 
     @property
     def is_waiting_for_key(self) -> bool:

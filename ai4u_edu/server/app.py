@@ -14,6 +14,7 @@ from ai4u_edu.server.attempts import Attempts, LimitScripts
 from ai4u_edu.server.class_feed import ClassFeed
 from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.server.input import Inputs
+from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.server.page import Page
 from ai4u_edu.server.past import Past
 from ai4u_edu.server.program_zip import program_zip
@@ -114,7 +115,7 @@ def _scene_routes(
         Route("/api/scene/link", scenes.link, methods=["GET"], middleware=auth),
         Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
         Route("/api/scenes", start.scenes, middleware=auth),
-        Route("/api/scenes/{file}", start.picture, middleware=auth),
+        Route(PICTURE_PATH, library_picture_route, middleware=auth),
         Route("/api/lessons", start.lessons, middleware=auth),
     ]
 

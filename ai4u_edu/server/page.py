@@ -28,6 +28,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_layout.css" />
     <link rel="stylesheet" href="./web/panel_controls.css" />
     <link rel="stylesheet" href="./web/panel_run.css" />
+    <link rel="stylesheet" href="./web/scene_picture.css" />
     <link rel="stylesheet" href="./web/panel_cards.css" />
     <link rel="stylesheet" href="./web/panel_windows.css" />
     <link rel="stylesheet" href="./web/panel_drive.css" />
@@ -37,6 +38,7 @@ _OURS = """<title>{title}</title>
     <link rel="stylesheet" href="./web/panel_blocks.css" />
     <link rel="stylesheet" href="./web/panel_stars.css" />
     <link rel="stylesheet" href="./web/panel_why.css" />
+    <link rel="stylesheet" href="./web/panel_maps.css" />
     <link rel="stylesheet" href="./web/question.css" />
     <link rel="stylesheet" href="./web/class_bar.css" />
     <script type="module" src="./web/main.js"></script>

@@ -9,6 +9,7 @@ STANDALONE_POLICY = "; ".join(
         "style-src 'self'",
         "connect-src 'self'",
         "img-src 'self' data:",
+        "frame-src 'self'",
         "base-uri 'none'",
         "form-action 'self'",
         FRAME_ANCESTORS,

@@ -6,17 +6,14 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, PlainTextResponse, Response
+from starlette.responses import HTMLResponse, Response
 
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.scene_cards import Card, stored_cards
-from ai4u_edu.editing.scene_pictures import library_picture, library_scenes
-from ai4u_edu.scenes import Scene
+from ai4u_edu.editing.scene_pictures import library_scenes
+from ai4u_edu.server.library_pictures import picture_address
 from ai4u_edu.server.standalone import STANDALONE_POLICY
 from ai4u_edu.server.web_files import web_folder
-
-PICTURE_SUFFIX = ".png"
-PICTURE_HEADERS = {"Cache-Control": "private, max-age=3600"}
 
 
 class LibrarySceneView(BaseModel):
@@ -29,8 +26,11 @@ class LibrarySceneView(BaseModel):
     goal: str
     level: Literal["", "easy", "medium", "hard"]
     minutes: int | None = Field(description="to reach the goal for the first time")
-    stars: int = Field(description="number of stars that a program can earn")
-    picture: str = Field(description="address of a PNG file: relative to the page, or a data URL")
+    stars: int = Field(0, description="number of stars that a program can earn")
+    picture: str = Field(
+        description="address of a PNG file, relative to the page, or a data URL; empty if the "
+        "scene can't be read"
+    )
 
 
 class ScenesView(BaseModel):
@@ -63,7 +63,7 @@ class LessonsView(BaseModel):
 class StartPage:
     """Routes of the start page.
 
-    They are async; scenes are read and drawn in worker threads, one at a time.
+    They are async; scenes are read, and saved ones drawn, in worker threads, one at a time.
 
     Args:
         lessons: returns the lessons of the course.
@@ -84,33 +84,25 @@ class StartPage:
         """Return the library's scenes, and the saved ones."""
         store = self._editor.scene_store
         async with self._drawing:
-            found = await asyncio.to_thread(library_scenes)
+            library = await asyncio.to_thread(_library_views)
             saved = [] if store is None else await asyncio.to_thread(stored_cards, store)
         return _json(
             ScenesView(
-                scenes=[
-                    LibrarySceneView.model_validate(
-                        each._asdict() | {"picture": f"api/scenes/{each.name}{PICTURE_SUFFIX}"}
-                    )
-                    for each in found
-                ],
+                scenes=library,
                 saved=[_saved_view(each) for each in saved],
             )
         )
 
-    async def picture(self, request: Request) -> Response:
-        """Return a scene's picture."""
-        file = str(request.path_params["file"])
-        name = file.removesuffix(PICTURE_SUFFIX)
-        if not file.endswith(PICTURE_SUFFIX) or name not in Scene.names():
-            return PlainTextResponse(f"no scene is called {name[:80]!r}; see api/scenes\n", 404)
-        async with self._drawing:
-            data = await asyncio.to_thread(library_picture, name)
-        return Response(data, media_type="image/png", headers=PICTURE_HEADERS)
-
     async def lessons(self, _: Request) -> Response:
         """Return the lessons."""
         return _json(LessonsView(lessons=await asyncio.to_thread(self._lessons)))
+
+
+def _library_views() -> list[LibrarySceneView]:
+    return [
+        LibrarySceneView.model_validate(each._asdict() | {"picture": picture_address(each.name)})
+        for each in library_scenes()
+    ]
 
 
 def _saved_view(card: Card) -> LibrarySceneView:

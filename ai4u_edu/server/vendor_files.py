@@ -9,7 +9,7 @@ from pathlib import Path
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from ai4u_edu.server.web_files import ALWAYS_ASK, web_folder
+from ai4u_edu.server.web_files import ALWAYS_ASK, NEVER_ASK, web_folder
 
 _PACKED = ".gz"
 _SCRIPTS = {".js", ".mjs"}
@@ -19,8 +19,6 @@ _MEDIA_TYPES = {
     ".wasm": "application/wasm",
     ".zip": "application/zip",
 }
-_NEVER_ASK = {"Cache-Control": "private, max-age=31536000, immutable"}
-"""Headers of a file whose address changes with its content."""
 
 
 class VendorFiles:
@@ -53,7 +51,7 @@ class VendorFiles:
         is_packed = _takes_gzip(request) and (suffix in _SCRIPTS or path.suffix == _PACKED)
         etag = await asyncio.to_thread(_etag, path, path.stat().st_mtime_ns, is_packed=is_packed)
         headers = {
-            **(_NEVER_ASK if "v" in request.query_params else ALWAYS_ASK),
+            **(NEVER_ASK if "v" in request.query_params else ALWAYS_ASK),
             "ETag": etag,
             "Vary": "Accept-Encoding",
         }

@@ -15,6 +15,8 @@ _MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg
 _STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
 ALWAYS_ASK = {"Cache-Control": "no-cache"}
 """Headers of what a browser may keep, but asks for each time."""
+NEVER_ASK = {"Cache-Control": "private, max-age=31536000, immutable"}
+"""Headers of a file whose address changes with its content."""
 _POLICIES = {
     "code_worker.js": (
         "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'"

@@ -2,6 +2,7 @@
 
 import base64
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
@@ -24,6 +25,7 @@ from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.controllers.replay import ReplayController
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.file import decode
+from ai4u_edu.scenes import Scene
 from ai4u_edu.tournament.entry import Driver
 from ai4u_edu.tournament.python_controller import PythonController
 from ai4u_edu.tournament.sides import Sides
@@ -106,6 +108,17 @@ def make(
     else:
         controller = RandomController()
     return Made(controller, own.skip_frame, own.repeat_action)
+
+
+def scripted_agents(scene: Scene, sides: Sides) -> frozenset[str]:
+    """Return the ids of the agents that a scene's own scripted controllers can drive."""
+    sim = scene.build()
+    found = set()
+    for agent in sim.agents:
+        with suppress(BlockError):
+            _scripted(sim, sides, agent)
+            found.add(agent.id)
+    return frozenset(found)
 
 
 def _network(driver: Driver, own: Brain, folder: Path) -> Made:

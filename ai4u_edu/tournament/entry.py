@@ -93,9 +93,9 @@ def _driver(spec: str, scene: str, trust_python: bool) -> Driver:
     spec = f"{ZOO_PREFIX}{scene}" if spec == "zoo" else spec
     path = Path(spec)
     if spec.startswith(ZOO_PREFIX) or path.suffix == ".onnx":
-        return _file("network", find_network(spec), MAX_NETWORK_BYTES)
+        return file_driver("network", find_network(spec), MAX_NETWORK_BYTES)
     if path.suffix == ".episode":
-        return _file("episode", path, MAX_FILE_BYTES)
+        return file_driver("episode", path, MAX_FILE_BYTES)
     file, colon, name = spec.rpartition(":")
     file, name = (file, name) if colon and file.endswith(".py") else (spec, "")
     if file.endswith(".py"):
@@ -104,7 +104,7 @@ def _driver(spec: str, scene: str, trust_python: bool) -> Driver:
                 f"{file}: a Python file may do on this machine what you may; read it, then say "
                 "--trust-python to let it play (in a process of its own, with limits)"
             )
-        return _file("python", Path(file), MAX_SOURCE_BYTES) | {"name": name}
+        return file_driver("python", Path(file), MAX_SOURCE_BYTES) | {"name": name}
     known = {name: cls for name, cls in Block.types.items() if _is_driver(cls)}
     if spec in known:
         return {"kind": "controller", "type": spec}
@@ -120,7 +120,17 @@ def _is_driver(cls: type[Block]) -> bool:
     )
 
 
-def _file(kind: str, path: Path, limit: int) -> Driver:
+def file_driver(kind: str, path: Path, limit: int) -> Driver:
+    """Return a driver with the content of a file.
+
+    Args:
+        kind: of the driver.
+        path: of the file.
+        limit: largest size (bytes).
+
+    Raises:
+        SetupError: the file can't be read, or is larger.
+    """
     try:
         with path.open("rb") as file:
             data = file.read(limit + 1)

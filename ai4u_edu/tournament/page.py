@@ -8,7 +8,7 @@ from ai4u_edu.base.html_report import html_page, html_table
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.exports.html_page import html_of
 from ai4u_edu.recording.file import decode
-from ai4u_edu.tournament.contest import ContestResult
+from ai4u_edu.tournament.best_games import best_games
 from ai4u_edu.tournament.run import Tournament
 from ai4u_edu.tournament.standings import MAX_SURE_SIGMA, Standing
 
@@ -106,50 +106,24 @@ def _cross_table(order: list[Standing]) -> str:
 
 
 def _best_games(done: Tournament, order: list[Standing]) -> Iterator[str]:
-    """Yield players for finished games between strong entries, a different pair each."""
-    strength = {each.name: each.mu for each in order}
-    seen: set[tuple[str, ...]] = set()
-    candidates = sorted(
-        (each for each in done.results if not each.error and _is_clean(each)),
-        key=lambda each: (
-            len(set(each.ranks)) == 1,  # a game that somebody wins is better to watch
-            -sum(sorted(strength[name] for name in each.contest.names)[-2:]),
-        ),
-    )
-    for each in candidates:
-        if len(seen) == EMBEDDED_GAMES:
-            break
-        names = each.contest.names
-        game = each.ranks.index(0) if each.contest.is_race else _clearer_game(each)
-        key = (names[game], str(each.contest.seed)) if each.contest.is_race else names
-        if key in seen:
-            continue
-        seen.add(key)
-        seating, told = each.contest.seatings[game], each.games[game]
+    """Yield players for the best games."""
+    found = best_games(done, order, EMBEDDED_GAMES)
+    for _, result, game in found:
+        contest, told = result.contest, result.games[game]
         episode = decode(Episode, base64.b64decode(told["episode"]), "game")
         points = ", ".join(
             f"{entry.name} ({side}): {points:.2f}"
             for entry, side, points in zip(
-                seating, done.plan.sides.names, told["points"], strict=True
+                contest.seatings[game], done.plan.sides.names, told["points"], strict=True
             )
         )
         player = escape(html_of(Replay(episode)))
         yield (
-            f"<details><summary>{escape(points)}; seed {each.contest.seed}</summary>"
+            f"<details><summary>{escape(points)}; seed {contest.seed}</summary>"
             f'<iframe title="{escape(points)}" loading="lazy" srcdoc="{player}"></iframe></details>'
         )
-    if not seen:
+    if not found:
         yield "<p>No game has been finished.</p>"
-
-
-def _clearer_game(result: ContestResult) -> int:
-    """Return the index of a duel's game with the larger difference of points."""
-    differences = [abs(told["points"][0] - told["points"][1]) for told in result.games]
-    return differences.index(max(differences))
-
-
-def _is_clean(result: ContestResult) -> bool:
-    return all(told["forfeit"] < 0 and told["episode"] for told in result.games)
 
 
 def _games(done: Tournament) -> str:

@@ -43,7 +43,7 @@ def main() -> None:
         except ProgramError as error:
             where = f", line {error.line}" if error.line else ""
             file = "" if program is None else program.file
-            answer = {"error": f"{file}{where}: {error}".removeprefix(", ").removeprefix(": ")}
+            answer = {"error": f"{file}{where}: {error.text}".removeprefix(", ").removeprefix(": ")}
         except MemoryError:
             answer = {"error": "it needs more memory than a program may have"}
         except (Exception, SystemExit) as error:  # the program's

@@ -2,7 +2,6 @@
 
 import json
 import os
-import selectors
 import signal
 import subprocess
 import sys
@@ -19,12 +18,15 @@ from ai4u_edu.blocks import Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Action
 from ai4u_edu.tournament.limits import CHECK_INTERVAL_S, DECISION_CPU_S, GAME_CPU_S, over_time
+from ai4u_edu.tournament.line_reader import LineReader
 from ai4u_edu.world import WorldView
 
 START_CPU_S = 20.0
 """Processor time in which a process starts and loads its program."""
 SILENCE_LIMIT_S = 120.0
 """Wall time without an answer, for a program that sleeps."""
+END_TIMEOUT_S = 2.0
+"""Wall time in which a process that has closed its output ends by itself."""
 MAX_ANSWER_BYTES = 65_536
 MODULE = "ai4u_edu.tournament.python_child"
 
@@ -106,9 +108,7 @@ class _Child:
             start_new_session=sys.platform != "win32",
         )
         self._usage = psutil.Process(self._process.pid)
-        self._selector = selectors.DefaultSelector()
-        self._selector.register(self._out, selectors.EVENT_READ)
-        self._rest = b""
+        self._reader = LineReader(self._out, MAX_ANSWER_BYTES)
 
     def ask(self, message: dict[str, Any], limit_s: float) -> Any:
         """Send a message and return the answer; a processor time of ``limit_s`` is allowed."""
@@ -118,23 +118,21 @@ class _Child:
             self._in.flush()
         except OSError:
             raise BlockError(self._ended()) from None
-        while b"\n" not in self._rest:
-            if self._selector.select(CHECK_INTERVAL_S):
-                data = os.read(self._out.fileno(), MAX_ANSWER_BYTES)
-                if not data:
-                    raise BlockError(self._ended())
-                self._rest += data
+        line = None
+        while line is None:
+            line = self._reader.line(CHECK_INTERVAL_S)
+            if line is not None and not line.endswith(b"\n") and len(line) <= MAX_ANSWER_BYTES:
+                raise BlockError(self._ended())
             used = self._used_s() - before
             if used > limit_s:
                 self.close()
                 raise BlockError(over_time(used))
-            if len(self._rest) > MAX_ANSWER_BYTES:
-                self.close()
-                raise BlockError(f"expected an answer of at most {MAX_ANSWER_BYTES} bytes")
-            if time.monotonic() - since > SILENCE_LIMIT_S:
+            if line is None and time.monotonic() - since > SILENCE_LIMIT_S:
                 self.close()
                 raise BlockError(f"the program did not answer for {SILENCE_LIMIT_S:g} s")
-        line, _, self._rest = self._rest.partition(b"\n")
+        if len(line) > MAX_ANSWER_BYTES:
+            self.close()
+            raise BlockError(f"expected an answer of at most {MAX_ANSWER_BYTES} bytes")
         try:
             answer = json.loads(line)
             if "error" in answer:
@@ -151,10 +149,9 @@ class _Child:
             else:
                 os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
-        self._selector.close()
-        for pipe in (self._in, self._out):
-            with suppress(OSError):
-                pipe.close()
+        with suppress(OSError):
+            self._in.close()
+        self._reader.close()
         self._folder.cleanup()
 
     @property
@@ -177,7 +174,11 @@ class _Child:
         return float(times.user + times.system)
 
     def _ended(self) -> str:
-        code = self._process.wait()
+        try:
+            code = self._process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self.close()
+            return "the program's process has closed its output"
         if code < 0:
             return f"the program's process was ended by {signal.Signals(-code).name}"
         return f"the program's process ended (exit status {code})"

@@ -14,7 +14,7 @@ import csv
 import io
 import json
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -31,6 +31,8 @@ from ai4u_edu.tournament.standings import Standing, standings
 GAMES = "games"
 LIST = "games.json"
 PAGE = "index.html"
+Play = Callable[[Sequence[Job]], Iterator[Outcome]]
+"""Runs jobs, and yields their outcomes as they end."""
 
 
 @dataclass
@@ -41,11 +43,21 @@ class Tournament:
     folder: Path
     refused: dict[str, str] = field(default_factory=dict)
     """Reasons for which entries take no part, by name."""
-    results: list[ContestResult] = field(default_factory=list)
-    """Results of the contests that ended, in the order of the schedule."""
-    games: list[dict[str, Any]] = field(default_factory=list)
-    """File, entries, seed and result of each game."""
+    ended: dict[int, ContestResult] = field(default_factory=dict)
+    """Results of the contests that ended, by their place in the schedule."""
+    files: dict[int, list[dict[str, Any]]] = field(default_factory=dict)
+    """File, entries, seed and result of each game, by the place of its contest."""
     is_interrupted: bool = False
+
+    @property
+    def results(self) -> list[ContestResult]:
+        """Results of the contests that ended, in the order of the schedule."""
+        return [self.ended[place] for place in sorted(self.ended)]
+
+    @property
+    def games(self) -> list[dict[str, Any]]:
+        """File, entries, seed and result of each game, in the order of the schedule."""
+        return [game for place in sorted(self.files) for game in self.files[place]]
 
     @property
     def admitted(self) -> list[Entry]:
@@ -64,6 +76,7 @@ def run_tournament(
     engine: Engine,
     *,
     tell: Callable[[Outcome], object] = lambda _outcome: None,
+    show: Callable[[Tournament], object] = lambda _done: None,
 ) -> Tournament:
     """Play the games of a plan that have not been played; Ctrl-C keeps those that are finished.
 
@@ -72,35 +85,34 @@ def run_tournament(
         folder: a tournament's folder, with the plan in it.
         engine: runs the games.
         tell: called with the outcome of each game when it ends, checks included.
+        show: called with the tournament so far after the checks, and when a contest has ended.
 
     Raises:
         SetupError: fewer than two entries can play.
     """
     done = Tournament(plan, folder)
-    outcomes: dict[str, Outcome] = {}
     with Journal(folder) as journal:
 
-        def play(jobs: Sequence[Job]) -> None:
+        def play(jobs: Sequence[Job]) -> Iterator[Outcome]:
             for outcome in run_jobs(jobs, engine, journal=journal):
-                outcomes[outcome.job.key] = outcome
                 tell(outcome)
+                yield outcome
 
         try:
-            _check(done, play, outcomes)
-            _play(done, play, outcomes)
+            _check(done, play)
+            show(done)
+            _play(done, play, show)
         except KeyboardInterrupt:
             done.is_interrupted = True
     return done
 
 
-def _check(
-    done: Tournament, play: Callable[[Sequence[Job]], None], outcomes: dict[str, Outcome]
-) -> None:
+def _check(done: Tournament, play: Play) -> None:
     """Let each entry play against itself, and refuse those that fail."""
     plan = done.plan
     count = len(plan.sides.names)
     jobs = {each.name: game_job(plan.scene, CHECK_SEED, [each] * count) for each in plan.entries}
-    play([*jobs.values()])
+    outcomes = {outcome.job.key: outcome for outcome in play([*jobs.values()])}
     for name, job in jobs.items():
         outcome = outcomes[job.key]
         reason = outcome.error or outcome.result["reason"]
@@ -111,9 +123,7 @@ def _check(
         raise SetupError(f"expected two entries that can play at least; {told}")
 
 
-def _play(
-    done: Tournament, play: Callable[[Sequence[Job]], None], outcomes: dict[str, Outcome]
-) -> None:
+def _play(done: Tournament, play: Play, show: Callable[[Tournament], object]) -> None:
     plan, entries = done.plan, done.admitted
     if plan.sides.is_race:
         rounds = [races(entries, plan.seeds)]
@@ -123,29 +133,48 @@ def _play(
         rounds = []
     swiss = 0 if rounds else plan.rounds_for(len(entries))
     by_name = {each.name: each for each in entries}
+    first = 0
     for number in range(len(rounds) or swiss):
         contests = rounds[number] if rounds else swiss_round(by_name, done.standings, plan.seeds)
-        try:
-            play([job for each in contests for job in each.jobs(plan.scene)])
-        finally:
-            for each in contests:
-                _take(done, each, outcomes)
+        _play_round(done, dict(enumerate(contests, first)), play, show)
+        first += len(contests)
 
 
-def _take(done: Tournament, contest: Contest, outcomes: dict[str, Outcome]) -> None:
-    """Add a contest's result and its games' files, if all of its games have ended."""
-    jobs = contest.jobs(done.plan.scene)
-    if not all(job.key in outcomes for job in jobs):
-        return
-    ended = [outcomes[job.key] for job in jobs]
+def _play_round(
+    done: Tournament,
+    waiting: dict[int, Contest],
+    play: Play,
+    show: Callable[[Tournament], object],
+) -> None:
+    """Play contests, by their place in the schedule, and take each as soon as its games ended."""
+    outcomes: dict[str, Outcome] = {}
+    jobs = {place: contest.jobs(done.plan.scene) for place, contest in waiting.items()}
+    places: dict[str, list[int]] = {}
+    for place, games in jobs.items():
+        for job in games:
+            places.setdefault(job.key, []).append(place)
+    for outcome in play([job for games in jobs.values() for job in games]):
+        outcomes[outcome.job.key] = outcome
+        for place in places[outcome.job.key]:
+            if place in waiting and all(job.key in outcomes for job in jobs[place]):
+                ended = [outcomes[job.key] for job in jobs[place]]
+                _take(done, place, waiting.pop(place), ended)
+                show(done)
+
+
+def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[Outcome]) -> None:
+    """Add a contest's result, and write its games' files."""
     error = next((each.error for each in ended if each.error), "")
     if error:
-        done.results.append(ContestResult(contest, (), error))
+        done.ended[place] = ContestResult(contest, (), error)
         return
-    done.results.append(ContestResult(contest, tuple(each.result for each in ended)))
-    for seating, outcome in zip(contest.seatings, ended, strict=True):
+    done.ended[place] = ContestResult(contest, tuple(each.result for each in ended))
+    games: list[dict[str, Any]] = []
+    done.files[place] = games
+    for number, (seating, outcome) in enumerate(
+        zip(contest.seatings, ended, strict=True), place * len(ended) + 1
+    ):
         names = [each.name for each in seating]
-        number = len(done.games) + 1
         file = f"{number:04}-{'-vs-'.join(map(_file_part, names))}-seed-{contest.seed}.episode"
         told = dict(outcome.result)
         data = base64.b64decode(told.pop("episode"))
@@ -154,9 +183,7 @@ def _take(done: Tournament, contest: Contest, outcomes: dict[str, Outcome]) -> N
             path.parent.mkdir(exist_ok=True)
             if not path.exists() or path.read_bytes() != data:
                 write_atomically(path, data)
-        done.games.append(
-            {"file": file if data else "", "seed": contest.seed, "entries": names} | told
-        )
+        games.append({"file": file if data else "", "seed": contest.seed, "entries": names} | told)
 
 
 def write_results(done: Tournament) -> None:

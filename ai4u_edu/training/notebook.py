@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.seeding import seeds_from
@@ -181,6 +182,37 @@ def export(
     config = run.config()
     loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
     return exported(loaded, run.scene(), config, Path(out), with_critic=with_critic)
+
+
+def export_checkpoints(
+    model: "str | Path | Trained", out: str | Path, *, with_critic: bool = False
+) -> list[Path]:
+    """Write the model of each check that a training kept as a network (.onnx), to compare them.
+
+    Args:
+        model: the result of :func:`train` with ``keep_checkpoints``, or its folder.
+        out: the folder for the files, ``checkpoint-STEPS.onnx``.
+        with_critic: as for :func:`export`.
+
+    Returns:
+        The files, the earliest check first.
+
+    Raises:
+        SetupError: the training kept no checkpoints.
+    """
+    from ai4u_edu.training.run import run_of
+
+    path = Path(model) if isinstance(model, str | Path) else model.folder
+    checkpoints = run_of(path).checkpoints
+    if not checkpoints:
+        raise SetupError(
+            f"{path} has no checkpoints; train with: ai4u-edu train SCENE --keep-checkpoints"
+        )
+    make_folder(Path(out), "networks")
+    return [
+        export(each, Path(out) / f"{each.stem}.onnx", with_critic=with_critic)
+        for each in checkpoints
+    ]
 
 
 def demonstrate(

@@ -20,6 +20,9 @@ FOLDER = Path(__file__).parent / "settings"
 Algorithm = Literal["sac", "ppo", "dqn"]
 ALGORITHMS: tuple[Algorithm, ...] = ("sac", "ppo", "dqn")
 
+NO_REWARD = "nothing"
+"""Value of ``without_reward`` with which all terms are learned from."""
+
 Policy = Literal["MlpPolicy", "MultiInputPolicy", "CnnPolicy"]
 FORMS = {"MlpPolicy": "flat", "MultiInputPolicy": "dict", "CnnPolicy": "image"}
 """Form of observation for each kind of network."""
@@ -100,6 +103,9 @@ class Settings(BaseModel):
     max_steps: Positive | None = None
     """Decisions after which an episode of the training is truncated; left out: as the agent has it.
     An evaluation always takes the agent's own."""
+    without_reward: str = NO_REWARD
+    """Name of a reward term that is not learned from, to see what it teaches; ``nothing`` for none.
+    Checks and evaluations count it as ever."""
     actions: tuple[tuple[float, ...], ...] = ()
     """Actions to choose from, for DQN. Left out: all zeros, and each number of the action alone at
     either end of its range."""

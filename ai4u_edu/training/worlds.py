@@ -9,10 +9,10 @@ import numpy.typing as npt
 from gymnasium import spaces
 from stable_baselines3.common.vec_env import VecEnv, VecEnvWrapper
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.envs.sb3 import SceneVecEnv
 from ai4u_edu.scenes import Scene
-from ai4u_edu.training.settings import Algorithm, Settings
+from ai4u_edu.training.settings import NO_REWARD, Algorithm, Settings
 
 ABOVE = 2**40
 """Lower bound of the seeds of a training's first episodes; later seeds are random 32-bit numbers.
@@ -26,13 +26,25 @@ def make_worlds(scene: Scene, settings: Settings, algorithm: Algorithm) -> VecEn
         scene: as :func:`~ai4u_edu.training.prepare.prepare` made it.
         settings: the training's settings.
         algorithm: DQN gets a table of actions to choose from.
+
+    Raises:
+        SetupError: the settings leave out a reward term that there is not.
     """
-    worlds: VecEnv = SceneVecEnv(
+    scenes = SceneVecEnv(
         scene,
         settings.of(algorithm).worlds,
         observation=settings.observation,
         agent=settings.agent or None,
     )
+    worlds: VecEnv = scenes
+    if settings.without_reward != NO_REWARD:
+        names = [each.name for each in scenes.envs[0].agent.rewards]
+        if settings.without_reward not in names:
+            raise SetupError(
+                f"without_reward: no reward term is called {settings.without_reward!r}; "
+                f"{suggest(settings.without_reward, names)}"
+            )
+        worlds = WithoutReward(worlds, settings.without_reward)
     if algorithm == "dqn" and isinstance(worlds.action_space, spaces.Box):
         return Choices(worlds, table_for(worlds.action_space, settings.actions))
     return worlds
@@ -61,6 +73,29 @@ class Choices(VecEnvWrapper):  # type: ignore[misc]  # seen without its types
     def step_wait(self) -> Any:
         """Return the results of the step."""
         return self.venv.step_wait()
+
+
+class WithoutReward(VecEnvWrapper):  # type: ignore[misc]  # seen without its types
+    """VecEnv wrapper: rewards lack one term. What ends an episode ends it as ever.
+
+    Args:
+        worlds: whose infos have ``reward_terms``.
+        term: the term's name.
+    """
+
+    def __init__(self, worlds: VecEnv, term: str) -> None:
+        super().__init__(worlds)
+        self._term = term
+
+    def reset(self) -> Any:
+        """Reset every world."""
+        return self.venv.reset()
+
+    def step_wait(self) -> Any:
+        """Return the results of the step."""
+        seen, rewards, dones, infos = self.venv.step_wait()
+        paid = [info["reward_terms"].get(self._term, 0.0) for info in infos]
+        return seen, rewards - np.array(paid, rewards.dtype), dones, infos
 
 
 def table_for(space: spaces.Box, given: Sequence[Sequence[float]] = ()) -> npt.NDArray[np.float32]:

@@ -7,12 +7,15 @@ import warnings
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.blocks import Brain
 from ai4u_edu.editing import SceneEditor
+from ai4u_edu.explain.elsewhere import PoseTrial
 from ai4u_edu.explain.live import LiveExplainer
-from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
+from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.part import Part, RatedPart
+from ai4u_edu.viewer.episode_baseline import EpisodeBaseline
 from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 from ai4u_edu.viewer.scene.actions import Actions
@@ -23,8 +26,11 @@ from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.page_handles import PageHandles
+from ai4u_edu.viewer.scene.policy_maps import PolicyMaps
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
+from ai4u_edu.viewer.scene.stand_in import StandIns
 from ai4u_edu.viewer.scene.trails import Trails
+from ai4u_edu.viewer.scene_source import SceneSource
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
 MAX_PLOTTED_DECISIONS = 240
@@ -71,9 +77,24 @@ class Viewer:
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         set_up_lights(server.scene)
         self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
-        self.explainer = LiveExplainer(lambda: runner.latest, self._brain_of)
-        bodies = Bodies(server, self._choose, lambda: viewer_clients.is_motion_reduced)
+
+        def latest() -> Snapshot:
+            return runner.latest
+
+        self.explainer = explainer = LiveExplainer(
+            latest, self._brain_of, EpisodeBaseline(self.player)
+        )
         senses_per_s = runner.frame_budget.senses_per_s
+        thrift = senses_per_s / SENSES_PER_S  # less than 1 in the rooms of a class
+        self.maps = LiveMaps(
+            latest,
+            explainer,
+            SceneSource(runner, self.player),
+            thrift,
+            lambda: runner.next_tick_at,
+        )
+        self.pose_trial = PoseTrial(latest, explainer, SceneSource(runner, self.player))
+        bodies = Bodies(server, self._choose, lambda: viewer_clients.is_motion_reduced)
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
@@ -82,6 +103,8 @@ class Viewer:
             (self.ghosts, senses_per_s),
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
+            (PolicyMaps(viewer_clients, self.maps), senses_per_s),
+            (StandIns(viewer_clients), MAX_FRAMES_PER_S),
             (SenseOverlay(viewer_clients, senses_per_s, self.explainer), MAX_FRAMES_PER_S),
         ]
         if editor is not None:
@@ -106,6 +129,7 @@ class Viewer:
         """
         self._stopping.set()
         self.explainer.stop()
+        self.maps.stop()
         ending = threading.Thread(target=self._end, name="viewer end", daemon=True)
         ending.start()
         ending.join(STOP_S)

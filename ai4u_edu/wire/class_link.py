@@ -7,12 +7,13 @@ message, then its fields. The room begins::
     class   welcome                     whose link this is
     class   people, assignment, attention, race      the present ones, and again at each change
     room    drawing, poses, state, work              the present ones, and again at each change
-    room    episodeResult, exerciseResult            each with a key
+    room    episodeResult, exerciseResult, network   each with a key
     class   ack                         the result with that key is stored
+    class   handedIn                    the seat's networks, and again at each change
 
-All messages except results describe a present state: the latest one counts, and after a reconnect
-each side sends its own again. A room sends a result again with the same key until it is
-acknowledged; the class stores a key once.
+All messages except those with a key describe a present state: the latest one counts, and after a
+reconnect each side sends its own again. A room sends what has a key again, with the same key, until
+it is acknowledged; the class stores a key once.
 
 Compatibility: see :mod:`ai4u_edu.wire.message_codec`. Any other change needs another
 :data:`VERSION`.
@@ -32,10 +33,12 @@ SUBPROTOCOL = f"ai4u-edu-class.v{VERSION}"
 """The WebSocket's subprotocol."""
 PATH = "/link"
 """Path of the class's WebSocket for links."""
-MAX_FRAME_BYTES = 4 * 2**20
-"""Largest frame of either side."""
+MAX_FRAME_BYTES = 6 * 2**20
+"""Largest frame of either side: one with a network."""
 MAX_SCENE_CHARS = 200_000
 MAX_EPISODE_BYTES = 2**20
+MAX_NETWORK_BYTES = 5 * 2**20
+"""Size of a network that a student hands in."""
 MAX_STARTING_PROGRAM_CHARS = 20_000
 MAX_MESSAGE_CHARS = 200
 """Longest message of a teacher."""
@@ -164,6 +167,20 @@ class ExerciseResult(TaggedMessage, frozen=True):
     """Id of the mistake that was found, such as ``04.2/narrow``."""
 
 
+class Network(TaggedMessage, frozen=True):
+    """A trained network that the seat hands in for tournaments; the latest one counts."""
+
+    key: Key
+    scene: Text
+    """Name of a scene of the library."""
+    part: Text
+    """Role or side that it drives, such as ``keeper``; empty for all agents of a side."""
+    file: Text
+    """Name of its file."""
+    data: Annotated[bytes, Meta(max_length=MAX_NETWORK_BYTES)]
+    """An ONNX file."""
+
+
 class Applied(TaggedMessage, frozen=True):
     """The room has opened an assignment's scene, or could not."""
 
@@ -188,6 +205,26 @@ class Ack(TaggedMessage, frozen=True):
     """The result with this key is on disk."""
 
     key: Key
+
+
+class CheckedNetwork(Record, frozen=True):
+    """A network that the seat has handed in."""
+
+    key: Text
+    """Key of the message that brought it; empty for one that a page has sent."""
+    scene: Text
+    part: Text
+    file: Text
+    verdict: Literal["open", "right", "refused"]
+    """``open``: it was not checked yet; ``right``: it can play."""
+    reason: Text
+    """Reason for which it was refused."""
+
+
+class HandedIn(TaggedMessage, frozen=True):
+    """All networks that the seat has handed in."""
+
+    networks: Annotated[tuple[CheckedNetwork, ...], LIST]
 
 
 class Person(Record, frozen=True):
@@ -275,9 +312,13 @@ class Problem(TaggedMessage, frozen=True):
     text: Text
 
 
-FromRoom = Hello | Drawing | Poses | State | Work | EpisodeResult | ExerciseResult | Applied
-FromClass = Welcome | Ack | People | Assignment | Attention | Race | Problem
+FromRoom = (
+    Hello | Drawing | Poses | State | Work | EpisodeResult | ExerciseResult | Network | Applied
+)
+FromClass = Welcome | Ack | HandedIn | People | Assignment | Attention | Race | Problem
 Result = EpisodeResult | ExerciseResult
+Delivery = Result | Network
+"""Messages that a room sends again until they are acknowledged."""
 
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)
 _class_codec: MessageCodec[FromClass] = MessageCodec(FromClass)

@@ -4,7 +4,7 @@ from playwright.sync_api import Page
 
 MAX_STEPS = 30
 FOCUSED = """() => { const each = document.activeElement;
-  return (each.getAttribute("aria-label") ?? each.textContent).trim(); }"""
+  return (each.getAttribute("aria-label") ?? each.textContent).trim().slice(0, 200); }"""
 
 
 def focused(page: Page) -> str:

@@ -7,6 +7,7 @@ from playwright.sync_api import Page, Route
 FAKE = """
 const fake = (window.fake ??= {
   calls: [], percepts: [], closed: 0, waits: 0, load: { ok: true }, connectError: null, warm: null,
+  connecting: null,
   decide: (percept, number) => ({
     ok: true, values: { move: [1, 0] }, printed: `decision ${number}\\n`, lines: [2, 3],
     variables: { near: "0.94" },
@@ -35,6 +36,7 @@ CLIENT = (
 export class RemoteClient {
   static async connect(options) {
     fake.calls.push(["connect", options]);
+    await fake.connecting;
     if (fake.connectError) throw new Error(fake.connectError);
     return new RemoteClient();
   }

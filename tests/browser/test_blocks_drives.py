@@ -39,6 +39,7 @@ class BlocksTab(WithEditor):
             if focused(page) == "Code":
                 break
             self.keys("ArrowRight")
+        expect(page.get_by_role("button", name="Blocks")).to_be_visible(timeout=LOADING_MS)
         go(page, "Tab", "Blocks")
         self.keys("Enter")
         expect(page.locator("*:focus")).to_have_attribute(
@@ -83,6 +84,7 @@ def test_one_block_is_the_first_step(page: Page) -> None:
         expect(status).to_contain_text("“Drive” is done", timeout=LOADING_MS)
 
 
+@pytest.mark.timeout(420)
 def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:
     with played("box_chase", "--seed", MIDDLE) as server:
         tab = opened(page, server)

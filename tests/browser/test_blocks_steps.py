@@ -17,7 +17,7 @@ from tests.panel.rooms import panel_room
 pytestmark = pytest.mark.browser
 
 SEED = 4
-DECISIONS = (60, 80, 260, 320, 1000)
+DECISIONS = (60, 80, 320, 320, 1000)
 """Decisions in which the step of that number, from 0, is done; the last one: most of an episode."""
 KEPT = "localStorage['ai4u-blocks-steps'] ?? '0'"
 SCRIPT = """async ([part, programs]) => {

@@ -113,6 +113,19 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     assert others == {"vendor/blockly.js"}
 
 
+def test_where_pictures_come_late_the_keys_stay_with_the_blocks(tab: BlocksPage) -> None:
+    tab.to_blocks()
+    tab.choose("Control", "if, Empty, has input")
+    tab.page.evaluate("""() => { const draw = requestAnimationFrame; window.latest = 0;
+      window.requestAnimationFrame = (each) => draw(() => setTimeout(
+        (now) => { each(now); window.latest = performance.now(); }, 200)); }""")
+    tab.choose("Numbers", "0, <")
+    tab.choose("Senses", "box, direction")
+    expect(tab.editor).to_contain_text('percept["box"]')
+    tab.page.wait_for_function("latest && performance.now() > latest + 300")  # all was drawn
+    expect(tab.focused).to_have_attribute("aria-label", re.compile("box, direction"))
+
+
 def test_one_goes_on_in_python_and_back_and_nothing_is_lost(tab: BlocksPage) -> None:
     tab.write(PROGRAM)
     tab.to_blocks()

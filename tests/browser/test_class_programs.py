@@ -160,6 +160,7 @@ def test_without_network_it_stays_here_and_is_saved_later(
     desk.close()
 
 
+@pytest.mark.nightly
 def test_a_newer_program_of_another_device_is_kept_beside_this_one(
     chromium: Browser, school: ServedClass
 ) -> None:

@@ -18,6 +18,10 @@ pytestmark = pytest.mark.browser
 LOADING_MS = 60_000
 """Longest time until Python is loaded on a busy machine (ms)."""
 BODY = "def decide(percept):\n    "
+NUMBERS_AND_TEXTS = (
+    'items => items.map(item => ["b", "span"].map(tag => item.querySelector(tag).innerText))'
+)
+"""A script: what a program printed, by the number of the decision."""
 MISTAKES = [
     ("def decide(percept)\n    return {}", 1, "A colon (:) is missing"),
     ("def decide(percept):\nreturn {}", 2, "begin it with four more spaces"),
@@ -140,18 +144,26 @@ def test_back_in_time_stands_what_the_program_did_at_that_decision(tab: CodeTab)
     moment = tab.page.locator(".ai4u-code-moment")
     words = moment.get_by_role("status")
     expect(words).to_contain_text("your program did not make it")  # the latest ones were the keys'
-    before = moment.get_by_role("button", name="Decision before")
-    while "did not" in (said := words.inner_text()):
-        before.click()
-        expect(words).not_to_have_text(said)
-    expect(words).to_contain_text("the lines that ran are marked")
-    expect(tab.page.locator(".ai4u-code-ran-line")).to_have_count(3)
-    count = int(moment.locator("pre").inner_text().removeprefix("count "))
-    before.click()
-    expect(moment.locator("pre")).to_have_text(f"count {count - 1}")
-    expect(tab.page.locator(".ai4u-code-variables")).to_have_text(f"count{count - 1}")
+    printed = dict(tab.page.get_by_role("log").locator("li").evaluate_all(NUMBERS_AND_TEXTS))
+    for number in sorted(map(int, printed), reverse=True)[
+        :3
+    ]:  # realtime: not each is the program's
+        step_back_to(moment, number)
+        expect(words).to_contain_text("the lines that ran are marked")
+        expect(tab.page.locator(".ai4u-code-ran-line")).to_have_count(3)
+        expect(moment.locator("pre")).to_have_text(printed[str(number)])
+        count = printed[str(number)].removeprefix("count ")
+        expect(tab.page.locator(".ai4u-code-variables")).to_have_text(f"count{count}")
     moment.get_by_role("button", name="Back to live").click()
     expect(moment).to_be_hidden()
+
+
+def step_back_to(moment: Locator, number: int) -> None:
+    """Press "Decision before" until the moment is the decision with a number."""
+    words = moment.get_by_role("status")
+    while f"Decision {number} of" not in (said := words.inner_text()):
+        moment.get_by_role("button", name="Decision before").click()
+        expect(words).not_to_have_text(said)
 
 
 def test_step_makes_one_decision_and_run_goes_on(server: Played, tab: CodeTab) -> None:

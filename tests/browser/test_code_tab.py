@@ -71,6 +71,19 @@ def test_ctrl_enter_runs_and_stop_gives_the_agent_back(tab: CodePage) -> None:
     assert len(tab.calls("decide")) == 1
 
 
+def test_pressed_again_while_it_joins_it_connects_when_that_one_has_left(tab: CodePage) -> None:
+    tab.page.evaluate("() => { fake.connecting = new Promise((done) => (fake.connected = done)); }")
+    for _ in range(3):
+        tab.press("Run")
+    tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'connect')")
+    tab.page.evaluate("new Promise((done) => setTimeout(done))")
+    assert len(tab.calls("connect")) == 1
+    tab.page.evaluate("fake.connected()")
+    tab.sense()
+    expect(tab.state).to_contain_text("Runs")
+    assert (len(tab.calls("connect")), tab.page.evaluate("fake.closed")) == (2, 1)
+
+
 def test_after_the_end_it_begins_another_episode(tab: CodePage) -> None:
     tab.sense(9, terminated=True)
     tab.sense(0, episode=2)

@@ -206,14 +206,25 @@ def test_another_agent_can_be_looked_at_and_driven(desk: PanelPage) -> None:
     desk.page.wait_for_url("**/*agent=1*")
 
 
+PICTURE = (
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAQAAAADCAIAAAA7ljmRAAAAFklEQVR4nGNkYPjPAANM"
+    "DAwMDAwMAAARAwH/zN5DhAAAAABJRU5ErkJggg=="
+)
+
+
 def test_scenes_are_cards(desk: PanelPage) -> None:
     scene = {"name": "sumo", "title": "Sumo", "goal": "Push it out.", "level": "easy", "minutes": 3}
-    mine = {"name": "mine", "title": "<b>Mine</b>", "goal": "", "level": "", "is_saved": True}
+    scene |= {"picture": PICTURE}
+    mine: Json = {"name": "mine", "title": "<b>Mine</b>", "goal": "", "level": "", "picture": ""}
+    mine |= {"is_saved": True}
     desk.panel.replies["scenes"] = lambda _: {"items": [scene | {"is_saved": False}, mine]}
     desk.button("Box chase").click()
     dialog = desk.page.get_by_role("dialog", name="Choose a scene")
     expect(dialog.get_by_role("heading", name="My scenes")).to_be_visible()
-    expect(dialog.get_by_role("button", name="Sumo")).to_contain_text("about 3 min")
+    sumo = dialog.get_by_role("button", name="Sumo", exact=True)
+    expect(sumo).to_have_accessible_description("Push it out. about 3 min")
+    expect(sumo.locator("img")).to_have_attribute("alt", "Sumo from above")
+    expect(dialog.locator(".ai4u-scene-picture svg")).to_have_count(1)
     dialog.get_by_role("button", name="<b>Mine</b>").click()
     desk.until(lambda: desk.panel.commands("open_scene") == [{"name": "mine", "is_saved": True}])
     expect(dialog).to_have_count(0)

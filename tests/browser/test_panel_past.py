@@ -1,5 +1,6 @@
 """The panel's tab "Past", with a fake panel."""
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -207,3 +208,44 @@ def test_controls_are_large_enough_and_have_names(
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
     tab.page.context.close()
+
+
+def test_two_drivers_on_the_episode(tab: TabPage) -> None:
+    rivals = [
+        {"value": "network:zoo:box_chase", "text": "Network zoo:box_chase", "steps": None},
+        {"value": "network:checkpoint-2.onnx", "text": "Network checkpoint-2.onnx", "steps": 2000},
+        {"value": "network:checkpoint-1.onnx", "text": "Network checkpoint-1.onnx", "steps": 1000},
+    ]
+    tab.answer("rivals", rivals=rivals)
+    turn = {"name": "turn", "low": -1, "high": 1, "has_effect": True, "now": 0.5, "then": -0.5}
+    found = {"step": 11, "count": 80, "distance": [0, 0.1, 1.0], "largest": 1.0, "action": [turn]}
+    reasons = {"first": "It turns right because of ray 1.", "second": "It turns left."}
+    tab.answer("compare", **found, **reasons)
+    title = tab.page.locator("summary").filter(has_text="Two drivers on this episode")
+    expect(title).to_be_hidden()
+    tab.give({**PART, "playing": PLAYING})
+    title.click()
+    first, second = tab.page.get_by_label("One driver"), tab.page.get_by_label("Another one")
+    expect(first).to_have_value("")
+    expect(second).to_have_value("network:checkpoint-1.onnx")
+    second.select_option("Network zoo:box_chase")
+    tab.page.get_by_role("button", name="Compare").click()
+    says = tab.page.get_by_text("They first disagree at step 12 of 80.")
+    expect(says).to_be_visible()
+    sent = [each for each in tab.sent() if each["command"] == "compare"]
+    assert sent == [{"command": "compare", "first": "", "second": "network:zoo:box_chase"}]
+    expect(tab.page.get_by_text("It turns right because of ray 1.")).to_be_visible()
+    expect(tab.page.locator(".ai4u-bar-row")).to_have_text(re.compile("^turn0.50 . .0.50$"))
+    tab.page.get_by_role("button", name="Show step 12").click()
+    assert tab.sent()[-1] == {"command": "step", "step": 11}
+    # a slider through the checkpoints, in the order of what they learned from
+    slider = tab.page.get_by_role("slider", name="The other one, after learning from")
+    expect(slider).to_have_attribute("max", "1")
+    tab.answer("compare", **found | {"step": None, "largest": 0.04})
+    slider.press("End")
+    expect(tab.page.get_by_text("They agree in all 80 steps")).to_be_visible()
+    assert tab.sent()[-1]["second"] == "network:checkpoint-2.onnx"
+    expect(tab.page.get_by_text("2000 decisions")).to_be_visible()
+    assert tab.unnamed_controls() == []
+    tab.give({**PART, "playing": {**PLAYING, "number": 4}})
+    expect(tab.page.get_by_text("They agree in all 80 steps")).to_be_hidden()

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.autosave import Autosave
@@ -15,7 +15,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.server import LessonView, ServerThread, room_app
 from tests.chromium import new_page
-from tests.server.rooms import NOWHERE
+from tests.server.rooms import NOWHERE, until
 
 pytestmark = pytest.mark.browser
 
@@ -100,6 +100,47 @@ def test_saved_scenes_are_among_those_to_play(world: World, page: Page, tmp_path
     page.get_by_role("button", name="My sumo").click()
     page.wait_for_url(world.url)
     assert world.scene == "sumo"
+
+
+FAR_BELOW = """addEventListener("DOMContentLoaded", () => {
+    document.querySelector("#library").style.marginTop = "9000px";
+});"""
+"""Page script that puts the library where no browser loads ahead."""
+
+
+def test_pictures_come_when_they_come_into_view(
+    chromium: Browser, world: World, tmp_path: Path
+) -> None:
+    world.editor.scene_store = SceneStore(tmp_path / "saved")
+    world.editor.scene_store.save("My sumo", Scene.load("sumo"))
+    (tmp_path / "saved" / "Broken.yaml").write_text("bodies: 3\n")
+    asked: list[str] = []
+    page = new_page(chromium)
+    page.on("request", lambda each: asked.append(each.url))
+    page.add_init_script(FAR_BELOW)
+    page.goto(f"{world.url}start")
+    saved, last = page.locator("#saved img"), page.locator("#library img").last
+    expect(saved).to_have_attribute("alt", "My sumo from above", timeout=PATIENCE_MS)
+    until(lambda: is_loaded(saved), 10)
+    broken = page.get_by_role("button", name="Broken")
+    expect(broken).to_contain_text("can't be read")
+    expect(broken.locator(".ai4u-scene-picture svg")).to_be_visible()
+    address = last.get_attribute("src") or "?"
+    assert not [each for each in asked if each.endswith(address)]
+    last.scroll_into_view_if_needed()
+    until(lambda: is_loaded(last), 10)
+    assert len([each for each in asked if each.endswith(address)]) == 1
+    page.context.close()
+
+
+def is_loaded(picture: Locator) -> bool:
+    return bool(picture.evaluate("each => each.complete && each.naturalWidth > 0"))
+
+
+def test_a_picture_that_can_t_be_loaded_leaves_an_icon(world: World, page: Page) -> None:
+    page.route("**/api/scenes/*.png*", lambda route: route.abort())
+    page.reload()
+    expect(page.locator("#library .ai4u-scene-picture svg").first).to_be_visible()
 
 
 def test_scenes_have_the_stars_that_programs_have_earned(page: Page) -> None:

@@ -191,7 +191,9 @@ def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> N
 def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallServer) -> None:
     page.get_by_role("button", name="Assign a scene…").click()
     dialog = page.get_by_role("dialog", name="Assign a scene")
+    expect_picture(dialog, "Box chase from above")
     dialog.get_by_label("Which scene").select_option(label="Maze")
+    expect_picture(dialog, "Maze from above")
     dialog.get_by_label("Some rooms").check()
     dialog.get_by_role("button", name="Assign").click()
     expect(dialog.get_by_role("alert")).to_have_text("Choose at least one room.")
@@ -203,7 +205,9 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
 
     page.get_by_role("button", name="Assign a scene…").click()
     dialog.get_by_label("A lesson").check()
+    expect_picture(dialog, "Box chase from above")
     dialog.get_by_label("Which lesson").select_option(label="03 Build an agent")
+    expect(dialog.get_by_role("img")).to_have_count(0)
     dialog.get_by_label("Starting program (Python)").fill("def decide(percept):\n    return {}\n")
     dialog.get_by_role("button", name="Assign").click()
     expect(dialog).to_have_count(0)
@@ -228,6 +232,13 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     expect(strip).to_contain_text(f"1. {name_of(3)} 12.4 s   2. {name_of(4)} 14.1 s   Refused")
     page.get_by_role("button", name="End race").click()
     until(lambda: school.commands[-1] == {"do": "end race"}, 10)
+
+
+def expect_picture(dialog: Locator, text: str) -> None:
+    """Expect one picture with this text, which is really there."""
+    picture = dialog.get_by_role("img")
+    expect(picture).to_have_accessible_name(text)
+    until(lambda: picture.evaluate("each => each.naturalWidth") == 400, 10)
 
 
 def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> None:

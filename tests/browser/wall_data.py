@@ -10,6 +10,7 @@ from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.names import COLOURS, words_of
 from ai4u_edu.classroom.teacher import join_code
 from ai4u_edu.scenes import Scene
+from ai4u_edu.server.library_pictures import picture_address
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.wire.class_link import Drawing, Poses
 
@@ -31,10 +32,19 @@ EXERCISES = [
     },
 ]
 SCENES = [
-    {"name": "box_chase", "title": "Box chase", "stars": 3},
-    {"name": "soccer", "title": "Soccer", "stars": 3},
-    {"name": "maze", "title": "Maze", "stars": 3},
-    {"name": "parking", "title": "Parking", "stars": 3},
+    {
+        "name": name,
+        "title": title,
+        "stars": 3,
+        "picture": picture_address(name),
+        "is_duel": name == "soccer",
+    }
+    for name, title in (
+        ("box_chase", "Box chase"),
+        ("soccer", "Soccer"),
+        ("maze", "Maze"),
+        ("parking", "Parking"),
+    )
 ]
 STATUSES = ["driving"] * 5 + ["solved", "fell", "driving", "idle", "solved", "waiting", "error"]
 _IDS = [name for lesson in EXERCISES for name in lesson["ids"]]
@@ -76,11 +86,16 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "qr": join_code(ADDRESS, CODE),
         "open": True,
         "attention": {"kind": "", "message": "", "ends_in": 0.0},
-        "shown": {"kind": "join", "room": ""},
+        "shown": {"kind": "join", "room": "", "game": 0},
         "race": None,
+        "tournament": None,
+        "handed_in": {"missing": "", "networks": []},
         "scenes": SCENES,
         "exercises": EXERCISES,
-        "lessons": [{"number": each["lesson"], "title": each["title"]} for each in EXERCISES],
+        "lessons": [
+            {"number": each["lesson"], "title": each["title"], "scene": scene}
+            for each, scene in zip(EXERCISES, ("box_chase", "", "maze"), strict=True)
+        ],
         "seats": seats,
         "rooms": [_room(number) for number in range(1, count + 1)],
         "progress": {str(number): _progress(number) for number in range(1, count + 1)},
@@ -110,6 +125,98 @@ def race(count: int, phase: str = "running", starts_in: float = 0.0) -> dict[str
         "is_board_hidden": False,
         "board": rows,
     }
+
+
+def handed_in(count: int) -> dict[str, Any]:
+    """Return the networks of a number of seats, some of which wait or were refused."""
+    networks = []
+    for number in range(1, count + 1):
+        verdict = {3: "refused", 5: "open"}.get(number, "right")
+        networks.append(
+            {
+                "key": f"network{number}",
+                "seat": number,
+                "scene": "soccer",
+                "part": "keeper" if number == 4 else "",
+                "file": f"policy{number}.onnx",
+                "verdict": verdict,
+                "reason": REFUSAL if verdict == "refused" else "",
+            }
+        )
+    return {"missing": "", "networks": networks}
+
+
+def tournament(count: int, phase: str = "running") -> dict[str, Any]:
+    """Return a tournament of a number of seats, of which the first wins against all others."""
+    entries = [_entry(number) for number in range(1, count + 1)]
+    standings = [
+        {
+            **entry,
+            "rating": 34.0 - 18.0 * place / count,
+            "range": 9.5 if place % 4 else 13.5,
+            "is_provisional": place % 4 == 0,
+            "won": sum(row[0] for row in against if row),
+            "drawn": sum(row[1] for row in against if row),
+            "lost": sum(row[2] for row in against if row),
+            "failed": 0,
+            "points": 12.5 - 3.25 * place,
+            "against": against,
+        }
+        for place, entry in enumerate(entries)
+        for against in [[_against(place, other) for other in range(count)]]
+    ]
+    latest: list[dict[str, Any]] = [
+        {
+            "entries": [
+                {**entries[place], "rank": 0, "points": 10.5},
+                {**entries[place + 1], "rank": 1, "points": -10.5},
+            ],
+            "seed": 0,
+            "problem": REFUSAL if place == 1 else "",
+            "has_failed": place == 1,
+            "games": [_game(2 * place + 1, entries[place], entries[place + 1])],
+        }
+        for place in range(min(4, count - 1))
+    ]
+    return {
+        "id": "tournament1",
+        "scene": "soccer",
+        "title": "Soccer",
+        "phase": phase,
+        "problem": "",
+        "players": count,
+        "results": {
+            "games": 3 * count,
+            "total": count * (count - 1),
+            "is_race": False,
+            "standings": standings,
+            "latest": latest,
+            "best": [each["games"][0] for each in latest],
+            "refused": [],
+        },
+    }
+
+
+REFUSAL = "it took 1.3 s of processor time for a decision; expected at most 1 s"
+
+
+def _entry(number: int) -> dict[str, Any]:
+    colour = COLOURS[(number - 1) % len(COLOURS)]
+    return {"name": name_of(number), "colour": colour, "seat": number}
+
+
+def _against(place: int, other: int) -> list[int] | None:
+    """Return what an entry has won, drawn and lost against another one; None if they still have to
+    play."""
+    if place == other or (place + other) % 5 == 4:
+        return None
+    if (place + other) % 4 == 3:
+        return [0, 1, 0]
+    return [1, 0, 0] if place < other else [0, 0, 1]
+
+
+def _game(number: int, one: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
+    return {"number": number, "who": [one, other], "points": [10.5, -10.5], "seed": 0}
 
 
 def drawing_message(number: int) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from ai4u_edu.classroom.echo import echo
-from ai4u_edu.classroom.pages import html_page, web_file
+from ai4u_edu.classroom.pages import FILE_ROUTES, html_page
 from ai4u_edu.server import ServerThread
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 
@@ -57,7 +57,7 @@ class WallServer:
                 Route("/api/join", self._command, methods=["POST"]),
                 WebSocketRoute("/check/socket", echo),
                 WebSocketRoute("/{page}/socket", self._socket),
-                Route("/web/{file}", web_file),
+                *FILE_ROUTES,
             ]
         )
 

@@ -6,6 +6,7 @@ import pytest
 
 from ai4u_edu.class_link import Outbox
 from ai4u_edu.class_link import outbox as outbox_module
+from ai4u_edu.wire.class_link import Network
 from tests.class_link.messages import result
 
 
@@ -62,3 +63,13 @@ def test_a_folder_that_can_not_be_written_to_is_told_and_results_stay_in_memory(
     outbox.add(result(1))
     assert outbox.keys() == [result(1).key]
     assert "results can't be kept in" in outbox.problem
+
+
+def test_a_network_takes_the_place_of_one_before_for_the_same_scene(tmp_path: Path) -> None:
+    outbox = Outbox(tmp_path)
+    for number, scene in enumerate(("sumo", "tag", "sumo")):
+        outbox.add(Network(f"network-{number}", scene, "", "a.onnx", b"a"))
+        outbox.add(result(number))
+    kept = ["result-0000", "network-1", "result-0001", "network-2", "result-0002"]
+    assert outbox.keys() == kept
+    assert Outbox(tmp_path).keys() == kept

@@ -17,6 +17,7 @@ from ai4u_edu.wire.class_link import (
     FromClass,
     FromRoom,
     Hello,
+    Network,
     Problem,
     State,
     Welcome,
@@ -116,7 +117,10 @@ class TinyClass:
             while True:
                 message = decode_from_room(connection.recv(decode=False))
                 self.got.append(message)
-                if isinstance(message, EpisodeResult | ExerciseResult) and self.is_acknowledging:
+                if (
+                    isinstance(message, EpisodeResult | ExerciseResult | Network)
+                    and self.is_acknowledging
+                ):
                     send(Ack(message.key))
         except ConnectionClosed:
             pass

@@ -139,6 +139,7 @@ def test_a_name_with_markup_is_refused_as_text(served: ServedClass) -> None:
     assert served.command("rename", seat=1, name=MARKUP).status_code == 400
 
 
+@pytest.mark.nightly
 def test_a_flood_of_wrong_codes_lets_the_class_join_meanwhile(tmp_path: Path) -> None:
     with served_class(tmp_path) as served:
 

@@ -2,12 +2,13 @@
 
 import csv
 import io
+import time
 import zipfile
 from pathlib import Path
 
 import pytest
 
-from ai4u_edu import Scene
+from ai4u_edu import Scene, zoo
 from ai4u_edu.lessons.progress_file import read_entries
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.file import decode
@@ -19,7 +20,10 @@ from tests.classroom.test_race import SEED, driven, result
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.slow
+POLL_S = 0.5
+"""Interval of questions for a verdict; a page asks less often."""
 TITLE = "<script>alert(1)</script>"
+NETWORK = zoo.network_of("box_chase").read_bytes()
 
 
 def zip_of(content: bytes) -> dict[str, bytes]:
@@ -41,11 +45,29 @@ def work(served: ServedClass, ada: Student) -> None:
         link.send(result(race.id, driven(1.0)))
         link.next(Ack)
         wall.next("class", lambda e: e["race"] and e["race"]["board"])
+    hand_in(ada)
     file = served.folder / "rooms" / ada.room.split("/")[2] / "scene.yaml"
     assert ada.get("healthz").status_code == 200
     # the room has begun, and opens the race's scene; it would open it over the next one
     until(lambda: file.is_file() and TITLE in file.read_text(), 20)
     assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
+
+
+def hand_in(student: Student) -> None:
+    """Hand a network in, and wait until it has played against itself."""
+    place = {"scene": "box_chase", "part": "", "file": "secret name.onnx"}
+    octets = {"Content-Type": "application/octet-stream"}
+    put = student.client.put("api/network", params=place, content=NETWORK, headers=octets)
+    assert put.status_code == 200, put.text
+    verdicts = ["open"]
+
+    def is_checked() -> bool:
+        time.sleep(POLL_S)
+        verdicts[:] = [e["verdict"] for e in student.client.get("api/network").json()["networks"]]
+        return verdicts != ["open"]
+
+    until(is_checked, 30)
+    assert verdicts == ["right"]
 
 
 def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) -> None:
@@ -69,9 +91,11 @@ def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) ->
         (name,) = [each for each in files if each.endswith(".episode")]
         assert ".." not in name
         assert decode(Episode, files[name], name).seed == SEED
+        assert files["networks/Red Fox 1/box_chase.onnx"] == NETWORK
 
         own = zip_of(ada.client.get("api/my-work").content)
         assert "title: Maze" in own["scene.yaml"].decode()  # changed last
+        assert own["networks/box_chase.onnx"] == NETWORK
         assert read_entries(own["progress.json"].decode())["04.2"].tries == 1
         other = ben.client.get("api/my-work")
         (tmp_path / "my-work.zip").write_bytes(other.content)
@@ -90,7 +114,17 @@ def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) ->
         told = served.state()
         assert (told["seats"], told["rooms"], told["progress"], told["race"]) == ([], [], {}, None)
         assert told["code"] != CODE
-        words = [*secrets, "Red Fox", "Blue Otter", "127.0.0.1", room, "narrow", TITLE, CODE]
+        words = [
+            *secrets,
+            "Red Fox",
+            "Blue Otter",
+            "127.0.0.1",
+            room,
+            "narrow",
+            TITLE,
+            CODE,
+            "secret name",
+        ]
         assert found_in(folder, words) == []
         assert [each.name for each in folder.iterdir() if each.is_dir()] == []
 

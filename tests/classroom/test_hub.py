@@ -7,12 +7,13 @@ from urllib.parse import parse_qs, urlsplit
 import httpx
 import pytest
 
+from ai4u_edu import zoo
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
 from ai4u_edu.class_link.hub import join_at_hub
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.sign_in import COOKIE, STATE_COOKIE
-from ai4u_edu.wire.class_link import Ack, Problem, Welcome
+from ai4u_edu.wire.class_link import Ack, HandedIn, Network, Problem, Welcome
 from tests.classroom.fake_hub import (
     ACCESS,
     NAME,
@@ -274,6 +275,33 @@ def test_seats_are_there_after_a_restart_and_gone_after_forget(
             assert teacher.post("teacher/command", json={"do": "forget"}).status_code == 200
         assert school.state(ALAN)["seats"] == []
         assert school.seat(ADA).status_code == 200
+
+
+@pytest.mark.nightly
+def test_a_network_comes_over_the_link_and_plays(hub: FakeHub, tmp_path: Path) -> None:
+    with hub_class(tmp_path, hub) as school:
+        name = school.seat(ADA).json()["name"]
+        with RawLink(school, ADA) as link:
+            data = zoo.network_of("box_chase").read_bytes()
+            link.send(Network("key-of-a-network", "box_chase", "", "mine.onnx", data))
+            link.next(Ack)
+            told = link.next(HandedIn, lambda each: each.networks[:1] != ())
+            while told.networks[0].verdict == "open":
+                told = link.next(HandedIn)
+            assert told.networks[0].reason == ""
+        with school.client(ALAN) as teacher:
+            for command in (
+                {"do": "tournament", "scene": "box_chase"},
+                {"do": "start tournament", "own_player": True},
+            ):
+                answer = teacher.post("teacher/command", json=command)
+                assert answer.status_code == 200, answer.text
+            until(lambda: school.state(ALAN)["tournament"]["phase"] == "over", 60)
+            results = school.state(ALAN)["tournament"]["results"]
+            assert {each["name"] for each in results["standings"]} == {name, "The scene's player"}
+            assert name in teacher.get("teacher/tournament").text
+        with school.client(GRACE) as student:
+            assert student.get("teacher/tournament").status_code == 403
 
 
 def test_without_a_hub_the_command_says_what_is_missing() -> None:

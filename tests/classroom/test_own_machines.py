@@ -120,6 +120,20 @@ def test_a_notebook_reports_its_checks_and_shows_its_world(
 
 
 @pytest.mark.nightly
+def test_a_notebook_hands_in_a_network_and_hears_the_verdict(
+    there: ServedClass, tmp_path: Path
+) -> None:
+    with kernel(tmp_path / "lessons") as notebook:
+        notebook.run("from ai4u_edu import zoo; from ai4u_edu.lessons import submit")
+        assert "You are in no class." in notebook.run('submit("maze", zoo.network_of("maze"))')
+        notebook.run(f"join_class({there.url!r}, {CODE!r})")
+        told = notebook.run('submit("maze", zoo.network_of("maze"))')
+        assert "Handed in. maze.onnx for maze can play in the tournament." in told
+        told = notebook.run('submit("sumo", zoo.network_of("maze"))')
+        assert "Not taken. maze.onnx for sumo: " in told
+
+
+@pytest.mark.nightly
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGSTOP")
 def test_a_network_that_is_gone_for_a_minute_loses_no_result(tmp_path: Path) -> None:
     """The class answers nothing for a minute, and no connection is closed: as without Wi-Fi."""

@@ -138,7 +138,8 @@ def test_a_program_has_the_world_wait_for_it_where_nobody_else_is_in_it(
 
 def _script_address(student: Student) -> str:
     """Return the address for scripts that the student's page shows."""
-    return re.findall(r"http://[^\s'\"]+", _python_lines(student))[0]
+    address: str = re.findall(r"http://[^\s'\"]+", _python_lines(student))[0]
+    return address
 
 
 def _picture(student: Student, query: str = "") -> ClientConnection:

@@ -52,7 +52,11 @@ def test_the_first_event_has_everything(served: ServedClass) -> None:
     assert titles == {name: Scene.load(name).description.title for name in Scene.names()}
     lesson = next(each for each in event["exercises"] if each["lesson"] == "04")
     assert "04.2" in lesson["ids"]
-    assert {"number": "04", "title": "Sensors: what can it know?"} in event["lessons"]
+    (about,) = [each for each in event["lessons"] if each["number"] == "04"]
+    assert about["title"] == "Sensors: what can it know?"
+    assert about["scene"] in titles
+    (maze,) = [each for each in event["scenes"] if each["name"] == "maze"]
+    assert httpx.get(served.url + maze["picture"]).content.startswith(b"\x89PNG")
     assert event["shown"] == {"kind": "join", "room": ""}
     assert event["attention"] == {"kind": "", "message": "", "ends_in": 0}
     (seat,) = [each for each in event["seats"] if each["name"] == "Red Fox"]

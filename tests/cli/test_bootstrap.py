@@ -53,6 +53,7 @@ def test_changes_are_installed_and_extras_add_up(made: Path) -> None:
     assert stamp["extras"] == ["dev", "train"]
 
 
+@pytest.mark.nightly
 def test_a_known_torch_is_brought_first_where_it_can_be_had(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

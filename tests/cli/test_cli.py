@@ -11,6 +11,7 @@ from typing import Any, get_args, get_type_hints
 
 import pytest
 import typer
+from PIL import Image
 from typer.testing import CliRunner
 
 from ai4u_edu.base.errors import AI4UError
@@ -91,6 +92,18 @@ def test_scenes_tells_all_that_a_scene_says_of_itself_in_80_columns() -> None:
     assert "did you mean 'box_chase'?" in str(unknown.exception)
 
 
+def test_scenes_are_drawn_into_a_folder(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.yaml"
+    mine.write_text(Scene.load("maze").source.replace("name: maze", 'name: "my: maze"'))
+    out = tmp_path / "pictures"
+    for scene, name in (("maze", "maze.png"), (str(mine), "my__maze.png")):
+        told = CliRunner().invoke(app, ["scenes", scene, "--pictures", str(out)]).output
+        assert told.startswith(f"{out / name}: ")
+        with Image.open(out / name) as picture:
+            assert (picture.format, max(picture.size)) == ("PNG", 400)
+    assert len([*out.iterdir()]) == 2
+
+
 def test_check_says_fine_or_what_is_wrong(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
     source = Path(__file__).parents[2] / "ai4u_edu/scenes/library/box_chase.yaml"
@@ -135,7 +148,7 @@ def test_every_number_has_bounds(command: str, option: str) -> None:
     assert high is not None
     assert 0 <= low < high <= MAX_SEED
     assert default is None or low <= default <= high
-    if "seed" in option:
+    if option.endswith("seed"):  # --seeds is a count
         assert (low, high) == (0, MAX_TRAINING_SEED if command == "train" else MAX_SEED)
     needed = [
         "x"

@@ -11,13 +11,13 @@ from tests.fuzz.target import Target
 from tests.fuzz.targets import TARGETS
 
 SLICE = {
-    "native-said": 3000,
-    "native-heard": 3000,
-    "ai4u-request": 3000,
-    "ai4u-reply": 3000,
-    "percept": 1000,
-    "page-words": 1000,
-    "recording": 750,
+    "native-said": 1000,
+    "native-heard": 1000,
+    "ai4u-request": 1000,
+    "ai4u-reply": 1000,
+    "percept": 400,
+    "page-words": 400,
+    "recording": 300,
     "scene": 40,
     "http": 400,
     "conversations": 30,

@@ -4,6 +4,7 @@ import csv
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import psutil
@@ -20,35 +21,31 @@ from ai4u_edu.training.sweep.plan import Plan
 from ai4u_edu.training.sweep.result import csv_text
 from ai4u_edu.training.sweep.run import Sweep, run_sweep
 from ai4u_edu.training.sweep.search_space import Parameter
+from tests.jobs.ray_cluster import RayCluster, ray_cluster
 from tests.training.small import small_settings
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 
 class Killer:
-    """Kills a machine of a cluster when some jobs have ended."""
+    """Kills a machine of a cluster when some jobs have ended, and it runs another one."""
 
-    def __init__(self, cluster: Any, machine: Any) -> None:
-        self.cluster, self.machine, self.ended = cluster, machine, 0
+    def __init__(self, cluster: RayCluster) -> None:
+        self.ended = 0
+        self.killing = Thread(target=cluster.kill)
 
     def __call__(self, _outcome: object) -> None:
         self.ended += 1
         if self.ended == 3:
-            self.cluster.remove_node(self.machine, False)
+            self.killing.start()
 
 
 @pytest.fixture
 def cluster() -> Iterator[tuple[Engine, Killer]]:
-    from ray.cluster_utils import Cluster
-
-    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1})
-    try:
-        mortal = made.add_node(num_cpus=1)
-        made.add_node(num_cpus=1)
-        with engine("ray", address=made.address) as running:
-            yield running, Killer(made, mortal)
-    finally:
-        made.shutdown()  # type: ignore[no-untyped-call]
+    with ray_cluster() as made, engine("ray", address=made.address) as running:
+        killer = Killer(made)
+        yield running, killer
+        killer.killing.join()
 
 
 def rows(done: Sweep) -> list[dict[str, str]]:
@@ -78,8 +75,23 @@ def test_a_sweep_has_the_same_table_though_a_machine_dies(
         alone = run_sweep(plan, tmp_path / "inline", here)
     assert rows(there) == rows(alone)
     assert [each.network for each in there.results] == [each.network for each in alone.results]
-    journal = (tmp_path / "ray" / "journal.jsonl").read_text().splitlines()
-    assert len({json.loads(line)["key"] for line in journal}) == len(journal) == 8
+    expect_each_once(tmp_path / "ray", 8)
+    assert max(tries(tmp_path / "ray")) > 1, "the machine died with a trial"
+
+
+def lines(folder: Path) -> list[dict[str, Any]]:
+    return [json.loads(each) for each in (folder / "journal.jsonl").read_text().splitlines()]
+
+
+def expect_each_once(folder: Path, count: int) -> None:
+    """Expect a number of jobs that all ended well, and none twice."""
+    ended = lines(folder)
+    assert len({each["key"] for each in ended}) == len(ended) == count
+    assert {each["error"] for each in ended} == {""}
+
+
+def tries(folder: Path) -> list[int]:
+    return [each["tries"] for each in lines(folder)]
 
 
 def played(plan: TournamentPlan, folder: Path, running: Engine, **options: Any) -> Tournament:
@@ -109,8 +121,7 @@ def expect_equal(there: Path, alone: Path) -> None:
     assert files[0] == files[1], "bit for bit"
     for name in ("games.json", "standings.csv"):
         assert (there / name).read_text() == (alone / name).read_text()
-    journal = (there / "journal.jsonl").read_text().splitlines()
-    assert len({json.loads(line)["key"] for line in journal}) == len(journal) == 21
+    expect_each_once(there, 21)
 
 
 @pytest.mark.timeout(1800)
@@ -122,6 +133,7 @@ def test_a_tournament_has_the_same_recordings_though_a_machine_dies(
     with engine("inline") as here:
         played(sumo(), tmp_path / "inline", here)
     expect_equal(tmp_path / "ray", tmp_path / "inline")
+    assert max(tries(tmp_path / "ray")) > 1, "the machine died with a game"
 
 
 @pytest.mark.timeout(900)

@@ -4,6 +4,7 @@ import json
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -120,15 +121,19 @@ def test_jobs_run_elsewhere_with_a_thread_each(apart: Engine) -> None:
     assert threads.result["OMP_NUM_THREADS"] == "1"
 
 
-def test_closing_ends_what_still_runs() -> None:
+@pytest.mark.parametrize("name", ["processes", ON_RAY])
+@pytest.mark.timeout(400)
+def test_closing_ends_what_still_runs(name: str) -> None:
     before = {each.pid for each in psutil.Process().children(recursive=True)}
-    with engine("processes", width=2) as made:
-        made.start(Job.of(functions.rest, seconds=60))
+    with engine(name, width=2) as made:
+        made.start(Job.of(functions.rest, seconds=600))
         made.start(Job.of(functions.pid, number=1))
         made.wait()
-    after = {each.pid for each in psutil.Process().children(recursive=True)}
-    started = [psutil.Process(pid) for pid in after - before]
-    assert not [each for each in started if "spawn_main" in " ".join(each.cmdline())]
+        while_open = psutil.Process().children(recursive=True)
+    started = [each for each in while_open if each.pid not in before]
+    assert len(started) >= 2
+    left = [" ".join(each.cmdline()) for each in started if each.is_running()]
+    assert [each for each in left if "resource_tracker" not in each] == []
 
 
 # -- the journal --------------------------------------------------------------------------------
@@ -184,17 +189,19 @@ from tests.jobs import functions
 
 if __name__ == "__main__":
     jobs = [Job.of(functions.pid, number=number) for number in range(50)]
-    with Journal(Path(sys.argv[1])) as journal, engine("processes", width=2) as made:
+    with Journal(Path(sys.argv[1])) as journal, engine(sys.argv[2], width=2) as made:
         for outcome in run_jobs(jobs, made, journal=journal):
             print(outcome.job.arguments["number"], flush=True)
 """
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
-def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ["processes", ON_RAY])
+@pytest.mark.timeout(400)
+def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path, name: str) -> None:
     script = tmp_path / "many_jobs.py"
     script.write_text(PROGRAM)
-    command = [sys.executable, str(script), str(tmp_path / "out")]
+    command = [sys.executable, str(script), str(tmp_path / "out"), name]
     options = {"env": {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}, "text": True}
     process = subprocess.Popen(
         command,
@@ -212,7 +219,7 @@ def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path) 
             *psutil.Process(process.pid).children(recursive=True),
         ]
         os.killpg(process.pid, signal.SIGINT)
-        process.wait(10)
+        process.wait(60)
     _, alive = psutil.wait_procs(family, timeout=5)
     assert not alive
     lines = (tmp_path / "out" / "journal.jsonl").read_text().splitlines()
@@ -249,3 +256,12 @@ def test_an_engine_that_is_not_there_is_told() -> None:
         engine("process")
     with pytest.raises(SetupError, match="--address is for --engine ray"):
         engine("inline", address="192.0.2.7:6379")
+
+
+def test_a_cluster_that_is_not_there_is_told_at_once() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        address = f"127.0.0.1:{free.getsockname()[1]}"
+    with pytest.raises(SetupError, match=f"expected a Ray cluster at {address}, got: .*refused"):
+        engine("ray", address=address)
+    with pytest.raises(SetupError, match="expected one such as 192"):
+        engine("ray", address="somewhere")

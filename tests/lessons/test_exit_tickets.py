@@ -154,7 +154,8 @@ def test_the_notebook_asks_these_questions_with_these_choices(exercise: str) -> 
 
 def test_each_lesson_ends_with_a_ticket() -> None:
     assert [each[:2] for each in IDS] == [each.number for each in lessons()]
-    assert {each.exercises[-1] for each in lessons()} == set(IDS)
+    for each in lessons():  # a stretch may have an exercise, too
+        assert set(each.exercises[-2:]) & set(IDS), each.number
 
 
 def test_the_right_letters_of_the_course_differ() -> None:

@@ -21,7 +21,7 @@ IN_KERNEL = ["00", "10"]
 To start a kernel takes longer than most lessons do, so the others run as scripts."""
 LONG = ["10", "11", "14", "16"]
 """Lessons that train, or play many matches. 10 runs in a kernel, and 14 unfinished."""
-UNFINISHED = ["00", "01", "04", "07", "14"]
+UNFINISHED = ["00", "07"]
 """Lessons that run unfinished each time: one of each kind. What their checks say of unfinished work
 is tested for all exercises."""
 
@@ -78,7 +78,7 @@ def test_solved_they_run_as_scripts_and_every_check_passes(
     for number in numbers:
         entries = told[number]["entries"]
         assert {name: each["text"] for name, each in entries.items() if not each["passed"]} == {}
-        assert sorted(entries) == lesson(number).exercises
+        assert sorted(entries) == sorted(lesson(number).exercises)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_solved_it_runs_in_a_kernel_and_every_check_passes(
     one = lesson(number)
     done = executed(one, tmp_path)
     assert {name: entry.text for name, entry in done.entries.items() if not entry.passed} == {}
-    assert sorted(done.entries) == one.exercises
+    assert sorted(done.entries) == sorted(one.exercises)
     assert done.complaints == []
     kept = {name: entry.code for name, entry in done.entries.items()}
     assert kept == {each: solution_of(each) for each in one.exercises}

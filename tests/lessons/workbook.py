@@ -14,8 +14,8 @@ from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.exit_ticket import TICKETS
 from ai4u_edu.lessons.notebook import Cell
 
-SLOW = ("10.3", "11.2")
-"""Exercises whose answers train a network."""
+SLOW = ("10.3", "11.1", "11.2", "17.3", "17.4", "17.5", "18.4")
+"""Exercises whose answers train a network, or play many episodes."""
 SETUP = "setup"
 """Cells with this tag are run before an exercise is tried alone."""
 

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import trained_brain
+from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS
 from tests.panel.rooms import panel_room
 from tests.server.rooms import until
 
@@ -68,3 +69,31 @@ def test_what_if_a_number_were_another_one() -> None:
         assert "expected a number from 0 to 1, got 2" in text
         text = page.failed("what_if", changes=[change | {"key": "orientatoin"}])["text"]
         assert "did you mean 'orientation'" in text
+
+
+def test_in_a_recorded_episode_the_baseline_is_its_mean() -> None:
+    with panel_room() as room, room.page() as page:
+        agent = room.runner.sim.agents[0]
+
+        def steer(percept: Any) -> Any:
+            return {"move": [0, percept["orientation"][0] / 2 + 0.5, 0, 0]}
+
+        room.runner.submit(lambda: agent.use_brain(steer)).result(10)
+        page.show("0", "agent", "past")
+        page.done("why", on=True)
+        assert page.part("why", problem="")["baseline"] == "the middle of its range"
+        seen = []
+        for _ in range(MIN_MEAN_PERCEPTS):
+            seen.append(agent.percept["orientation"][0])
+            page.done("decision")
+        page.done("new_start")
+        number = page.part("past", lambda m: m["episodes"])["episodes"][0]["number"]
+        page.done("episode", number=number)
+        page.done("step", step=20)
+        words = f"the mean of 50 percepts of episode {number}"
+        part = page.part("why", baseline=words)
+        (slot,) = [each for each in part["slots"] if each["name"] == "orientation: cosine"]
+        moved = seen[20] - sum(seen) / len(seen)
+        assert slot["shares"][1] == pytest.approx(moved / 2 / 2, abs=1e-3)
+        page.done("back_to_live")
+        assert "episode" not in page.part("why", lambda m: m["baseline"] != words)["baseline"]

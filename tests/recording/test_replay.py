@@ -26,6 +26,7 @@ from tests.recording.recorded_drives import (
     take,
 )
 from tests.recording.replay_digest import digest
+from tests.scenes.few import SCENES
 
 pytestmark = pytest.mark.slow
 
@@ -48,7 +49,7 @@ def check(episode: Episode, notes: dict[str, list[Note]]) -> None:
                 assert moment.decision.reward_terms == note.terms
 
 
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize("name", SCENES)
 def test_every_scene_plays_again_byte_for_byte(name: str) -> None:
     taken = take(name)
     assert len(taken.episode.agents[0]) > 10

@@ -189,6 +189,7 @@ def test_two_agents_with_their_ids(ports: int) -> None:
     assert sim.episode == 1
 
 
+@pytest.mark.nightly
 def test_their_training_script_learns(capsys: pytest.CaptureFixture[str]) -> None:
     sim, port, record = remote_scene(max_steps_per_episode=120)
     with running(sim):

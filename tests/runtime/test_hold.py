@@ -43,9 +43,10 @@ def test_it_stands_still_with_its_keys_released_and_goes_on(time_scale: float) -
     "ask",
     [
         Runner.resume,
-        Runner.start_episode,
-        Runner.try_again,
-        Runner.new_start,
+        *(
+            pytest.param(each, marks=pytest.mark.nightly)
+            for each in (Runner.start_episode, Runner.try_again, Runner.new_start)
+        ),
         lambda runner: runner.replace_sim(small_sim(), seed=3),
     ],
 )

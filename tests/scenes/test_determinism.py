@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from ai4u_edu import Scene
+from tests.scenes.few import FEW, SCENES
 from tests.scenes.rollout import trajectory
 
 pytestmark = pytest.mark.slow
@@ -23,11 +24,12 @@ def elsewhere(*names: str) -> dict[str, str]:
 
 
 @pytest.fixture(scope="module")
-def all_elsewhere() -> dict[str, str]:
-    return elsewhere(*reversed(Scene.names()))
+def all_elsewhere(request: pytest.FixtureRequest) -> dict[str, str]:
+    names = Scene.names() if request.config.getoption("nightly") else FEW
+    return elsewhere(*reversed(names))
 
 
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize("name", SCENES)
 def test_two_processes_agree_bit_for_bit(name: str, all_elsewhere: dict[str, str]) -> None:
     # other worlds and episodes have run before in both processes, in another order
     assert [trajectory(name, 11), trajectory(name, 11)] == [all_elsewhere[name]] * 2
@@ -45,7 +47,7 @@ def test_a_process_in_which_nothing_has_run_before_agrees(name: str) -> None:
     assert elsewhere(name) == {name: trajectory(name, 11)}
 
 
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize("name", SCENES)
 def test_any_episode_of_a_long_run_can_be_played_again_from_its_seed(name: str) -> None:
     sim = Scene.load(name).build()
     sim.reset(3)

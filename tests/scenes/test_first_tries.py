@@ -3,6 +3,7 @@
 import pytest
 
 from ai4u_edu import Scene
+from tests.scenes.few import SCENES, mostly_nightly
 from tests.scenes.newcomer import Try, play
 from tests.scenes.plans import PLANS
 
@@ -22,19 +23,20 @@ def tries(name: str) -> list[Try]:
     return [play(sim, PLANS[name], seed) for seed in range(NEWCOMERS * TRIES)]
 
 
-@pytest.mark.parametrize("name", [name for name in PLANS if name not in LEAST_WINS])
+@pytest.mark.parametrize("name", mostly_nightly([each for each in PLANS if each not in LEAST_WINS]))
 def test_each_newcomer_wins_one_of_three_tries(name: str) -> None:
     played = tries(name)
     for first in range(0, len(played), TRIES):
         assert any(each.won for each in played[first : first + TRIES]), played
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", LEAST_WINS)
 def test_a_team_game_is_won_now_and_then(name: str) -> None:
     assert sum(each.won for each in tries(name)) >= LEAST_WINS[name]
 
 
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize("name", SCENES)
 def test_nobody_loses_in_the_first_two_seconds_without_a_key(name: str) -> None:
     sim = Scene.load(name).build()
     agent = sim.agents[0]

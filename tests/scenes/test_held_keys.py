@@ -6,6 +6,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
+from tests.scenes.few import SCENES
 
 pytestmark = pytest.mark.slow
 
@@ -55,7 +56,7 @@ def hold(sim: ControlRequestor, key: str, seeds: range) -> Count:
 
 
 @SEEDS
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize("name", SCENES)
 def test_a_key_held_for_two_seconds_seldom_loses_the_episode(name: str, seeds: range) -> None:
     sim = Scene.load(name).build()
     counts = {key: hold(sim, key, seeds) for key in KEYS}

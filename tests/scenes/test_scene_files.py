@@ -354,7 +354,8 @@ def test_what_is_no_scene_at_all(text: str, part: str) -> None:
 
 
 def test_a_deep_nest_is_no_crash() -> None:
-    assert error_of("a: " + "[" * 5000) == "my.yaml: nested more than 24 deep"
+    assert error_of("a: " + "[" * 500) == "my.yaml: nested more than 24 deep"
+    assert "nest" in error_of("a: " + "[" * 5000)  # newer versions of PyYAML refuse it themselves
     assert "nested" not in error_of("a: " + "[" * 23 + "1" + "]" * 23)
 
 

@@ -5,11 +5,12 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu import Block, Scene
+from ai4u_edu import Block
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.scenes.schema import scene_schema
 from ai4u_edu.scenes.serialization import is_serializable
 from tests.json_schema import validator_of
+from tests.scenes.few import SCENES
 
 
 @cache
@@ -21,7 +22,7 @@ def errors_in(scene: dict[str, Any]) -> list[str]:
     return [error.json_path for error in validator_of(schema()).iter_errors(scene)]
 
 
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize("name", SCENES)
 def test_every_scene_of_the_library_fits(name: str) -> None:
     from ai4u_edu.scenes.scene import LIBRARY
     from ai4u_edu.scenes.yaml.file import YamlFile

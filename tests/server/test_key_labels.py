@@ -13,13 +13,18 @@ from ai4u_edu.server.bindings import has_stick
 from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.key_labels import key_labels, usable_keys
 from ai4u_edu.snapshot import BodyState, capture_bodies
+from tests.scenes.few import FEW
 
 pytestmark = pytest.mark.slow
 
 PATIENCE = 6
 """Decisions."""
 
-AGENTS = [(name, agent.id) for name in Scene.names() for agent in Scene.load(name).build().agents]
+AGENTS = [
+    pytest.param(name, agent.id, marks=[] if name in FEW else [pytest.mark.nightly])
+    for name in Scene.names()
+    for agent in Scene.load(name).build().agents
+]
 
 
 def driven(scene: str, agent_id: str) -> tuple[ControlRequestor, BasicAgent]:

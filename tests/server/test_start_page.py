@@ -53,6 +53,17 @@ def test_each_scene_has_a_picture(room: Room) -> None:
         assert len(answer.content) < 20_000
 
 
+def test_browsers_keep_a_picture_until_it_is_another_one(room: Room) -> None:
+    scenes = httpx.get(room.url + "api/scenes", timeout=60).json()["scenes"]
+    (address,) = [each["picture"] for each in scenes if each["name"] == "maze"]
+    answer = httpx.get(room.url + address)
+    assert "immutable" in answer.headers["Cache-Control"]
+    url = room.url + address.partition("?")[0]
+    assert httpx.get(url).headers["Cache-Control"] == "no-cache"
+    known = httpx.get(url, headers={"If-None-Match": answer.headers["ETag"]})
+    assert (known.status_code, known.content) == (304, b"")
+
+
 @pytest.mark.parametrize("name", ["box_chase", "nothing.png", "..%2fmaze.png", "my_scene.png"])
 def test_nothing_else_has_a_picture(room: Room, name: str) -> None:
     assert httpx.get(f"{room.url}api/scenes/{name}").status_code == 404

@@ -156,6 +156,13 @@ def test_a_recording_plays_its_actions_again(tmp_path: Path) -> None:
 
 # -- programs -------------------------------------------------------------------------------------
 
+NIGHTLY = pytest.mark.nightly
+SILENT = """
+import os, time
+def decide(percept):
+    os.closerange(3, 100)
+    time.sleep(600)
+"""
 STAND = "def decide(percept):\n    return {'move': [0, 0, 0, 0]}\n"
 
 
@@ -170,8 +177,9 @@ STAND = "def decide(percept):\n    return {'move': [0, 0, 0, 0]}\n"
             "def decide(percept):\n    import os\n    os._exit(3)\n",
             "the program's process ended (exit status 3)",
         ),
+        pytest.param(SILENT, "the program's process has closed its output", marks=NIGHTLY),
     ],
-    ids=["wrong numbers", "error", "endless", "exit"],
+    ids=["wrong numbers", "error", "endless", "exit", "silent"],
 )
 def test_a_program_that_fails_loses(source: str, told: str, tmp_path: Path) -> None:
     bad, good = programs(tmp_path, source, STAND)
@@ -181,9 +189,12 @@ def test_a_program_that_fails_loses(source: str, told: str, tmp_path: Path) -> N
 
 
 MEMORY = "def decide(percept):\n    x = bytearray(3 * 2**30)\n    return {'move': [0, 0, 0, 0]}\n"
-FILE = (
-    "def decide(percept):\n    open('x', 'w').write('x' * 9)\n    return {'move': [0, 0, 0, 0]}\n"
-)
+FILE = """
+def decide(percept):
+    with open("x", "w") as file:  # else the error comes where nobody sees it
+        file.write("x")
+    return {"move": [0, 0, 0, 0]}
+"""
 NETWORK = """
 import socket
 def decide(percept):
@@ -201,7 +212,9 @@ def test_a_program_has_no_memory_files_or_network(tmp_path: Path) -> None:
         port = str(server.getsockname()[1])
         sources = (MEMORY, FILE, NETWORK.replace("PORT", port))
         for path, told in zip(
-            programs(tmp_path, *sources), ("Memory", "File too large", "unreachable"), strict=True
+            programs(tmp_path, *sources),
+            ("line 2: The program needs more memory", "File too large", "unreachable"),
+            strict=True,
         ):
             result = played(path, "random", trust_python=True)
             assert result["forfeit"] == 0, path

@@ -4,6 +4,7 @@ import csv
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -11,15 +12,17 @@ from ai4u_edu import Scene
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.cli.main import app
-from ai4u_edu.cli.sweep import parse_seeds
+from ai4u_edu.cli.sweep import parse_seeds, with_rewards_left_out
 from ai4u_edu.jobs import Outcome
+from ai4u_edu.scenes.scene_data import scene_data
 from ai4u_edu.training.run import Check
 from ai4u_edu.training.sweep.page import page_of
 from ai4u_edu.training.sweep.plan import Choice, Plan
 from ai4u_edu.training.sweep.result import TrialResult, csv_text, groups, ranked
 from ai4u_edu.training.sweep.search_space import Parameter
 from ai4u_edu.training.sweep.trial import CHECKS, trial
-from tests.training.small import small_settings
+from ai4u_edu.training.worlds import make_worlds
+from tests.training.small import CHOICES, small_settings
 
 
 def plan(**changes: object) -> Plan:
@@ -103,6 +106,37 @@ def test_unknown_settings_are_told_before_anything_runs() -> None:
         plan(parameters=parameters("skip_frame=-1,2")).check()
     with pytest.raises(SetupError, match="expected --trials"):
         plan(parameters=parameters("gamma=0.9..0.99")).check()
+
+
+def test_each_reward_term_is_left_out_in_turn(tmp_path: Path) -> None:
+    left_out = with_rewards_left_out(plan(parameters=parameters("gamma=0.9,0.99")))
+    names = [each.settings["without_reward"] for each in left_out.choices()]
+    assert names[::2][:4] == ["nothing", "touch", "fall", "min_dist"]
+    told = left_out.job(left_out.choices()[2]).arguments
+    assert told["settings"]["without_reward"] == "touch"
+    with pytest.raises(SetupError, match="got both"):
+        with_rewards_left_out(left_out)
+    (tmp_path / "choices.yaml").write_text(CHOICES)
+    with pytest.raises(SetupError, match="expected several reward terms"):
+        with_rewards_left_out(plan(scene=scene_data(str(tmp_path / "choices.yaml"), ())))
+
+
+def test_a_term_that_is_left_out_is_not_learned_from_and_still_ends_the_episode() -> None:
+    scene = Scene.load("box_chase")
+    rewards = []
+    for name in ("nothing", "fall"):
+        worlds = make_worlds(scene, small_settings(without_reward=name), "sac")
+        worlds.seed(3)
+        worlds.reset()
+        ahead = np.array([[1.0, 0.0, 0.0, 0.0]] * worlds.num_envs, np.float32)
+        told = [worlds.step(ahead) for _ in range(60)]
+        rewards.append(np.array([each[1] for each in told]))
+        ended = np.array([each[2] for each in told])
+    fell = ended & (rewards[0] < 0)
+    assert fell.any()
+    np.testing.assert_allclose(rewards[1] - rewards[0], fell.astype(float))
+    with pytest.raises(SetupError, match="no reward term is called 'fell'; did you mean 'fall'"):
+        make_worlds(scene, small_settings(without_reward="fell"), "sac")
 
 
 def test_only_the_number_of_trials_may_change() -> None:
@@ -191,3 +225,20 @@ def test_a_sweep_goes_on_where_it_ended(tmp_path: Path) -> None:
     assert len(rows) == 3
     with pytest.raises(AI4UError, match="holds a sweep with other batch"):
         run(*begin, *search[:2], "--trials", "1")
+
+
+@pytest.mark.nightly
+@pytest.mark.timeout(600)
+def test_which_term_taught_it(tmp_path: Path) -> None:
+    """Without what it is paid for touching the box or for coming closer, it learns to do less."""
+    out = tmp_path / "out"
+    arguments = ["sweep", "box_chase", "--algo", "sac", "--steps", "3000", "--leave-out-rewards"]
+    done = CliRunner().invoke(app, [*arguments, "--engine", "inline", "--out", str(out)])
+    assert done.exit_code == 0, done.output
+    rows = [*csv.DictReader((out / "trials.csv").read_text().splitlines())]
+    success = {row["without_reward"]: float(row["success"]) for row in rows}
+    assert set(success) == {"nothing", "touch", "fall", "min_dist"}
+    assert success["nothing"] > 0.8
+    assert min(success.values()) < success["nothing"]
+    assert (out / "terms.png").stat().st_size > 10_000
+    assert (out / "index.html").read_text().count("data:image/png;base64,") == 3

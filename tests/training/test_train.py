@@ -5,14 +5,18 @@ import signal
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import torch
 
 from ai4u_edu import Scene, World
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks.brains.network import Network
+from ai4u_edu.explain.policy import Policy
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.eval_callback import EvalCallback
 from ai4u_edu.training.learning import resume, train
+from ai4u_edu.training.notebook import export_checkpoints
 from ai4u_edu.training.run import Check, Run, run_of
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
 from tests.training.small import copied_training, small_settings, small_training
@@ -217,3 +221,21 @@ def test_the_model_of_each_check_is_kept_if_asked_for(tmp_path: Path) -> None:
     assert run_of(kept[0]).folder == tmp_path  # so that it can be exported
     result.run.clear()
     assert result.run.checkpoints == []
+    with pytest.raises(SetupError, match="has no checkpoints; train with: ai4u-edu train SCENE"):
+        export_checkpoints(result, tmp_path / "networks")
+
+
+@pytest.mark.nightly
+@pytest.mark.timeout(300)
+def test_checkpoints_are_exported_to_be_compared(tmp_path: Path) -> None:
+    scene = Scene.load("box_chase")
+    result = train(scene, "ppo", small_settings(), tmp_path, keep_checkpoints=True, quiet=True)
+    files = export_checkpoints(result, tmp_path / "networks")
+    assert [path.stem for path in files] == [path.stem for path in result.run.checkpoints]
+    steps = [Network(path).about["steps"] for path in files]
+    assert steps == [check.steps for check in result.checks]
+    policies = [Policy(path) for path in files]
+    sim = scene.build(1)
+    sim.reset(1)
+    actions = [policy.decide(sim.agents[0].percept) for policy in policies]
+    assert not np.allclose(actions[0], actions[-1])

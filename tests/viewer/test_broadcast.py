@@ -216,6 +216,11 @@ def test_what_one_page_has_said_goes_to_all_others(server: LocalServer) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    "server",
+    ["through the proxy", pytest.param("to viser", marks=pytest.mark.nightly)],
+    indirect=True,
+)
 def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalServer) -> None:
     slow, quick = client(server), client(server)
     out = settled(server, 2)

@@ -202,6 +202,8 @@ def _told(error: Exception) -> str:
     """Return onnxruntime's reason, without its codes and the places in its own source."""
     text = " ".join(str(error).split())
     text = re.sub(r"^\[ONNXRuntimeError\] : \d+ : \w+ : ", "", text)
+    if "external data" in text.lower():  # the rest of it are paths of this machine
+        return "one whose numbers lie in another file; export it as one file"
     text = re.sub(r"/\S*onnxruntime\S* (\S+ onnxruntime::\w+(::\w+)*\([^)]*\) )?", "", text)
     text = text or type(error).__name__
     return text if len(text) <= MAX_REASON_CHARS else text[: MAX_REASON_CHARS - 1] + "…"

@@ -24,12 +24,13 @@ from ai4u_edu.classroom.hub.teacher_auth import TeacherAuth
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.classroom.pages import page_route, web_file
+from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, qr_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
+from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.server.host_origin import HostOriginCheck
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
@@ -76,7 +77,7 @@ def hub_class_app(
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", echo),
             Route("/privacy", page_route("privacy.html")),
-            Route("/web/{file}", web_file),
+            *FILE_ROUTES,
             WebSocketRoute(LINK_PATH, LinkEndpoint(live, student.room_of)),
             Route("/api/names", Join(seats).names, middleware=[auth]),
             Route("/teacher", teacher.page, middleware=[auth]),
@@ -84,6 +85,7 @@ def hub_class_app(
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
             Route("/teacher/look/{room}", LookIn(live, hub, hub_seats).page, middleware=[auth]),
+            *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),

@@ -6,7 +6,8 @@ from functools import partial
 from typing import Any
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.editing.scene_cards import Card, library_cards, stored_cards
+from ai4u_edu.editing.scene_cards import Card, stored_cards
+from ai4u_edu.editing.scene_pictures import LibraryScene, library_scenes
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import edit as m
@@ -14,6 +15,7 @@ from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
+from ai4u_edu.server.library_pictures import picture_address
 
 MAX_FILE_NAME_CHARS = 60
 MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS
@@ -26,8 +28,8 @@ async def _scenes(page: Page, _command: m.ListScenes) -> Answer:
     def listed() -> list[dict[str, Any]]:
         saved = [] if store is None else stored_cards(store)
         return [
-            *(_card(each, is_saved=True) for each in saved),
-            *(_card(each, is_saved=False) for each in library_cards()),
+            *(_card(each, each.picture_url, is_saved=True) for each in saved),
+            *(_card(each, picture_address(each.name)) for each in library_scenes()),
         ]
 
     return Answer(more={"items": await page.in_thread(listed)})
@@ -97,15 +99,15 @@ def file_name(scene: Scene) -> str:
     return name[:MAX_FILE_NAME_CHARS].strip("_") or "scene"
 
 
-def _card(card: Card, *, is_saved: bool) -> dict[str, Any]:
+def _card(card: Card | LibraryScene, picture: str, *, is_saved: bool = False) -> dict[str, Any]:
     return {
         "name": card.name,
         "title": card.title,
         "goal": card.goal,
         "level": card.level,
         "minutes": card.minutes,
-        "stars": card.stars,
-        "picture": card.picture_url,
+        "stars": card.stars if isinstance(card, LibraryScene) else 0,
+        "picture": picture,
         "is_saved": is_saved,
     }
 

@@ -3,7 +3,7 @@
 import contextlib
 import subprocess
 from collections.abc import Iterator
-from itertools import chain
+from itertools import chain, repeat
 from pathlib import Path
 from typing import IO, cast
 
@@ -21,6 +21,8 @@ Frame = npt.NDArray[np.uint8]
 
 GIF_MAX_FPS, MP4_MAX_FPS = 20, 30
 """Frames per second."""
+GIF_END_S = 1.5
+"""Time for which a GIF shows its end before it begins again."""
 SIDE_MULTIPLE_PX = 2
 """The encoder wants sides that are multiples of this."""
 
@@ -34,10 +36,11 @@ def write_gif(replay: Replay, path: Path, *, longest: int = 360) -> Path:
         longest: pixels of the longer side.
     """
     every = _every(replay, GIF_MAX_FPS)
+    end = round(GIF_END_S * _rate(replay) / every)
     frames = (
         # few colours: smaller files, and no flicker
         Image.fromarray(frame).quantize(64, method=Image.Quantize.FASTOCTREE)
-        for frame in _frames(replay, every, longest)
+        for frame in _with_end(_frames(replay, every, longest), end)
     )
     first = next(frames)
     hundredths = 100 * every / _rate(replay)
@@ -107,6 +110,13 @@ def _frames(replay: Replay, every: int, longest: int) -> Iterator[Frame]:
     for picture in replay.snapshots(every):
         if picture.tick % every == 0:  # the last snapshot may come after fewer ticks
             yield draw_snapshot(picture, longest=longest)
+
+
+def _with_end(frames: Iterator[Frame], count: int) -> Iterator[Frame]:
+    """Give frames, then the last one again, which takes no room in a GIF."""
+    for frame in frames:
+        yield frame
+    yield from repeat(frame, count)
 
 
 def _rate(replay: Replay) -> int:

@@ -9,7 +9,7 @@ from ai4u_edu.training.evaluating import Evaluation
 from ai4u_edu.training.sweep.plan import Plan
 from ai4u_edu.training.sweep.result import TrialResult, groups, ranked
 
-TITLES = ("Learning curves", "Settings and results")
+TITLES = ("Learning curves", "Settings and results", "Without one reward term")
 
 
 def page_of(
@@ -26,7 +26,8 @@ def page_of(
         results: results of the trials that ended, at least one.
         evaluation: of the best network; None if there is none yet.
         total: number of trials of the whole sweep.
-        pictures: learning curves and parallel coordinates; empty if no trial was checked.
+        pictures: learning curves, parallel coordinates, and learning without each reward term if
+            that was tried; empty if no trial was checked.
     """
     name = str(plan.scene["name"]).removesuffix(".yaml").removesuffix(".yml")
     return html_page(f"Sweep: {name}", _parts(plan, results, evaluation, total, pictures))

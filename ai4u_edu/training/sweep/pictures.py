@@ -12,10 +12,12 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from ai4u_edu.base.colors import PALETTE
+from ai4u_edu.training.settings import NO_REWARD
 from ai4u_edu.training.sweep.result import TrialResult, ranked
-from ai4u_edu.training.sweep.search_space import text_of
+from ai4u_edu.training.sweep.search_space import LEFT_OUT, text_of
 
 COLOURS = {"sac": "blue", "ppo": "orange", "dqn": "green"}
+TERM_COLOURS = ("orange", "blue", "green", "vermillion", "purple", "sky blue", "yellow")
 MAX_TICK_LABELS = 8
 
 
@@ -78,6 +80,41 @@ def plot_parallel(results: Sequence[TrialResult], names: Sequence[str], path: Pa
     for side in ("left", "right", "top", "bottom"):
         panel.spines[side].set_visible(False)
     figure.colorbar(ScalarMappable(scale, colormaps["viridis"]), ax=panel, label=title)
+    _save(figure, path)
+
+
+def plot_terms(results: Sequence[TrialResult], path: Path) -> None:
+    """Plot how it learned without each reward term: a line a trial, thick for the mean of all.
+
+    The training with all terms is black.
+    """
+    found: dict[str, list[TrialResult]] = {}
+    for each in results:
+        if each.checks:
+            found.setdefault(str(each.choice.settings.get(LEFT_OUT, NO_REWARD)), []).append(each)
+    figure = Figure(figsize=(9, 4), layout="constrained")
+    panel: Any = figure.subplots()
+    terms = [term for term in found if term != NO_REWARD]
+    colours = {term: TERM_COLOURS[i % len(TERM_COLOURS)] for i, term in enumerate(terms)}
+    for term, members in found.items():
+        colour = PALETTE[colours.get(term, "black")]
+        steps = max((each.checks for each in members), key=len)
+        xs = [check.steps for check in steps]
+        curves = np.array([each.curve for each in members])[:, : len(xs)]
+        for curve in curves:
+            panel.plot(xs, curve, color=colour, alpha=0.35, linewidth=0.9)
+        label = "all terms" if term == NO_REWARD else f"without {term}"
+        panel.plot(xs, curves.mean(axis=0), color=colour, linewidth=2.6, marker=".", label=label)
+    has_goal = next(iter(found.values()))[0].has_goal
+    panel.set(
+        xlabel="decisions learned from",
+        ylabel="success in a check" if has_goal else "reward (all terms)",
+    )
+    if has_goal:
+        panel.set_ylim(-0.03, 1.03)
+    panel.set_xlim(left=0)
+    panel.grid(alpha=0.3)
+    panel.legend(fontsize="small")
     _save(figure, path)
 
 

@@ -8,6 +8,7 @@
     DIR/networks/       the best network of each trial
     DIR/best.onnx       the best of all
     DIR/trials.csv, parallel.png, curves.png, index.html
+    DIR/terms.png       how it learned without each reward term, if that was tried
 """
 
 from collections.abc import Callable, Sequence
@@ -21,9 +22,10 @@ from ai4u_edu.scenes.scene_data import scene_from
 from ai4u_edu.training.evaluating import Evaluation, evaluate
 from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.sweep.page import page_of
-from ai4u_edu.training.sweep.pictures import plot_curves, plot_parallel
+from ai4u_edu.training.sweep.pictures import plot_curves, plot_parallel, plot_terms
 from ai4u_edu.training.sweep.plan import Choice, Plan
 from ai4u_edu.training.sweep.result import TrialResult, csv_text, ranked
+from ai4u_edu.training.sweep.search_space import LEFT_OUT
 
 NETWORKS = "networks"
 BEST = "best.onnx"
@@ -165,6 +167,9 @@ def write_report(sweep: Sweep) -> Path | None:
         pictures = [folder / "curves.png", folder / "parallel.png"]
         plot_curves(sweep.results, pictures[0])
         plot_parallel(sweep.results, names, pictures[1])
+        if LEFT_OUT in names:
+            pictures.append(folder / "terms.png")
+            plot_terms(sweep.results, pictures[2])
     page = folder / PAGE
     text = page_of(sweep.plan, sweep.results, sweep.evaluation, total_of(sweep.plan), pictures)
     write_atomically(page, text)

@@ -15,6 +15,9 @@ FORMS = (
     "or layers=64x64,128x128"
 )
 
+LEFT_OUT = "without_reward"
+"""Setting that leaves out a reward term; see :class:`~ai4u_edu.training.settings.Settings`."""
+
 Value = bool | int | float | str | list[int]
 
 

@@ -1,0 +1,224 @@
+"""Course of a class's tournament: networks are checked, it is played, and pages are told."""
+
+import asyncio
+import json
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.classroom.errors import CommandError, StoreError
+from ai4u_edu.classroom.store import ClassStore, SeatRow
+from ai4u_edu.classroom.tournament.entrants import System, seats_of, write_plan
+from ai4u_edu.classroom.tournament.network_check import NetworkCheck, missing_extras
+from ai4u_edu.classroom.tournament.network_scene import network_scenes
+from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
+from ai4u_edu.classroom.tournament.networks import Networks
+from ai4u_edu.classroom.tournament.played import PlayedTournament
+from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
+
+VIEW = "view.json"
+"""File with a tournament as it was at its end."""
+RETRY_S = 2.0
+"""Time after which what could not be written is tried again."""
+
+
+class TournamentRunner:
+    """Checks networks and runs the present tournament. Belongs to the event loop.
+
+    Args:
+        store: of the class.
+        tell_seat: tells the link of a seat of its networks.
+        note_change: called when pages are to be told.
+    """
+
+    def __init__(
+        self,
+        store: ClassStore,
+        tell_seat: Callable[[int], object],
+        note_change: Callable[[], object],
+    ) -> None:
+        self._tell_seat, self._note_change = tell_seat, note_change
+        self._news: deque[int] = deque()
+        """Seats whose networks have changed, and 0 for the tournament; threads add to it."""
+        self.networks = Networks(store, self._news.append)
+        self.tournaments = Tournaments(store)
+        self._check = NetworkCheck(self.networks, store.folder / NETWORKS / "check")
+        self._checking: asyncio.Task[None] | None = None
+        self._updating: asyncio.Task[None] | None = None
+        self._lock = asyncio.Lock()
+        """Held while the tournament begins or ends."""
+        self._played: PlayedTournament | None = None
+        self.read()
+
+    def read(self) -> None:
+        """Take everything from the store; a tournament that was interrupted goes on."""
+        self.networks.read()
+        self.tournaments.read()
+        self._ended_view: dict[str, Any] | None = None
+        self.seats: Mapping[str, int] = {}
+        """Number of the seat of each entry, by its name; 0 for the scene's own player."""
+        if self.tournaments.now is not None:
+            folder = self.tournaments.folder_of(self.tournaments.now)
+            self.seats = seats_of(folder)
+            with suppress(OSError, ValueError):
+                self._ended_view = json.loads((folder / VIEW).read_bytes())
+
+    @property
+    def view(self) -> dict[str, Any] | None:
+        """The tournament so far; see :func:`ai4u_edu.tournament.live_view.live_view`."""
+        return self._ended_view if self._played is None else self._played.view
+
+    def tick(self) -> None:
+        """Tell news, and go on with what is to be done."""
+        seats = set()
+        while self._news:
+            seats.add(self._news.popleft())
+        for seat in seats - {0}:
+            self._tell_seat(seat)
+        if seats:
+            self._note_change()
+        if self._checking is None and self.networks.next_open() and not missing_extras():
+            self._checking = asyncio.create_task(self._check_networks())
+        if self._updating is None and self._is_due:
+            self._updating = asyncio.create_task(self._update())
+
+    @property
+    def _is_due(self) -> bool:
+        """True if the tournament's process has to be started, or has ended."""
+        row = self.tournaments.now
+        is_running = row is not None and row.phase == "running"
+        return is_running and (self._played is None or self._played.has_ended)
+
+    # -- commands ----------------------------------------------------------------------------------
+
+    async def begin(self, scene: str) -> None:
+        """Begin a tournament, for which students hand in networks.
+
+        Raises:
+            CommandError: there is no such scene, or another tournament is played.
+            StoreError: it can't be stored.
+        """
+        known = (await asyncio.to_thread(network_scenes)).get(scene)
+        async with self._lock:
+            self._refuse_while_running()
+            if known is None:
+                raise CommandError(f"scene: expected one of the library, got {scene[:40]!r}")
+            self.tournaments.begin(known.name, known.title)
+            self._ended_view, self.seats = None, {}
+
+    async def start(
+        self, seats: Sequence[SeatRow], seeds: int, system: System, *, has_own_player: bool
+    ) -> None:
+        """Play the present tournament with the networks of some seats.
+
+        Games of the same networks that were played before are not played again.
+
+        Raises:
+            CommandError: it can't be played now.
+            StoreError: it can't be stored.
+        """
+        async with self._lock:
+            row = self._refuse_while_running()
+            if row is None:
+                raise CommandError("There is no tournament: choose its scene first.")
+            if missing := missing_extras():
+                raise CommandError(missing)
+            folder = self.tournaments.folder_of(row)
+            await asyncio.to_thread(
+                write_plan,
+                folder,
+                self.networks,
+                seats,
+                row.scene,
+                seeds,
+                system,
+                has_own_player=has_own_player,
+            )
+            self.seats = await asyncio.to_thread(seats_of, folder)
+            self.tournaments.change("running")
+            self._ended_view = None
+
+    async def cancel(self) -> None:
+        """End the games; what was played stays.
+
+        Raises:
+            StoreError: it can't be stored.
+        """
+        async with self._lock:
+            row = self.tournaments.now
+            if row is None or row.phase != "running":
+                return
+            self.tournaments.change("cancelled")
+            await self._end_played(row)
+
+    async def dismiss(self) -> None:
+        """Show no tournament any more.
+
+        Raises:
+            CommandError: it is played now.
+            StoreError: it can't be stored.
+        """
+        async with self._lock:
+            self._refuse_while_running()
+            self.tournaments.dismiss()
+
+    async def end(self) -> None:
+        """End all processes and forget everything in memory, since it is to be deleted."""
+        self.networks.clear()
+        self.tournaments.now = None
+        if self._checking is not None:
+            self._checking.cancel()
+            await asyncio.gather(self._checking, return_exceptions=True)
+        async with self._lock:
+            played, self._played = self._played, None
+            if played is not None:
+                await asyncio.to_thread(played.end)
+
+    def _refuse_while_running(self) -> TournamentRow | None:
+        row = self.tournaments.now
+        if row is not None and row.phase == "running":
+            raise CommandError("A tournament is played now. Wait for its end, or cancel it first.")
+        return row
+
+    # -- tasks -------------------------------------------------------------------------------------
+
+    async def _check_networks(self) -> None:
+        try:
+            await self._check.run()
+        except (StoreError, OSError):  # a full disk, say: a later tick tries again
+            await asyncio.sleep(RETRY_S)
+        finally:
+            self._checking = None
+
+    async def _update(self) -> None:
+        """Start the process of a tournament that runs, or note that it has ended."""
+        try:
+            async with self._lock:
+                row = self.tournaments.now
+                if row is None or not self._is_due:
+                    return
+                played = self._played
+                if played is None:
+                    folder = self.tournaments.folder_of(row)
+                    self._played = await asyncio.to_thread(
+                        PlayedTournament, folder, lambda: self._news.append(0)
+                    )
+                else:
+                    self.tournaments.change("over" if played.is_over else "failed", played.problem)
+                    await self._end_played(row)
+        except (StoreError, OSError):
+            await asyncio.sleep(RETRY_S)
+        finally:
+            self._updating = None
+
+    async def _end_played(self, row: TournamentRow) -> None:
+        played, self._played = self._played, None
+        if played is not None:
+            await asyncio.to_thread(played.end)
+            self._ended_view = played.view
+            path = self.tournaments.folder_of(row) / VIEW
+            with suppress(OSError):  # a full disk: the results are in the journal
+                await asyncio.to_thread(write_atomically, path, json.dumps(played.view))
+        self._note_change()

@@ -1,0 +1,117 @@
+"""A process of its own for jobs with data of unknown people; one that takes too much is ended."""
+
+import asyncio
+import multiprocessing
+import shutil
+import signal
+import tempfile
+import time
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from typing import NamedTuple
+
+import psutil
+
+from ai4u_edu.base.process_priority import lower_priority
+from ai4u_edu.jobs.call import Answer, call, use_one_thread
+from ai4u_edu.jobs.job import Job
+
+POLL_S = 0.1
+END_TIMEOUT_S = 2.0
+
+
+class _Running(NamedTuple):
+    process: BaseProcess
+    connection: Connection
+    usage: psutil.Process
+
+
+class IsolatedJobs:
+    """Runs jobs one after the other in a process, which is replaced if it takes too long or dies.
+
+    Belongs to the event loop.
+
+    Args:
+        max_cpu_s: processor time of one job.
+        max_wall_s: time of one job, for one that waits.
+        folder: for temporary files of jobs; deleted with the process.
+    """
+
+    def __init__(self, max_cpu_s: float, max_wall_s: float, folder: Path) -> None:
+        self._max_cpu_s, self._max_wall_s, self._folder = max_cpu_s, max_wall_s, folder
+        self._lock = asyncio.Lock()
+        self._running: _Running | None = None
+        # started anew and not forked, as this process has threads
+        self._context = multiprocessing.get_context("spawn")
+
+    async def run(self, job: Job) -> Answer:
+        """Run a job, and return its result or its error."""
+        async with self._lock:
+            return await asyncio.to_thread(self._run, job)
+
+    async def end(self) -> None:
+        """End the process, after the job that it has."""
+        async with self._lock:
+            await asyncio.to_thread(self.close)
+
+    def close(self) -> None:
+        """End the process at once."""
+        running, self._running = self._running, None
+        if running is not None:
+            running.connection.close()
+            running.process.kill()
+            running.process.join(END_TIMEOUT_S)
+            shutil.rmtree(self._folder, ignore_errors=True)
+
+    def _run(self, job: Job) -> Answer:
+        try:
+            running = self._running = self._running or self._start()
+            begin_cpu_s, end_at = _cpu_s(running.usage), time.monotonic() + self._max_wall_s
+            running.connection.send(job)
+            while not running.connection.poll(POLL_S):
+                used_s = _cpu_s(running.usage) - begin_cpu_s
+                if used_s > self._max_cpu_s or time.monotonic() > end_at:
+                    self.close()
+                    return Answer(
+                        error=f"it took more than {self._max_cpu_s:g} s of processor time"
+                    )
+            answer: Answer = running.connection.recv()
+        except (EOFError, OSError, psutil.Error):
+            self.close()
+            return Answer(error="its process died: it may want more memory than there is")
+        return answer
+
+    def _start(self) -> _Running:
+        shutil.rmtree(self._folder, ignore_errors=True)  # of a class that was killed
+        self._folder.mkdir(parents=True, exist_ok=True)
+        ours, theirs = self._context.Pipe()
+        process = self._context.Process(
+            target=serve_jobs, args=(theirs, self._folder), name="isolated jobs", daemon=True
+        )
+        process.start()
+        theirs.close()
+        return _Running(process, ours, psutil.Process(process.pid))
+
+
+def serve_jobs(jobs: Connection, folder: Path) -> None:
+    """Run jobs until the other end is closed; the main function of the process.
+
+    Args:
+        jobs: gives each job, and gets its answer.
+        folder: for temporary files.
+    """
+    tempfile.tempdir = str(folder.absolute())
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
+    use_one_thread()
+    lower_priority()
+    while True:
+        try:
+            jobs.send(call(jobs.recv()))
+        except (EOFError, OSError):
+            return
+
+
+def _cpu_s(process: psutil.Process) -> float:
+    times = process.cpu_times()
+    return float(times.user + times.system)

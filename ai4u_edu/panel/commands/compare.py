@@ -1,0 +1,125 @@
+"""Commands that compare two drivers on a recorded episode."""
+
+import re
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks import Block, Controller, LocalBrain, NeuralNetController
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.explain.comparison import Comparison, compare
+from ai4u_edu.explain.errors import NotExplainableError
+from ai4u_edu.explain.policy import Policy
+from ai4u_edu.explain.statefulness import dependence_of
+from ai4u_edu.panel.answers import Answer
+from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.commands.why import plain_action
+from ai4u_edu.panel.messages import play as m
+from ai4u_edu.panel.messages.base import Command
+from ai4u_edu.panel.page import Page
+from ai4u_edu.recording.frame_cache import FrameCache
+from ai4u_edu.snapshot import AgentState
+
+NOT_COMPARED = ("recording:", "ai4u://", "Keyboard: ")
+"""Beginnings of the names and titles of drivers that are no policies."""
+CHECKPOINT = re.compile(r"checkpoint-(\d+)\.onnx$")
+"""A network of a training's check, with the number of decisions that it learned from."""
+FRAME_TIMEOUT_S = 10.0
+"""Time that the replay of an episode has for its next decision."""
+MAX_POINTS = 300
+"""Most points of the curve of distances."""
+
+
+async def _rivals(page: Page, _command: m.ListRivals) -> Answer:
+    editor = page.context.required_editor()
+    agent_id = page.view.agent
+    found = [
+        {
+            "value": each.name,
+            "text": each.title,
+            "steps": _steps_of(each.name),
+            "reason": _reason_against(each.title),
+        }
+        for each in await page.in_thread(partial(editor.drivers, agent_id))
+        if not each.name.startswith(NOT_COMPARED) and not each.title.startswith(NOT_COMPARED)
+    ]
+    return Answer(more={"rivals": found})
+
+
+async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
+    frame_cache = page.context.viewer.player.frame_cache
+    if frame_cache is None:
+        raise SetupError("choose an episode first")
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    policy = page.context.viewer.explainer.policy
+
+    def compared() -> Comparison:
+        first, second = (
+            _policy(editor, agent_id, name) if name else policy(agent_id)
+            for name in (command.first, command.second)
+        )
+        return compare(first, second, _states(frame_cache, agent_id))
+
+    return Answer(more=_plain(await page.in_thread(compared)))
+
+
+def _policy(editor: SceneEditor, agent_id: str, driver: str) -> Policy:
+    brain = editor.driver_brain(agent_id, driver)
+    if not isinstance(brain, LocalBrain):
+        raise NotExplainableError("a script elsewhere can't be asked about recorded percepts")
+    return Policy(brain)
+
+
+def _states(frame_cache: FrameCache, agent_id: str) -> list[AgentState]:
+    """Return the states of an agent at the decisions of an episode.
+
+    Raises:
+        SetupError: the episode was recorded with other agents, or can't be replayed so far.
+    """
+    if frame_cache.record.id != agent_id:
+        raise SetupError(
+            f"the chosen episode is shown step by step for agent {frame_cache.record.id!r}, got "
+            f"agent {agent_id!r}; choose the episode again"
+        )
+    found: list[AgentState] = []
+    for step in range(len(frame_cache.record)):
+        if step > frame_cache.last:
+            break  # from there on it can't be replayed exactly
+        snapshot = frame_cache.snapshot(step, timeout=FRAME_TIMEOUT_S)
+        if snapshot is None:
+            raise SetupError(frame_cache.problem or "the episode takes too long to replay")
+        found.append(next(agent for agent in snapshot.agents if agent.id == agent_id))
+    return found
+
+
+def _reason_against(title: str) -> str:
+    """Return why a controller is no policy, from its driver's title; empty if it may be one."""
+    kind = Block.types.get(title.rpartition(": ")[2])
+    if kind is None or not issubclass(kind, Controller) or kind is NeuralNetController:
+        return ""
+    return dependence_of(kind)
+
+
+def _steps_of(name: str) -> int | None:
+    found = CHECKPOINT.search(name)
+    return None if found is None else int(found[1])
+
+
+def _plain(found: Comparison) -> dict[str, Any]:
+    places = np.linspace(0, len(found.distance) - 1, min(len(found.distance), MAX_POINTS))
+    return {
+        "step": found.step,
+        "count": len(found.distance),
+        "distance": [round(found.distance[int(place)], 4) for place in places],
+        "largest": round(max(found.distance), 4),
+        "action": plain_action(zip(found.axes, *found.actions, strict=True)),
+        "first": found.sentences[0],
+        "second": found.sentences[1],
+    }
+
+
+HANDLERS: Mapping[type[Command], Handler] = {m.ListRivals: _rivals, m.CompareDrivers: _compare}
+"""Handlers by the type of their command."""

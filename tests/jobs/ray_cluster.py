@@ -1,0 +1,118 @@
+"""A Ray cluster of three machines, here on one, in a process of its own.
+
+Ray's calls can block in C, where no time limit of pytest's can end them: so no test loads Ray.
+"""
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import IO
+
+import psutil
+
+START_TIMEOUT_S, END_TIMEOUT_S = 300.0, 30.0
+POLL_S = 0.01
+START_TRIES = 5
+"""Attempts to start Ray: a node gives up if its agents take 15 s, as on a busy machine."""
+
+
+@dataclass
+class RayCluster:
+    """A cluster of a machine that stays, one that dies, and a third one; each has a core."""
+
+    address: str
+    mortal: str
+    """Id of the machine that dies."""
+    _process: "subprocess.Popen[str]"
+
+    def kill(self) -> None:
+        """Kill the machine that dies as soon as it runs a job, and wait until that is done."""
+        print("kill", file=_pipe(self._process.stdin), flush=True)
+        told = _line(self._process)
+        assert told == "killed", told
+
+
+@contextlib.contextmanager
+def ray_cluster() -> Iterator[RayCluster]:
+    """Start a cluster, and end it whatever happens."""
+    for _ in range(START_TRIES):
+        process = subprocess.Popen(
+            [sys.executable, "-m", "tests.jobs.ray_cluster"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "RAY_AUTH_MODE": "token"},
+        )
+        try:
+            told = _line(process)
+            if told:
+                yield RayCluster(**json.loads(told), _process=process)
+                return
+        finally:
+            _end(process)
+    raise AssertionError("Ray did not start")
+
+
+def _end(process: "subprocess.Popen[str]") -> None:
+    family = psutil.Process(process.pid).children(recursive=True)
+    _pipe(process.stdin).close()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        process.wait(END_TIMEOUT_S)
+    process.kill()
+    process.wait()
+    for each in family:
+        with contextlib.suppress(psutil.Error):
+            each.kill()
+    _pipe(process.stdout).close()
+
+
+def _line(process: "subprocess.Popen[str]") -> str:
+    """Return the next line of a process; kill it if none comes in time."""
+    timer = threading.Timer(START_TIMEOUT_S, process.kill)
+    timer.start()
+    try:
+        return _pipe(process.stdout).readline().strip()
+    finally:
+        timer.cancel()
+
+
+def _pipe(pipe: IO[str] | None) -> IO[str]:
+    assert pipe is not None
+    return pipe
+
+
+def main() -> None:
+    """Start the cluster, tell its address, kill a machine at the first line, end with the input."""
+    from ray.cluster_utils import Cluster
+
+    cluster = Cluster(initialize_head=True, head_node_args={"num_cpus": 1})
+    mortal = cluster.add_node(num_cpus=1)
+    cluster.add_node(num_cpus=1)
+    print(json.dumps({"address": cluster.address, "mortal": mortal.node_id}), flush=True)
+    if sys.stdin.readline():
+        raylet = psutil.Process(mortal.all_processes["raylet"][0].process.pid)
+        while not _runs_job(raylet):
+            time.sleep(POLL_S)
+        cluster.remove_node(mortal, allow_graceful=False)
+        print("killed", flush=True)
+        sys.stdin.read()
+    cluster.shutdown()  # type: ignore[no-untyped-call]
+
+
+def _runs_job(raylet: psutil.Process) -> bool:
+    """Return True if a process of a machine runs a job, whose name is the process's title then."""
+    for each in raylet.children():
+        with contextlib.suppress(psutil.Error):
+            if "ray::_call" in " ".join(each.cmdline()):
+                return True
+    return False
+
+
+if __name__ == "__main__":
+    main()
