@@ -12,9 +12,9 @@ from hypothesis import settings
 ROOT = Path(__file__).parent.parent
 LONG_FOLDERS = ("browser", "attacks", "training", "remote", "lessons", "load")
 """Their files take longest and are started first, so that no core is idle at the end."""
-NOT_FAST = ("attacks", "benchmarks", "browser", "envs", "fuzz", "lessons", "load", "remote",
-            "training", "chromium.py", "screenshot.py", "soak.py")  # fmt: skip
-"""Paths that ``--fast`` does not import, since they train, serve, or need Chromium or torch."""
+NOT_FAST = ("attacks", "benchmarks", "browser", "docs_site", "envs", "fuzz", "lessons", "load",
+            "remote", "training", "chromium.py", "screenshot.py", "soak.py")  # fmt: skip
+"""Paths that ``--fast`` does not import: they train, serve, or need Chromium, torch or Sphinx."""
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
 LEFT_OUT = pytest.StashKey[int]()

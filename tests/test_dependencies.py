@@ -19,8 +19,8 @@ NOT_IMPORTED = {
     "tensorboard",  # Stable-Baselines3 imports it
 }
 """Declared packages that are needed without an import of ours."""
-FOR_TESTS = {"dev", "fuzz", "test"}
-"""Extras that only the tests use."""
+FOR_TESTS = {"dev", "docs", "fuzz", "test"}
+"""Extras that only the tests and the docs site use."""
 
 
 def names(requirements: list[str]) -> set[str]:

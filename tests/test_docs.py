@@ -9,6 +9,7 @@ import pytest
 from PIL import GifImagePlugin, Image
 
 import ai4u_edu
+from ai4u_edu import Scene
 from tests import architecture
 from tests.builders import small_sim
 from tests.components import AI4U, AI4U_SETTINGS
@@ -22,6 +23,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
 MAX_FILM_BYTES = 1_500_000
 PROGRAMS = {
+    "build-an-agent.md": ["touched the lamp: True"],
     "python.md": ["'touch': 1.0"],
     "explain.md": ["(19, 4)", "It turns left because ray "],
     "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
@@ -63,6 +65,24 @@ def test_links_lead_to_files_that_are_there(page: Path) -> None:
         link for link in links if "://" not in link and not (page.parent / link).resolve().exists()
     ]
     assert missing == []
+
+
+@pytest.mark.parametrize("folder", ["", "adr", "how-to"])
+def test_every_page_is_in_the_list_of_its_folder(folder: str) -> None:
+    """The lists are the docs site's table of contents."""
+    here = ROOT / "docs" / folder
+    listed = re.findall(
+        r"^- \[.*?\]\(([\w./-]+)\)", (here / "README.md").read_text("utf-8"), re.MULTILINE
+    )
+    assert len(set(listed)) == len(listed)
+    assert {page.name for page in here.glob("*.md")} - {"README.md", *listed} == set()
+
+
+def test_every_scene_is_said_to_be_for_something() -> None:
+    listed = re.findall(
+        r"^\| `(\w+)` \| .+ \|$", (ROOT / "docs/scenes.md").read_text("utf-8"), re.MULTILINE
+    )
+    assert listed == Scene.names()
 
 
 def test_the_film_moves_and_is_small() -> None:

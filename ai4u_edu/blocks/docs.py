@@ -3,7 +3,7 @@
 import inspect
 import json
 import re
-from typing import Any
+from typing import Any, NamedTuple
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import is_open
@@ -25,6 +25,18 @@ KINDS: dict[str, type[Block]] = {
 
 PARTS = "parts"
 """Blocks inside other blocks, such as the internal variables of a HomeostaticReward."""
+
+
+class ParameterRow(NamedTuple):
+    """A parameter of a block, in words."""
+
+    name: str
+    default: str
+    """The default value as JSON; "(needed)" without one, "(own)" if each block makes its own."""
+    values: str
+    """Type and bounds, or the choices."""
+    unit: str
+    text: str
 
 
 def built_in_blocks() -> dict[str, list[type[Block]]]:
@@ -90,14 +102,34 @@ def lesson_page(name: str) -> str:
     cls = known[name]
     described = (inspect.getdoc(cls) or "").split("\n\n>>>")[0]
     rows = [("parameter", "default", "range", "")]
-    schema = cls.json_schema()
-    for field, about in schema.get("properties", {}).items():
-        missing = "(needed)" if field in schema.get("required", ()) else "(own)"
-        default = json.dumps(about["default"]) if "default" in about else missing
-        rows.append((field, default, _range(about), about.get("description", "")))
+    for field, default, values, unit, text in parameter_rows(cls):
+        rows.append((field, default, " ".join(filter(None, (values, unit))), text))
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     lines = ["  ".join((*map(str.ljust, row[:3], widths), row[3])).rstrip() for row in rows]
     return "\n".join([f"{name}: {described}", "", *lines])
+
+
+def parameter_rows(cls: type[Block]) -> list[ParameterRow]:
+    """Return a block's parameters in words, those of its bases first.
+
+    >>> parameter_rows(Block.types["VelocitySensor"])[-1].unit
+    'rad/s'
+    """
+    return schema_rows(cls.json_schema())
+
+
+def schema_rows(schema: dict[str, Any]) -> list[ParameterRow]:
+    """Return the parameters of an object in words.
+
+    Args:
+        schema: the object's JSON Schema.
+    """
+    rows = []
+    for field, about in schema.get("properties", {}).items():
+        missing = "(needed)" if field in schema.get("required", ()) else "(own)"
+        default = json.dumps(about["default"]) if "default" in about else missing
+        rows.append(ParameterRow(field, default, *_range(about), about.get("description", "")))
+    return rows
 
 
 def _hint_from_ai4u(name: str) -> str:
@@ -112,19 +144,22 @@ def _hint_from_ai4u(name: str) -> str:
     return ""
 
 
-def _range(about: dict[str, Any]) -> str:
-    """Return a parameter's type, bounds and unit as a short text."""
+def _range(about: dict[str, Any]) -> tuple[str, str]:
+    """Return a parameter's type and bounds as a short text, and its unit."""
     if "enum" in about:
-        return " | ".join(map(str, about["enum"]))
+        return " | ".join(map(str, about["enum"])), ""
     options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]
     about = {**about, **options[0]} if options else about
     kind = {"number": "", "integer": "whole", "boolean": "true | false", "string": "text"}
+    kind |= {"array": "list", "object": "mapping"}
     low = about.get("minimum", about.get("exclusiveMinimum"))
     high = about.get("maximum", about.get("exclusiveMaximum"))
     bounds = f"{_show(low)}..{_show(high)}" if _show(low) or _show(high) else ""
     name = str(about.get("type", ""))
-    return " ".join(filter(None, (kind.get(name, name), bounds, about.get("unit", ""))))
+    return " ".join(filter(None, (kind.get(name, name), bounds))), str(about.get("unit", ""))
 
 
 def _show(bound: float | None) -> str:
-    return "" if bound is None or is_open(bound) else f"{bound:g}"
+    if bound is None or is_open(bound):
+        return ""
+    return f"{bound}" if isinstance(bound, int) else f"{bound:g}"

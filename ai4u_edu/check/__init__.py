@@ -21,6 +21,7 @@ from ai4u_edu.check.actuators import check_actuator
 from ai4u_edu.check.brains import check_brain, check_controller
 from ai4u_edu.check.report import CheckError, Finding, Outcome, Report
 from ai4u_edu.check.rewards import check_reward
+from ai4u_edu.check.rollout import standard_scene
 from ai4u_edu.check.scene import check_scene
 from ai4u_edu.check.sensors import check_sensor
 
@@ -35,4 +36,5 @@ __all__ = [
     "check_reward",
     "check_scene",
     "check_sensor",
+    "standard_scene",
 ]

@@ -9,6 +9,7 @@ from ai4u_edu.jobs.job import Job, Outcome
 from ai4u_edu.jobs.journal import Journal
 
 TRIES = 3
+"""Times that a job is tried, unless it is said otherwise."""
 
 
 def run_jobs(

@@ -67,7 +67,7 @@ def train(
         quiet: True shows nothing.
 
     Returns:
-        The result: ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
+        Its result, with ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
         ``steps``, ``folder``. It can be evaluated and exported.
 
     Raises:

@@ -30,7 +30,7 @@ def test_it_says_what_a_bug_report_needs() -> None:
 
 def test_every_extra_for_users_has_its_use() -> None:
     extras = set(metadata.metadata(doctor.PACKAGE).get_all("Provides-Extra") or ())
-    assert extras - {"dev", "fuzz", "test"} == doctor.USES.keys()
+    assert extras - {"dev", "docs", "fuzz", "test"} == doctor.USES.keys()
 
 
 def test_extras_that_others_include_are_followed() -> None:

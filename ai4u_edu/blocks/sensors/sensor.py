@@ -124,7 +124,7 @@ class Sensor(Block):
         out[...] = self._checked(self.read(body, view))
 
     def scale(self) -> Any:
-        """Return the divisor of normalising; by default the largest |bound| of the space."""
+        """Return the divisor of normalising; by default the largest bound, without its sign."""
         space = self.space()
         if not isinstance(space, spaces.Box):
             return 1.0
