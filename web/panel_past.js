@@ -3,6 +3,7 @@
 import { button, element, keyed } from "./dom.js";
 import { Comparison } from "./panel_compare.js";
 import { EpisodeCard } from "./panel_episode_card.js";
+import { PaidTerms } from "./panel_paid.js";
 import { section } from "./panel_parts.js";
 import { Player } from "./panel_player.js";
 import { fileButton } from "./panel_scene_files.js";
@@ -16,6 +17,7 @@ export class PastTab {
   #panel;
   #player;
   #comparison;
+  #paid;
   #cards = new Map();
   #groups;
   /** True until the running episode's frames are there, which are shown then. */
@@ -26,6 +28,7 @@ export class PastTab {
     this.#panel = panel;
     this.#player = new Player(panel);
     this.#comparison = new Comparison(panel);
+    this.#paid = new PaidTerms(panel);
     const current = button("Current episode", () => this.#showRunning(), { icon: "clock" });
     const open = fileButton("Open a recording", ".episode", (file) => this.#open(file));
     this.#groups = [
@@ -34,12 +37,13 @@ export class PastTab {
       group("past-program", "Networks and scripts", (episode) => !episode.is_pinned && !episode.is_person),
     ];
     const tools = element("div", { className: "ai4u-tools" }, current, open);
-    root.append(this.#player.element, this.#comparison.element, tools, this.#none, ...this.#groups.map((each) => each.element));
+    root.append(this.#player.element, this.#paid.element, this.#comparison.element, tools, this.#none, ...this.#groups.map((each) => each.element));
   }
 
   /** @param part as "past" in the protocol */
   update(part) {
     this.#player.update(part);
+    this.#paid.update(part.playing?.number ?? null);
     this.#comparison.update(part.playing?.number ?? null);
     if (this.#wantsRunning && part.playing?.number === RUNNING_EPISODE) {
       this.#wantsRunning = false;

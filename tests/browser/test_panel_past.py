@@ -210,6 +210,32 @@ def test_controls_are_large_enough_and_have_names(
     tab.page.context.close()
 
 
+def test_what_paid_in_the_episode(tab: TabPage) -> None:
+    title = tab.page.locator("summary").filter(has_text="What paid in this episode")
+    expect(title).to_be_hidden()
+    near = {"term": "near", "amount": -0.001}
+    moments = [
+        {"step": 79, "terms": [{"term": "touch", "amount": 100}, near]},
+        {"step": 3, "terms": [near]},
+    ]
+    terms = [
+        {"term": "touch", "total": 100, "curve": [0, 0, 100]},
+        {"term": "near", "total": 1, "curve": [0, 0.5, 1]},
+    ]
+    tab.answer("paid", terms=terms, moments=moments)
+    tab.give({**PART, "playing": PLAYING})
+    title.click()
+    tab.page.get_by_role("button", name="Step 80: touch 100, near \N{MINUS SIGN}0.001").click()
+    assert tab.sent()[-1] == {"command": "step", "step": 79}
+    curve = tab.page.get_by_role("img", name="The sum of touch during the episode")
+    expect(curve).to_be_visible()
+    assert tab.unnamed_controls() == []
+    tab.answer("paid", terms=[], moments=[])
+    tab.give({**PART, "playing": {**PLAYING, "number": 4}})
+    expect(tab.page.get_by_text("Nothing was paid in this episode.")).to_be_visible()
+    expect(curve).to_have_count(0)
+
+
 def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     rivals = [
         {"value": "network:zoo:box_chase", "text": "Network zoo:box_chase", "steps": None},

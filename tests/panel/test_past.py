@@ -6,6 +6,7 @@ import pytest
 
 from ai4u_edu.recording.file import encode
 from tests.panel.rooms import Message, PanelPage, PanelRoom, panel_room
+from tests.server.rooms import until
 
 
 @pytest.fixture
@@ -59,6 +60,19 @@ def test_an_episode_is_stepped_through_and_left(page: PanelPage) -> None:
     page.part("run", lambda m: m["status"].startswith("Showing "))
     page.done("back_to_live")
     page.part("past", is_showing=False)
+
+
+def test_what_paid_in_an_episode(page: PanelPage, room: PanelRoom) -> None:
+    assert "choose an episode first" in page.failed("paid")["text"]
+    agent = room.runner.sim.agents[0]
+    agent.end_of_step.connect(lambda _: agent.add_reward(7 * (agent.steps == 2), name="found"))
+    page.done("episode", number=episode(page))
+    until(lambda: room.viewer.player.frame_cache)
+    told = page.done("paid")
+    found = next(each for each in told["terms"] if each["term"] == "found")
+    assert (found["total"], found["curve"]) == (7, [0, 0, 7])
+    assert told["moments"][0]["step"] == 2
+    assert {"term": "found", "amount": 7} in told["moments"][0]["terms"]
 
 
 def test_an_episode_is_played(page: PanelPage) -> None:

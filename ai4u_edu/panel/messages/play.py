@@ -171,6 +171,10 @@ class RemoveGhost(Command, tag="remove_ghost"):
     """Remove the ghost."""
 
 
+class AskPaid(Command, tag="paid"):
+    """Return the reward terms of the chosen episode over time, and the decisions that paid most."""
+
+
 class ListRivals(Command, tag="rivals"):
     """Return the drivers that the present one can be compared with."""
 
