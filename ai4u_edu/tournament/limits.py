@@ -32,6 +32,7 @@ class CpuMeter:
         self._stop = stop
         self._began: float | None = None
         self._used_s = 0.0
+        self._has_stopped = False
         self._ended = threading.Event()
         self._thread: threading.Thread | None = None
 
@@ -54,8 +55,8 @@ class CpuMeter:
             used = time.thread_time() - began
             self._used_s += used
             # also in place of the error of a network that was stopped
-            if used > DECISION_CPU_S:
-                raise OverTimeError(over_time(used))
+            if self._has_stopped or used > DECISION_CPU_S:
+                raise OverTimeError(over_time(max(used, DECISION_CPU_S)))
             if self._used_s > GAME_CPU_S:
                 raise OverTimeError(over_game_time())
 
@@ -67,6 +68,7 @@ class CpuMeter:
         while not self._ended.wait(CHECK_INTERVAL_S):
             began = self._began
             if began is not None and time.process_time() - began > DECISION_CPU_S:
+                self._has_stopped = True
                 self._stop()
 
 

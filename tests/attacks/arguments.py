@@ -143,8 +143,15 @@ def _value(command: str, field: inspect.Field, known: Known, rng: random.Random)
             return known.draw("path", rng) if known.names.get("path") else ["sensors", 0]
         case "seed":
             return str(rng.randrange(10**6))
-        case "values":
+        case "values" if command in FORMS:
             return _entered(known.forms.get(FORMS[command]) or [], rng)
+        case "changes":
+            change = {"key": known.draw("key", rng), "index": rng.randrange(4), "value": 0.5}
+            return [change]
+        case "facing":
+            return rng.choice(("", known.draw("body", rng)))
+        case "first" | "second":
+            return rng.choice(("", known.draw("driver", rng)))
         case "agent" | "body" | "class" | "key" | "template" | "number" as kind:
             return known.draw(kind, rng)
     return _of_type(field.type, rng)
