@@ -41,6 +41,7 @@ def agent_of(page: Page) -> dict[str, Any]:
     return agent
 
 
+@pytest.mark.nightly
 def test_students_join_drive_and_come_back(chromium: Browser, school: ServedClass) -> None:
     teacher = new_page(chromium)
     teacher.goto(f"{school.url}teacher?token={school.token}")

@@ -137,6 +137,7 @@ def test_a_program_is_kept_goes_on_elsewhere_and_is_read(
     teacher.context.close()
 
 
+@pytest.mark.nightly
 def test_without_network_it_stays_here_and_is_saved_later(
     chromium: Browser, school: ServedClass
 ) -> None:
@@ -182,6 +183,7 @@ def test_a_newer_program_of_another_device_is_kept_beside_this_one(
     desk.close()
 
 
+@pytest.mark.nightly
 def test_a_teachers_program_is_offered_and_replaces_nothing(
     chromium: Browser, school: ServedClass
 ) -> None:

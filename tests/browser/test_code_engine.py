@@ -77,6 +77,7 @@ def test_a_program_that_never_comes_back_is_ended_and_the_page_goes_on(
     assert run(page, "return {'move': [1, 1]}")["values"] == {"move": [1, 1]}
 
 
+@pytest.mark.nightly
 def test_a_program_that_is_loaded_while_another_is_stuck_runs_after_it(page: Page) -> None:
     load(page, "def decide(percept):\n    10**10**8")
     page.evaluate("void (window.stuck = engine.decide({}, 1))")

@@ -115,6 +115,7 @@ def test_loading_may_be_endless_too(page: Page) -> None:
     ]
 
 
+@pytest.mark.nightly
 @pytest.mark.slow
 def test_behind_a_token(chromium: Browser) -> None:
     with played("box_chase", "--token", TOKEN) as game:

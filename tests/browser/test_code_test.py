@@ -339,6 +339,7 @@ def test_it_fits_a_phone_and_has_no_grave_finding(chromium: Browser, scheme: str
 # -- a real room -----------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_the_program_of_the_docs_is_tested_in_a_real_world(chromium: Browser) -> None:
     with played("box_chase", "--seed", MIDDLE, "--time-scale", "2") as server:
         page = new_page(chromium)

@@ -35,6 +35,7 @@ def win(site: ServedViser, page: Page, after_s: float) -> str:
     return str(banner.locator("strong").text_content())
 
 
+@pytest.mark.nightly
 def test_the_time_is_compared_with_the_best_one_of_this_browser(site: ServedViser) -> None:
     page = site.page()
     assert re.fullmatch(r"Reached the goal in \d\.\d s", win(site, page, 1.0))

@@ -139,10 +139,9 @@ def is_served(address: str) -> bool:
     return True
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
-@pytest.mark.parametrize(
-    "end", [signal.SIGINT, pytest.param(signal.SIGKILL, marks=pytest.mark.nightly)]
-)
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL])
 def test_the_command_keeps_the_page_open_until_it_ends(tmp_path: Path, end: int) -> None:
     with train_command(tmp_path) as training:
         assert training.stdout is not None
