@@ -106,4 +106,4 @@ def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:
         assert tab.text == PROGRAM
         go(page, "Shift+Tab", "Test")
         tab.keys("Enter")
-        expect(tab.state).to_contain_text("10 of 10 reached the goal.", timeout=TEST_MS)
+        expect(tab.state).to_contain_text("10 of 10 reached the goal", timeout=TEST_MS)
