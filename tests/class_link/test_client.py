@@ -54,6 +54,7 @@ def test_states_and_results_arrive_and_messages_are_received(there: TinyClass) -
     assert not client.is_connected
 
 
+@pytest.mark.slow
 def test_connections_that_break_lose_no_result_and_states_come_again(there: TinyClass) -> None:
     with linked(there.url) as client:
         client.send(state(1))

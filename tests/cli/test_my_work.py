@@ -127,6 +127,7 @@ def test_a_scene_may_name_no_other_machine_and_no_file_elsewhere(
     assert not (tmp_path / "my-work").exists()
 
 
+@pytest.mark.slow
 def test_play_serves_it(tmp_path: Path) -> None:
     file = zipped(tmp_path / "my-work.zip", scenes__mine_dot_yaml=SCENE)
     with played(str(file)) as room:

@@ -21,6 +21,7 @@ def driven(time_scale: float = 1.0) -> Runner:
     return Runner(sim, seed=1, time_scale=time_scale)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("time_scale", [1.0, math.inf])
 def test_it_stands_still_with_its_keys_released_and_goes_on(time_scale: float) -> None:
     runner = driven(time_scale)
@@ -39,6 +40,7 @@ def test_it_stands_still_with_its_keys_released_and_goes_on(time_scale: float) -
     assert runner.latest.waiting == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "ask",
     [

@@ -167,6 +167,7 @@ def test_buttons_step_and_a_paused_world_goes_on_waiting() -> None:
     assert runner.latest.waiting == ""
 
 
+@pytest.mark.slow
 def test_waiting_changes_no_number_and_records_nothing() -> None:
     found = []
     for waits in (False, True):

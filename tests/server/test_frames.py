@@ -75,6 +75,7 @@ NEARLY = st.fixed_dictionaries(
 )
 
 
+@pytest.mark.slow
 @given(NEARLY)
 def test_what_is_read_is_what_was_said(said: dict[str, Any]) -> None:
     with suppress(ValueError):

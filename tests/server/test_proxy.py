@@ -332,6 +332,7 @@ def test_a_slow_page_slows_its_stream_down_and_nothing_piles_up(
     assert caplog.records == []
 
 
+@pytest.mark.slow
 def test_a_page_that_floods_viser_is_slowed_down() -> None:
     heard = 0
 

@@ -197,6 +197,7 @@ def test_other_methods_are_not_allowed(room: Room, method: str) -> None:
             assert client.request(method, path).status_code == 405
 
 
+@pytest.mark.slow
 def test_a_socket_whose_app_does_not_answer_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(frames, "HANDSHAKE_TIMEOUT_S", 0.1)
     from ai4u_edu.server import ServerThread

@@ -164,6 +164,7 @@ def test_a_rooms_token_is_asked_for() -> None:
             assert httpx.post(room.url + path, json={"link": LINK}).status_code == 401
 
 
+@pytest.mark.slow
 def test_the_routes_are_described(room: Shared) -> None:
     document = room.get("api/openapi.json")
     for path, body in (("/api/scene", {"name": "maze"}), ("/api/scene/link", {"link": LINK})):

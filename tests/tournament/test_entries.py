@@ -89,6 +89,7 @@ def test_a_file_that_is_too_large_is_refused_unread(tmp_path: Path) -> None:
 # -- networks that can't play ---------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", BAD, ids=lambda make: make.__name__)
 def test_a_network_that_can_t_play_is_refused_with_a_sentence(
     make: Callable[[Path], None], tmp_path: Path
