@@ -9,7 +9,7 @@ export class PaidTerms {
   /** Number of the chosen episode; null if there is none. */
   #number = null;
   #asked = 0;
-  #terms = element("div", { className: "ai4u-paid-terms" });
+  #terms = element("div");
   #hint = element("p", { className: "ai4u-soft", textContent: "Each line is the sum so far, from the first decision to the last one." });
   #moments = element("ol", { className: "ai4u-paid-moments", ariaLabel: "Decisions that paid most" });
   #none = element("p", { className: "ai4u-hint-text", textContent: "Nothing was paid in this episode." });

@@ -16,6 +16,7 @@ from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.statefulness import dependence_of
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
+from ai4u_edu.panel.commands.past import chosen_episode
 from ai4u_edu.panel.commands.why import plain_action
 from ai4u_edu.panel.messages import play as m
 from ai4u_edu.panel.messages.base import Command
@@ -50,9 +51,7 @@ async def _rivals(page: Page, _command: m.ListRivals) -> Answer:
 
 
 async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
-    frame_cache = page.context.viewer.player.frame_cache
-    if frame_cache is None:
-        raise SetupError("choose an episode first")
+    frame_cache = chosen_episode(page)
     editor, agent_id = page.context.required_editor(), page.view.agent
     policy = page.context.viewer.explainer.policy
 

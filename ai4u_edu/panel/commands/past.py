@@ -14,6 +14,7 @@ from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.recording import Archive, Episode
 from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE
 
 MAX_POINTS = 300
@@ -31,13 +32,13 @@ async def _episode(page: Page, command: m.OpenEpisode) -> Answer:
 
 
 async def _step(page: Page, command: m.GoToStep) -> Answer:
-    _check_chosen(page)
+    chosen_episode(page)
     page.context.viewer.player.go_to(command.step)
     return Answer()
 
 
 async def _play(page: Page, _command: m.Play) -> Answer:
-    _check_chosen(page)
+    chosen_episode(page)
     page.context.viewer.player.play()
     return Answer()
 
@@ -58,18 +59,16 @@ async def _back_to_live(page: Page, _command: m.BackToLive) -> Answer:
 
 
 async def _continue(page: Page, _command: m.ContinueHere) -> Answer:
-    _check_chosen(page)
+    chosen_episode(page)
     # it waits until the episode was replayed up to there
     await page.result(await page.in_thread(page.context.viewer.player.continue_from_here))
     return Answer("The world runs on from here.")
 
 
 async def _race(page: Page, _command: m.Race) -> Answer:
-    _check_chosen(page)
+    chosen_episode(page)
     runner, viewer = page.context.runner, page.context.viewer
-    frame_cache = viewer.player.frame_cache
-    if frame_cache is None:
-        raise SetupError("choose an episode first")
+    frame_cache = chosen_episode(page)
     number = frame_cache.number
     viewer.player.cancel()
     viewer.ghosts.race(frame_cache.episode, f"episode {number}")
@@ -84,9 +83,7 @@ async def _remove_ghost(page: Page, _command: m.RemoveGhost) -> Answer:
 
 
 async def _paid(page: Page, _command: m.AskPaid) -> Answer:
-    frame_cache = page.context.viewer.player.frame_cache
-    if frame_cache is None:
-        raise SetupError("choose an episode first")
+    frame_cache = chosen_episode(page)
     told = reward_terms(frame_cache.episode, frame_cache.record.id)
     count = len(told.amounts)
     places = np.linspace(0, count - 1, min(count, MAX_POINTS)).round().astype(int)
@@ -132,9 +129,16 @@ def _archive(page: Page) -> Archive:
     return archive
 
 
-def _check_chosen(page: Page) -> None:
-    if page.context.viewer.player.frame_cache is None:
+def chosen_episode(page: Page) -> FrameCache:
+    """Return the episode that the player has.
+
+    Raises:
+        SetupError: none is chosen.
+    """
+    frame_cache = page.context.viewer.player.frame_cache
+    if frame_cache is None:
         raise SetupError("choose an episode first")
+    return frame_cache
 
 
 HANDLERS: Mapping[type[Command], Handler] = {
