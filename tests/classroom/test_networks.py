@@ -8,19 +8,15 @@ import pytest
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.class_event import _library
 from ai4u_edu.classroom.errors import NetworkError, StoreError
-from ai4u_edu.classroom.store import RoomRow, SeatRow, TokenRow
 from ai4u_edu.classroom.tournament.network_scene import OWN_PLAYER, network_scenes
 from ai4u_edu.classroom.tournament.networks import FOLDER, MAX_NETWORKS, NetworkRow, Networks
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
+from tests.classroom.two_seats import two_seats
 
 
 @pytest.fixture
 def store(tmp_path: Path) -> Iterator[ClassStore]:
-    with ClassStore(tmp_path) as store:
-        for number in (1, 2):
-            seat = SeatRow(number, f"Fox {number}", "#ffffff", "a", "in")
-            room = RoomRow("a", "maze") if number == 1 else None
-            store.add_seat(seat, TokenRow(b"%d" % number, number, f"request {number}"), room)
+    with two_seats(tmp_path) as store:
         yield store
 
 

@@ -15,12 +15,12 @@ from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.errors import NewerProgramError, ProgramNotKeptError
 from ai4u_edu.classroom.programs import MAX_PROGRAM_CHARS, MAX_PROGRAMS, Programs
 from ai4u_edu.classroom.seat_rate import MAX_REQUESTS_AT_ONCE
-from ai4u_edu.classroom.store import RoomRow, SeatRow, TokenRow
 from ai4u_edu.room.my_work import open_my_work
 from ai4u_edu.wire.class_link import MAX_STARTING_PROGRAM_CHARS, Assignment
 from tests.classroom.link_client import RawLink, state
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
+from tests.classroom.two_seats import two_seats
 
 MARKUP = "# <img src=x onerror=alert(1)>\n"
 RUNS = "open('ran.txt', 'w').write('it ran')\nraise SystemExit\n"
@@ -29,11 +29,7 @@ RUNS = "open('ran.txt', 'w').write('it ran')\nraise SystemExit\n"
 
 @pytest.fixture
 def store(tmp_path: Path) -> Iterator[ClassStore]:
-    with ClassStore(tmp_path) as store:
-        for number in (1, 2):
-            seat = SeatRow(number, f"Fox {number}", "#ffffff", "a", "in")
-            room = RoomRow("a", "maze") if number == 1 else None
-            store.add_seat(seat, TokenRow(b"%d" % number, number, f"request {number}"), room)
+    with two_seats(tmp_path) as store:
         yield store
 
 

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu.class_link import Seat, SeatFile
 from ai4u_edu.lessons import check, hint, join_class, leave_class, show, stop
 from ai4u_edu.lessons.class_connection import NO_WORLD
 from ai4u_edu.lessons.class_membership import current_connection
@@ -26,7 +25,8 @@ from ai4u_edu.wire.class_link import (
     Work,
 )
 from tests.class_link.messages import drawing
-from tests.class_link.tiny_class import SECRET, TinyClass
+from tests.class_link.tiny_class import TinyClass
+from tests.lessons.class_with_a_seat import class_with_a_seat
 from tests.lessons.test_checking import go, stay
 from tests.server.rooms import free_port, until
 
@@ -51,13 +51,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture
 def there(monkeypatch: pytest.MonkeyPatch) -> Iterator[TinyClass]:
-    """A class; its seat is given without HTTP."""
-    there = TinyClass()
-    there.port = free_port()
-    seat = Seat(SECRET, "Red Fox", "#d55e00", there.url)
-    monkeypatch.setattr(SeatFile, "take", lambda *_: seat)
-    yield there
-    there.stop()
+    with class_with_a_seat(monkeypatch) as there:
+        yield there
 
 
 def _events(there: TinyClass) -> list[tuple[str, str, str]]:

@@ -7,7 +7,6 @@ from threading import Thread
 
 import pytest
 
-from ai4u_edu.class_link import Seat, SeatFile
 from ai4u_edu.lessons import join_class, leave_class, submit
 from ai4u_edu.lessons import network_submission as module
 from ai4u_edu.lessons.class_connection import POLL_S
@@ -19,8 +18,9 @@ from ai4u_edu.wire.class_link import (
     Network,
     Problem,
 )
-from tests.class_link.tiny_class import SECRET, TinyClass
-from tests.server.rooms import free_port, until
+from tests.class_link.tiny_class import TinyClass
+from tests.lessons.class_with_a_seat import class_with_a_seat
+from tests.server.rooms import until
 
 
 @pytest.fixture(autouse=True)
@@ -33,13 +33,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture
 def there(monkeypatch: pytest.MonkeyPatch) -> Iterator[TinyClass]:
-    """A class; its seat is given without HTTP."""
-    there = TinyClass()
-    there.port = free_port()
-    seat = Seat(SECRET, "Red Fox", "#d55e00", there.url)
-    monkeypatch.setattr(SeatFile, "take", lambda *_: seat)
-    yield there
-    there.stop()
+    with class_with_a_seat(monkeypatch) as there:
+        yield there
 
 
 def network_in(there: TinyClass, number: int = 0) -> Network:
