@@ -1,5 +1,6 @@
 """Limits of a room's process, and the checks that end one which breaks them."""
 
+import os
 import sys
 import time
 from contextlib import suppress
@@ -93,7 +94,13 @@ class RoomWatch:
     def _set_niceness(self, niceness: int) -> None:
         # lowering it again needs rights that a teacher's account may lack
         with suppress(psutil.Error, OSError):
-            self._process.nice(niceness if sys.platform != "win32" else _windows_class(niceness))
+            if sys.platform == "win32":
+                self._process.nice(_windows_class(niceness))
+            elif sys.platform == "linux":  # each thread has a priority of its own
+                for thread in self._process.threads():
+                    os.setpriority(os.PRIO_PROCESS, thread.id, niceness)
+            else:
+                self._process.nice(niceness)
 
 
 def _windows_class(niceness: int) -> int:

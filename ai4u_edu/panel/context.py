@@ -1,6 +1,7 @@
 """The running world that all pages' panels share."""
 
 import asyncio
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -57,6 +58,17 @@ class PanelContext:
     cache: PartCache = field(default_factory=PartCache)
     slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
     """Held by a page whose command does slow work in another thread."""
+    clock: Callable[[], float] = time.monotonic
+    began: float = field(default_factory=time.monotonic)
+    """Time (s) of the clock from which periods count; see :meth:`until_next_look`."""
+
+    def until_next_look(self, period: float) -> float:
+        """Return the time (s) until all pages look for changed parts, once in a period (s).
+
+        Pages of one world look at the same moments, so that they share what was made for one.
+        Worlds in other processes have other moments: else a class's rooms would all look at once.
+        """
+        return period - (self.clock() - self.began) % period
 
     def required_editor(self) -> SceneEditor:
         """Return the editor.

@@ -210,10 +210,8 @@ class _Connection:
                         self._sent[name] = text
                         await self._send_text(text)
             await asyncio.sleep(MIN_SEND_S)
-            # all pages look at the same moments, so that they can share what was made for one
-            rest = period - self._loop.time() % period
             with suppress(TimeoutError):
-                async with asyncio.timeout(rest):
+                async with asyncio.timeout(self._context.until_next_look(period)):
                     await self._changed.wait()
 
     def _settle(self) -> None:

@@ -16,7 +16,7 @@ import pytest
 from ai4u_edu.classroom import LocalRooms
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
-from ai4u_edu.classroom.room_watch import RoomLimits
+from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits
 
 pytestmark = pytest.mark.slow
 PATIENCE_S = 30
@@ -78,6 +78,17 @@ def test_a_room_that_does_not_answer_begins_anew(tmp_path: Path) -> None:
 
     with closing(LocalRooms(tmp_path, limits=limits)) as rooms:
         asyncio.run(stop_one())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="priorities of threads are Linux's")
+def test_all_threads_of_a_room_let_the_class_go_first(tmp_path: Path) -> None:
+    async def priorities() -> set[int]:
+        process = psutil.Process(_pid_of(await rooms.enter("a", "box_chase")))
+        return {os.getpriority(os.PRIO_PROCESS, each.id) for each in process.threads()}
+
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    with closing(LocalRooms(tmp_path)) as rooms:
+        assert asyncio.run(priorities()) == {max(own, NICENESS)}
 
 
 def test_a_room_with_too_much_memory_is_ended_and_told_why(tmp_path: Path) -> None:

@@ -115,6 +115,19 @@ def test_the_script_that_drives_an_agent(room: PanelRoom) -> None:
         assert agent_part(context, snapshot, agent, ())["script"] == told
 
 
+def test_pages_of_one_world_look_at_the_same_moments_and_those_of_others_at_other_ones(
+    room: PanelRoom,
+) -> None:
+    now = 0.0
+    one, other = (
+        PanelContext(room.runner, room.viewer, clock=lambda: now, began=began)
+        for began in (0.0, 0.1)
+    )
+    for now in (7.25, 7.35):
+        assert now + one.until_next_look(0.4) == pytest.approx(7.6)
+        assert now + other.until_next_look(0.4) == pytest.approx(7.3 if now < 7.3 else 7.7)
+
+
 def test_the_trail_is_switched_on(room: PanelRoom, page_id: str) -> None:
     with room.page(f"?page={page_id}") as page, picture(room, page_id) as client:
         page.part("view", has_trail=False)  # a person drives
