@@ -26,6 +26,7 @@ const COMMANDS = {
   Resume: "resume",
   "Back to live": "resume",
 };
+const LOST = "No connection to this world. It goes on here by itself as soon as there is one again.";
 /** How long the error of a failed request stays (ms). */
 const REQUEST_ERROR_MS = 8000;
 /** Terms smaller than this round to 0.00 and are left out of the details. */
@@ -69,6 +70,7 @@ export class Banners {
    * @param page.name the agent's name, if this page can't drive it
    * @param page.isNew true until the person has pressed a key: then the goal is shown
    * @param page.result of the episode that a person has just won: see results.js; else null
+   * @param page.isLost true once the connection has been gone for some seconds
    * @param page.held the text for a world that a teacher holds; empty for none
    * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't
    */
@@ -87,6 +89,7 @@ export class Banners {
 
   #banner(state, page) {
     if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
+    if (page.isLost) return { kind: "error", text: LOST };
     if (state?.error) return { kind: "error", text: state.error, buttons: ["Reset"] };
     if (this.#requestError) return { kind: "error", text: this.#requestError };
     if (page.held) return { kind: "paused", text: page.held };

@@ -22,6 +22,8 @@ import { playTone } from "./tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
+/** Time without a connection (ms) after which the page says so; another world takes less. */
+const LOST_MS = 3000;
 /** What a world waits for while a teacher holds it. */
 const HELD = "teacher";
 
@@ -32,6 +34,9 @@ let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick:
 let control = { driver: null, pages: 1 };
 let state = null;
 let connected = false;
+/** True once the connection has been gone for {@link LOST_MS}. */
+let isLost = false;
+let lostTimer = 0;
 let hasActed = false;
 
 // A cookie, because viser's WebSocket address lacks the query. Set again on focus, when viser reconnects:
@@ -80,12 +85,19 @@ watchFocus(draw);
 
 socket.onopen = () => {
   connected = true;
+  clearTimeout(lostTimer);
+  lostTimer = 0;
+  isLost = false;
   draw();
 };
 socket.onclose = (reason) => {
   connected = false;
   state = null;
   keys.releaseAll();
+  lostTimer ||= setTimeout(() => {
+    isLost = true;
+    draw();
+  }, LOST_MS);
   banners.setConnectionError(reason);
   draw();
 };
@@ -144,6 +156,7 @@ function draw() {
     restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
+    isLost,
     result: results.of(connected ? state : null, isDriven),
     howToStart: canDrive() ? howToDrive() : "",
     held: isHeld() ? (classBar?.heldText ?? "Your teacher has stopped this world") : "",

@@ -2,6 +2,11 @@
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
+/** Time without an answer (ms) after which a page gives up to connect; a room of a class may have to start first. */
+const CONNECT_MS = 20_000;
+/** Time without a message (ms) after which a connection counts as lost, if its server sends `keepalive`, which it
+ * does every 2 s: a network that is gone closes no connection. */
+const SILENCE_MS = 8000;
 /** Close code of a refusal: the server would refuse again, so the page doesn't reconnect. */
 const CLOSE_REFUSED = 1008;
 /** Close code when another world has replaced this one. */
@@ -19,6 +24,9 @@ export class JsonSocket {
   #socket = null;
   #reconnectMs = MIN_RECONNECT_MS;
   #timer = 0;
+  /** Fires when nothing has been heard for too long. */
+  #silence = 0;
+  #hasKeepalives = false;
 
   /** @param {string} path relative to the page */
   constructor(path) {
@@ -31,20 +39,15 @@ export class JsonSocket {
     const url = new URL(this.path, document.baseURI);
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const socket = (this.#socket = new WebSocket(url));
+    this.#hasKeepalives = false;
+    this.#giveUpAfter(CONNECT_MS);
     socket.onopen = () => {
       this.#reconnectMs = MIN_RECONNECT_MS;
+      clearTimeout(this.#silence);
       this.onopen();
     };
-    socket.onmessage = (event) => this.onmessage(JSON.parse(event.data));
-    socket.onclose = ({ code, reason }) => {
-      this.#socket = null;
-      this.onclose(code === CLOSE_REFUSED ? reason : "");
-      if (code === CLOSE_REFUSED) return;
-      if (code === CLOSE_WORLD_REPLACED) this.onworldreplaced();
-      const jitter = 0.75 + Math.random() / 2;
-      this.#timer = setTimeout(() => this.#reconnect(), this.#reconnectMs * jitter);
-      this.#reconnectMs = Math.min(2 * this.#reconnectMs, MAX_RECONNECT_MS);
-    };
+    socket.onmessage = (event) => this.#receive(JSON.parse(event.data));
+    socket.onclose = ({ code, reason }) => this.#closed(code, reason);
   }
 
   get isOpen() {
@@ -59,6 +62,35 @@ export class JsonSocket {
   /** Send bytes if connected, else drop them. */
   sendBytes(bytes) {
     if (this.isOpen) this.#socket.send(bytes);
+  }
+
+  #receive(message) {
+    const isKeepalive = message.type === "keepalive";
+    this.#hasKeepalives ||= isKeepalive;
+    if (this.#hasKeepalives) this.#giveUpAfter(SILENCE_MS);
+    if (!isKeepalive) this.onmessage(message);
+  }
+
+  #closed(code, reason) {
+    clearTimeout(this.#silence);
+    this.#socket = null;
+    this.onclose(code === CLOSE_REFUSED ? reason : "");
+    if (code === CLOSE_REFUSED) return;
+    if (code === CLOSE_WORLD_REPLACED) this.onworldreplaced();
+    const jitter = 0.75 + Math.random() / 2;
+    this.#timer = setTimeout(() => this.#reconnect(), this.#reconnectMs * jitter);
+    this.#reconnectMs = Math.min(2 * this.#reconnectMs, MAX_RECONNECT_MS);
+  }
+
+  /** Take the connection for lost after some time (ms). Without an answer the browser's own close would wait too. */
+  #giveUpAfter(time) {
+    const socket = this.#socket;
+    clearTimeout(this.#silence);
+    this.#silence = setTimeout(() => {
+      socket.onopen = socket.onmessage = socket.onclose = null;
+      socket.close();
+      this.#closed(0, "");
+    }, time);
   }
 
   #reconnect() {

@@ -27,6 +27,7 @@ from ai4u_edu.panel.parts.due import due_parts
 from ai4u_edu.panel.upload import MAX_PART_BYTES
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
+from ai4u_edu.server.keepalive import send_keepalives
 from ai4u_edu.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.server.proxy import PAGE_ID_PARAM, page_id
 from ai4u_edu.viewer import Viewer
@@ -96,12 +97,13 @@ class _Connection:
     async def serve(self) -> None:
         """Send parts and carry out commands until the page leaves."""
         sending = asyncio.create_task(self._send_parts())
+        keepalives = asyncio.create_task(send_keepalives(self._send_text))
         try:
             await self._receive()
         finally:
             self._view.close()
             self._page.upload.drop()
-            for task in (sending, *self._tasks):
+            for task in (sending, keepalives, *self._tasks):
                 task.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
                 await sending
@@ -208,7 +210,7 @@ class _Connection:
                 for name, text in due_parts(self._context, self._view):
                     if self._sent.get(name) != text:
                         self._sent[name] = text
-                        await self._send_text(text)
+                        await self._send_text(text.decode())
             await asyncio.sleep(MIN_SEND_S)
             with suppress(TimeoutError):
                 async with asyncio.timeout(self._context.until_next_look(period)):
@@ -232,12 +234,12 @@ class _Connection:
         task.add_done_callback(self._tasks.discard)
 
     async def _send(self, message: Mapping[str, object]) -> None:
-        await self._send_text(msgspec.json.encode(message))
+        await self._send_text(msgspec.json.encode(message).decode())
 
-    async def _send_text(self, text: bytes) -> None:
+    async def _send_text(self, text: str) -> None:
         if self._socket.application_state is WebSocketState.CONNECTED:
             with suppress(WebSocketDisconnect):
-                await self._socket.send_text(text.decode())
+                await self._socket.send_text(text)
 
 
 def _read(data: str | bytes) -> bytes | Show | Command:

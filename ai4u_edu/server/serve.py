@@ -26,6 +26,9 @@ MAX_MESSAGE_BYTES = 2**20
 
 The largest one is a part of a file for viser, of 512 KiB.
 """
+PING_S = 10.0
+"""Time between two pings of a WebSocket, and time for the answer. A page whose network is gone
+keeps others from driving for up to twice as long."""
 SHUTDOWN_TIMEOUT_S = 1
 """Time that uvicorn waits for open connections at shutdown."""
 ABORT_AFTER_S = 0.3
@@ -118,6 +121,8 @@ class _Server(uvicorn.Server):
             ws=FramesProtocol,
             ws_max_size=max_message_bytes,
             ws_per_message_deflate=False,
+            ws_ping_interval=PING_S,
+            ws_ping_timeout=PING_S,
             lifespan="off",
             log_config=None,
             log_level="warning",

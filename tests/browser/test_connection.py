@@ -11,9 +11,10 @@ from starlette.applications import Starlette
 from ai4u_edu import ControlRequestor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
-from tests.browser.served_viser import ServedViser, driver_status, ready
+from tests.browser.served_viser import PLAIN, ServedViser, connected, driver_status, ready
 from tests.chromium import new_page
 from tests.server.rooms import Room, free_port, served, until
+from tests.wifi import Wifi
 
 pytestmark = pytest.mark.browser
 
@@ -65,6 +66,37 @@ def test_a_page_comes_back_after_the_server_did(
         until(lambda: room.held == ["KeyW"])
         page.context.close()
     runner.stop()
+
+
+@pytest.mark.parametrize("with_connections", [True, False])
+def test_a_page_notices_that_its_network_is_gone_and_comes_back(
+    site: ServedViser, with_connections: bool
+) -> None:
+    """Nothing is closed: as without Wi-Fi."""
+    with Wifi(site.room.url) as wifi:
+        page = new_page(site.chromium)
+        site.contexts.append(page.context)
+        PLAIN.serve(page, wifi.url)
+        page.clock.install()
+        page.goto(wifi.url)
+        connected(page)
+        page.keyboard.down("KeyW")
+        until(lambda: site.room.held == ["KeyW"])
+        page.wait_for_timeout(100)  # for the first keepalive
+        wifi.go()
+        until(lambda: site.room.held == [])
+        page.clock.fast_forward(9000)
+        expect(driver_status(page)).to_have_text("Connecting …")
+        page.clock.fast_forward(4000)
+        lost = page.get_by_role("alert").filter(has_text="No connection to this world")
+        expect(lost).to_be_visible()
+        wifi.come_back(with_connections=with_connections)
+        page.clock.fast_forward(5000)
+        expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
+        expect(lost).to_be_hidden()
+        page.keyboard.up("KeyW")
+        page.keyboard.down("KeyW")
+        until(lambda: site.room.held == ["KeyW"])
 
 
 @pytest.fixture
