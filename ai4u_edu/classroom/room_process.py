@@ -17,7 +17,7 @@ from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
 from ai4u_edu.room import Room, RoomSettings
-from ai4u_edu.runtime.process_tuning import tuned_process
+from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
 from ai4u_edu.server import Rules, serve
 from ai4u_edu.server.app import RoomMount
 
@@ -106,7 +106,8 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
     app = Starlette(routes=[RoomMount(path_of(order.id), app=room.app)])
     threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
     ports = partial(RoomReady, viser_port=room.viser_port)
-    with tuned_process(), room, SceneFile(order.folder, room.editor, room.runner):
+    scene_file = SceneFile(order.folder, room.editor, room.runner)
+    with tuned_process(), released_memory(), room, scene_file:
         serve(app, HOST, 0, on_ready=lambda url: parent.send(ports(_port(url))))
 
 

@@ -33,32 +33,35 @@ class ProcessEngine:
 
     def __init__(self, width: int | None = None) -> None:
         self.width = width or _cores()
-        self._idle: list[_Worker] = []
-        self._busy: list[_Worker] = []
+        # in one list from before their start to after their end: Ctrl-C may come at any moment, and
+        # Python waits at its end for a process that was not ended
+        self._workers: list[_Worker] = []
 
     def start(self, job: Job) -> None:
         """See :class:`ai4u_edu.jobs.Engine`."""
-        worker = self._idle.pop() if self._idle else _Worker()
+        worker = next((each for each in self._workers if not each.is_busy), None)
+        if worker is None:
+            worker = _Worker()
+            self._workers.append(worker)
+            worker.begin()
         worker.start(job)
-        self._busy.append(worker)
 
     def wait(self) -> tuple[Job, Answer]:
         """See :class:`ai4u_edu.jobs.Engine`."""
-        (ready, *_) = wait([each.pipe for each in self._busy])  # the pipe of a dead process is, too
-        worker = next(each for each in self._busy if each.pipe is ready)
-        self._busy.remove(worker)
+        busy = {each.pipe: each for each in self._workers if each.is_busy}
+        (ready, *_) = wait([*busy])  # the pipe of a dead process is, too
+        worker = busy[ready]  # type: ignore[index]  # it is one of them
         answer = worker.answer()
         if answer is None:
-            return worker.job, Answer(error=f"its process died ({worker.end()})")
-        self._idle.append(worker)
+            self._workers.remove(worker)
+            answer = Answer(error=f"its process died ({worker.end()})")
         return worker.job, answer
 
     def close(self) -> None:
         """See :class:`ai4u_edu.jobs.Engine`."""
-        for worker in (*self._idle, *self._busy):
+        for worker in self._workers:
             worker.end()
-        self._idle.clear()
-        self._busy.clear()
+        self._workers.clear()
 
     def __enter__(self) -> Self:
         return self
@@ -71,14 +74,18 @@ class _Worker:
     job: Job
 
     def __init__(self) -> None:
+        self.is_busy = False
         context = multiprocessing.get_context("spawn")
-        self.pipe, there = context.Pipe()
-        self._process: BaseProcess = context.Process(target=_work, args=(there,), name="job")
+        self.pipe, self._there = context.Pipe()
+        self._process: BaseProcess = context.Process(target=_work, args=(self._there,), name="job")
+
+    def begin(self) -> None:
+        """Start the process."""
         self._process.start()
-        there.close()
+        self._there.close()
 
     def start(self, job: Job) -> None:
-        self.job = job
+        self.job, self.is_busy = job, True
         with suppress(OSError):  # it died while it was idle; the answer tells
             self.pipe.send(job)
 
@@ -88,11 +95,14 @@ class _Worker:
             answer: Answer = self.pipe.recv()
         except (EOFError, OSError):
             return None
+        self.is_busy = False
         return answer
 
     def end(self) -> str:
         """End the process, and return how it ended in words."""
         self.pipe.close()
+        if self._process.pid is None:  # Ctrl-C came before its start
+            return "not started"
         self._process.join(0.0 if self._process.is_alive() else END_TIMEOUT_S)
         code = self._process.exitcode
         self._process.kill()

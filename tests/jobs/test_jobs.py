@@ -231,6 +231,44 @@ def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path, 
         assert all(job in journal for job in jobs)
 
 
+INTERRUPTED = """
+from itertools import count
+from multiprocessing.connection import Connection
+
+numbers, receive = count(1), Connection.recv
+
+def interrupted(connection):
+    answer = receive(connection)
+    if next(numbers) == 4:
+        raise KeyboardInterrupt
+    return answer
+
+if __name__ == "__main__":
+    Connection.recv = interrupted
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no process groups")
+def test_ctrl_c_just_as_an_answer_comes_ends_the_program(tmp_path: Path) -> None:
+    script = tmp_path / "many_jobs.py"
+    script.write_text(INTERRUPTED + PROGRAM)
+    process = subprocess.Popen(
+        [sys.executable, str(script), str(tmp_path / "out"), "processes"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        text=True,
+    )
+    try:
+        _, told = process.communicate(timeout=60)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+        raise
+    assert told.rstrip().endswith("KeyboardInterrupt")
+
+
 # -- what is no job ------------------------------------------------------------------------------
 
 
