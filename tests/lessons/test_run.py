@@ -24,6 +24,9 @@ LONG = ["10", "11", "14", "16"]
 UNFINISHED = ["00", "07"]
 """Lessons that run unfinished each time: one of each kind. What their checks say of unfinished work
 is tested for all exercises."""
+SOLVED = ["03", "09", "15"]
+"""Lessons that run solved each time: an agent of blocks, rewards, a script elsewhere. Whether each
+solution passes its check is tested for all exercises."""
 
 
 def ran(folder: Path, numbers: list[str], *options: str) -> dict[str, Any]:
@@ -65,7 +68,11 @@ def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(
 @pytest.mark.parametrize(
     "numbers",
     [
-        [each for each in ALL if each not in {*IN_KERNEL, *LONG}],
+        SOLVED,
+        pytest.param(
+            [each for each in ALL if each not in {*SOLVED, *IN_KERNEL, *LONG}],
+            marks=pytest.mark.nightly,
+        ),
         pytest.param([each for each in LONG if each not in IN_KERNEL], marks=pytest.mark.nightly),
     ],
     ids=" ".join,
