@@ -9,12 +9,12 @@ import asyncio
 import random
 import socket
 import struct
-import threading
 from collections import Counter
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Self
-from urllib.parse import urlsplit
+
+from tests.thread_proxy import Direction, ThreadProxy
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Faults:
     half_open: float = 0.0
 
 
-class FaultyProxy:
+class FaultyProxy(ThreadProxy):
     """A proxy in a thread of its own, in front of a server.
 
     Args:
@@ -43,61 +43,21 @@ class FaultyProxy:
     """
 
     def __init__(self, url: str, faults: Faults, seed: int = 1) -> None:
-        self._port = urlsplit(url).port
+        super().__init__(url)
         self._faults = faults
         self._chance = random.Random(seed)
         self.happened: Counter[str] = Counter()
-        self._loop = asyncio.new_event_loop()
-        self._listener = socket.create_server(("127.0.0.1", 0))
-        self.url = f"http://127.0.0.1:{self._listener.getsockname()[1]}/"
-        self._thread = threading.Thread(target=self._run, name="proxy", daemon=True)
-        self._stopping = asyncio.Event()
 
-    def __enter__(self) -> Self:
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._loop.call_soon_threadsafe(self._stopping.set)
-        self._thread.join()
-
-    def _run(self) -> None:
-        self._loop.run_until_complete(self._serve())
-        self._loop.close()
-
-    async def _serve(self) -> None:
-        self._connections: set[asyncio.Task[None]] = set()
-        server = await asyncio.start_server(self._accept, sock=self._listener)
-        await self._stopping.wait()
-        server.close()
-        for task in self._connections:
-            task.cancel()
-        await asyncio.gather(*self._connections, return_exceptions=True)
-
-    async def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        task = asyncio.current_task()
-        assert task is not None
-        self._connections.add(task)
+    async def before_connection(self) -> None:
         self.happened["connection"] += 1
-        writers = [writer]
-        both: list[asyncio.Task[None]] = []
-        try:
-            far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self._port)
-            writers.append(far_writer)
-            both = [
-                asyncio.create_task(_Direction(self, reader, far_writer, writers).run()),
-                asyncio.create_task(_Direction(self, far_reader, writer, writers).run()),
-            ]
-            await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
-        except (OSError, asyncio.CancelledError):
-            pass  # the server is not there, or the proxy ends: so is nobody
-        finally:
-            for each in both:
-                each.cancel()
-            await asyncio.gather(*both, return_exceptions=True)
-            for each_writer in writers:
-                each_writer.transport.abort()
-            self._connections.discard(task)
+
+    def direction(
+        self,
+        reader: asyncio.StreamReader,
+        writer: asyncio.StreamWriter,
+        writers: Sequence[asyncio.StreamWriter],
+    ) -> Direction:
+        return _Direction(self, reader, writer, writers).run()
 
     def happens(self, what: str, share: float) -> bool:
         """Throws the dice."""
@@ -115,7 +75,7 @@ class _Direction:
         proxy: FaultyProxy,
         reader: asyncio.StreamReader,
         writer: asyncio.StreamWriter,
-        writers: list[asyncio.StreamWriter],
+        writers: Sequence[asyncio.StreamWriter],
     ) -> None:
         self._proxy = proxy
         self._faults = proxy._faults

@@ -66,9 +66,8 @@ async def _continue(page: Page, _command: m.ContinueHere) -> Answer:
 
 
 async def _race(page: Page, _command: m.Race) -> Answer:
-    chosen_episode(page)
-    runner, viewer = page.context.runner, page.context.viewer
     frame_cache = chosen_episode(page)
+    runner, viewer = page.context.runner, page.context.viewer
     number = frame_cache.number
     viewer.player.cancel()
     viewer.ghosts.race(frame_cache.episode, f"episode {number}")
