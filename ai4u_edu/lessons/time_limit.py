@@ -68,11 +68,12 @@ class TimeLimit:
     def __exit__(
         self, kind: type[BaseException] | None, error: object, traceback: TracebackType | None
     ) -> None:
-        with self._lock:
+        try:
+            with self._lock:  # from here on nothing more is raised
+                self._ended.set()
+        except TimeLimitError:  # raised a moment before, and arrived here: the call has ended
             self._ended.set()
-        if sys.platform == "win32" or self._timer is None:
-            raise_in(threading.get_ident(), None)  # what was raised and has not arrived yet
-        else:
+        if sys.platform != "win32" and self._timer is not None:
             handler, remaining, interval, began = self._timer
             if remaining:  # somebody else's timer goes on
                 remaining = max(0.001, remaining - (time.monotonic() - began))
@@ -145,10 +146,17 @@ def endless_call(calls: Sequence[FrameType], seconds: float) -> str:
     return f"{said} The loop never ends: its condition stays true."
 
 
-def raise_in(thread: int, error: type[BaseException] | None) -> None:
-    """Raise an error in another thread; None withdraws one that has not arrived."""
-    raised = None if error is None else ctypes.py_object(error)
-    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), raised)
+def raise_in(thread: int, error: type[BaseException]) -> None:
+    """Raise an error in another thread, when that thread next runs a line of Python.
+
+    It can't be withdrawn: with NULL in place of an error CPython 3.11 notes an error that never
+    arrives, and the next function of the process that is traced waits for it for ever.
+
+    Args:
+        thread: identifier of the thread, as ``threading.get_ident`` returns it.
+        error: class of the error.
+    """
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(error))
 
 
 def _loop_around(frame: FrameType) -> tuple[str, int] | None:

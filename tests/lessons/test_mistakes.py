@@ -1,5 +1,7 @@
 """The frequent slips of beginners have their own sentences."""
 
+import subprocess
+import sys
 import threading
 from typing import Any
 
@@ -178,6 +180,29 @@ def test_an_endless_loop_ends_with_its_line(endless: Any, in_thread: bool) -> No
     assert verdict.hint == "endless"
     assert "Your code did not answer for 0.4 s (line 3 of its cell: while " in verdict.text
     assert verdict.text.endswith("use `if`, not `while`.")
+
+
+AFTER_A_CHECK = """
+import subprocess
+import sys
+import threading
+from ai4u_edu.lessons.time_limit import TimeLimit
+from ai4u_edu.program import Program
+
+def check():
+    with TimeLimit():
+        pass
+
+checking = threading.Thread(target=check)
+checking.start()
+checking.join()
+Program.load("def decide(percept):\\n    return {}")  # traced
+"""
+
+
+def test_traced_code_goes_on_after_a_check_in_a_thread() -> None:
+    # in a process of its own, since Python's interpreter would hang where no timer ends it
+    subprocess.run([sys.executable, "-c", AFTER_A_CHECK], check=True, timeout=60)
 
 
 def test_many_slow_calls_end_too() -> None:
