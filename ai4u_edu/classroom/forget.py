@@ -26,9 +26,10 @@ async def forget(live: LiveClass, proxy: RoomProxy) -> None:
     Raises:
         StoreError: something can't be deleted; the class goes on without what is deleted already.
     """
-    rooms = list(live.seats.scenes())
+    rooms, seats = list(live.seats.scenes()), live.seats.all()
+    live.seats.let_nobody_in()  # else a page that comes back would start its room again
     live.end_all_links(SENTENCE)
-    for seat in live.seats.all():
+    for seat in seats:
         proxy.end(seat.number, "the class is over")
     await asyncio.gather(*(live.host.end(each) for each in rooms))
     await live.results.finish()

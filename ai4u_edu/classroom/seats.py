@@ -271,6 +271,12 @@ class Seats:
             self._store.set_setting("open", "yes" if is_open else "no")
             self.is_open = is_open
 
+    def let_nobody_in(self) -> None:
+        """Forget all seats and rooms in memory, and close the class; its file is left as it is."""
+        with self._lock:
+            self._seats, self._tokens, self._scenes = {}, {}, {}
+            self.is_open = False
+
     def begin_anew(self) -> None:
         """Delete the class's file with all seats and rooms, begin another one, set a new code.
 

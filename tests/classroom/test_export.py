@@ -4,6 +4,7 @@ import csv
 import io
 import time
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -132,6 +133,25 @@ def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) ->
         assert late.get("healthz").status_code == 200
     with served_class(folder) as served:
         assert len(served.state()["seats"]) == 1  # it goes on where it was, with the same secret
+
+
+def test_pages_that_come_back_meanwhile_bring_nothing_back(tmp_path: Path) -> None:
+    folder = tmp_path / "class"
+    with served_class(folder) as served, ThreadPoolExecutor(4) as pool:
+        students = [served.joined() for _ in range(4)]
+        for each in students:
+            assert each.get("healthz").status_code == 200
+
+        def come_back(student: Student) -> None:
+            while student.get("healthz").status_code != 403:
+                pass
+
+        coming = [pool.submit(come_back, each) for each in students]
+        answer = served.command("forget")
+        assert answer.status_code == 200, answer.text
+        for each in coming:
+            each.result()
+        assert [each.name for each in folder.iterdir() if each.is_dir()] == []
 
 
 def found_in(folder: Path, words: list[str]) -> list[str]:
