@@ -95,16 +95,16 @@ def test_odd_messages_leave_the_room_as_it_was(
     runner = room.runner
     seed = runner.latest.seed
     with opened(room) as other, opened(room) as here:
-        other.hold("KeyD")
-        until(lambda: room.held == ["KeyD"])
-        messages_said: list[str | bytes] = [*spoilt(), *OTHERS]
-        for message in messages_said:
-            here.socket.send(message)
-        here.send("command", name="nobody")
-        while "nobody" not in str(here.receive("error")):
-            pass
-        other.hold("KeyA")
-        until(lambda: room.held == ["KeyA"])
+        with other.holding("KeyD"):  # else the page would be forgotten, and the other one drive
+            until(lambda: room.held == ["KeyD"])
+            messages_said: list[str | bytes] = [*spoilt(), *OTHERS]
+            for message in messages_said:
+                here.socket.send(message)
+            here.send("command", name="nobody")
+            while "nobody" not in str(here.receive("error")):
+                pass
+        with other.holding("KeyA"):
+            until(lambda: room.held == ["KeyA"])
         other.send("take")
         other.send("command", name="resume")
         until(lambda: not runner.latest.paused)

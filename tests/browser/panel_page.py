@@ -57,7 +57,7 @@ class PanelPage:
         connected(self.page)
         self.until(lambda: self.panel.received)
 
-    def until(self, condition: Callable[[], object], timeout: float = 5) -> None:
+    def until(self, condition: Callable[[], object], timeout: float = 20) -> None:
         """Wait for a condition while the fake socket works, which Playwright's loop serves."""
         deadline = time.monotonic() + timeout
         while not condition():

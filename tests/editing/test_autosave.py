@@ -20,6 +20,7 @@ from ai4u_edu.editing.unsaved import choose_unsaved
 from tests.editing.harness import TEXT, EditorHarness
 from tests.editing.kill_autosaves import run
 from tests.playing import played
+from tests.server.rooms import until
 
 pytestmark = pytest.mark.slow
 
@@ -324,7 +325,7 @@ def test_restore_takes_the_scene_that_is_named(
         assert len(server.snapshot()["agents"]) == len(Scene.load("tag").description.agents)
         assert [each.name for each in unsaved_scenes(folder)] == ["sumo", "tag"]
         with played("2", "--restore") as other:
-            assert "unsaved scenes: 1 sumo (" in "".join(other.told)
+            until(lambda: "unsaved scenes: 1 sumo (" in "".join(other.told))
             assert [each.name for each in unsaved_scenes(folder)] == ["sumo"]
 
 

@@ -111,7 +111,13 @@ class Script:
     def __init__(self, room: Room, *, subprotocol: str | None = native.SUBPROTOCOL) -> None:
         names: Any = [subprotocol] if subprotocol else None
         url = room.url.replace("http", "ws", 1) + "ws/remote"
-        self.socket = open_socket(url, subprotocols=names, proxy=None, compression=None)
+        self.socket = open_socket(
+            url,
+            subprotocols=names,
+            proxy=None,
+            compression=None,
+            close_timeout=1,  # of a script that reads nothing the library waits as long
+        )
 
     def __enter__(self) -> Self:
         return self

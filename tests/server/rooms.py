@@ -154,7 +154,7 @@ class Page:
                 return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")
 
 
-def until(condition: Callable[[], object], timeout: float = 5) -> None:
+def until(condition: Callable[[], object], timeout: float = 20) -> None:
     """Wait for a condition to become true."""
     deadline = time.monotonic() + timeout
     while not condition():
