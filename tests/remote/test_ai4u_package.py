@@ -10,7 +10,7 @@ import json
 import math
 import socket
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -47,21 +47,31 @@ def free_port() -> int:
         return port
 
 
-def run_script(name: str, *args: object, given: bytes | None = None) -> Any:
+def run_script(
+    name: str,
+    *args: object,
+    given: bytes | None = None,
+    once_it_listens: Callable[[], object] | None = None,
+) -> Any:
     """Runs a script to its end; gives what it found."""
     python = ai4u_venv.find()
     if python is None:
         pytest.skip("AI4U's package is not here; python -m tests.remote.ai4u_venv gets it")
-    run = subprocess.run(
-        [str(python), str(SCRIPTS / name), *map(str, args)],
-        input=given,
-        capture_output=True,
-        timeout=PATIENCE,
-        check=False,
-    )
-    output = run.stdout.decode()
+    command = [str(python), "-u", str(SCRIPTS / name), *map(str, args)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as script:
+        assert script.stdout is not None
+        if once_it_listens is not None:
+            while b"ai4u2godot started" not in script.stdout.readline():
+                assert script.poll() is None
+            once_it_listens()
+        try:
+            told, errors = script.communicate(given, timeout=PATIENCE)
+        finally:
+            script.kill()
+    output = told.decode()
     found = [line for line in output.splitlines() if line.startswith("RESULT ")]
-    assert found, output[-2000:] + run.stderr.decode()[-2000:]
+    assert found, output[-2000:] + errors.decode()[-2000:]
     return json.loads(found[-1].removeprefix("RESULT "))
 
 
@@ -177,8 +187,14 @@ def test_two_agents_with_their_ids(ports: int) -> None:
     ):
         agent.use_brain(RemoteBrain(port=port, receive_timeout=10_000))
         records.append(Record(agent))
-    with running(sim):
-        found = run_script("two_agents.py", *listening, 20)
+    with contextlib.ExitStack() as world:
+        found = run_script(
+            "two_agents.py",
+            *listening,
+            20,
+            # what comes before AI4U has noted both ids would end its server
+            once_it_listens=lambda: world.enter_context(running(sim)),
+        )
     assert found["ids"] == ["0", "1"]
     for agent_id, record in zip(found["ids"], records, strict=True):
         mine = [
