@@ -9,7 +9,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.server.keepalive import send_keepalives
+from ai4u_edu.server.keepalive import keepalives
 
 POLL_S = 0.25
 """Interval at which changes are sent; poses are sent as often."""
@@ -46,12 +46,11 @@ class WallSocket:
         await socket.accept(next(iter(scope["subprotocols"]), None))
         self._live.ensure_ticking()
         sender = asyncio.create_task(self._send(socket))
-        keepalives = asyncio.create_task(send_keepalives(socket.send_text))
         try:
-            while (await socket.receive())["type"] == "websocket.receive":
-                pass  # commands are requests of their own
+            async with keepalives(socket.send_text):
+                while (await socket.receive())["type"] == "websocket.receive":
+                    pass  # commands are requests of their own
         finally:
-            keepalives.cancel()
             sender.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
                 await sender

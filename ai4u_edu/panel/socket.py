@@ -27,7 +27,7 @@ from ai4u_edu.panel.parts.due import due_parts
 from ai4u_edu.panel.upload import MAX_PART_BYTES
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
-from ai4u_edu.server.keepalive import send_keepalives
+from ai4u_edu.server.keepalive import keepalives
 from ai4u_edu.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.server.proxy import PAGE_ID_PARAM, page_id
 from ai4u_edu.viewer import Viewer
@@ -97,13 +97,13 @@ class _Connection:
     async def serve(self) -> None:
         """Send parts and carry out commands until the page leaves."""
         sending = asyncio.create_task(self._send_parts())
-        keepalives = asyncio.create_task(send_keepalives(self._send_text))
         try:
-            await self._receive()
+            async with keepalives(self._send_text):
+                await self._receive()
         finally:
             self._view.close()
             self._page.upload.drop()
-            for task in (sending, keepalives, *self._tasks):
+            for task in (sending, *self._tasks):
                 task.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
                 await sending

@@ -24,7 +24,7 @@ from ai4u_edu.server.bindings import choose_agent
 from ai4u_edu.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.server.control_lock import ControlLock
 from ai4u_edu.server.human_override import HumanOverride
-from ai4u_edu.server.keepalive import send_keepalives
+from ai4u_edu.server.keepalive import keepalives
 from ai4u_edu.server.page_receiver import ReceiveLimits, close_socket, receive_messages
 
 MAX_MESSAGE_BYTES = 4096
@@ -127,12 +127,12 @@ class _Page:
     async def serve(self, class_page: PageOfClass) -> None:
         changed = self._lock.add_page(self._number)
         sending = asyncio.create_task(self._send_events(changed, class_page))
-        keepalives = asyncio.create_task(send_keepalives(self._send))
         try:
-            await self._receive()
+            async with keepalives(self._send):
+                await self._receive()
         finally:
             self._lock.remove_page(self._number)
-            for task in (sending, keepalives, *self._requests):
+            for task in (sending, *self._requests):
                 task.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect):
                 await sending

@@ -5,8 +5,8 @@ page that has heard nothing for some periods takes the connection for lost and o
 """
 
 import asyncio
-from collections.abc import Awaitable, Callable
-from contextlib import suppress
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager, suppress
 
 from starlette.websockets import WebSocketDisconnect
 
@@ -15,12 +15,22 @@ KEEPALIVE_S = 2.0
 """Period of the messages; pages wait four times as long."""
 
 
-async def send_keepalives(send: Callable[[str], Awaitable[None]]) -> None:
-    """Send a message in each period, until cancelled or until the page has left.
+@asynccontextmanager
+async def keepalives(send: Callable[[str], Awaitable[None]]) -> AsyncIterator[None]:
+    """Context in which a page gets a message in each period, until it has left.
 
     Args:
         send: sends a text to the page.
     """
+    sending = asyncio.create_task(_send_keepalives(send))
+    try:
+        yield
+    finally:
+        sending.cancel()
+        await asyncio.wait([sending])
+
+
+async def _send_keepalives(send: Callable[[str], Awaitable[None]]) -> None:
     with suppress(WebSocketDisconnect):
         while True:
             await send(KEEPALIVE)

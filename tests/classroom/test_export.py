@@ -149,8 +149,8 @@ def test_pages_that_come_back_meanwhile_bring_nothing_back(tmp_path: Path) -> No
         coming = [pool.submit(come_back, each) for each in students]
         answer = served.command("forget")
         assert answer.status_code == 200, answer.text
-        for each in coming:
-            each.result()
+        for answered in coming:
+            answered.result()
         assert [each.name for each in folder.iterdir() if each.is_dir()] == []
 
 
