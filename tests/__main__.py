@@ -31,7 +31,7 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", str(3 * (os.cpu_count() or 2) // 2), "--max-worker-restart=0"]
+PARALLEL = ["-n", str(2 * (os.cpu_count() or 2)), "--max-worker-restart=0"]
 """Tests wait for pages and servers a third of their time. In place of a worker that was ended xdist
 starts another one, and with ``--dist=loadfile`` it then waits for ever."""
 LONG_RUNS = {
@@ -60,7 +60,7 @@ def main() -> int:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     # else each program that a test starts compiles the package anew
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    python, missing = set_up(options.fast, only)
+    python, missing = set_up(options, only)
     static = {
         name: [python, *arguments]
         for name, arguments in STATIC_CHECKS.items()
@@ -76,13 +76,13 @@ def main() -> int:
     return report([name for check in checks for name in check.result()] + failed)
 
 
-def set_up(is_fast: bool, only: str) -> tuple[str, list[str]]:
+def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str]]:
     """Get all that the checks need; return the Python to run them with and what is missing."""
-    wants_all = not is_fast and only in ("", "pytest")
+    wants_all = not options.fast and only in ("", "pytest")
     with ThreadPoolExecutor(1) as pool:  # one downloads while the other unpacks
-        ai4u = pool.submit(get_ai4u) if wants_all else None
+        ai4u = pool.submit(get_ai4u, options.nightly) if wants_all else None
         try:
-            python = bootstrap.ensure(ROOT, ["test" if is_fast else "dev"])
+            python = bootstrap.ensure(ROOT, ["test" if options.fast else "dev"])
         except bootstrap.SetupError as error:
             sys.exit(str(error))
         missing = get_browser(python) if wants_all else []
@@ -123,10 +123,10 @@ def get_browser(python: Path) -> list[str]:
     return []
 
 
-def get_ai4u() -> list[str]:
+def get_ai4u(trains: bool) -> list[str]:
     """Get AI4U's own package for the tests; return its name if it could not be had."""
     try:
-        ai4u_venv.ensure(Path(sys.executable))
+        ai4u_venv.ensure(Path(sys.executable), trains=trains)
     except ai4u_venv.VenvError as error:
         print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
         return ["AI4U's package"]

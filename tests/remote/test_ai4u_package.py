@@ -52,9 +52,10 @@ def run_script(
     *args: object,
     given: bytes | None = None,
     once_it_listens: Callable[[], object] | None = None,
+    trains: bool = False,
 ) -> Any:
     """Runs a script to its end; gives what it found."""
-    python = ai4u_venv.find()
+    python = ai4u_venv.find(trains=trains)
     if python is None:
         pytest.skip("AI4U's package is not here; python -m tests.remote.ai4u_venv gets it")
     command = [str(python), "-u", str(SCRIPTS / name), *map(str, args)]
@@ -209,7 +210,7 @@ def test_two_agents_with_their_ids(ports: int) -> None:
 def test_their_training_script_learns(capsys: pytest.CaptureFixture[str]) -> None:
     sim, port, record = remote_scene(max_steps_per_episode=120)
     with running(sim):
-        found = run_script("train.py", port, 500)
+        found = run_script("train.py", port, 500, trains=True)
     log = [(reward, done) for reward, done in found["log"]]
     # stable-baselines3 keeps rewards as float32
     recorded = [(float(np.float32(reward)), done) for _, reward, done in record.steps[:500]]
