@@ -3,6 +3,7 @@
 import gc
 import sys
 import weakref
+from collections.abc import Iterator
 
 import pytest
 
@@ -17,6 +18,14 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.builders import small_sim
 from tests.server.rooms import until
+
+
+@pytest.fixture(autouse=True)
+def unfrozen() -> Iterator[None]:
+    """Undo for a while what the suite froze when it had collected the tests."""
+    gc.unfreeze()
+    yield
+    gc.freeze()
 
 
 def settings() -> tuple[object, ...]:
