@@ -270,6 +270,7 @@ def test_any_contents(plain: Any) -> None:
     reads_or_refuses(data)
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(st.sampled_from(sorted(PLAIN)), ANYTHING)
 def test_any_contents_in_place_of_the_right_ones(key: str, value: Any) -> None:
