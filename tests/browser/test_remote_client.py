@@ -120,10 +120,11 @@ def test_in_lockstep_the_page_gets_the_bits_that_a_script_gets(page: Page) -> No
 
 
 def test_in_realtime_the_world_goes_on_with_what_it_has(page: Page, room: Room) -> None:
+    room.runner.scale_time(1).result(5)  # fifty times as fast, the episode may be over too soon
     page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
     assert page.evaluate("client.welcome.mode") == "realtime"
     assert page.evaluate("client.outputs.move") == [[-1, -1, 0, 0], [1, 1, 1, 1]]
-    first = page.evaluate("client.sense()")
+    first = page.evaluate("client.reset(1)")
     page.evaluate("client.act({ move: [1, 0, 0, 0] })")
     second = page.evaluate("client.sense()")
     assert second["seq"] > first["seq"]
@@ -189,9 +190,10 @@ def test_a_wrong_action_is_told_and_can_be_mended(page: Page) -> None:
 
 
 def test_closing_gives_the_agent_back_at_once(page: Page, room: Room) -> None:
+    room.runner.scale_time(1).result(5)  # see above
     for _ in range(3):
         page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
-        page.evaluate("client.sense()")
+        page.evaluate("client.reset(1)")
         page.evaluate("client.act({ move: [1, 0, 0, 0] })")
         page.evaluate("void (window.waiting = client.sense().catch(({ code }) => code))")
         page.evaluate("client.close()")
