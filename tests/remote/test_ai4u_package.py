@@ -62,11 +62,11 @@ def run_script(
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as script:
         assert script.stdout is not None
-        if once_it_listens is not None:
-            while b"ai4u2godot started" not in script.stdout.readline():
-                assert script.poll() is None
-            once_it_listens()
         try:
+            if once_it_listens is not None:
+                while b"ai4u2godot started" not in script.stdout.readline():
+                    assert script.poll() is None
+                once_it_listens()
             told, errors = script.communicate(given, timeout=PATIENCE)
         finally:
             script.kill()
