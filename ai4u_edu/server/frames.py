@@ -59,9 +59,17 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             self.transport.write(plain_response(431, why))
             self.transport.close()
 
+    def handle_parser_exception(self) -> None:
+        """Close a connection that sends what is no frame, or too large a one."""
+        super().handle_parser_exception()
+        # An app may send before it hears of this. uvicorn raises a RuntimeError then, as if the
+        # app itself had closed; now it raises the error that ASGI has for a page that has left.
+        self.disconnected = True
+
     def keepalive_timeout(self) -> None:
         """Close a connection that answers no pings; abort it if it does not read either."""
         super().keepalive_timeout()
+        self.disconnected = True  # see handle_parser_exception
         self._abort_after(CLOSE_TIMEOUT_S)
 
     def on_task_complete(self, task: asyncio.Task[None]) -> None:

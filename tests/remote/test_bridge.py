@@ -86,10 +86,17 @@ def begin(script: UDPScript) -> dict[str, Any]:
         ("config", "max_steps;1;0@id;1;0"),
         ("wait_command", RESET),
     ):
-        request = script.hear(PATIENCE)
+        request = heard_once(script) if expected != "wait_command" else script.hear(PATIENCE)
         assert expected in request, request
         script.say(reply)
-    return script.hear(PATIENCE)
+    return heard_once(script)
+
+
+def heard_once(script: UDPScript) -> dict[str, Any]:
+    """Return the next request but a bridge's first, which it repeats if the answer takes long."""
+    while "wait_command" in (request := script.hear(PATIENCE)):
+        pass
+    return request
 
 
 def test_a_script_that_asks_for_time_gets_it() -> None:

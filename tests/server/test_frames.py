@@ -9,15 +9,19 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from starlette.types import Receive, Scope, Send
 from uvicorn.config import Config
+from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.server import ServerState
 from websockets.exceptions import ConnectionClosed
 from websockets.protocol import State
+from websockets.sync.client import connect
 
-from ai4u_edu.server import messages
+from ai4u_edu.server import ServerThread, messages
 from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.input import MAX_MESSAGE_BYTES, MAX_MESSAGES_PER_S
 from ai4u_edu.server.page_receiver import MAX_MISTAKES
+from ai4u_edu.server.serve import MAX_MESSAGE_BYTES as MAX_FRAME_BYTES
 from tests.server.rooms import served, until
 
 MALFORMED = [
@@ -141,6 +145,12 @@ class Transport:
 
     is_closed = False
 
+    def is_closing(self) -> bool:
+        return self.is_closed
+
+    def write(self, data: bytes) -> None:
+        pass
+
     def close(self) -> None:
         self.is_closed = True
 
@@ -156,3 +166,40 @@ def test_a_server_ends_while_a_page_is_leaving() -> None:
         return bool(transport.is_closed)
 
     assert asyncio.run(end())
+
+
+def test_an_app_hears_that_the_page_has_left_once_the_protocol_closed() -> None:
+    raised: list[type[BaseException]] = []
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        await receive()
+        await send({"type": "websocket.accept"})
+        while (await receive())["type"] != "websocket.disconnect":
+            pass
+        try:
+            await send({"type": "websocket.send", "text": "too late"})
+        except Exception as error:
+            raised.append(type(error))
+
+    with (
+        ServerThread(app) as server,
+        connect(server.url.replace("http", "ws"), proxy=None) as page,
+    ):
+        page.send("x" * (MAX_FRAME_BYTES + 1))
+        until(lambda: raised)
+    assert issubclass(raised[0], OSError)
+
+
+def test_an_app_hears_that_a_page_has_left_that_answers_no_ping() -> None:
+    async def send() -> None:
+        protocol = FramesProtocol(
+            Config(lambda: None, ws="none", lifespan="off"), ServerState(), {}
+        )
+        transport: Any = Transport()
+        protocol.transport, protocol.handshake_complete = transport, True
+        protocol.conn.state = State.OPEN
+        protocol.keepalive_timeout()
+        await protocol.send({"type": "websocket.send", "text": "too late"})
+
+    with pytest.raises(ClientDisconnected):
+        asyncio.run(send())
