@@ -13,6 +13,7 @@ from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_code import serve_fakes
 from tests.browser.fake_panel import PARTS
 from tests.browser.panel_page import panel_page, panel_room
+from tests.browser.schemes import SCHEMES
 from tests.browser.tab_page import TabPage
 from tests.browser.test_panel_accessibility import findings
 from tests.chromium import new_page
@@ -294,7 +295,7 @@ def test_controls_are_large_enough_and_have_names(
     tab.page.context.close()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_it_has_no_grave_finding(chromium: Browser, scheme: str) -> None:
     tab = CodePage(chromium, scheme=scheme)
     tab.write(PROGRAM)

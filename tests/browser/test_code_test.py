@@ -8,6 +8,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
+from tests.browser.schemes import SCHEMES
 from tests.browser.served_viser import ready
 from tests.browser.test_code_drives import LOADING_MS
 from tests.browser.test_code_drives import CodeTab as RealTab
@@ -325,7 +326,7 @@ def test_who_drives_ends_the_test(tab: CodePage) -> None:
     assert tab.page.evaluate("fake.closed") == 1
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_it_fits_a_phone_and_has_no_grave_finding(chromium: Browser, scheme: str) -> None:
     tab = CodePage(chromium, size=(390, 844), scheme=scheme, has_touch=True, is_mobile=True)
     with_results(tab)

@@ -7,6 +7,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
+from tests.browser.schemes import SCHEMES
 
 pytestmark = pytest.mark.browser
 
@@ -17,7 +18,7 @@ OPENED = {"Build": "Ray picture", "World": "cube"}
 GRAVE = {"serious", "critical"}
 
 
-@pytest.fixture(scope="module", params=["light", "dark"])
+@pytest.fixture(scope="module", params=SCHEMES)
 def page(chromium: Browser, request: pytest.FixtureRequest) -> Iterator[PanelPage]:
     with (
         panel_room() as room,

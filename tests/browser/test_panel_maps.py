@@ -8,6 +8,7 @@ from playwright.sync_api import Browser, expect
 
 from tests.browser.fake_panel import Json
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
+from tests.browser.schemes import SCHEMES
 from tests.browser.test_panel_accessibility import findings
 from tests.server.rooms import Room
 
@@ -39,7 +40,7 @@ def room() -> Iterator[Room]:
         yield room
 
 
-@pytest.fixture(scope="module", params=["light", pytest.param("dark", marks=pytest.mark.nightly)])
+@pytest.fixture(scope="module", params=SCHEMES)
 def warm(chromium: Browser, room: Room, request: pytest.FixtureRequest) -> Iterator[PanelPage]:
     with panel_page(chromium, room, height=1000, color_scheme=request.param) as page:
         yield page

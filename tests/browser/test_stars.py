@@ -9,6 +9,7 @@ from playwright.sync_api import Browser, Locator, expect
 
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
+from tests.browser.schemes import SCHEMES
 from tests.browser.test_panel_accessibility import findings
 
 pytestmark = pytest.mark.browser
@@ -156,7 +157,7 @@ def test_what_is_kept_is_checked(tab: CodePage) -> None:
         assert tab.page.evaluate(script, strange)[:2] == [{}, 0]
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_it_fits_a_phone_and_has_no_grave_finding(chromium: Browser, scheme: str) -> None:
     size = (390, 844)
     with CodePage.opened(chromium, size=size, scheme=scheme, has_touch=True, is_mobile=True) as tab:

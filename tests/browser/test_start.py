@@ -14,6 +14,7 @@ from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.server import LessonView, ServerThread, room_app
+from tests.browser.schemes import SCHEMES
 from tests.chromium import new_page
 from tests.server.rooms import NOWHERE, until
 
@@ -175,7 +176,7 @@ def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
     assert world.scene == "tag"
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_it_fits_each_screen(world: World, chromium: Browser, scheme: Any) -> None:
     for width, height, is_touch in SIZES:
         page = new_page(chromium, width, height, color_scheme=scheme, has_touch=is_touch)

@@ -9,6 +9,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.browser.schemes import SCHEMES
 from tests.browser.wall_data import CODE, MARKUP, class_message, name_of, race
 from tests.browser.wall_server import WallServer, wall_server
 from tests.chromium import new_page
@@ -334,7 +335,7 @@ def test_worlds_are_drawn_where_their_cards_are(page: Page, school: WallServer) 
     until(lambda: sum(a != b for a, b in zip(first, page.evaluate(drawn), strict=True)) >= 3, 10)
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 def test_the_pages_have_no_grave_finding(
     chromium: Browser, school: WallServer, scheme: Any, tmp_path: Path
 ) -> None:

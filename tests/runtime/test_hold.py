@@ -11,7 +11,7 @@ from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
 
 
-def advance(runner: Runner, times: int = 4) -> None:
+def advance(runner: Runner, times: int = 2) -> None:
     for _ in range(times):
         runner.advance()
 
