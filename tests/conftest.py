@@ -1,10 +1,12 @@
 """Tiers of the suite (``--fast``, ``--nightly``), the order of files, and the report at the end."""
 
+import functools
 import gc
 import os
+import ssl
 import subprocess
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
 from itertools import zip_longest
 from pathlib import Path
 
@@ -31,6 +33,18 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 # A busy machine makes an example slow, and no test asserts a time.
 settings.register_profile("project", deadline=None)
 settings.load_profile("project")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _one_tls_context() -> Iterator[None]:
+    """Let all of httpx's clients share what no test uses: each would read all certificates anew.
+
+    That takes 22 ms, and a test that waits for an answer asks often.
+    """
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        shared = functools.cache(ssl.create_default_context)
+        monkeypatch.setattr(ssl, "create_default_context", shared)
+        yield
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

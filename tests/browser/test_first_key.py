@@ -58,7 +58,7 @@ def test_a_key_starts_and_drives_and_r_repeats_the_start(site: ServedViser) -> N
     drives(site, page)
 
 
-@pytest.mark.parametrize("key", ["Enter", "KeyH", "KeyQ"])
+@pytest.mark.parametrize("key", ["Enter", "KeyQ"])
 def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> None:
     page = site.page()
     page.keyboard.press(key)
@@ -66,15 +66,19 @@ def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> No
     expect(driver_status(page)).to_have_text("You drive")
 
 
-@pytest.mark.parametrize("key", ["?", "Escape", "Tab", "Shift", "F9", "Control+KeyB"])
-def test_keys_of_the_browser_and_of_the_help_do_not_start(site: ServedViser, key: str) -> None:
+def test_keys_of_the_browser_and_of_the_help_do_not_start(
+    site: ServedViser, subtests: pytest.Subtests
+) -> None:
     page = site.page()
-    page.keyboard.press(key)
-    page.keyboard.press("Escape")
-    page.keyboard.press("KeyR")  # handled after the other one
-    first = site.room.runner.latest.episode
-    until(lambda: site.room.runner.latest.episode >= first)
-    assert waits(site)
+    for key in ("?", "Escape", "Tab", "Shift", "F9", "Control+KeyB"):
+        with subtests.test(key):
+            page.keyboard.press(key)
+            page.keyboard.press("Escape")
+            page.wait_for_timeout(100)
+            assert waits(site)
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.press("KeyQ")
+    until(lambda: not waits(site))
 
 
 def test_a_touch_screen_is_told_to_push_the_stick(site: ServedViser) -> None:
