@@ -1,4 +1,4 @@
-"""A whole class in the browser: a teacher and four students, from the first code to the end."""
+"""A whole class in the browser: a teacher and three students, from the first code to the end."""
 
 import io
 import os
@@ -71,8 +71,8 @@ def test_a_class_from_the_first_code_to_the_end(chromium: Browser, tmp_path: Pat
     with served_class(tmp_path, "--port", port) as school:
         day = Day(chromium, school)
         day.open_teachers_page()
-        for number in range(4):
-            day.join(draws_nothing=number >= 2)
+        for number in range(3):
+            day.join(draws_nothing=number >= 1)
         everybody_drives(day)
         another_scene_comes(day)
         nobody_escapes_a_blank_screen(day)
@@ -196,7 +196,7 @@ def the_export_opens(day: Day) -> None:
         assert archive.testzip() is None
         names = archive.namelist()
         assert {"progress.csv", "results.html"} <= {name.rpartition("/")[2] for name in names}
-        assert sum(name.endswith(".yaml") for name in names) >= 4
+        assert sum(name.endswith(".yaml") for name in names) >= 3
 
 
 def after_forgetting_nothing_is_left(day: Day, folder: Path) -> None:
@@ -206,7 +206,7 @@ def after_forgetting_nothing_is_left(day: Day, folder: Path) -> None:
         for each in page.context.cookies()
         if each["name"] == "ai4u_edu_seat"
     ]
-    assert len(tokens) == 4
+    assert len(tokens) == 3
     day.teacher.get_by_role("button", name="End of class…").click()
     dialog = day.teacher.locator("dialog.ai4u-form")
     dialog.get_by_label("I have the file, or need none").check()

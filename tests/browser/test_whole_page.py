@@ -33,6 +33,24 @@ SKY = (150, 182, 212)
 """Colour of the sky, which only the robot's own view shows."""
 
 
+# first, since the page of the others goes on drawing
+def test_each_page_looks_at_its_own_agent_and_at_others(chromium: Browser) -> None:
+    with (
+        played("soccer", "--seed", "1") as server,
+        whole_page(chromium, server) as first,
+        whole_page(chromium, server, "?agent=orange_keeper") as second,
+    ):
+        for page, title in ((first, "blue striker"), (second, "orange keeper")):
+            expect(chosen(page)).to_contain_text(title)
+        first.get_by_label("Robot", exact=True).select_option("blue_keeper")
+        expect(button(first, "Drive this one")).to_be_visible()
+        press(second, "Pause")
+        until(lambda: server.snapshot()["paused"], timeout=40)
+        second.mouse.click(*on_screen(second, server, "orange_striker"))
+        expect(chosen(second)).to_contain_text("orange striker")
+        expect(chosen(first)).to_contain_text("blue keeper")
+
+
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Played]:
     with played("box_chase_ai4u") as server:
@@ -149,23 +167,6 @@ def test_light_and_dark(page: Page, server: Played, chromium: Browser) -> None:
         expect(other.get_by_role("switch", name="Dark")).to_have_attribute("aria-checked", "false")
     dark.click()
     until(lambda: surface.evaluate(lightness) > 200, timeout=40)
-
-
-def test_each_page_looks_at_its_own_agent_and_at_others(chromium: Browser) -> None:
-    with (
-        played("soccer", "--seed", "1") as server,
-        whole_page(chromium, server) as first,
-        whole_page(chromium, server, "?agent=orange_keeper") as second,
-    ):
-        for page, title in ((first, "blue striker"), (second, "orange keeper")):
-            expect(chosen(page)).to_contain_text(title)
-        first.get_by_label("Robot", exact=True).select_option("blue_keeper")
-        expect(button(first, "Drive this one")).to_be_visible()
-        press(second, "Pause")
-        until(lambda: server.snapshot()["paused"], timeout=40)
-        second.mouse.click(*on_screen(second, server, "orange_striker"))
-        expect(chosen(second)).to_contain_text("orange striker")
-        expect(chosen(first)).to_contain_text("blue keeper")
 
 
 def chosen(page: Page) -> Any:

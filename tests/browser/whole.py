@@ -17,6 +17,23 @@ from tests.playing import Played
 PATIENCE_MS = 40_000
 """A page without a graphics card draws a few frames a second, or one if others are at work."""
 Picture = npt.NDArray[np.uint8]
+DRAW_SELDOM = """
+const frame = requestAnimationFrame.bind(self);
+const waiting = new Map();
+let count = 0;
+self.requestAnimationFrame = (draw) => {
+    const id = (count += 1);
+    const once = (time) => waiting.delete(id) && draw(time);
+    waiting.set(id, setTimeout(() => frame(once), 250));
+    return id;
+};
+self.cancelAnimationFrame = (id) => {
+    clearTimeout(waiting.get(id));
+    waiting.delete(id);
+};
+"""
+"""Page script that lets viser draw four times a second at most: without a graphics card, drawing as
+often as it can takes a core."""
 
 
 @contextlib.contextmanager
@@ -30,6 +47,8 @@ def whole_page(
         options: more of ``Browser.new_context``.
     """
     page = new_page(chromium, draws=draws, reduced_motion="reduce", **options)
+    if draws:
+        page.add_init_script(DRAW_SELDOM)
     page.set_default_timeout(PATIENCE_MS)
     expect.set_options(timeout=PATIENCE_MS)
     problems: list[str] = []
