@@ -44,16 +44,16 @@ class WebFiles:
 
         Names are compared, so no path leads out of the folder.
         """
-        for path in self._folder.iterdir():
-            if path.name == name and path.suffix in _MEDIA_TYPES and path.is_file():
-                content, etag = _read(path, path.stat().st_mtime_ns)
-                headers = {**ALWAYS_ASK, "ETag": etag}
-                if name in _POLICIES:
-                    headers["Content-Security-Policy"] = _POLICIES[name]
-                if request.headers.get("if-none-match") == etag:
-                    return Response(status_code=304, headers=headers)
-                return Response(content, headers=headers, media_type=_MEDIA_TYPES[path.suffix])
-        return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
+        path = _files(self._folder, self._folder.stat().st_mtime_ns).get(name)
+        if path is None:
+            return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
+        content, etag = _read(path, path.stat().st_mtime_ns)
+        headers = {**ALWAYS_ASK, "ETag": etag}
+        if name in _POLICIES:
+            headers["Content-Security-Policy"] = _POLICIES[name]
+        if request.headers.get("if-none-match") == etag:
+            return Response(status_code=304, headers=headers)
+        return Response(content, headers=headers, media_type=_MEDIA_TYPES[path.suffix])
 
     def modules(self, *entries: str) -> list[str]:
         """Return modules and all that they import, in the order in which browsers find them.
@@ -76,6 +76,12 @@ def web_folder() -> Path:
     raise SetupError(
         f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
     )
+
+
+@lru_cache(maxsize=4)
+def _files(folder: Path, _modified_ns: int) -> dict[str, Path]:
+    files = (path for path in folder.iterdir() if path.suffix in _MEDIA_TYPES)
+    return {path.name: path for path in files if path.is_file()}
 
 
 @lru_cache(maxsize=256)

@@ -11,15 +11,15 @@ from tests.fuzz.target import Target
 from tests.fuzz.targets import TARGETS
 
 SLICE = {
-    "native-said": 1000,
-    "native-heard": 1000,
-    "ai4u-request": 1000,
-    "ai4u-reply": 1000,
-    "percept": 400,
-    "page-words": 400,
-    "recording": 300,
+    "native-said": 500,
+    "native-heard": 500,
+    "ai4u-request": 500,
+    "ai4u-reply": 500,
+    "percept": 200,
+    "page-words": 200,
+    "recording": 150,
     "scene": 40,
-    "http": 400,
+    "http": 200,
     "conversations": 30,
 }
 

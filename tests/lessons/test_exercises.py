@@ -52,10 +52,14 @@ def _is_sample(exercise: str, number: int) -> bool:
     return number == 0 or (number + sum(map(ord, exercise))) % 8 == 0
 
 
-def _but_slow(exercises: list[str]) -> list[object]:
+LONG_CHECKS = ("15.1", "15.3", "16.1")
+"""Exercises whose checks play episodes with whatever they get."""
+
+
+def _but_slow(exercises: list[str], also: tuple[str, ...] = ()) -> list[object]:
     """Return exercises as parameters of a test; slow ones are nightly."""
     return [
-        pytest.param(each, marks=[pytest.mark.nightly] if each in SLOW else [])
+        pytest.param(each, marks=[pytest.mark.nightly] if each in (*SLOW, *also) else [])
         for each in exercises
     ]
 
@@ -90,7 +94,9 @@ def test_the_unfinished_cell_does_not(exercise: str) -> None:
     assert verdict.hint in {next(iter(find(exercise).hints)), "error", "unfinished"}
 
 
-@pytest.mark.parametrize("exercise", _but_slow([each for each in ALL if each != "00.1"]))
+@pytest.mark.parametrize(
+    "exercise", _but_slow([each for each in ALL if each != "00.1"], also=LONG_CHECKS)
+)
 def test_nothing_thoughtless_passes_and_all_of_it_gets_an_answer(exercise: str) -> None:
     count = len(ast.parse(handed_in(lesson(exercise[:2]), exercise), mode="eval").body.elts)  # type: ignore[attr-defined]
     for junk in JUNK:

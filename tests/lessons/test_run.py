@@ -15,12 +15,12 @@ from tests.lessons.workbook import solution_of
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 ALL = [each.number for each in lessons()]
-IN_KERNEL = ["00", "10"]
-"""Lessons for a real kernel: the first, and one with a training.
+IN_KERNEL = ["00"]
+"""Lessons that run in a real kernel each time.
 
 To start a kernel takes longer than most lessons do, so the others run as scripts."""
 LONG = ["10", "11", "14", "16"]
-"""Lessons that train, or play many matches. 10 runs in a kernel, and 14 unfinished."""
+"""Lessons that train, or play many matches. 14 runs unfinished, too."""
 UNFINISHED = ["00", "07"]
 """Lessons that run unfinished each time: one of each kind. What their checks say of unfinished work
 is tested for all exercises."""
