@@ -40,6 +40,8 @@ class Connections:
     def __init__(self, limit: int | None = None, per_address: int = MAX_PER_ADDRESS) -> None:
         self.limit = limit or max_connections()
         self.per_address = per_address
+        self.is_closing = False
+        """True once the server shuts down: it accepts nothing, and aborts what it just accepted."""
         self.evicting = 0
         """Number of evicted connections that are not closed yet."""
         self._connections: dict[Hashable, _Connection] = {}

@@ -42,10 +42,13 @@ class Listener(socket.socket):
         """Accept a connection within the limits; answer those beyond with 503 and close them.
 
         Raises:
-            BlockingIOError: there is none, or other tasks should have their turn first.
+            BlockingIOError: there is none, the server shuts down, or other tasks should have their
+                turn first.
             OSError: there are no file descriptors, and none to spare.
         """
         for _ in range(MAX_REFUSED):
+            if self._connections.is_closing:
+                break  # Python 3.11 never closes what comes to a server that is closed
             if self._connections.evicting >= MAX_EVICTING:
                 break  # those have to close first; the loop calls again at once
             accepted = self._accept_or_refuse()

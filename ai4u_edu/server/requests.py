@@ -45,6 +45,11 @@ class RequestProtocol(H11Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Start the timeout of the first request."""
         super().connection_made(cast(asyncio.Transport, transport))
+        connections = cast(ServerConfig, self.config).connections
+        if connections is not None and connections.is_closing:
+            # uvicorn has closed the others already, and would wait for this one in vain
+            self.transport.abort()
+            return
         self._wait_for_request()
 
     def data_received(self, data: bytes) -> None:

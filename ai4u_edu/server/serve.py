@@ -146,13 +146,14 @@ class _Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         loop = asyncio.get_running_loop()
+        self._connections.is_closing = True
         for connection in self.server_state.connections:
             # a connection that does not read can't be closed cleanly; uvicorn would wait and log
             if connection.transport.get_write_buffer_size():
                 connection.transport.abort()
             else:
                 loop.call_later(ABORT_AFTER_S, self._abort, connection)
-        await asyncio.sleep(0)
+        await asyncio.sleep(0)  # asyncio makes transports of what it accepted
         await super().shutdown(sockets)
 
     def _abort(self, connection: "Protocols") -> None:

@@ -276,3 +276,30 @@ async def _nothing(scope: object, receive: object, send: object) -> None:
 def test_an_old_name_warns(old: str, new: str) -> None:
     with pytest.warns(DeprecationWarning, match=new):
         assert getattr(server, old) is getattr(server, new)
+
+
+def test_connections_that_come_while_it_ends_are_closed_too() -> None:
+    for _ in range(5):  # which of them come in its last moments is chance
+        with ServerThread(Starlette()) as ending:
+            place = urlsplit(ending.url)
+            with ExitStack() as stack, ThreadPoolExecutor(1) as pool:
+                knocking = pool.submit(knock, (str(place.hostname), place.port or 80), stack)
+                ending.stop()
+                for connection in knocking.result():
+                    read_to_the_end(connection)
+
+
+def knock(place: tuple[str, int], stack: ExitStack) -> list[socket.socket]:
+    """Connect again and again until nobody listens."""
+    made: list[socket.socket] = []
+    with suppress(OSError):
+        while len(made) < 2000:
+            made.append(stack.enter_context(socket.create_connection(place, timeout=5)))
+    return made
+
+
+def read_to_the_end(connection: socket.socket) -> None:
+    """Read until the other side has closed; one that stays open ends in a TimeoutError."""
+    with suppress(ConnectionResetError):
+        while connection.recv(1000):  # a refusal, if there were too many
+            pass
