@@ -46,9 +46,10 @@ class Listener(socket.socket):
                 turn first.
             OSError: there are no file descriptors, and none to spare.
         """
+        if self._connections.is_closing:
+            # Python 3.11 never closes what comes to a server that is closed
+            raise BlockingIOError(errno.EAGAIN, "the server ends")
         for _ in range(MAX_REFUSED):
-            if self._connections.is_closing:
-                break  # Python 3.11 never closes what comes to a server that is closed
             if self._connections.evicting >= MAX_EVICTING:
                 break  # those have to close first; the loop calls again at once
             accepted = self._accept_or_refuse()

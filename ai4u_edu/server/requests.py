@@ -45,8 +45,7 @@ class RequestProtocol(H11Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Start the timeout of the first request."""
         super().connection_made(cast(asyncio.Transport, transport))
-        connections = cast(ServerConfig, self.config).connections
-        if connections is not None and connections.is_closing:
+        if self._connections is not None and self._connections.is_closing:
             # uvicorn has closed the others already, and would wait for this one in vain
             self.transport.abort()
             return
@@ -182,6 +181,9 @@ class RequestProtocol(H11Protocol):
             self._watch_reader()
 
     def _set_idle(self, idle: bool) -> None:
-        connections = cast(ServerConfig, self.config).connections
-        if connections is not None:
-            connections.set_idle(self.transport, idle)
+        if self._connections is not None:
+            self._connections.set_idle(self.transport, idle)
+
+    @property
+    def _connections(self) -> Connections | None:
+        return cast(ServerConfig, self.config).connections

@@ -23,6 +23,8 @@ from tests.lessons.workbook import SLOW, handed_in, tried
 ALL = exercise_ids()
 IDS = [each for each in ALL if not is_ticket(each)]
 """Exercises with code to write; all choices of the others are tried in test_exit_tickets.py."""
+LONG_CHECKS = ("15.1", "15.3", "16.1")
+"""Exercises whose checks play episodes with whatever they get."""
 JUNK = [
     *(True, 10**400, "x", [], {}, object(), int, BasicAgent(body="robot")),
     lambda *_: None,
@@ -50,10 +52,6 @@ def _is_sample(exercise: str, number: int) -> bool:
     if exercise in SLOW:
         return False
     return number == 0 or (number + sum(map(ord, exercise))) % 8 == 0
-
-
-LONG_CHECKS = ("15.1", "15.3", "16.1")
-"""Exercises whose checks play episodes with whatever they get."""
 
 
 def _but_slow(exercises: list[str], also: tuple[str, ...] = ()) -> list[object]:

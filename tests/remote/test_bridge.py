@@ -86,16 +86,17 @@ def begin(script: UDPScript) -> dict[str, Any]:
         ("config", "max_steps;1;0@id;1;0"),
         ("wait_command", RESET),
     ):
-        request = heard_once(script) if expected != "wait_command" else script.hear(PATIENCE)
-        assert expected in request, request
+        heard(script, expected)
         script.say(reply)
-    return heard_once(script)
+    return heard(script, "steps")
 
 
-def heard_once(script: UDPScript) -> dict[str, Any]:
-    """Return the next request but a bridge's first, which it repeats if the answer takes long."""
-    while "wait_command" in (request := script.hear(PATIENCE)):
-        pass
+def heard(script: UDPScript, expected: str) -> dict[str, Any]:
+    """Return the next request. If a script's answer takes long, a bridge repeats its first."""
+    request = script.hear(PATIENCE)
+    while expected != "wait_command" and "wait_command" in request:
+        request = script.hear(PATIENCE)
+    assert expected in request, request
     return request
 
 

@@ -155,15 +155,20 @@ class Transport:
         self.is_closed = True
 
 
+def connected(state: State) -> FramesProtocol:
+    """Return the protocol of a page whose handshake is over; needs an event loop."""
+    protocol = FramesProtocol(Config(lambda: None, ws="none", lifespan="off"), ServerState(), {})
+    transport: Any = Transport()
+    protocol.transport, protocol.handshake_complete = transport, True
+    protocol.conn.state = state
+    return protocol
+
+
 def test_a_server_ends_while_a_page_is_leaving() -> None:
     async def end() -> bool:
-        config = Config(lambda: None, ws="none", lifespan="off")
-        protocol = FramesProtocol(config, ServerState(), {})
-        transport: Any = Transport()
-        protocol.transport, protocol.handshake_complete = transport, True
-        protocol.conn.state = State.CLOSING
+        protocol = connected(State.CLOSING)
         protocol.shutdown()
-        return bool(transport.is_closed)
+        return protocol.transport.is_closing()
 
     assert asyncio.run(end())
 
@@ -192,12 +197,7 @@ def test_an_app_hears_that_the_page_has_left_once_the_protocol_closed() -> None:
 
 def test_an_app_hears_that_a_page_has_left_that_answers_no_ping() -> None:
     async def send() -> None:
-        protocol = FramesProtocol(
-            Config(lambda: None, ws="none", lifespan="off"), ServerState(), {}
-        )
-        transport: Any = Transport()
-        protocol.transport, protocol.handshake_complete = transport, True
-        protocol.conn.state = State.OPEN
+        protocol = connected(State.OPEN)
         protocol.keepalive_timeout()
         await protocol.send({"type": "websocket.send", "text": "too late"})
 
