@@ -14,7 +14,7 @@ from ai4u_edu.server.web_files import WebFiles, web_folder
 
 async def web_file(request: Request) -> Response:
     """Return a script or a style."""
-    return _web_files().response(request.path_params["file"], request)
+    return _web_files().response(request, request.path_params["file"])
 
 
 FILE_ROUTES = [Route("/web/{file}", web_file), Route(PICTURE_PATH, library_picture_route)]

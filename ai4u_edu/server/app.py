@@ -81,6 +81,7 @@ def room_app(
         routes=[
             Route("/", page.index, middleware=page_auth),
             *[Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES],
+            Route("/web/all_styles.css", page.styles, middleware=auth),
             Route("/web/{file}", page.file, middleware=auth),
             Route("/web/vendor/{file:path}", VendorFiles().file, middleware=auth),
             Route("/program.zip", program_zip, middleware=auth),

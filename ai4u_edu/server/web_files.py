@@ -39,21 +39,23 @@ class WebFiles:
     def __init__(self) -> None:
         self._folder = web_folder()
 
-    def response(self, name: str, request: Request) -> Response:
-        """Return a file, 304 if the browser has it already, or 404.
+    def response(self, request: Request, *names: str) -> Response:
+        """Return a file, or several of one kind as one; 304 if the browser has it, or 404.
 
         Names are compared, so no path leads out of the folder.
         """
-        path = _files(self._folder, self._folder.stat().st_mtime_ns).get(name)
-        if path is None:
-            return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
-        content, etag = _read(path, path.stat().st_mtime_ns)
+        files = _files(self._folder, self._folder.stat().st_mtime_ns)
+        for name in names:
+            if name not in files:
+                return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
+        paths = [files[name] for name in names]
+        content, etag = _read(tuple((path, path.stat().st_mtime_ns) for path in paths))
         headers = {**ALWAYS_ASK, "ETag": etag}
-        if name in _POLICIES:
-            headers["Content-Security-Policy"] = _POLICIES[name]
+        if names[0] in _POLICIES:
+            headers["Content-Security-Policy"] = _POLICIES[names[0]]
         if request.headers.get("if-none-match") == etag:
             return Response(status_code=304, headers=headers)
-        return Response(content, headers=headers, media_type=_MEDIA_TYPES[path.suffix])
+        return Response(content, headers=headers, media_type=_MEDIA_TYPES[paths[0].suffix])
 
     def modules(self, *entries: str) -> list[str]:
         """Return modules and all that they import, in the order in which browsers find them.
@@ -85,6 +87,7 @@ def _files(folder: Path, _modified_ns: int) -> dict[str, Path]:
 
 
 @lru_cache(maxsize=256)
-def _read(path: Path, _modified_ns: int) -> tuple[bytes, str]:
-    content = path.read_bytes()
+def _read(files: tuple[tuple[Path, int], ...]) -> tuple[bytes, str]:
+    """Return the content of files, and its tag; files are known by path and time of change (ns)."""
+    content = b"\n".join(path.read_bytes() for path, _ in files)
     return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'

@@ -10,6 +10,7 @@ from starlette.responses import PlainTextResponse
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
+from ai4u_edu.server.page import STYLES
 from ai4u_edu.server.web_files import web_folder
 from tests.server.rooms import Room, raw_answer, served, until
 
@@ -25,7 +26,7 @@ def room() -> Iterator[Room]:
 
 def test_the_page_is_visers_with_our_script_and_style(room: Room) -> None:
     text = httpx.get(room.url).text
-    assert '<link rel="stylesheet" href="./web/page.css" />' in text
+    assert re.findall('rel="stylesheet" href="(.+?)"', text) == ["./web/all_styles.css"]
     assert '<script type="module" src="./web/main.js"></script>' in text
     assert '<div id="root"></div>' in text
     assert "<iframe" not in text
@@ -76,6 +77,14 @@ def test_each_file_is_served_as_what_it_is(room: Room, name: str) -> None:
     assert answer.status_code == 200
     assert answer.headers["Content-Type"].startswith(kinds[name.rpartition(".")[2]])
     assert answer.content == (web_folder() / name).read_bytes()
+
+
+def test_all_styles_of_the_page_are_one_file(room: Room) -> None:
+    first = httpx.get(f"{room.url}web/all_styles.css")
+    assert first.headers["Content-Type"].startswith("text/css")
+    assert first.text == "\n".join((web_folder() / each).read_text() for each in STYLES)
+    known = {"If-None-Match": first.headers["ETag"]}
+    assert httpx.get(first.url, headers=known).status_code == 304
 
 
 def test_a_file_that_is_known_is_not_sent_again(room: Room) -> None:
