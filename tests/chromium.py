@@ -5,7 +5,7 @@ import os
 from collections.abc import Iterator
 from typing import Any
 
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
 
 from tests import setup_browser
 
@@ -67,7 +67,13 @@ def new_page(
         draws: WebGL draws the world; only for tests that look at the picture.
         options: more of ``Browser.new_context``.
     """
-    context = chromium.new_context(viewport={"width": width, "height": height}, **options)
+    size = {"width": width, "height": height}
+    return new_context(chromium, draws=draws, viewport=size, **options).new_page()
+
+
+def new_context(chromium: Browser, *, draws: bool = False, **options: Any) -> BrowserContext:
+    """Return a context for several pages; see :func:`new_page`."""
+    context = chromium.new_context(**options)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
-    return context.new_page()
+    return context

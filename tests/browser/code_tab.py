@@ -7,7 +7,6 @@ from typing import Any, Self
 from playwright.sync_api import Browser, Locator
 
 from tests.browser.code_editor import WithEditor
-from tests.browser.fake_code import serve_fakes
 from tests.browser.fake_panel import PARTS
 from tests.browser.tab_page import TabPage
 
@@ -18,7 +17,7 @@ class CodePage(WithEditor, TabPage):
     """A page with the tab, with an agent of the fake panel."""
 
     def __init__(self, chromium: Browser, **options: Any) -> None:
-        super().__init__(chromium, "panel_code", "CodeTab", "agent", prepare=serve_fakes, **options)
+        super().__init__(chromium, "panel_code", "CodeTab", "agent", has_fakes=True, **options)
         self.give(PARTS["scene"], "scene")
         self.give(PARTS["python"], "python")
         self.give(PARTS["agent"])
@@ -29,7 +28,7 @@ class CodePage(WithEditor, TabPage):
         """Open such a page; no script error may happen there."""
         tab = cls(chromium, **options)
         yield tab
-        tab.page.context.close()
+        tab.close()
         assert tab.errors == []
 
     def sense(self, step: int = 0, **changes: Any) -> None:

@@ -58,14 +58,18 @@ export class RemoteClient {
 )
 
 
+MODULES = {"code_engine.js": ENGINE, "remote_client.js": CLIENT}
+"""Texts in place of the modules that run Python and connect to the world."""
+
+
 def serve_fakes(page: Page) -> None:
-    """Replace the modules that run Python and connect to the world."""
-    _replace(page, "code_engine", ENGINE)
-    _replace(page, "remote_client", CLIENT)
+    """Replace these modules in a page of a room."""
+    for name, text in MODULES.items():
+        _replace(page, name, text)
 
 
-def _replace(page: Page, name: str, body: str) -> None:
+def _replace(page: Page, name: str, text: str) -> None:
     def answer(route: Route) -> None:
-        route.fulfill(body=body, content_type="text/javascript")
+        route.fulfill(body=text, content_type="text/javascript")
 
-    page.route(re.compile(rf"/web/{name}\.js"), answer)
+    page.route(re.compile(rf"/web/{re.escape(name)}"), answer)

@@ -3,30 +3,37 @@
 import json
 import socket
 import threading
-from collections.abc import Callable
+from collections import defaultdict
+from collections.abc import Awaitable, Callable
 from functools import cache
 from typing import Any
 from urllib.parse import urlencode
 
 import uvicorn
-from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import HTMLResponse
+from starlette.responses import HTMLResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from ai4u_edu.server.web_files import web_folder
-from tests.chromium import new_page
+from tests.browser.fake_code import MODULES
+from tests.chromium import new_context
 
-STYLES = sorted(path.name for path in web_folder().glob("pa*.css"))
+KEPT = {"Cache-Control": "max-age=3600"}
+"""Headers of files that a browser asks for once: fifty of them take most of a page's time."""
 FREE = "position: static; width: auto; height: auto; max-height: none"
 INDEX = """<!doctype html>
 <html lang="en" data-mantine-color-scheme="{scheme}" data-ai4u-scheme="{scheme}" {attributes}>
 <meta name="viewport" content="width=device-width, initial-scale=1" />
 <title>Tab</title>
 <link rel="icon" href="data:," />
-{styles}
+<script>
+  if (window.name !== "tab") localStorage.clear(); // a new page, and not one that is loaded again
+  window.name = "tab";
+</script>
+<style>{styles}</style>
 <body style="margin: 0">
 <aside class="ai4u-panel" style="{style}">
   <div class="ai4u-panel-body"><div role="tabpanel" class="ai4u-tabpanel"></div></div>
@@ -83,6 +90,7 @@ class TabPage:
         part: name of the part that it shows.
         size: of the page in pixels.
         scheme: ``light`` or ``dark``.
+        has_fakes: Python and the world of the tab "Code" are fakes, see :mod:`fake_code`.
         prepare: called with the page before it is opened.
         options: more of ``Browser.new_context``.
     """
@@ -97,19 +105,32 @@ class TabPage:
         size: tuple[int, int] = (340, 720),
         scheme: str = "light",
         has_details: bool = False,
+        has_fakes: bool = False,
         prepare: Callable[[Page], None] = lambda _: None,
         **options: Any,
     ) -> None:
         self.part_name = part
-        self.page: Page = new_page(chromium, *size, draws=True, **options)
+        self._free = _contexts[chromium, json.dumps(options)]
+        self._context = (
+            self._free.pop() if self._free else new_context(chromium, draws=True, **options)
+        )
+        self.page: Page = self._context.new_page()
+        self.page.set_viewport_size({"width": size[0], "height": size[1]})
         self.errors: list[str] = []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", self._on_console)
         prepare(self.page)
         attributes = "data-ai4u-details" if has_details else ""
         query = {"module": module, "name": name, "part": part, "scheme": scheme}
-        self.page.goto(f"{_address()}?{urlencode(query | {'attributes': attributes})}")
+        path = "fakes/" if has_fakes else ""
+        self.page.goto(f"{_address()}{path}?{urlencode(query | {'attributes': attributes})}")
         self.page.wait_for_function("window.isReady")
+
+    def close(self) -> None:
+        """Close the page; its context goes on to the next one."""
+        self.page.close()
+        self._context.clear_cookies()
+        self._free.append(self._context)
 
     def head(self, title: str) -> Locator:
         """Return the button that opens a card."""
@@ -166,6 +187,10 @@ class TabPage:
             self.errors.append(message.text)
 
 
+_contexts: defaultdict[tuple[Browser, str], list[BrowserContext]] = defaultdict(list)
+"""Contexts that no page uses, by browser and options; they have all files already."""
+
+
 @cache
 def _address() -> str:
     """Start the server of all tabs, which ends with the process; return its address."""
@@ -173,11 +198,25 @@ def _address() -> str:
     def index(request: Request) -> HTMLResponse:
         return HTMLResponse(INDEX.format(styles=styles, style=FREE, **request.query_params))
 
-    styles = "\n".join(f'<link rel="stylesheet" href="./web/{style}" />' for style in STYLES)
-    files = StaticFiles(directory=web_folder())
-    app = Starlette(routes=[Route("/", index), Mount("/web", files)])
+    names = sorted(path.name for path in web_folder().glob("pa*.css"))
+    styles = "\n".join((web_folder() / name).read_text(encoding="utf-8") for name in names)
+    vendor = Mount("/web/vendor", StaticFiles(directory=web_folder() / "vendor"))
+    tab = [Route("/", index), vendor, Route("/web/{name}", _module({}))]
+    with_fakes = [Route("/", index), vendor, Route("/web/{name}", _module(MODULES))]
+    app = Starlette(routes=[Mount("/fakes", routes=with_fakes), *tab])
     # not ServerThread, which limits the process's logs for as long as it runs
     server = uvicorn.Server(uvicorn.Config(app, log_config=None, lifespan="off"))
     listener = socket.create_server(("127.0.0.1", 0))
     threading.Thread(target=server.run, args=([listener],), daemon=True).start()
     return f"http://127.0.0.1:{listener.getsockname()[1]}/"
+
+
+def _module(others: dict[str, str]) -> Callable[[Request], Awaitable[Response]]:
+    """Return the route of our modules; others stand in the place of some."""
+
+    async def route(request: Request) -> Response:
+        name = request.path_params["name"]
+        text = others.get(name) or (web_folder() / name).read_text(encoding="utf-8")
+        return Response(text, headers=KEPT, media_type="text/javascript")
+
+    return route

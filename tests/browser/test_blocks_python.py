@@ -24,7 +24,7 @@ COUNT = {"VAR": {"id": "a"}}
 def page(chromium: Browser) -> Iterator[Page]:
     tab = TabPage(chromium, "panel_past", "PastTab", "past")
     yield tab.page
-    tab.page.context.close()
+    tab.close()
 
 
 def python_of(page: Page, state: State, part: dict[str, Any] = PARTS["python"]) -> str:

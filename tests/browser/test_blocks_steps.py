@@ -40,7 +40,7 @@ SCRIPT = """async ([part, programs]) => {
 def tab(chromium: Browser) -> Iterator[TabPage]:
     tab = TabPage(chromium, "panel_past", "PastTab", "past")
     yield tab
-    tab.page.context.close()
+    tab.close()
     assert tab.errors == []
 
 

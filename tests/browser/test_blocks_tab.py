@@ -108,7 +108,7 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     expect(tab.editor).not_to_contain_text("0.8")
     expect(tab.page.locator(".ai4u-blocks-mistake")).to_have_count(0)
     tab.keys("Shift+F10")  # a menu
-    names = [re.sub(r"^http://127\.0\.0\.1:\d+/web/|\?.*$", "", url) for url in asked]
+    names = [re.sub(r"^http://127\.0\.0\.1:\d+/fakes/web/|\?.*$", "", url) for url in asked]
     others = {name for name in names if "/" in name and not name.startswith("data:")}
     assert others == {"vendor/blockly.js"}
 

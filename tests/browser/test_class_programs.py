@@ -230,4 +230,4 @@ def test_without_a_class_nothing_is_sent(chromium: Browser) -> None:
     tab.press("Run")
     tab.page.wait_for_timeout(2500)  # longer than the pause after which a class gets it
     assert [each for each in sent if not each.endswith(".js")] == []
-    tab.page.context.close()
+    tab.close()

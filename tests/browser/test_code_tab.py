@@ -292,7 +292,7 @@ def test_controls_are_large_enough_and_have_names(
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= 390
-    tab.page.context.close()
+    tab.close()
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -304,7 +304,7 @@ def test_it_has_no_grave_finding(chromium: Browser, scheme: str) -> None:
     tab.press("Run")
     expect(tab.mistake).to_be_visible()
     assert findings(tab.page, ".ai4u-panel") == []
-    tab.page.context.close()
+    tab.close()
 
 
 def test_typing_does_not_drive(chromium: Browser) -> None:
@@ -336,7 +336,7 @@ def test_the_editor_is_loaded_with_the_tab_and_kept_by_the_browser(chromium: Bro
         serve_fakes(page)
 
     tab = TabPage(chromium, "panel_past", "PastTab", "past", prepare=listen)
-    tab.page.context.close()
+    tab.close()
     assert not [url for url in asked if "vendor" in url or "code_" in url]
     with panel_room() as room:
         page = new_page(chromium)

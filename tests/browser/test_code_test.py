@@ -77,7 +77,7 @@ const parts = {
 def page(chromium: Browser) -> Iterator[Page]:
     tab = CodePage(chromium)
     yield tab.page
-    tab.page.context.close()
+    tab.close()
 
 
 def results(
@@ -244,7 +244,7 @@ def test_the_outcome_is_the_worlds_word_for_this_episode(page: Page) -> None:
 def tab(chromium: Browser) -> Iterator[CodePage]:
     tab = CodePage(chromium)
     yield tab
-    tab.page.context.close()
+    tab.close()
     assert tab.errors == []
 
 
@@ -334,7 +334,7 @@ def test_it_fits_a_phone_and_has_no_grave_finding(chromium: Browser, scheme: str
     assert tab.unnamed_controls() == []
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= 390
     assert findings(tab.page, ".ai4u-panel") == []
-    tab.page.context.close()
+    tab.close()
 
 
 # -- a real room -----------------------------------------------------------------------------------

@@ -117,7 +117,7 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
     tab.page.wait_for_function("panel.sent.length === 1")
     assert tab.sent() == [{"command": "drivers"}]
     yield tab
-    tab.page.context.close()
+    tab.close()
     assert tab.errors == []
 
 
@@ -284,4 +284,4 @@ def test_controls_are_large_enough_and_have_names(
     tab.page.get_by_text("Agent's settings").click()
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
-    tab.page.context.close()
+    tab.close()

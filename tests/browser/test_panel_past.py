@@ -56,7 +56,7 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
     tab = TabPage(chromium, "panel_past", "PastTab", "past")
     tab.give(PART)
     yield tab
-    tab.page.context.close()
+    tab.close()
     assert tab.errors == []
 
 
@@ -112,7 +112,7 @@ def test_the_full_seed_is_copied(chromium: Browser) -> None:
     tab.page.get_by_role("button", name="Copy the seed").click()
     expect(tab.page.get_by_text("Copied")).to_be_visible()
     assert tab.page.evaluate("window.copied") == MINE["seed"]
-    tab.page.context.close()
+    tab.close()
 
 
 def test_one_number_tells_the_moment(tab: TabPage) -> None:
@@ -207,7 +207,7 @@ def test_controls_are_large_enough_and_have_names(
     tab.give({**PART, "playing": PLAYING, "ghost": "Ghost: episode 3", "downloads": DOWNLOADS})
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
-    tab.page.context.close()
+    tab.close()
 
 
 def test_what_paid_in_the_episode(tab: TabPage) -> None:

@@ -66,7 +66,7 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
     tab.give(PART)
     assert tab.sent() == [{"command": "snap", "distance": 0.5}]
     yield tab
-    tab.page.context.close()
+    tab.close()
     assert tab.errors == []
 
 
@@ -262,4 +262,4 @@ def test_controls_are_large_enough_and_have_names(
     chosen(tab)
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
-    tab.page.context.close()
+    tab.close()
