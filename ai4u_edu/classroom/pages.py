@@ -9,7 +9,7 @@ from starlette.routing import Route
 
 from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.server.standalone import STANDALONE_POLICY
-from ai4u_edu.server.web_files import WebFiles, web_folder
+from ai4u_edu.server.web_files import WEB_PATHS, WebFiles, web_folder
 
 
 async def web_file(request: Request) -> Response:
@@ -17,7 +17,10 @@ async def web_file(request: Request) -> Response:
     return _web_files().response(request, request.path_params["file"])
 
 
-FILE_ROUTES = [Route("/web/{file}", web_file), Route(PICTURE_PATH, library_picture_route)]
+FILE_ROUTES = [
+    *[Route(path + "/{file}", web_file) for path in WEB_PATHS],
+    Route(PICTURE_PATH, library_picture_route),
+]
 """Routes of the files that these pages load; everybody may have them."""
 
 
@@ -25,7 +28,7 @@ def html_page(name: str) -> HTMLResponse:
     """Return a page of ``web/``."""
     text = (web_folder() / name).read_text(encoding="utf-8")
     headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
-    return HTMLResponse(text, headers=headers)
+    return HTMLResponse(_web_files().versioned(text), headers=headers)
 
 
 def page_route(name: str) -> Callable[[Request], Awaitable[Response]]:

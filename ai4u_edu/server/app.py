@@ -27,6 +27,7 @@ from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.server.vendor_files import VendorFiles
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET
+from ai4u_edu.server.web_files import WEB_PATHS
 from ai4u_edu.wire.native import PROBLEMS
 
 
@@ -80,10 +81,7 @@ def room_app(
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
-            *[Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES],
-            Route("/web/all_styles.css", page.styles, middleware=auth),
-            Route("/web/{file}", page.file, middleware=auth),
-            Route("/web/vendor/{file:path}", VendorFiles().file, middleware=auth),
+            *_file_routes(page, auth),
             Route("/program.zip", program_zip, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
             Route("/api/snapshot", state.snapshot, middleware=auth),
@@ -104,6 +102,20 @@ def room_app(
             Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
         ],
     )
+
+
+def _file_routes(page: Page, auth: list[Middleware]) -> list[Route]:
+    files = {
+        "/all_styles.css": page.styles,
+        "/{file}": page.file,
+        "/vendor/{file:path}": VendorFiles().file,
+    }
+    public = [Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES]
+    return public + [
+        Route(folder + path, route, middleware=auth)
+        for folder in WEB_PATHS
+        for path, route in files.items()
+    ]
 
 
 def _scene_routes(

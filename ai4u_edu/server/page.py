@@ -74,7 +74,8 @@ class Page:
     async def index(self, request: Request) -> Response:
         """Return the page."""
         index = self._index
-        if index.title != self._title():  # another scene has been opened
+        # another scene has been opened, or somebody works on our files
+        if (index.title, index.version) != (self._title(), self._files.version):
             index = self._index = self._read_index()
         headers = ALWAYS_ASK | {
             "ETag": index.etag,
@@ -102,16 +103,17 @@ class Page:
 
     def _read_index(self) -> "_Index":
         """Return the page with its present title."""
-        return _index(self._title(), self._modules, has_panel=self._has_panel)
+        return _index(self._title(), self._modules, self._files, has_panel=self._has_panel)
 
 
 class _Index(NamedTuple):
     title: str
+    version: str
     content: bytes
     etag: str
 
 
-def _index(title: str, modules: list[str], *, has_panel: bool) -> _Index:
+def _index(title: str, modules: list[str], files: WebFiles, *, has_panel: bool) -> _Index:
     spec = find_spec("viser")
     if spec is None or spec.origin is None:
         raise SetupError("expected the package viser, found none; install ai4u-edu anew")
@@ -130,8 +132,8 @@ def _index(title: str, modules: list[str], *, has_panel: bool) -> _Index:
             f'<link rel="modulepreload" href="./web/{each}" />' for each in modules
         ),
     )
-    content = text.replace(_PLACE, ours).encode()
-    return _Index(title, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
+    content = text.replace(_PLACE, files.versioned(ours)).encode()
+    return _Index(title, files.version, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
 
 
 def _policy(host: str) -> str:

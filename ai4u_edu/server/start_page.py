@@ -13,7 +13,7 @@ from ai4u_edu.editing.scene_cards import Card, stored_cards
 from ai4u_edu.editing.scene_pictures import library_scenes
 from ai4u_edu.server.library_pictures import picture_address
 from ai4u_edu.server.standalone import STANDALONE_POLICY
-from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.server.web_files import WebFiles, web_folder
 
 
 class LibrarySceneView(BaseModel):
@@ -72,13 +72,14 @@ class StartPage:
 
     def __init__(self, lessons: Callable[[], list[LessonView]], editor: SceneEditor) -> None:
         self._lessons, self._editor = lessons, editor
+        self._files = WebFiles()
         self._text = (web_folder() / "start.html").read_text(encoding="utf-8")
         self._drawing = asyncio.Lock()
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
         headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
-        return HTMLResponse(self._text, headers=headers)
+        return HTMLResponse(self._files.versioned(self._text), headers=headers)
 
     async def scenes(self, _: Request) -> Response:
         """Return the library's scenes, and the saved ones."""

@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+import time
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,6 +13,10 @@ from ai4u_edu.base.errors import SetupError
 
 # a system's own media types are not reliable: some call a .js plain text
 _MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+WEB_PATHS = ("/web", "/web-{version}")
+"""Paths of the folder in routes."""
+_ADDRESS = '"./web/'
+"""Beginning of a file's address in the text of a page."""
 _STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
 ALWAYS_ASK = {"Cache-Control": "no-cache"}
 """Headers of what a browser may keep, but asks for each time."""
@@ -42,7 +47,8 @@ class WebFiles:
     def response(self, request: Request, *names: str) -> Response:
         """Return a file, or several of one kind as one; 304 if the browser has it, or 404.
 
-        Names are compared, so no path leads out of the folder.
+        Names are compared, so no path leads out of the folder. The browser keeps what it asks for
+        with the present version.
         """
         files = _files(self._folder, self._folder.stat().st_mtime_ns)
         for name in names:
@@ -50,12 +56,25 @@ class WebFiles:
                 return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
         paths = [files[name] for name in names]
         content, etag = _read(tuple((path, path.stat().st_mtime_ns) for path in paths))
-        headers = {**ALWAYS_ASK, "ETag": etag}
+        is_present = request.path_params.get("version") == self.version
+        headers = {**(NEVER_ASK if is_present else ALWAYS_ASK), "ETag": etag}
         if names[0] in _POLICIES:
             headers["Content-Security-Policy"] = _POLICIES[names[0]]
         if request.headers.get("if-none-match") == etag:
             return Response(status_code=304, headers=headers)
         return Response(content, headers=headers, media_type=_MEDIA_TYPES[paths[0].suffix])
+
+    @property
+    def version(self) -> str:
+        """Version of all files together, looked up once a second."""
+        return _version(self._folder, int(time.monotonic()))
+
+    def versioned(self, page: str) -> str:
+        """Return a page that asks for the files at addresses with their version.
+
+        A file's imports are relative to its own address, and so have the version, too.
+        """
+        return page.replace(_ADDRESS, f'"./web-{self.version}/')
 
     def modules(self, *entries: str) -> list[str]:
         """Return modules and all that they import, in the order in which browsers find them.
@@ -84,6 +103,13 @@ def web_folder() -> Path:
 def _files(folder: Path, _modified_ns: int) -> dict[str, Path]:
     files = (path for path in folder.iterdir() if path.suffix in _MEDIA_TYPES)
     return {path.name: path for path in files if path.is_file()}
+
+
+@lru_cache(maxsize=1)
+def _version(folder: Path, _second: int) -> str:
+    files = _files(folder, folder.stat().st_mtime_ns)
+    tags = [(name, *_read(((path, path.stat().st_mtime_ns),))[1:]) for name, path in files.items()]
+    return hashlib.sha256(repr(sorted(tags)).encode()).hexdigest()[:16]
 
 
 @lru_cache(maxsize=256)

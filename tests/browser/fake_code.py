@@ -72,4 +72,4 @@ def _replace(page: Page, name: str, text: str) -> None:
     def answer(route: Route) -> None:
         route.fulfill(body=text, content_type="text/javascript")
 
-    page.route(re.compile(rf"/web/{re.escape(name)}"), answer)
+    page.route(re.compile(rf"/web-\w+/{re.escape(name)}"), answer)

@@ -11,11 +11,15 @@ from starlette.applications import Starlette
 from ai4u_edu import ControlRequestor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
+from tests.browser.panel_page import panel_room
 from tests.browser.served_viser import PLAIN, ServedViser, connected, driver_status, ready
 from tests.chromium import new_page
 from tests.server.rooms import Room, free_port, served, until
 from tests.wifi import Wifi
 
+SENT = """performance.getEntriesByType("resource")
+    .filter((each) => each.name.includes("/web")).map((each) => each.transferSize)"""
+"""Script that returns how much of each of our files came over the network (bytes)."""
 pytestmark = pytest.mark.browser
 
 
@@ -143,3 +147,15 @@ def test_a_foreign_page_neither_drives_nor_reads(
     read = "url => fetch(url).then(() => 'read', () => 'refused')"
     assert page.evaluate(read, site.room.url + "api/snapshot") == "refused"
     page.context.close()
+
+
+def test_a_page_that_is_loaded_again_asks_for_none_of_our_files(chromium: Browser) -> None:
+    with panel_room() as room:
+        page = new_page(chromium)
+        page.goto(room.url)
+        connected(page)
+        assert min(sizes := page.evaluate(SENT)) > 0
+        page.reload()
+        connected(page)
+        assert page.evaluate(SENT) == [0] * len(sizes)
+        page.context.close()

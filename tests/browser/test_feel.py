@@ -555,7 +555,7 @@ def test_the_whole_page_comes_from_here(zoo: Played, site: ServedViser) -> None:
     here = zoo.url.split("//")[1].rstrip("/")
     elsewhere = [url for url in asked if url.split("//")[-1].split("/")[0] != here]
     assert [url for url in elsewhere if not url.startswith(("blob:", "data:"))] == []
-    assert len([url for url in asked if "/web/" in url]) >= 10
+    assert len([url for url in asked if "/web-" in url]) >= 10
     sizes = page.evaluate(
         "performance.getEntriesByType('resource').concat(performance.getEntriesByType('navigation'))"
         ".map(each => each.transferSize)"

@@ -1,8 +1,10 @@
 """viser's page with ours inside, and our files."""
 
 import json
+import os
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import httpx
 import pytest
@@ -11,7 +13,7 @@ from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from ai4u_edu.server.page import STYLES
-from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.server.web_files import WebFiles, web_folder
 from tests.server.rooms import Room, raw_answer, served, until
 
 SVG_NAMESPACE = "http://www.w3.org/2000/svg"
@@ -26,8 +28,9 @@ def room() -> Iterator[Room]:
 
 def test_the_page_is_visers_with_our_script_and_style(room: Room) -> None:
     text = httpx.get(room.url).text
-    assert re.findall('rel="stylesheet" href="(.+?)"', text) == ["./web/all_styles.css"]
-    assert '<script type="module" src="./web/main.js"></script>' in text
+    folder = f"./web-{WebFiles().version}"
+    assert re.findall('rel="stylesheet" href="(.+?)"', text) == [f"{folder}/all_styles.css"]
+    assert f'<script type="module" src="{folder}/main.js"></script>' in text
     assert '<div id="root"></div>' in text
     assert "<iframe" not in text
 
@@ -93,10 +96,37 @@ def test_a_file_that_is_known_is_not_sent_again(room: Room) -> None:
     assert (again.status_code, again.content) == (304, b"")
 
 
+@pytest.mark.parametrize("name", ["main.js", "all_styles.css"])
+def test_a_browser_keeps_what_has_the_present_version(room: Room, name: str) -> None:
+    kept = httpx.get(f"{room.url}web-{WebFiles().version}/{name}")
+    assert "immutable" in kept.headers["Cache-Control"]
+    for path in ("web", "web-another"):
+        other = httpx.get(f"{room.url}{path}/{name}")
+        assert other.content == kept.content
+        assert other.headers["Cache-Control"] == "no-cache"
+
+
+def test_another_file_and_another_content_are_another_version(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seconds = iter(range(9))
+    monkeypatch.setattr("time.monotonic", lambda: next(seconds))
+    monkeypatch.setattr("ai4u_edu.server.web_files.web_folder", lambda: tmp_path)
+    files = WebFiles()
+    versions = [files.version, files.version]
+    for name, text in (("a.js", "1"), ("a.js", "22"), ("b.js", "22")):
+        (tmp_path / name).write_text(text)
+        os.utime(tmp_path, ns=(len(versions), len(versions)))  # clocks of files are slow
+        os.utime(tmp_path / name, ns=(len(versions), len(versions)))
+        versions.append(files.version)
+    assert versions[0] == versions[1]
+    assert len(set(versions)) == 4
+
+
 def test_each_module_that_a_module_imports_is_preloaded() -> None:
     with served(panel=PlainTextResponse("not asked here")) as room:
         text = httpx.get(room.url).text
-    preloaded = re.findall(r'rel="modulepreload" href="./web/(.+?)"', text)
+    preloaded = re.findall(r'rel="modulepreload" href="./web-\w+/(.+?)"', text)
     assert {"main.js", "panel.js"} <= set(preloaded)
     for name in preloaded:
         text = (web_folder() / name).read_text()

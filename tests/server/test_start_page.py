@@ -77,7 +77,7 @@ def test_the_page_runs_our_files_only(room: Room) -> None:
     answer = httpx.get(room.url + "start")
     assert answer.status_code == 200
     assert "default-src 'none'; script-src 'self'" in answer.headers["Content-Security-Policy"]
-    files = re.findall(r'(?:href|src)="\./(web/[^"]*)"', answer.text)
+    files = re.findall(r'(?:href|src)="\./(web-[^"]*)"', answer.text)
     assert files
     for file in files:
         assert httpx.get(room.url + file).status_code == 200
