@@ -1,9 +1,12 @@
 """Chromium without a window or a graphics card."""
 
 import contextlib
+import json
 import os
+from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
+from urllib.parse import urljoin
 
 from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
 
@@ -67,13 +70,49 @@ def new_page(
         draws: WebGL draws the world; only for tests that look at the picture.
         options: more of ``Browser.new_context``.
     """
-    size = {"width": width, "height": height}
-    return new_context(chromium, draws=draws, viewport=size, **options).new_page()
-
-
-def new_context(chromium: Browser, *, draws: bool = False, **options: Any) -> BrowserContext:
-    """Return a context for several pages; see :func:`new_page`."""
-    context = chromium.new_context(**options)
+    context = chromium.new_context(viewport={"width": width, "height": height}, **options)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
-    return context
+    return context.new_page()
+
+
+_Kind = tuple[Browser, str]
+"""Browser of contexts, and their options."""
+_idle: defaultdict[_Kind, list[BrowserContext]] = defaultdict(list)
+_kinds: dict[BrowserContext, _Kind] = {}
+
+
+def quick_page(
+    chromium: Browser, width: int = 1280, height: int = 800, *, draws: bool = False, **options: Any
+) -> Page:
+    """Return a page in a context that has our files already; :func:`close_page` closes it.
+
+    To ask for some sixty files takes most of a page's time. Nothing else is left of the pages that
+    were in the context before: tests that change the context itself, as those with a clock do,
+    take :func:`new_page`.
+    """
+    kind = chromium, json.dumps(options | {"draws": draws})
+    if _idle[kind]:
+        page = _idle[kind].pop().new_page()
+        page.set_viewport_size({"width": width, "height": height})
+    else:
+        page = new_page(chromium, width, height, draws=draws, **options)
+        _kinds[page.context] = kind
+    return page
+
+
+def close_page(page: Page) -> None:
+    """Close a page and forget what it stored, or close its context if nobody else gets that."""
+    context = page.context
+    if context not in _kinds or page.is_closed():
+        context.close()
+        return
+    origin = urljoin(page.url, "/").rstrip("/")
+    if origin.startswith("http"):
+        session = context.new_cdp_session(page)
+        what = {"origin": origin, "storageTypes": "local_storage,indexeddb"}
+        session.send("Storage.clearDataForOrigin", what)
+    for each in context.pages:
+        each.close()
+    context.clear_cookies()
+    _idle[_kinds[context]].append(context)

@@ -8,7 +8,7 @@ from playwright.sync_api import Browser
 
 from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveController, World
 from ai4u_edu.server import lock_viser_port
-from tests.browser.served_viser import SPEED, TURN, ServedViser
+from tests.browser.served_viser import PLAIN, SPEED, TURN, ServedViser
 from tests.builders import small_sim
 from tests.chromium import browser
 from tests.server.rooms import SharedServer, served
@@ -67,10 +67,13 @@ def site(
     button = inner.gui.add_button("Press me")
     button.on_click(lambda _: clicks.append("click"))
     with served(
-        sim, viser_port=inner.get_port(), wait_for_key=waits_for_key, server=shared_server
+        sim,
+        viser_port=inner.get_port(),
+        wait_for_key=waits_for_key,
+        server=shared_server,
+        wrap=PLAIN.app,
     ) as room:
         site = ServedViser(room, inner, name, clicks, chromium)
         yield site
-        for context in site.contexts:
-            context.close()
+        site.close(*site.pages)
     assert site.complaints == []

@@ -7,14 +7,18 @@ from dataclasses import dataclass
 from typing import Any
 
 from playwright.sync_api import Browser, Locator, Page
-from starlette.types import Receive, Scope, Send
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Mount, Route
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from ai4u_edu import CircleShape, RBMoveActuator, WASDRBMoveController, World
 from tests.browser.fake_panel import FakePanel
-from tests.browser.plain_page import ROOT, PlainPage
+from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.browser.served_viser import connected
 from tests.builders import small_sim
-from tests.chromium import new_page
+from tests.chromium import close_page, quick_page
 from tests.server.rooms import Room, served
 
 CANVAS = PlainPage(
@@ -75,8 +79,17 @@ def panel_room() -> Iterator[Room]:
         controller=WASDRBMoveController(),
         actuators=[RBMoveActuator(move_amount=5, turn_amount=2, jump_power=4)],
     )
-    with served(sim, panel=_no_panel) as room:
+    with served(sim, panel=_no_panel, wrap=_with_scene) as room:
         yield room
+
+
+def _with_scene(app: ASGIApp) -> ASGIApp:
+    """Return a room's app with an answer of its own about the scene."""
+
+    async def scene(_: Request) -> Response:
+        return JSONResponse({"is_changed": False, "is_autosaved": False})
+
+    return CANVAS.app(Starlette(routes=[Route("/api/scene", scene), Mount("/", app)]))
 
 
 async def _no_panel(scope: Scope, receive: Receive, send: Send) -> None:
@@ -98,15 +111,12 @@ def panel_page(
     Args:
         options: more of ``Browser.new_context``.
     """
-    page = new_page(chromium, width, height, **options)
+    page = quick_page(chromium, width, height, extra_http_headers=ASKED, **options)
     opened = PanelPage(page, FakePanel(), [], room.url + query)
     page.on("pageerror", lambda error: opened.problems.append(str(error)))
     opened.panel.attach(page)
-    CANVAS.serve(page, room.url)
-    unchanged = {"is_changed": False, "is_autosaved": False}
-    page.route(f"{room.url}api/scene", lambda route: route.fulfill(json=unchanged))
     page.goto(opened.url)
     opened.wait()
     yield opened
-    page.context.close()
+    close_page(page)
     assert opened.problems == [], opened.problems

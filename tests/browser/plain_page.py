@@ -1,12 +1,19 @@
 """Pages with HTML of a test's own in place of viser's scene and panel."""
 
 import re
+from collections.abc import Mapping
 
 from playwright.sync_api import Page, Route
+from starlette.middleware.base import BaseHTTPMiddleware, RequestResponseEndpoint
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.types import ASGIApp
 
 VISERS_CODE = re.compile(r"<script(?![^>]*\bsrc=)[^>]*>.*?</script>", re.DOTALL)
 ROOT = '<div id="root">'
 KEPT_HEADERS = {"content-security-policy", "cache-control", "etag", "set-cookie"}
+ASKED = {"x-plain-page": "yes"}
+"""Headers of a browser that asks a room of the test's own process for such a page."""
 
 
 class PlainPage:
@@ -24,6 +31,14 @@ class PlainPage:
         self._root = root
         self._etag = self._html = ""
 
+    def app(self, app: ASGIApp) -> ASGIApp:
+        """Return a room's app with this page for browsers that ask for it.
+
+        Where that can be had it is better than :meth:`serve`, which has the browser ask the test
+        before each request, and keep no file.
+        """
+        return BaseHTTPMiddleware(app, self._serve_instead)
+
     def serve(self, page: Page, url: str | re.Pattern[str]) -> None:
         """Have a page show this one at a room's address, with any query; or wherever one fits."""
         if isinstance(url, str):
@@ -31,17 +46,35 @@ class PlainPage:
         # not a function: then each of the page's requests would come here to ask
         page.route(url, self._answer)
 
+    async def _serve_instead(
+        self, request: Request, call_next: RequestResponseEndpoint
+    ) -> Response:
+        response = await call_next(request)
+        is_page = response.headers.get("content-type", "").startswith("text/html")
+        if not is_page or not ASKED.items() <= dict(request.headers).items():
+            return response
+        if response.headers["etag"] != self._etag:
+            chunks = [bytes(each) async for each in response.body_iterator]  # type: ignore[attr-defined]
+            self._keep(b"".join(chunks).decode(), response.headers["etag"])
+        return Response(self._html, headers=_kept(response.headers), media_type="text/html")
+
     def _answer(self, route: Route) -> None:
         headers = {**route.request.headers, "if-none-match": self._etag}
         response = route.fetch(headers=headers)
         if response.status != 304:
-            text, count = VISERS_CODE.subn("", response.text())
-            assert count
-            assert ROOT in text
-            self._etag = response.headers["etag"]
-            self._html = text.replace(ROOT, self._root)
-        kept = {key: text for key, text in response.headers.items() if key in KEPT_HEADERS}
+            self._keep(response.text(), response.headers["etag"])
+        kept = _kept(response.headers)
         route.fulfill(headers=kept, body=self._html, content_type="text/html")
+
+    def _keep(self, text: str, etag: str) -> None:
+        text, count = VISERS_CODE.subn("", text)
+        assert count
+        assert ROOT in text
+        self._etag, self._html = etag, text.replace(ROOT, self._root)
+
+
+def _kept(headers: Mapping[str, str]) -> dict[str, str]:
+    return {key: text for key, text in headers.items() if key in KEPT_HEADERS}
 
 
 WITHOUT_VISER = PlainPage(ROOT)

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import viser
-from playwright.sync_api import Browser, BrowserContext, Locator, Page
+from playwright.sync_api import Browser, Locator, Page
 
-from tests.browser.plain_page import ROOT, PlainPage
-from tests.chromium import new_page
+from tests.browser.plain_page import ASKED, ROOT, PlainPage
+from tests.chromium import close_page, quick_page
 from tests.server.rooms import Room, until
 
 SPEED, TURN = 5.0, 2.0
@@ -31,7 +31,7 @@ class ServedViser:
     name: viser.GuiInputHandle[str]
     clicks: list[str]
     chromium: Browser
-    contexts: list[BrowserContext] = field(default_factory=list)
+    pages: list[Page] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
 
     def page(
@@ -50,19 +50,26 @@ class ServedViser:
 
         Without viser it has our scripts and styles, a text box, a button and an empty canvas.
         """
-        page = new_page(self.chromium, width, height, draws=draws, has_touch=touch)
-        self.contexts.append(page.context)
+        headers = {} if has_viser else ASKED
+        page = quick_page(
+            self.chromium, width, height, draws=draws, has_touch=touch, extra_http_headers=headers
+        )
+        self.pages.append(page)
         page.on("pageerror", lambda error: self.complaints.append(f"error: {error}"))
         page.on("request", lambda request: self._check(request.url))
         page.on("websocket", lambda socket: self._check(socket.url))
-        if not has_viser:
-            PLAIN.serve(page, self.room.url)
         prepare(page)
         page.goto(self.room.url + query)
         if wait:
             page.get_by_text("Name", exact=True).wait_for(state="attached")
             (ready if has_viser else connected)(page)
         return page
+
+    def close(self, *pages: Page) -> None:
+        """Close some pages."""
+        for page in pages:
+            self.pages.remove(page)
+            close_page(page)
 
     def pose(self) -> tuple[float, float, float, int]:
         """The robot's x, y and heading, and the tick at which it had them."""

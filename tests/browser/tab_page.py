@@ -3,14 +3,13 @@
 import json
 import socket
 import threading
-from collections import defaultdict
 from collections.abc import Awaitable, Callable
 from functools import cache
 from typing import Any
 from urllib.parse import urlencode
 
 import uvicorn
-from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Locator, Page
+from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
@@ -19,20 +18,16 @@ from starlette.staticfiles import StaticFiles
 
 from ai4u_edu.server.web_files import web_folder
 from tests.browser.fake_code import MODULES
-from tests.chromium import new_context
+from tests.chromium import close_page, quick_page
 
 KEPT = {"Cache-Control": "max-age=3600"}
-"""Headers of files that a browser asks for once: fifty of them take most of a page's time."""
+"""Headers of files that a browser asks for once."""
 FREE = "position: static; width: auto; height: auto; max-height: none"
 INDEX = """<!doctype html>
 <html lang="en" data-mantine-color-scheme="{scheme}" data-ai4u-scheme="{scheme}" {attributes}>
 <meta name="viewport" content="width=device-width, initial-scale=1" />
 <title>Tab</title>
 <link rel="icon" href="data:," />
-<script>
-  if (window.name !== "tab") localStorage.clear(); // a new page, and not one that is loaded again
-  window.name = "tab";
-</script>
 <style>{styles}</style>
 <body style="margin: 0">
 <aside class="ai4u-panel" style="{style}">
@@ -110,12 +105,7 @@ class TabPage:
         **options: Any,
     ) -> None:
         self.part_name = part
-        self._free = _contexts[chromium, json.dumps(options)]
-        self._context = (
-            self._free.pop() if self._free else new_context(chromium, draws=True, **options)
-        )
-        self.page: Page = self._context.new_page()
-        self.page.set_viewport_size({"width": size[0], "height": size[1]})
+        self.page: Page = quick_page(chromium, *size, draws=True, **options)
         self.errors: list[str] = []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", self._on_console)
@@ -127,10 +117,8 @@ class TabPage:
         self.page.wait_for_function("window.isReady")
 
     def close(self) -> None:
-        """Close the page; its context goes on to the next one."""
-        self.page.close()
-        self._context.clear_cookies()
-        self._free.append(self._context)
+        """Close the page."""
+        close_page(self.page)
 
     def head(self, title: str) -> Locator:
         """Return the button that opens a card."""
@@ -185,10 +173,6 @@ class TabPage:
     def _on_console(self, message: ConsoleMessage) -> None:
         if message.type == "error":
             self.errors.append(message.text)
-
-
-_contexts: defaultdict[tuple[Browser, str], list[BrowserContext]] = defaultdict(list)
-"""Contexts that no page uses, by browser and options; they have all files already."""
 
 
 @cache

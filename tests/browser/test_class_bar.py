@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import Browser, Page, expect
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
@@ -27,9 +27,10 @@ from ai4u_edu.wire.class_link import (
     RaceRow,
     Welcome,
 )
+from tests.browser.plain_page import ASKED
 from tests.browser.served_viser import PLAIN, centre, connected, driver_status
 from tests.builders import small_sim
-from tests.chromium import new_page
+from tests.chromium import close_page, quick_page
 from tests.class_member.fake_link import FakeLink
 from tests.server.rooms import Room, SharedServer, served, until
 
@@ -63,7 +64,7 @@ class RoomOfClass:
     entrance: AsSeat
     chromium: Browser
     asked: list[str] = field(default_factory=list)
-    contexts: list[BrowserContext] = field(default_factory=list)
+    pages: list[Page] = field(default_factory=list)
 
     def tell(self, *messages: FromClass) -> None:
         assert isinstance(self.member.link, FakeLink)
@@ -71,10 +72,11 @@ class RoomOfClass:
             self.member.link.receive(message)
 
     def page(self, **options: Any) -> Page:
-        page = new_page(self.chromium, reduced_motion="reduce", **options)
-        self.contexts.append(page.context)
+        page = quick_page(
+            self.chromium, reduced_motion="reduce", extra_http_headers=ASKED, **options
+        )
+        self.pages.append(page)
         page.on("request", lambda request: self.asked.append(request.url))
-        PLAIN.serve(page, f"{self.room.url}r/a1/")
         page.goto(f"{self.room.url}r/a1/")
         connected(page)
         return page
@@ -93,7 +95,10 @@ def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfCla
         return JSONResponse({"code": "K7QPM", "minutes": 5})
 
     def wrap(app: ASGIApp) -> ASGIApp:
-        routes = [RoomMount("/r/a1", app=app), Route("/api/move-code", move_code, methods=["POST"])]
+        routes = [
+            RoomMount("/r/a1", app=PLAIN.app(app)),
+            Route("/api/move-code", move_code, methods=["POST"]),
+        ]
         entrances.append(AsSeat(Starlette(routes=routes)))
         return entrances[0]
 
@@ -113,8 +118,8 @@ def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfCla
         found[0].start()
         school = RoomOfClass(room, found[0], entrances[0], chromium)
         yield school
-        for context in school.contexts:
-            context.close()
+        for page in school.pages:
+            close_page(page)
         found[0].stop()
 
 

@@ -79,7 +79,7 @@ def test_a_page_notices_that_its_network_is_gone_and_comes_back(
     """Nothing is closed: as without Wi-Fi."""
     with Wifi(site.room.url) as wifi:
         page = new_page(site.chromium)
-        site.contexts.append(page.context)
+        site.pages.append(page)
         PLAIN.serve(page, wifi.url)
         page.clock.install()
         page.goto(wifi.url)

@@ -52,8 +52,7 @@ def test_two_pages_and_one_seat(site: ServedViser) -> None:
     until(lambda: site.room.held == [])
     second.keyboard.down("KeyD")
     until(lambda: site.room.held == ["KeyD"])
-    second.context.close()
-    site.contexts.remove(second.context)
+    site.close(second)
     expect(driver_status(first)).to_have_text("Press a key to drive")
 
 
