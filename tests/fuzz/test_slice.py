@@ -1,6 +1,5 @@
 """A fixed slice of the long fuzz; ``python -m tests.fuzz`` is the whole of it."""
 
-import time
 from dataclasses import replace
 
 import pytest
@@ -11,16 +10,16 @@ from tests.fuzz.target import Target
 from tests.fuzz.targets import TARGETS
 
 SLICE = {
-    "native-said": 500,
-    "native-heard": 500,
-    "ai4u-request": 500,
-    "ai4u-reply": 500,
-    "percept": 200,
-    "page-words": 200,
-    "recording": 150,
-    "scene": 40,
-    "http": 200,
-    "conversations": 30,
+    "native-said": 250,
+    "native-heard": 250,
+    "ai4u-request": 250,
+    "ai4u-reply": 250,
+    "percept": 100,
+    "page-words": 100,
+    "recording": 75,
+    "scene": 20,
+    "http": 100,
+    "conversations": 15,
 }
 
 
@@ -68,8 +67,7 @@ def test_what_is_not_declared_is_a_finding_with_its_input() -> None:
 
 def test_a_hang_is_a_finding() -> None:
     def read(data: bytes) -> None:
-        end = time.process_time() + 3
-        while time.process_time() < end:
+        for _ in range(10**9):  # half a minute if nobody ends it
             pass
 
     report = run(target(read), 1)

@@ -102,7 +102,7 @@ def main() -> None:
         cluster.remove_node(mortal, allow_graceful=False)
         print("killed", flush=True)
         sys.stdin.read()
-    cluster.shutdown()  # type: ignore[no-untyped-call]
+    cluster.shutdown()
 
 
 def _runs_job(raylet: psutil.Process) -> bool:
