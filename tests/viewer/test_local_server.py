@@ -1,5 +1,6 @@
 import asyncio
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 import rich
@@ -24,6 +25,13 @@ def test_it_says_nothing(capfd: pytest.CaptureFixture[str]) -> None:
     LocalServer("AI4U Edu").stop()
     rich.print("we may still print")
     assert capfd.readouterr().out == "we may still print\n"
+
+
+def test_rich_prints_again_after_several_that_start_and_stop_at_once() -> None:
+    with ThreadPoolExecutor(6) as pool:
+        for _ in pool.map(lambda _: LocalServer("AI4U Edu").stop(), range(18)):
+            pass
+    assert not rich.get_console().quiet
 
 
 def test_no_page_can_ask_for_a_public_address(

@@ -1,13 +1,37 @@
 """viser's server on loopback, without output and without public addresses."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+import threading
 
 import rich
 from viser import ViserServer
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from ai4u_edu.viewer.backend.broadcast import install_broadcaster
+
+
+class _Silence:
+    """Suppresses the notices that viser prints with rich, as long as one thread is in it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._wanted = 0
+        self._was_quiet = False
+
+    def __enter__(self) -> None:
+        console = rich.get_console()
+        with self._lock:
+            if not self._wanted:
+                self._was_quiet, console.quiet = console.quiet, True
+            self._wanted += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._wanted -= 1
+            if not self._wanted:
+                rich.get_console().quiet = self._was_quiet
+
+
+_SILENCE = _Silence()
 
 
 class LocalServer(ViserServer):
@@ -21,7 +45,7 @@ class LocalServer(ViserServer):
     """
 
     def __init__(self, label: str) -> None:
-        with no_console_output():
+        with _SILENCE:
             super().__init__(host="127.0.0.1", port=0, label=label, verbose=False)
         web = self._websock_server
         web.on_client_connect(lambda page: _mute_buffer(page.get_message_buffer()))
@@ -37,21 +61,10 @@ class LocalServer(ViserServer):
 
     def stop(self) -> None:
         """Stop the server and its threads."""
-        with no_console_output():
+        with _SILENCE:
             super().stop()
 
 
 def _mute_buffer(buffer: AsyncMessageBuffer) -> None:
     """Keep a buffer from warning of a message to a page that has just disconnected."""
     buffer._warned_push_after_done = True
-
-
-@contextmanager
-def no_console_output() -> Iterator[None]:
-    """Suppress the notices that viser prints with rich."""
-    console = rich.get_console()
-    before, console.quiet = console.quiet, True
-    try:
-        yield
-    finally:
-        console.quiet = before
