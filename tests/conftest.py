@@ -21,6 +21,7 @@ NOT_FAST = ("attacks", "benchmarks", "browser", "docs_site", "envs", "fuzz", "le
 """Paths that ``--fast`` does not import: they train, serve, or need Chromium, torch or Sphinx."""
 NOT_FAST_MARKERS = {"alone", "browser", "slow"}
 COMPONENT_TABLE = "components"
+COLLECTIONS_BEFORE_OLDEST = 50
 LEFT_OUT = pytest.StashKey[int]()
 COMPILE_RAYS = ROOT / ".ci" / "compile_rays.py"
 """Makes the compiled part of a checkout; the tests of a wheel are run without it."""
@@ -78,13 +79,15 @@ def pytest_collection() -> Generator[None, object, object]:
     """Collect tests without Python's garbage collector, which then leaves them alone.
 
     It would look at all of these objects again and again: a third of the collection's
-    time, and some of the tests' own.
+    time, and some of the tests' own. All that is left to it after that are the tests' objects,
+    which a full collection now and then is enough for.
     """
     gc.disable()
     try:
         return (yield)
     finally:
         gc.freeze()
+        gc.set_threshold(*gc.get_threshold()[:2], COLLECTIONS_BEFORE_OLDEST)
         gc.enable()
 
 

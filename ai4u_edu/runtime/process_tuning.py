@@ -32,8 +32,10 @@ def tuned_process() -> Iterator[None]:
 
     A full collection looks at every object while no other thread runs. Nearly all objects that are
     there when this is called stay to the end, so they are frozen: no collection looks at them.
+    Where some were frozen before, all stay frozen: the collector can't tell them apart.
     """
     interval, thresholds = sys.getswitchinterval(), gc.get_threshold()
+    had_frozen = gc.get_freeze_count() > 0
     sys.setswitchinterval(min(interval, SWITCH_INTERVAL_S))
     gc.set_threshold(NEW_OBJECTS_BEFORE_GC, COLLECTIONS_BEFORE_OLDER, COLLECTIONS_BEFORE_OLDER)
     gc.collect()
@@ -41,7 +43,8 @@ def tuned_process() -> Iterator[None]:
     try:
         yield
     finally:
-        gc.unfreeze()
+        if not had_frozen:
+            gc.unfreeze()
         gc.set_threshold(*thresholds)
         sys.setswitchinterval(interval)
 

@@ -41,6 +41,13 @@ def test_a_tuned_process_is_as_it_was_afterwards() -> None:
     assert settings() == before
 
 
+def test_what_was_frozen_before_stays_so() -> None:
+    gc.freeze()
+    with tuned_process():
+        pass
+    assert gc.get_freeze_count() > 10_000
+
+
 def test_garbage_goes_though_the_collector_is_off(monkeypatch: pytest.MonkeyPatch) -> None:
     class Cycle:
         def __init__(self) -> None:
