@@ -18,7 +18,6 @@ from tests.server.rooms import free_port, until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 PATIENCE_MS = 30_000
-"""Pages with viser share two cores."""
 ANY_ROOM = re.compile(r"/r/[\w-]+/(\?.*)?$")
 
 
@@ -34,15 +33,15 @@ class Day:
         self.teacher.goto(f"{self.school.url}teacher?token={self.school.token}")
         expect(self.teacher.locator("#code")).to_have_text(CODE)
 
-    def join(self, *, draws_nothing: bool = False) -> None:
-        """Open a page and join.
-
-        Args:
-            draws_nothing: without viser, which takes most of a page's time.
-        """
+    def page(self) -> Page:
+        """Return a page for a student, without viser, which takes most of a page's time."""
         page = new_page(self.chromium, 700, 600)
-        if draws_nothing:
-            PLAIN.serve(page, ANY_ROOM)
+        PLAIN.serve(page, ANY_ROOM)
+        return page
+
+    def join(self) -> None:
+        """Open a page and join."""
+        page = self.page()
         page.goto(f"{self.school.url}?code={CODE}")
         name = page.locator("#names label").first.inner_text()
         page.get_by_role("button", name="Join", exact=True).click()
@@ -71,8 +70,8 @@ def test_a_class_from_the_first_code_to_the_end(chromium: Browser, tmp_path: Pat
     with served_class(tmp_path, "--port", port) as school:
         day = Day(chromium, school)
         day.open_teachers_page()
-        for number in range(3):
-            day.join(draws_nothing=number >= 1)
+        for _ in range(3):
+            day.join()
         everybody_drives(day)
         another_scene_comes(day)
         nobody_escapes_a_blank_screen(day)
@@ -143,7 +142,7 @@ def a_closed_browser_comes_back_to_its_seat(day: Day) -> None:
     name, page = next(iter(day.students.items()))
     room, cookies = page.url.partition("?")[0], page.context.cookies()
     page.context.close()
-    again = new_page(day.chromium, 700, 600)
+    again = day.page()
     add_cookies(again.context, cookies)
     again.goto(day.school.url)
     connected(again)

@@ -1,7 +1,7 @@
 """The JSON Schema of scene files says what the loader says."""
 
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -12,14 +12,22 @@ from ai4u_edu.scenes.serialization import is_serializable
 from tests.json_schema import validator_of
 from tests.scenes.few import SCENES
 
+if TYPE_CHECKING:
+    from jsonschema import Draft202012Validator
+
 
 @cache
 def schema() -> dict[str, Any]:
     return scene_schema()
 
 
+@cache
+def validator() -> "Draft202012Validator":
+    return validator_of(schema())
+
+
 def errors_in(scene: dict[str, Any]) -> list[str]:
-    return [error.json_path for error in validator_of(schema()).iter_errors(scene)]
+    return [error.json_path for error in validator().iter_errors(scene)]
 
 
 @pytest.mark.parametrize("name", SCENES)
