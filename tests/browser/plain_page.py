@@ -51,7 +51,8 @@ class PlainPage:
     ) -> Response:
         response = await call_next(request)
         is_page = response.headers.get("content-type", "").startswith("text/html")
-        if not is_page or not ASKED.items() <= dict(request.headers).items():
+        is_asked = ASKED.items() <= dict(request.headers).items()
+        if not (is_page and is_asked and "etag" in response.headers):  # other pages have none
             return response
         if response.headers["etag"] != self._etag:
             chunks = [bytes(each) async for each in response.body_iterator]  # type: ignore[attr-defined]

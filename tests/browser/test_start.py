@@ -13,10 +13,11 @@ from ai4u_edu.editing.autosave import Autosave
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
-from ai4u_edu.server import LessonView, ServerThread, room_app
+from ai4u_edu.server import LessonView, room_app
+from tests.browser.plain_page import ASKED, WITHOUT_VISER
 from tests.browser.schemes import SCHEMES
-from tests.chromium import new_page
-from tests.server.rooms import NOWHERE, until
+from tests.chromium import close_page, quick_page
+from tests.server.rooms import NOWHERE, SharedServer, until
 
 pytestmark = pytest.mark.browser
 
@@ -42,7 +43,7 @@ class World:
 
 
 @pytest.fixture
-def world(tmp_path: Path) -> Iterator[World]:
+def world(tmp_path: Path, shared_server: SharedServer) -> Iterator[World]:
     scene = Scene.load("maze")
     runner = Runner(scene.build(), seed=1)
     editor = SceneEditor(runner, scene)
@@ -56,8 +57,8 @@ def world(tmp_path: Path) -> Iterator[World]:
     )
     runner.start()
     try:
-        with ServerThread(app) as server:
-            yield World(editor, server.url)
+        shared_server.app = WITHOUT_VISER.app(app)
+        yield World(editor, shared_server.url)
     finally:
         runner.stop()
         editor.recovery.autosave.stop()
@@ -65,10 +66,10 @@ def world(tmp_path: Path) -> Iterator[World]:
 
 @pytest.fixture
 def page(chromium: Browser, world: World) -> Iterator[Page]:
-    page = new_page(chromium)
+    page = quick_page(chromium, extra_http_headers=ASKED)
     open_start(page, world)
     yield page
-    page.context.close()
+    close_page(page)
 
 
 def open_start(page: Page, world: World) -> None:
@@ -116,7 +117,7 @@ def test_pictures_come_when_they_come_into_view(
     world.editor.scene_store.save("My sumo", Scene.load("sumo"))
     (tmp_path / "saved" / "Broken.yaml").write_text("bodies: 3\n")
     asked: list[str] = []
-    page = new_page(chromium)
+    page = quick_page(chromium, extra_http_headers=ASKED)
     page.on("request", lambda each: asked.append(each.url))
     page.add_init_script(FAR_BELOW)
     page.goto(f"{world.url}start")
@@ -131,7 +132,7 @@ def test_pictures_come_when_they_come_into_view(
     last.scroll_into_view_if_needed()
     until(lambda: is_loaded(last), 10)
     assert len([each for each in asked if each.endswith(address)]) == 1
-    page.context.close()
+    close_page(page)
 
 
 def is_loaded(picture: Locator) -> bool:
@@ -179,7 +180,7 @@ def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_it_fits_each_screen(world: World, chromium: Browser, scheme: Any) -> None:
     for width, height, is_touch in SIZES:
-        page = new_page(chromium, width, height, color_scheme=scheme, has_touch=is_touch)
+        page = quick_page(chromium, width, height, color_scheme=scheme, has_touch=is_touch)
         open_start(page, world)
         assert page.evaluate("document.documentElement.scrollWidth") <= width
         sides = page.locator("button:visible, a:visible").evaluate_all(
@@ -187,4 +188,4 @@ def test_it_fits_each_screen(world: World, chromium: Browser, scheme: Any) -> No
         )
         assert len(sides) == len(Scene.names()) + 4
         assert min(map(min, sides)) >= (MIN_TOUCH_PX if is_touch else MIN_SIDE_PX)
-        page.context.close()
+        close_page(page)

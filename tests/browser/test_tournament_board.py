@@ -8,7 +8,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.wall_data import MARKUP, REFUSAL, handed_in, name_of, tournament
 from tests.browser.wall_server import WallServer, wall_server
-from tests.chromium import new_page
+from tests.chromium import close_page, quick_page
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
@@ -24,11 +24,11 @@ def school() -> Iterator[WallServer]:
 
 @pytest.fixture
 def page(chromium: Browser, school: WallServer) -> Iterator[Page]:
-    page = new_page(chromium)
+    page = quick_page(chromium)
     page.goto(f"{school.url}teacher")
     page.get_by_role("tab", name="Tournament").click()
     yield page
-    page.context.close()
+    close_page(page)
 
 
 def test_the_teacher_begins_starts_and_ends_a_tournament_by_keyboard(
@@ -92,7 +92,7 @@ def test_the_teacher_begins_starts_and_ends_a_tournament_by_keyboard(
 def test_the_projector_shows_standings_and_the_last_match(
     chromium: Browser, school: WallServer
 ) -> None:
-    page = new_page(chromium, 1280, 720)
+    page = quick_page(chromium, 1280, 720)
     played = tournament(7)
     played["results"]["latest"][0]["entries"][0]["name"] = MARKUP
     school.send(shown={"kind": "tournament", "room": ""}, tournament=played)
@@ -112,4 +112,4 @@ def test_the_projector_shows_standings_and_the_last_match(
     assert [each["id"] for each in found if each["impact"] in GRAVE] == []
     school.send(tournament={**tournament(2, "open"), "results": None})
     expect(shown).to_contain_text("2 players so far. Hand in your network!")
-    page.context.close()
+    close_page(page)

@@ -12,7 +12,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.schemes import SCHEMES
 from tests.browser.wall_data import CODE, MARKUP, class_message, name_of, race
 from tests.browser.wall_server import WallServer, wall_server
-from tests.chromium import new_page
+from tests.chromium import close_page, quick_page
 from tests.server.rooms import until
 
 pytestmark = pytest.mark.browser
@@ -32,13 +32,13 @@ def school() -> Iterator[WallServer]:
 
 @pytest.fixture(scope="module")
 def opened(chromium: Browser, school: WallServer) -> Iterator[Page]:
-    page = new_page(chromium)
+    page = quick_page(chromium)
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda line: errors.append(line.text))
     page.goto(f"{school.url}teacher")
     yield page
-    page.context.close()
+    close_page(page)
     assert [each for each in errors if not each.startswith(ABOUT_TESTS)] == []
 
 
@@ -345,7 +345,7 @@ def test_the_pages_have_no_grave_finding(
         attention={"kind": "pause", "message": "Look", "ends_in": 0.0},
         shown={"kind": "race", "room": ""},
     )
-    page = new_page(chromium, color_scheme=scheme)
+    page = quick_page(chromium, color_scheme=scheme)
     page.goto(f"{school.url}teacher")
     expect(cards(page)).to_have_count(COUNT)
     found = {"wall": findings(page)}
@@ -359,7 +359,7 @@ def test_the_pages_have_no_grave_finding(
         page.wait_for_load_state("networkidle") if name == "check" else None
         found[name] = findings(page)
     assert {name: each for name, each in found.items() if each} == {}
-    page.context.close()
+    close_page(page)
 
 
 def findings(page: Page) -> list[str]:
@@ -373,7 +373,7 @@ def findings(page: Page) -> list[str]:
 
 def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer) -> None:
     school.state = class_message(COUNT)
-    page = new_page(chromium)
+    page = quick_page(chromium)
     page.goto(f"{school.url}projector")
     expect(page.locator("#code")).to_have_text(CODE)
     expect(page.get_by_text(f"{COUNT} students are here")).to_be_visible()
@@ -390,13 +390,13 @@ def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer
     school.send(shown={"kind": "board", "room": ""})
     expect(page.locator("#wall li")).to_have_count(COUNT)
     expect(page.locator("#wall [data-help]")).to_have_count(0)
-    page.context.close()
+    close_page(page)
 
 
 def test_check_says_yes_and_a_move_code_takes_the_names_away(
     chromium: Browser, school: WallServer
 ) -> None:
-    page = new_page(chromium)
+    page = quick_page(chromium)
     page.goto(f"{school.url}check")
     expect(page.get_by_role("status")).to_have_text("Yes, this device can join.")
     line = page.get_by_role("listitem").filter(has_text="Keys arrive")
@@ -417,4 +417,4 @@ def test_check_says_yes_and_a_move_code_takes_the_names_away(
     until(lambda: school.commands != [], 10)
     assert school.commands[0]["code"] == "K7QPM"
     assert school.commands[0]["name"] == ""
-    page.context.close()
+    close_page(page)
