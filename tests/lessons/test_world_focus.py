@@ -1,7 +1,7 @@
 """The world under a cell takes the keys by itself, so that they change none of the cells."""
 
 import pytest
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, expect
 
 from ai4u_edu.lessons.live import Live
 from tests.lessons.test_in_lab import chromium, live, notebook
@@ -29,7 +29,9 @@ def test_keys_drive_without_a_click_and_the_notebook_says_who_has_them(
     assert box["y"] >= 0
     assert box["y"] + box["height"] <= 768
     page.locator("iframe").evaluate("frame => frame.blur()")
-    page.get_by_text("Click here to drive").click()
+    say = page.locator("[data-say]")
+    expect(say).to_have_text("Click here to drive", timeout=20_000)
+    say.click()
     page.get_by_text("the keys go to the world").wait_for()
     page.close()
 
