@@ -28,6 +28,9 @@ def test_keys_drive_without_a_click_and_the_notebook_says_who_has_them(
     assert box is not None
     assert box["y"] >= 0
     assert box["y"] + box["height"] <= 768
+    asks = f"{live.port}/healthz"
+    with page.expect_event("requestfinished", lambda each: asks in each.url, timeout=20_000):
+        pass  # the notebook asks every 5 s whether the world is still there
     page.locator("iframe").evaluate("frame => frame.blur()")
     say = page.locator("[data-say]")
     expect(say).to_have_text("Click here to drive", timeout=20_000)
