@@ -12,12 +12,12 @@ from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.move_codes import LIFE_S
-from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.server.attempts import client_address
 from ai4u_edu.server.json_body import read_json
+from ai4u_edu.server.standalone import standalone_page
 
 COOKIE_LIFE_S = 200 * 24 * 3600
 MAX_BODY_BYTES = 2000
@@ -52,7 +52,7 @@ class Join:
         seat = seat_of(self._seats, request)
         if seat is not None:
             return RedirectResponse(f"{path_of(seat.room)}/", 303, NO_STORE)
-        return html_page("join.html")
+        return standalone_page("join.html")
 
     async def names(self, _: Request) -> Response:
         """Return names to choose from."""

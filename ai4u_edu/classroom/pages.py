@@ -4,12 +4,12 @@ from collections.abc import Awaitable, Callable
 from functools import lru_cache
 
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
 from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
-from ai4u_edu.server.standalone import STANDALONE_POLICY
-from ai4u_edu.server.web_files import WEB_PATHS, WebFiles, web_folder
+from ai4u_edu.server.standalone import standalone_page
+from ai4u_edu.server.web_files import WEB_PATHS, WebFiles
 
 
 async def web_file(request: Request) -> Response:
@@ -24,18 +24,11 @@ FILE_ROUTES = [
 """Routes of the files that these pages load; everybody may have them."""
 
 
-def html_page(name: str) -> HTMLResponse:
-    """Return a page of ``web/``."""
-    text = (web_folder() / name).read_text(encoding="utf-8")
-    headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
-    return HTMLResponse(_web_files().versioned(text), headers=headers)
-
-
 def page_route(name: str) -> Callable[[Request], Awaitable[Response]]:
     """Return a route's function that answers with a page of ``web/``."""
 
     async def answer(_: Request) -> Response:
-        return html_page(name)
+        return standalone_page(name)
 
     return answer
 

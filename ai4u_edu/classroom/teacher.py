@@ -31,12 +31,12 @@ from ai4u_edu.classroom.commands import (
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.forget import forget
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.scene_source import find_scene
 from ai4u_edu.classroom.seats import State
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
 from ai4u_edu.server.json_body import read_json
+from ai4u_edu.server.standalone import standalone_page
 from ai4u_edu.wire.class_link import MAX_SCENE_CHARS, MAX_STARTING_PROGRAM_CHARS
 
 MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
@@ -59,7 +59,7 @@ class Teacher:
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
-        return html_page("teacher.html")
+        return standalone_page("teacher.html")
 
     async def state(self, request: Request) -> Response:
         """Return the class, as the page's socket tells it."""

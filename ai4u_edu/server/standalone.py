@@ -1,6 +1,9 @@
-"""Policy of pages without viser, which need no inline scripts and styles."""
+"""Pages without viser, which need no inline scripts and styles: files of ``web/`` with a policy."""
+
+from starlette.responses import HTMLResponse
 
 from ai4u_edu.server.page import FRAME_ANCESTORS
+from ai4u_edu.server.web_files import ALWAYS_ASK, WebFiles, web_folder
 
 STANDALONE_POLICY = "; ".join(
     [
@@ -15,3 +18,10 @@ STANDALONE_POLICY = "; ".join(
         FRAME_ANCESTORS,
     ]
 )
+
+
+def standalone_page(name: str) -> HTMLResponse:
+    """Return a page of ``web/``."""
+    text = (web_folder() / name).read_text(encoding="utf-8")
+    headers = {"Content-Security-Policy": STANDALONE_POLICY, **ALWAYS_ASK}
+    return HTMLResponse(WebFiles().versioned(text), headers=headers)

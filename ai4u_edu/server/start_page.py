@@ -6,14 +6,13 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, Response
+from starlette.responses import Response
 
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.scene_cards import Card, stored_cards
 from ai4u_edu.editing.scene_pictures import library_scenes
 from ai4u_edu.server.library_pictures import picture_address
-from ai4u_edu.server.standalone import STANDALONE_POLICY
-from ai4u_edu.server.web_files import WebFiles, web_folder
+from ai4u_edu.server.standalone import standalone_page
 
 
 class LibrarySceneView(BaseModel):
@@ -72,14 +71,11 @@ class StartPage:
 
     def __init__(self, lessons: Callable[[], list[LessonView]], editor: SceneEditor) -> None:
         self._lessons, self._editor = lessons, editor
-        self._files = WebFiles()
-        self._text = (web_folder() / "start.html").read_text(encoding="utf-8")
         self._drawing = asyncio.Lock()
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
-        headers = {"Content-Security-Policy": STANDALONE_POLICY, "Cache-Control": "no-cache"}
-        return HTMLResponse(self._files.versioned(self._text), headers=headers)
+        return standalone_page("start.html")
 
     async def scenes(self, _: Request) -> Response:
         """Return the library's scenes, and the saved ones."""

@@ -3,6 +3,7 @@
 import hashlib
 import re
 import time
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
@@ -54,15 +55,14 @@ class WebFiles:
         for name in names:
             if name not in files:
                 return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
-        paths = [files[name] for name in names]
-        content, etag = _read(tuple((path, path.stat().st_mtime_ns) for path in paths))
+        content, etag = _read(files[name] for name in names)
         is_present = request.path_params.get("version") == self.version
         headers = {**(NEVER_ASK if is_present else ALWAYS_ASK), "ETag": etag}
         if names[0] in _POLICIES:
             headers["Content-Security-Policy"] = _POLICIES[names[0]]
         if request.headers.get("if-none-match") == etag:
             return Response(status_code=304, headers=headers)
-        return Response(content, headers=headers, media_type=_MEDIA_TYPES[paths[0].suffix])
+        return Response(content, headers=headers, media_type=_MEDIA_TYPES[files[names[0]].suffix])
 
     @property
     def version(self) -> str:
@@ -108,12 +108,17 @@ def _files(folder: Path, _modified_ns: int) -> dict[str, Path]:
 @lru_cache(maxsize=1)
 def _version(folder: Path, _second: int) -> str:
     files = _files(folder, folder.stat().st_mtime_ns)
-    tags = [(name, *_read(((path, path.stat().st_mtime_ns),))[1:]) for name, path in files.items()]
-    return hashlib.sha256(repr(sorted(tags)).encode()).hexdigest()[:16]
+    tags = sorted((name, _read([path])[1]) for name, path in files.items())
+    return hashlib.sha256(repr(tags).encode()).hexdigest()[:16]
+
+
+def _read(paths: Iterable[Path]) -> tuple[bytes, str]:
+    """Return the content of files as one, and its tag."""
+    return _read_once(tuple((path, path.stat().st_mtime_ns) for path in paths))
 
 
 @lru_cache(maxsize=256)
-def _read(files: tuple[tuple[Path, int], ...]) -> tuple[bytes, str]:
-    """Return the content of files, and its tag; files are known by path and time of change (ns)."""
+def _read_once(files: tuple[tuple[Path, int], ...]) -> tuple[bytes, str]:
+    """Do so for files of a time of change (ns)."""
     content = b"\n".join(path.read_bytes() for path, _ in files)
     return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'

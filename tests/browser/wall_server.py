@@ -13,8 +13,9 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from ai4u_edu.classroom.echo import echo
-from ai4u_edu.classroom.pages import FILE_ROUTES, html_page
+from ai4u_edu.classroom.pages import FILE_ROUTES
 from ai4u_edu.server import ServerThread
+from ai4u_edu.server.standalone import standalone_page
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 
 POSES_PER_S = 4
@@ -83,7 +84,7 @@ class WallServer:
 
     async def _page(self, request: Request) -> Response:
         self.paths.append(str(request.url))
-        return html_page(f"{request.url.path.strip('/')}.html")
+        return standalone_page(f"{request.url.path.strip('/')}.html")
 
     async def _command(self, request: Request) -> Response:
         body = await request.body()

@@ -14,8 +14,8 @@ from ai4u_edu.classroom.hub.sign_in import NO_STORE, SignIn
 from ai4u_edu.classroom.hub.teacher_auth import SIGN_IN, is_teacher
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
-from ai4u_edu.classroom.pages import html_page
 from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.server.standalone import standalone_page
 
 _TOKEN = re.compile(r"(?:token|bearer)\s+(\S+)", re.IGNORECASE)
 
@@ -57,7 +57,7 @@ class HubStudent:
             return self._sign_in.begin(request)
         if is_teacher(user, self._teachers):
             return RedirectResponse(f"{self._hub.prefix}teacher", 303, NO_STORE)
-        return html_page("hub.html")
+        return standalone_page("hub.html")
 
     async def me(self, request: Request) -> Response:
         """Return a browser's seat, and the way to the student's own server."""
