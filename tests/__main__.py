@@ -79,12 +79,15 @@ def main() -> int:
 def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str]]:
     """Get all that the checks need; return the Python to run them with and what is missing."""
     wants_all = not options.fast and only in ("", "pytest")
-    with ThreadPoolExecutor(1) as pool:  # one downloads while the other unpacks
+    with ThreadPoolExecutor(2) as pool:  # one downloads while the other unpacks
         ai4u = pool.submit(get_ai4u, options.nightly) if wants_all else None
+        chromium = pool.submit(setup_browser.install_debians) if wants_all else None
         try:
             python = bootstrap.ensure(ROOT, ["test" if options.fast else "dev"])
         except bootstrap.SetupError as error:
             sys.exit(str(error))
+        if chromium:
+            chromium.result()
         missing = get_browser(python) if wants_all else []
         return str(python), missing + (ai4u.result() if ai4u else [])
 

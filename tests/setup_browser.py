@@ -34,7 +34,7 @@ def ensure(python: Path) -> str:
     found = find(python)
     if found:
         return found
-    print("Getting Chromium for the tests (a few minutes, once) ...", flush=True)
+    announce()
     tried = []
     for command in ways(python):
         tried.append("  " + " ".join(command))
@@ -85,14 +85,44 @@ def on_path() -> str | None:
 def ways(python: Path) -> list[list[str]]:
     """List the commands that may bring a Chromium, the best first."""
     playwright = [str(python), "-m", "playwright", "install", "chromium"]
-    admin = as_root()
-    if admin is None or not shutil.which("apt-get"):
-        return [playwright]
-    if on_ubuntu():
+    if on_ubuntu() and has_apt():
         return [[*playwright, "--with-deps"], playwright]
-    apt = [*admin, "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
+    return [*debians_ways(), playwright]
+
+
+def debians_ways() -> list[list[str]]:
+    """List the commands that install Debian's Chromium; none where they can't."""
+    if on_ubuntu() or not has_apt():
+        return []
+    apt = [*(as_root() or []), "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
     install = [*apt, "install", "-y", "--no-install-recommends"]
-    return [[*apt, "update"], [*install, HEADLESS], [*install, "chromium"], playwright]
+    return [[*apt, "update"], [*install, HEADLESS], [*install, "chromium"]]
+
+
+def install_debians() -> None:
+    """Install Debian's Chromium where there is none and that can be done, without Playwright.
+
+    A failure is silent here; :func:`ensure` tries again, and says what went wrong.
+    """
+    if "AI4U_CHROMIUM" in os.environ or on_path():
+        return
+    commands = debians_ways()
+    if commands:
+        announce()
+    for command in commands:
+        run(command)
+        if on_path():
+            break
+
+
+def announce() -> None:
+    """Say what takes so long."""
+    print("Getting Chromium for the tests (a few minutes, once) ...", flush=True)
+
+
+def has_apt() -> bool:
+    """Tell whether packages of the system can be installed without a password."""
+    return shutil.which("apt-get") is not None and as_root() is not None
 
 
 def as_root() -> list[str] | None:
