@@ -24,16 +24,17 @@ def held(site: ServedViser) -> list[str]:
     return site.room.held
 
 
-def stays_still(site: ServedViser, seconds: float = 0.4) -> bool:
-    """Return True if the robot comes to rest within 3 s, and stays there for some seconds."""
-    end = time.monotonic() + 3
-    before = None
-    while site.pose()[:3] != before and time.monotonic() < end:
-        before = site.pose()[:3]
-        time.sleep(0.2)  # longer than a decision takes
-    before = site.pose()[:3]
-    time.sleep(seconds)
-    return site.pose()[:3] == before
+def stays_still(site: ServedViser, ticks: int = 24) -> bool:
+    """Return True if the robot comes to rest, and stays there for some ticks."""
+    until(lambda: did_not_move(site, 12))  # longer than two decisions take
+    return did_not_move(site, ticks)
+
+
+def did_not_move(site: ServedViser, ticks: int) -> bool:
+    """Return True if the robot is after some ticks where it is now."""
+    *pose, begin = site.pose()
+    until(lambda: site.pose()[3] >= begin + ticks)
+    return list(site.pose()[:3]) == pose
 
 
 class Pose(NamedTuple):
@@ -228,7 +229,7 @@ def test_another_layout_drives_by_place(site: ServedViser) -> None:
 def test_chords_drive_nothing_and_let_go(site: ServedViser, modifier: str) -> None:
     page = site.page()
     page.keyboard.press(f"{modifier}+KeyD")
-    assert stays_still(site, 0.3)
+    assert stays_still(site)
     page.keyboard.down("KeyW")
     until(lambda: held(site) == ["KeyW"])
     page.keyboard.down(modifier)
