@@ -3,7 +3,7 @@
 import json
 import socket
 import threading
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterable
 from functools import cache
 from typing import Any
 from urllib.parse import urlencode
@@ -13,7 +13,7 @@ from playwright.sync_api import Browser, ConsoleMessage, Locator, Page
 from starlette.applications import Starlette
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
-from starlette.routing import Mount, Route
+from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from ai4u_edu.server.web_files import web_folder
@@ -33,6 +33,7 @@ INDEX = """<!doctype html>
 <aside class="ai4u-panel" style="{style}">
   <div class="ai4u-panel-body"><div role="tabpanel" class="ai4u-tabpanel"></div></div>
 </aside>
+{scripts}
 <script type="module">
   import {{ openDialog }} from "./web/panel_dialog.js";
   import {{ installShortcuts }} from "./web/panel_shortcuts.js";
@@ -179,20 +180,30 @@ class TabPage:
 def _address() -> str:
     """Start the server of all tabs, which ends with the process; return its address."""
 
-    def index(request: Request) -> HTMLResponse:
-        return HTMLResponse(INDEX.format(styles=styles, style=FREE, **request.query_params))
-
     names = sorted(path.name for path in web_folder().glob("pa*.css"))
     styles = "\n".join((web_folder() / name).read_text(encoding="utf-8") for name in names)
     vendor = Mount("/web/vendor", StaticFiles(directory=web_folder() / "vendor"))
-    tab = [Route("/", index), vendor, Route("/web/{name}", _module({}))]
-    with_fakes = [Route("/", index), vendor, Route("/web/{name}", _module(MODULES))]
-    app = Starlette(routes=[Mount("/fakes", routes=with_fakes), *tab])
+
+    def routes(others: dict[str, str]) -> list[BaseRoute]:
+        return [Route("/", _index(styles, others)), vendor, Route("/web/{name}", _module(others))]
+
+    app = Starlette(routes=[Mount("/fakes", routes=routes(MODULES)), *routes({})])
     # not ServerThread, which limits the process's logs for as long as it runs
     server = uvicorn.Server(uvicorn.Config(app, log_config=None, lifespan="off"))
     listener = socket.create_server(("127.0.0.1", 0))
     threading.Thread(target=server.run, args=([listener],), daemon=True).start()
     return f"http://127.0.0.1:{listener.getsockname()[1]}/"
+
+
+def _index(styles: str, first: Iterable[str]) -> Callable[[Request], Response]:
+    """Return the route of the page; some modules are loaded before a test can use it."""
+    scripts = "".join(f'<script type="module" src="web/{name}"></script>' for name in first)
+
+    def route(request: Request) -> Response:
+        texts = {"styles": styles, "style": FREE, "scripts": scripts, **request.query_params}
+        return HTMLResponse(INDEX.format_map(texts))
+
+    return route
 
 
 def _module(others: dict[str, str]) -> Callable[[Request], Awaitable[Response]]:
