@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.served_viser import connected
+from tests.browser.plain_page import CLASS_ROOM
+from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.server.rooms import until
@@ -84,6 +85,7 @@ def test_a_mistake_is_told_and_nothing_typed_is_lost(
 
 def test_whoever_is_sent_out_is_told(chromium: Browser, school: ServedClass) -> None:
     teacher, ada = new_page(chromium), new_page(chromium)
+    PLAIN.serve(ada, CLASS_ROOM)
     name = join(ada, school)
     teacher.goto(f"{school.url}teacher?token={school.token}")
     teacher.get_by_role("button", name=name).click()
@@ -91,6 +93,7 @@ def test_whoever_is_sent_out_is_told(chromium: Browser, school: ServedClass) -> 
     expect(ada.get_by_text("your teacher has sent you out")).to_be_visible()
     teacher.get_by_text("No longer here (1)").click()
     expect(teacher.get_by_role("listitem").filter(has_text=name)).to_contain_text("sent out")
+    ada.unroute_all()
     ada.reload()
     expect(ada.get_by_role("heading", name="Join the class")).to_be_visible()
     for page in (ada, teacher):

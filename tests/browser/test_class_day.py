@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
+from tests.browser.plain_page import CLASS_ROOM
 from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, served_class
@@ -18,7 +19,6 @@ from tests.server.rooms import free_port, until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 PATIENCE_MS = 30_000
-ANY_ROOM = re.compile(r"/r/[\w-]+/(\?.*)?$")
 
 
 class Day:
@@ -36,7 +36,7 @@ class Day:
     def page(self) -> Page:
         """Return a page for a student, without viser, which takes most of a page's time."""
         page = new_page(self.chromium, 700, 600)
-        PLAIN.serve(page, ANY_ROOM)
+        PLAIN.serve(page, CLASS_ROOM)
         return page
 
     def join(self) -> None:

@@ -11,8 +11,9 @@ from playwright.sync_api import Browser, Locator, Page, Request, expect
 from tests.browser.code_editor import WithEditor
 from tests.browser.code_tab import CodePage
 from tests.browser.fake_code import serve_fakes
+from tests.browser.plain_page import CLASS_ROOM, WITHOUT_VISER
 from tests.browser.wall_data import MARKUP
-from tests.chromium import DRAW_NOTHING, new_page
+from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.classroom.test_programs import of_room
 from tests.server.rooms import until
@@ -20,7 +21,7 @@ from tests.server.rooms import until
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
 PATIENCE_MS = 30_000
-"""Pages with viser share two cores."""
+"""Other tests share the machine."""
 PROGRAM = f"# {MARKUP}\ndef decide(percept):\n    return {{}}\n"
 SCENE, AGENT = "box_chase", "0"
 
@@ -36,7 +37,7 @@ class Desk(WithEditor):
 
     def __init__(self, chromium: Browser, student: Student) -> None:
         self.page = new_page(chromium, 1000, 900)
-        self.page.add_init_script(DRAW_NOTHING)
+        WITHOUT_VISER.serve(self.page, CLASS_ROOM)
         self.sent: list[Any] = []
         """Programs that were sent."""
         self.page.on("request", self._note)

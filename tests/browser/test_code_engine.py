@@ -85,11 +85,13 @@ def test_a_program_that_is_loaded_while_another_is_stuck_runs_after_it(page: Pag
     assert page.evaluate("stuck")["kind"] == "endless"
 
 
-def test_a_stopped_program_gives_no_answer_later(page: Page) -> None:
+def test_of_a_stopped_program_no_answer_comes_later_and_no_file_is_left(page: Page) -> None:
+    assert run(page, "open('/home/pyodide/kept', 'w').write('x'); return {}")["ok"]
     load(page, "def decide(percept):\n    while True: pass")
     page.evaluate("void (window.answer = engine.decide({}, 1))")
     page.evaluate("engine.end()")
     assert page.evaluate("answer")["kind"] == "ended"
+    assert "FileNotFoundError" in run(page, "open('/home/pyodide/kept')")["text"]
     assert run(page, "return {}")["ok"]
 
 
@@ -132,12 +134,6 @@ def test_python_reaches_neither_page_nor_network(page: Page, body: str) -> None:
     answer = run(page, body)
     assert not answer["ok"]
     assert "Error" in answer["text"]
-
-
-def test_no_file_of_a_program_outlives_its_worker(page: Page) -> None:
-    assert run(page, "open('/home/pyodide/kept', 'w').write('x'); return {}")["ok"]
-    page.evaluate("engine.end()")
-    assert "FileNotFoundError" in run(page, "open('/home/pyodide/kept')")["text"]
 
 
 def test_nothing_is_left_to_the_worker_that_connects_or_stores(page: Page) -> None:

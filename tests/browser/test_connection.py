@@ -23,7 +23,7 @@ SENT = """performance.getEntriesByType("resource")
 pytestmark = pytest.mark.browser
 
 
-@pytest.mark.parametrize("end", ["/", "", "/?agent=0"])
+@pytest.mark.parametrize("end", [pytest.param("/", marks=pytest.mark.nightly), "", "/?agent=0"])
 def test_a_room_under_a_path(
     chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor, end: str
 ) -> None:
@@ -111,7 +111,7 @@ def other() -> Iterator[viser.ViserServer]:
     server.stop()
 
 
-@pytest.mark.parametrize("guarded", [True, False])
+@pytest.mark.parametrize("guarded", [True, pytest.param(False, marks=pytest.mark.nightly)])
 def test_a_link_cannot_send_the_page_to_another_viser(
     site: ServedViser, other: viser.ViserServer, guarded: bool
 ) -> None:

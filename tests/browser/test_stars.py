@@ -103,7 +103,7 @@ def test_ten_of_ten_starts_earn_two_stars_and_few_decisions_three(tab: CodePage)
         "info: Two sta",
         "info: Three s",
     ]
-    try_out(tab, 0)
+    try_out(tab, 9)
     expect(row(tab)).to_have_text("★★★")
 
 

@@ -16,7 +16,7 @@ from playwright.sync_api import Browser, FrameLocator, Page
 from ai4u_edu import Recorder, Scene
 from ai4u_edu.lessons.live import Live
 from ai4u_edu.runtime.runner import Runner
-from tests.chromium import browser
+from tests.chromium import browser, new_page
 from tests.lessons.lab import lab, wait_for
 from tests.server.rooms import free_port, until
 
@@ -69,7 +69,7 @@ def test_through_jupyter_server_proxy_behind_a_hub(
     with lab(tmp_path, "--ServerApp.allow_remote_access=True", base=BASE) as url:
         # browsers know that such names are this machine; the room knows no such name
         url = url.replace("localhost", "hub.localhost")
-        page = chromium.new_page(viewport={"width": 1000, "height": 700})
+        page = new_page(chromium, 1000, 700)
         asked: list[str] = []
         page.on("request", lambda request: asked.append(request.url))
         page.on("websocket", lambda socket: asked.append(socket.url))
@@ -87,11 +87,11 @@ def test_through_jupyter_server_proxy_behind_a_hub(
         page.reload()
         page.get_by_text("needs jupyter-server-proxy").wait_for()
         assert page.locator("img").is_visible()
-        page.close()
+        page.context.close()
 
 
 def test_without_a_proxy_the_page_comes_from_its_own_port(chromium: Browser, live: Live) -> None:
-    page = chromium.new_page(viewport={"width": 1000, "height": 700})
+    page = new_page(chromium, 1000, 700)
     url = f"http://localhost:{free_port()}/"
     page.route(url + "proxy/**", lambda route: route.fulfill(status=404, body="none"))
     frame = notebook(page, url, live, base="/")
@@ -101,7 +101,7 @@ def test_without_a_proxy_the_page_comes_from_its_own_port(chromium: Browser, liv
     )
     live.close()  # as when the kernel is restarted: nothing takes the frame away
     page.get_by_text("run its cell again for a new world").wait_for(timeout=60_000)
-    page.close()
+    page.context.close()
 
 
 @pytest.mark.parametrize("has_scripts", [True, False])
@@ -136,7 +136,7 @@ def test_from_the_wheel_lesson_02_is_driven_in_jupyterlab(
     try:
         wait_for(f"http://localhost:{port}/login", process, tmp_path / "log")
         token = (tmp_path / "log").read_text().partition("?token=")[2].split()[0]
-        page = chromium.new_page(viewport={"width": 1280, "height": 900})
+        page = new_page(chromium, 1280, 900, draws=True)
         asked: list[str] = []
         page.on("request", lambda request: asked.append(request.url))
         page.goto(f"http://localhost:{port}/lab/tree/02_drive.ipynb?token={token}")
@@ -154,7 +154,7 @@ def test_from_the_wheel_lesson_02_is_driven_in_jupyterlab(
         assert page.get_by_text("Jupyter news").count() == 0
         ours = ("http://localhost:", "data:", "blob:")
         assert [each for each in asked if not each.startswith(ours)] == []
-        page.close()
+        page.context.close()
     finally:
         process.send_signal(signal.SIGTERM)
         process.wait(20)

@@ -4,6 +4,7 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from ai4u_edu.lessons.live import Live
+from tests.chromium import new_page
 from tests.lessons.test_in_lab import chromium, live, notebook
 from tests.server.rooms import free_port, until
 
@@ -14,7 +15,7 @@ pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
 def test_keys_drive_without_a_click_and_the_notebook_says_who_has_them(
     chromium: Browser, live: Live
 ) -> None:
-    page = chromium.new_page(viewport={"width": 1366, "height": 768})
+    page = new_page(chromium, 1366, 768)
     url = f"http://localhost:{free_port()}/"
     page.route(url + "proxy/**", lambda route: route.fulfill(status=404, body="none"))
     frame = notebook(page, url, live, base="/")
@@ -36,11 +37,11 @@ def test_keys_drive_without_a_click_and_the_notebook_says_who_has_them(
     expect(say).to_have_text("Click here to drive", timeout=20_000)
     say.click()
     page.get_by_text("the keys go to the world").wait_for()
-    page.close()
+    page.context.close()
 
 
 def test_who_is_typing_keeps_the_keys(chromium: Browser, live: Live) -> None:
-    page = chromium.new_page(viewport={"width": 1366, "height": 768})
+    page = new_page(chromium, 1366, 768)
     url = f"http://localhost:{free_port()}/"
     page.route(url + "proxy/**", lambda route: route.fulfill(status=404, body="none"))
     page.add_init_script(
@@ -53,4 +54,4 @@ def test_who_is_typing_keeps_the_keys(chromium: Browser, live: Live) -> None:
     page.get_by_text("Click here to drive").wait_for()
     page.keyboard.type("dd")
     assert page.locator("textarea").input_value() == "dd"
-    page.close()
+    page.context.close()
