@@ -7,7 +7,7 @@ const BEGIN_TIMEOUT_MS = 10_000;
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
 const WASM = "./vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
-const LIBRARY = "./vendor/pyodide/python_stdlib.zip?v=fa1957e5";
+const LIBRARY = "./vendor/pyodide/python_stdlib.zip?v=aabcb2cf";
 const PROGRAM = "../program.zip";
 const ENDLESS = "The program did not come back from this line, so it was ended. Is something in it endless or huge?";
 const NOT_LOADED = "The program is not running. Press Run.";

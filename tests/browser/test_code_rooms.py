@@ -80,6 +80,22 @@ def test_readings_have_the_types_that_they_have_outside(page: Page) -> None:
     assert answer["printed"] == "[1.0, -0.0, inf, -inf, nan]\n"
 
 
+def test_what_python_imports_at_its_start_is_compiled(page: Page) -> None:
+    load(
+        page,
+        "import sys\n"
+        "specs = [getattr(each, '__spec__', None) for each in sys.modules.values()]\n"
+        "files = [each.origin for each in specs if each and '.zip/' in (each.origin or '')]\n"
+        "source = [each for each in files if not each.endswith('.pyc') and 'ai4u' not in each]\n"
+        "def decide(percept):\n"
+        "    print(len(files), source)\n"
+        "    return {'move': [0, 0]}",
+    )
+    count, _, source = decide(page)["printed"].partition(" ")
+    assert int(count) > 100
+    assert source == "[]\n"
+
+
 @pytest.mark.parametrize(
     ("body", "line", "kind"),
     [
