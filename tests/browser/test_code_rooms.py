@@ -123,6 +123,7 @@ def test_a_huge_print_is_cut(page: Page) -> None:
     assert 1000 < len(answer["printed"]) < 5000
 
 
+@pytest.mark.nightly
 def test_loading_may_be_endless_too(page: Page) -> None:
     answer = load(page, "y = 0\nx = 10**10**8\n")
     assert (answer["kind"], answer["line"]) == ("endless", 2)

@@ -9,7 +9,7 @@ from ai4u_edu import BasicAgent
 from tests.browser.served_viser import ServedViser
 from tests.server.rooms import until
 
-pytestmark = [pytest.mark.browser, pytest.mark.alone]
+pytestmark = [pytest.mark.browser, pytest.mark.alone, pytest.mark.nightly]
 
 PRESSES = 30
 

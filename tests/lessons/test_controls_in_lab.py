@@ -13,7 +13,7 @@ from tests.lessons.lab import lab
 from tests.lessons.test_in_lab import chromium
 
 __all__ = ["chromium"]  # a fixture
-pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.browser, pytest.mark.nightly, pytest.mark.timeout(300)]
 
 CODE = """from ai4u_edu.lessons import cards, sliders
 

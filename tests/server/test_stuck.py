@@ -141,7 +141,10 @@ def playing(folder: Path, how: str) -> Iterator[tuple[subprocess.Popen[str], str
             *("sleep", signal.SIGINT, "Sensor Stuck 'stuck' of agent '0' (stuck_blocks.py, line "),
             marks=pytest.mark.nightly,
         ),
-        ("network", signal.SIGINT, "Brain LocalBrain(NeuralNetController) of agent '0' ("),
+        pytest.param(
+            *("network", signal.SIGINT, "Brain LocalBrain(NeuralNetController) of agent '0' ("),
+            marks=pytest.mark.nightly,
+        ),
     ],
 )
 def test_what_does_not_return_is_named_and_the_first_signal_ends_it(

@@ -44,6 +44,7 @@ def test_nothing_heavy_is_loaded_before_it_is_needed() -> None:
     assert run.stdout.strip() == "[]"
 
 
+@pytest.mark.nightly  # as the commands do each time
 def test_train_evaluate_export(tmp_path: Path) -> None:
     run = small(tmp_path / "a")
     assert run.folder == tmp_path / "a"
