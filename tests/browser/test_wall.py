@@ -417,4 +417,5 @@ def test_check_says_yes_and_a_move_code_takes_the_names_away(
     until(lambda: school.commands != [], 10)
     assert school.commands[0]["code"] == "K7QPM"
     assert school.commands[0]["name"] == ""
+    page.wait_for_url("**/privacy")  # the room; Playwright may not close a page on its way
     close_page(page)
