@@ -31,8 +31,8 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", str(3 * (os.cpu_count() or 2) // 2), "--max-worker-restart=0"]
-"""Tests wait for pages and servers a third of their time. In place of a worker that was ended xdist
+PARALLEL = ["-n", str(2 * (os.cpu_count() or 2)), "--max-worker-restart=0"]
+"""Tests wait for pages, servers and a world's time for about half of theirs. In place of a worker that was ended xdist
 starts another one, and with ``--dist=loadfile`` it then waits for ever."""
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],

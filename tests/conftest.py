@@ -7,15 +7,17 @@ import ssl
 import subprocess
 import sys
 from collections.abc import Generator, Iterator
-from itertools import zip_longest
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
-ROOT = Path(__file__).parent.parent
+TESTS = Path(__file__).parent
+ROOT = TESTS.parent
 LONG_FOLDERS = ("browser", "attacks", "training", "remote", "lessons", "load")
 """Their files take longest and are started first, so that no core is idle at the end."""
+BROWSERS_END_AT = 0.8
+"""Part of the test files after which none with a browser begins, since they take long."""
 NOT_FAST = ("attacks", "benchmarks", "browser", "docs_site", "envs", "fuzz", "lessons", "load",
             "remote", "training", "chromium.py", "screenshot.py", "soak.py")  # fmt: skip
 """Paths that ``--fast`` does not import: they train, serve, or need Chromium, torch or Sphinx."""
@@ -109,25 +111,26 @@ def _is_left_out(item: pytest.Item, config: pytest.Config) -> bool:
     return "nightly" in markers and not config.option.nightly
 
 
-def _turns(items: list[pytest.Item]) -> dict[Path, int]:
-    """Return the place of each file: long ones first, those with a browser among the others.
+def _turns(items: list[pytest.Item]) -> dict[Path, float]:
+    """Return the place of each file: long ones first, those with a browser evenly among the others.
 
-    Drawing takes more than one core, so that two browsers at once would wait for each other.
+    Drawing takes more than one core, so that two browsers at once would wait for each other, while
+    other tests wait for a world's time and leave a core idle.
     """
     files = sorted({item.path for item in items}, key=_turn)
     with_browser = {item.path for item in items if item.get_closest_marker("browser")}
-    queues = [
-        [each for each in files if each in with_browser],
-        [each for each in files if each not in with_browser],
-    ]
-    mixed = [each for pair in zip_longest(*queues) for each in pair if each is not None]
-    return {each: place for place, each in enumerate(mixed)}
+    others = [each for each in files if each not in with_browser]
+    count = sum(each.is_relative_to(TESTS) for each in others)
+    distance = BROWSERS_END_AT * count / max(len(with_browser), 1)
+    browsers = [each for each in files if each in with_browser]
+    places = {each: float(place) for place, each in enumerate(others)}
+    return places | {each: distance * place for place, each in enumerate(browsers)}
 
 
 def _turn(path: Path) -> tuple[int, Path]:
     folder = _folder(path)
     place = LONG_FOLDERS.index(folder) if folder in LONG_FOLDERS else len(LONG_FOLDERS)
-    return place, path
+    return place if path.is_relative_to(TESTS) else len(LONG_FOLDERS) + 1, path
 
 
 def _folder(path: Path) -> str:
