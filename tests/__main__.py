@@ -31,9 +31,11 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-PARALLEL = ["-n", str(2 * (os.cpu_count() or 2)), "--max-worker-restart=0"]
-"""Tests wait for pages, servers and a world's time for about half of theirs. In place of a worker that was ended xdist
-starts another one, and with ``--dist=loadfile`` it then waits for ever."""
+CORES = os.cpu_count() or 2
+PARALLEL = ["-n", str(max(min(2 * CORES, 8), CORES)), "--max-worker-restart=0"]
+"""Tests wait for pages, servers and a world's time for half of theirs; each process takes 1.2 GB.
+In place of one that was ended xdist starts another one, and with ``--dist=loadfile`` it then waits
+for ever."""
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
