@@ -162,8 +162,15 @@ def quick(exercise_id: str) -> Exercise:
     return Exercise(known.id, known.title, known.judge, known.hints, 0.4)
 
 
-@pytest.mark.parametrize("endless", [WAITS, SWALLOWS])
-@pytest.mark.parametrize("in_thread", [False, True], ids=["main thread", "another thread"])
+@pytest.mark.parametrize(
+    ("endless", "in_thread"),
+    [
+        pytest.param(SWALLOWS, False, id="main thread"),
+        pytest.param(WAITS, True, id="another thread"),
+        pytest.param(WAITS, False, marks=pytest.mark.nightly),
+        pytest.param(SWALLOWS, True, marks=pytest.mark.nightly),
+    ],
+)
 def test_an_endless_loop_ends_with_its_line(endless: Any, in_thread: bool) -> None:
     found: list[Any] = []
 
