@@ -49,13 +49,13 @@ def test_a_room_that_nobody_uses_ends_and_wakes_with_its_start(tmp_path: Path) -
     limits = RoomLimits(sleep_after_s=0.3, check_s=0.1)
 
     async def sleep_and_wake() -> tuple[object, object]:
-        address = await rooms.enter("a", "box_chase")
-        with rooms.in_use("a"):
-            before = await _snapshot(address, "a")
+        with rooms.in_use("a"):  # it may sleep at once otherwise, before its answer
+            before = await _snapshot(await rooms.enter("a", "box_chase"), "a")
             await asyncio.sleep(0.8)
             assert rooms.is_running("a")
         await _until(lambda: not rooms.is_running("a"))
-        after = await _snapshot(await rooms.enter("a", "box_chase"), "a")
+        with rooms.in_use("a"):
+            after = await _snapshot(await rooms.enter("a", "box_chase"), "a")
         return before["seed"], after["seed"]
 
     with closing(LocalRooms(tmp_path, limits=limits)) as rooms:
