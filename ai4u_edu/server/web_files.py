@@ -3,7 +3,7 @@
 import hashlib
 import re
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from pathlib import Path
 
@@ -38,12 +38,15 @@ class WebFiles:
     A page asks for some forty of them at once, so they are kept in memory until they change: for
     each, a response from the disk would change threads three times.
 
+    Args:
+        clock: returns the time (s) by which they are looked up.
+
     Raises:
         SetupError: the files are missing.
     """
 
-    def __init__(self) -> None:
-        self._folder = web_folder()
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._folder, self._clock = web_folder(), clock
 
     def response(self, request: Request, *names: str) -> Response:
         """Return a file, or several of one kind as one; 304 if the browser has it, or 404.
@@ -67,7 +70,7 @@ class WebFiles:
     @property
     def version(self) -> str:
         """Version of all files together, looked up once a second."""
-        return _version(self._folder, int(time.monotonic()))
+        return _version(self._folder, int(self._clock()))
 
     def versioned(self, page: str) -> str:
         """Return a page that asks for the files at addresses with their version.

@@ -4,6 +4,7 @@ import json
 import os
 import re
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 import httpx
@@ -109,10 +110,8 @@ def test_a_browser_keeps_what_has_the_present_version(room: Room, name: str) -> 
 def test_another_file_and_another_content_are_another_version(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seconds = iter(range(9))
-    monkeypatch.setattr("time.monotonic", lambda: next(seconds))
     monkeypatch.setattr("ai4u_edu.server.web_files.web_folder", lambda: tmp_path)
-    files = WebFiles()
+    files = WebFiles(clock=count().__next__)
     versions = [files.version, files.version]
     for name, text in (("a.js", "1"), ("a.js", "22"), ("b.js", "22")):
         (tmp_path / name).write_text(text)
