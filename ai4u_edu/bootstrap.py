@@ -157,8 +157,6 @@ def _give_pip(venv: Path, python: Path, version: list[int]) -> None:
 
 def _install(root: Path, python: Path, extras: list[str]) -> None:
     if WITH_TORCH.intersection(extras) and _declares_torch(root):
-        # Python 3.11's own pip takes 27 s to choose versions of so many packages, a newer one 10 s.
-        _run(python, *PIP_INSTALL, "--upgrade", "pip")
         _bring_torch(python)
     project = "." + ("[{}]".format(",".join(extras)) if extras else "")
     done = _run(python, *PIP_INSTALL, "-e", project, cwd=root)
@@ -181,6 +179,8 @@ def _bring_torch(python: Path) -> None:
     """
     look = "import sys; from importlib.util import find_spec; sys.exit(not find_spec('torch'))"
     if _run(python, "-c", look).returncode:
+        # Python 3.11's own pip takes 27 s to choose versions of all packages, a newer one 10 s
+        _run(python, *PIP_INSTALL, "--upgrade", "pip")
         _run(python, *PIP_INSTALL, TORCH)
 
 

@@ -83,14 +83,12 @@ def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str]]:
     wants_all = not options.fast and only in ("", "pytest")
     with ThreadPoolExecutor(2) as pool:  # one downloads while the other unpacks
         ai4u = pool.submit(get_ai4u, options.nightly) if wants_all else None
-        chromium = pool.submit(setup_browser.install_debians) if wants_all else None
+        debians = pool.submit(setup_browser.install_debians) if wants_all else None
         try:
             python = bootstrap.ensure(ROOT, ["test" if options.fast else "dev"])
         except bootstrap.SetupError as error:
             sys.exit(str(error))
-        if chromium:
-            chromium.result()
-        missing = get_browser(python) if wants_all else []
+        missing = get_browser(python, debians.result()) if debians else []
         return str(python), missing + (ai4u.result() if ai4u else [])
 
 
@@ -118,10 +116,10 @@ def run_tests(
     return failed
 
 
-def get_browser(python: Path) -> list[str]:
-    """Get Chromium for the tests; return its name if it could not be had."""
+def get_browser(python: Path, tried: list[str]) -> list[str]:
+    """Get Chromium for the tests, after what was tried; return its name if it wasn't to be had."""
     try:
-        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(python)
+        os.environ["AI4U_CHROMIUM"] = setup_browser.ensure(python, tried)
     except setup_browser.BrowserError as error:
         print(f"\n{error}\nGoing on without the tests that need a browser.", flush=True)
         return ["browser"]

@@ -22,11 +22,12 @@ class BrowserError(Exception):
     """There is no Chromium and none could be had; the text says what was tried."""
 
 
-def ensure(python: Path) -> str:
-    """Return the path of a Chromium, installing one if there is none.
+def ensure(python: Path, tried: list[str]) -> str:
+    """Return the path of a Chromium, having Playwright install one if there is none.
 
     Args:
         python: the Python in whose environment Playwright is installed.
+        tried: what :func:`install_debians` returned.
 
     Raises:
         BrowserError: none is there and none could be installed.
@@ -34,13 +35,8 @@ def ensure(python: Path) -> str:
     found = find(python)
     if found:
         return found
-    announce()
-    tried = []
-    for command in ways(python):
-        tried.append("  " + " ".join(command))
-        code, output = run(command)
-        if code:
-            tried += ["    " + line for line in output.strip().splitlines()[-5:]]
+    for command in playwrights_ways(python):
+        tried = tried + attempt(command)
         found = find(python)
         if found:
             return found
@@ -55,6 +51,29 @@ def ensure(python: Path) -> str:
             ]
         )
     )
+
+
+def install_debians() -> list[str]:
+    """Install Debian's Chromium if there is none and that can be done; return what was tried.
+
+    It needs nothing of an environment of Python, so that both can be made at once.
+    """
+    tried: list[str] = []
+    if "AI4U_CHROMIUM" in os.environ or on_path():
+        return tried
+    for command in debians_ways():
+        tried += attempt(command)
+        if on_path():
+            break
+    return tried
+
+
+def attempt(command: list[str]) -> list[str]:
+    """Run a command that may bring a Chromium; return lines about it for the error."""
+    print(f"Getting Chromium for the tests: {' '.join(command)}", flush=True)
+    code, output = run(command)
+    why = output.strip().splitlines()[-5:] if code else []
+    return ["  " + " ".join(command), *("    " + line for line in why)]
 
 
 def find(python: Path) -> str | None:
@@ -82,42 +101,19 @@ def on_path() -> str | None:
     return next(filter(None, map(shutil.which, names)), None)
 
 
-def ways(python: Path) -> list[list[str]]:
-    """List the commands that may bring a Chromium, the best first."""
-    playwright = [str(python), "-m", "playwright", "install", "chromium"]
-    if on_ubuntu() and has_apt():
-        return [[*playwright, "--with-deps"], playwright]
-    return [*debians_ways(), playwright]
+def playwrights_ways(python: Path) -> list[list[str]]:
+    """List the commands by which Playwright may bring a Chromium, the best first."""
+    install = [str(python), "-m", "playwright", "install", "chromium"]
+    return [[*install, "--with-deps"], install] if on_ubuntu() and has_apt() else [install]
 
 
 def debians_ways() -> list[list[str]]:
-    """List the commands that install Debian's Chromium; none where they can't."""
+    """List the commands that install Debian's Chromium, the best first; none where they can't."""
     if on_ubuntu() or not has_apt():
         return []
     apt = [*(as_root() or []), "env", "DEBIAN_FRONTEND=noninteractive", "apt-get"]
     install = [*apt, "install", "-y", "--no-install-recommends"]
     return [[*apt, "update"], [*install, HEADLESS], [*install, "chromium"]]
-
-
-def install_debians() -> None:
-    """Install Debian's Chromium where there is none and that can be done, without Playwright.
-
-    A failure is silent here; :func:`ensure` tries again, and says what went wrong.
-    """
-    if "AI4U_CHROMIUM" in os.environ or on_path():
-        return
-    commands = debians_ways()
-    if commands:
-        announce()
-    for command in commands:
-        run(command)
-        if on_path():
-            break
-
-
-def announce() -> None:
-    """Say what takes so long."""
-    print("Getting Chromium for the tests (a few minutes, once) ...", flush=True)
 
 
 def has_apt() -> bool:

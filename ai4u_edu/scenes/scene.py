@@ -71,7 +71,7 @@ class Scene:
             raise SceneError(f"{path}: can't be read: {error.strerror}") from None
         except UnicodeDecodeError as error:
             raise SceneError(f"{path}: {_no_utf8(path, error)}") from None
-        # those of the library are tried in the tests, which takes two thirds of the time
+        # resets take two thirds of the time; those of the library are reset in the tests
         resets = 1 if path.parent == LIBRARY else RANDOM_RESETS
         return cls._read(text, path.name, path.absolute().parent, resets)
 

@@ -79,6 +79,6 @@ def _kept(headers: Mapping[str, str]) -> dict[str, str]:
 
 
 WITHOUT_VISER = PlainPage(ROOT)
+"""The page with our own parts only."""
 CLASS_ROOM = re.compile(r"/r/[\w-]+/(\?.*)?$")
 """Address of any student's room of a class."""
-"""The page with our own parts only."""

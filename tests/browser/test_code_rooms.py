@@ -24,6 +24,18 @@ def decide(percept):
         print(key, percept[key])
     return {"move": [1.0, 0.25, 0, 0]}
 """
+FROM_SOURCE = """
+import sys
+
+specs = [getattr(each, "__spec__", None) for each in sys.modules.values()]
+files = [each.origin for each in specs if each and ".zip/" in (each.origin or "")]
+source = [each for each in files if not each.endswith(".pyc") and "ai4u" not in each]
+
+def decide(percept):
+    print(len(files), source)
+    return {"move": [0, 0]}
+"""
+"""Prints the number of modules that are there, and which were compiled from source."""
 DRIVE = """
     async (source) => {
         for (const name of ["code_engine", "remote_client"]) {
@@ -81,16 +93,7 @@ def test_readings_have_the_types_that_they_have_outside(page: Page) -> None:
 
 
 def test_what_python_imports_at_its_start_is_compiled(page: Page) -> None:
-    load(
-        page,
-        "import sys\n"
-        "specs = [getattr(each, '__spec__', None) for each in sys.modules.values()]\n"
-        "files = [each.origin for each in specs if each and '.zip/' in (each.origin or '')]\n"
-        "source = [each for each in files if not each.endswith('.pyc') and 'ai4u' not in each]\n"
-        "def decide(percept):\n"
-        "    print(len(files), source)\n"
-        "    return {'move': [0, 0]}",
-    )
+    load(page, FROM_SOURCE)
     count, _, source = decide(page)["printed"].partition(" ")
     assert int(count) > 100
     assert source == "[]\n"

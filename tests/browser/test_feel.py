@@ -317,11 +317,10 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     other.keyboard.down("KeyW")
     expect(driver_status(page)).to_have_text("Page 2 drives")
     found = page.evaluate(CONTRAST)
-    site.close(other)
-    page.keyboard.down("KeyW")
-    expect(driver_status(page)).to_have_text("You drive")
+    other.keyboard.up("KeyW")
+    page.get_by_role("button", name="Take over").click()
+    expect(driver_status(page)).to_have_text("You drive (page 1)")
     found += page.evaluate(CONTRAST)
-    page.keyboard.up("KeyW")
     site.room.runner.pause().result(5)
     expect(page.get_by_text("Paused")).to_be_visible()
     found += page.evaluate(CONTRAST)
@@ -330,7 +329,7 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     found += page.evaluate(CONTRAST)
     texts = {text for text, _ in found}
     assert {
-        "You drive",
+        "You drive (page 1)",
         "Take over",
         "forward",
         "Resume",
@@ -360,6 +359,18 @@ def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
     until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180, timeout=40)
     page.reload()  # it is remembered, against the system's wish
     expect_dark(page, is_dark=False)
+    page.context.close()
+
+
+@pytest.mark.nightly
+def test_dark_is_remembered_against_a_light_system(chromium: Browser, zoo: Played) -> None:
+    page = new_page(chromium, color_scheme="light", reduced_motion="reduce")
+    page.set_default_timeout(60_000)
+    page.goto(zoo.url)
+    expect_dark(page, is_dark=False)
+    dark(page).click()
+    page.reload()
+    expect_dark(page, is_dark=True)
     page.context.close()
 
 

@@ -65,6 +65,16 @@ def test_the_same_seed_gives_the_same_network(tmp_path: Path) -> None:
     assert torch.equal(torch.random.get_rng_state(), before)
 
 
+@pytest.mark.nightly
+def test_another_seed_gives_another_network(tmp_path: Path) -> None:
+    episodes = [take("box_chase", decisions=40).episode]
+    one, other = (
+        clone(episodes, tmp_path / f"{seed}.onnx", updates=30, seed=seed, quiet=True).path
+        for seed in (0, 1)
+    )
+    assert one.read_bytes() != other.read_bytes()
+
+
 def test_the_file_says_where_it_comes_from(tmp_path: Path) -> None:
     episodes = [take("box_chase", decisions=40).episode]
     network = Network(clone(episodes, tmp_path / "a.onnx", updates=5, quiet=True).path)

@@ -161,9 +161,7 @@ def test_a_network_decides_as_its_model_does(tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly  # writes three networks
-@pytest.mark.parametrize(
-    "algorithm", ["sac", "dqn", pytest.param("ppo", marks=pytest.mark.nightly)]
-)
+@pytest.mark.parametrize("algorithm", ["ppo", "sac", "dqn"])
 def test_the_critic_is_exported_too(tmp_path: Path, algorithm: Algorithm) -> None:
     import torch
 
