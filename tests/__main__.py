@@ -1,8 +1,9 @@
 """``python3 -m tests``: every check of the project, from a fresh clone with a bare Python.
 
 ``--fast`` takes a minute and needs neither a browser nor torch; ``--nightly`` adds repetitions and
-long runs. ``--only mypy`` runs one tool. Other arguments go to pytest, which then runs alone:
-``python3 -m tests -k cycle``. Standard library only, in a syntax that Python 3.8 reads.
+long runs. ``--only mypy`` runs one tool; ``--seed 7`` draws the order of the tests. Other arguments
+go to pytest, which then runs alone: ``python3 -m tests -k cycle``. Standard library only, in a
+syntax that Python 3.8 reads.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from tests.remote import ai4u_venv
 
 TESTS = Path(__file__).resolve().parent
 ROOT = TESTS.parent
+RESULTS = Path("build") / "test-results"
+"""Folder in the checkout with the results of the last run."""
 ALONE = "pytest.mark.alone"
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command as run; run()"
 # Through `python -m`, since scripts in .venv/bin don't survive a move of the checkout.
@@ -52,6 +55,7 @@ def main() -> int:
     tier = parser.add_mutually_exclusive_group()
     tier.add_argument("--fast", action="store_true", help="no browser, no torch, nothing slow")
     tier.add_argument("--nightly", action="store_true", help="also repetitions and long runs")
+    parser.add_argument("--seed", type=int, help="draw the order of files and tests")
     options, for_pytest = parser.parse_known_args()
     only = options.only or ("pytest" if for_pytest else "")
     if for_pytest and only != "pytest":
@@ -98,6 +102,8 @@ def run_tests(
     """Run the tests of a tier, or those that were chosen; return the names of what failed."""
     failed = list(missing)
     tier_options = ["--fast"] * options.fast + ["--nightly"] * options.nightly
+    if options.seed is not None:
+        tier_options += ["--seed", str(options.seed)]
     pytest = [python, "-m", "pytest", *tier_options]
     if for_pytest:  # a few tests, chosen by hand
         return run_in_turn("pytest", [*pytest, *for_pytest])
@@ -112,6 +118,8 @@ def run_tests(
     if options.nightly and not only:
         commands.update({name: [python, *arguments] for name, arguments in LONG_RUNS.items()})
     for name, command in commands.items():
+        if "pytest" in name:
+            command.append(f"--junitxml={RESULTS / name.replace(' ', '-')}.xml")
         failed += run_in_turn(name, command)
     return failed
 

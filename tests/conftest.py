@@ -3,6 +3,7 @@
 import functools
 import gc
 import os
+import random
 import ssl
 import subprocess
 import sys
@@ -54,6 +55,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("tiers of this project")
     group.addoption("--fast", action="store_true", help="no browser, no torch, nothing slow")
     group.addoption("--nightly", action="store_true", help="also the tests marked `nightly`")
+    group.addoption("--seed", type=int, help="draw the order of files and of tests within them")
+
+
+def pytest_report_header(config: pytest.Config) -> list[str]:
+    seed = config.option.seed
+    return [] if seed is None else [f"order of files and tests: drawn with --seed {seed}"]
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -100,8 +107,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.stash[LEFT_OUT] = len(left_out)
         config.hook.pytest_deselected(items=left_out)
     kept = set(items).difference(left_out)
-    turns = _turns([each for each in items if each in kept])
-    items[:] = sorted((each for each in items if each in kept), key=lambda each: turns[each.path])
+    items[:] = _in_turn([each for each in items if each in kept], config.option.seed)
 
 
 def _is_left_out(item: pytest.Item, config: pytest.Config) -> bool:
@@ -109,6 +115,17 @@ def _is_left_out(item: pytest.Item, config: pytest.Config) -> bool:
     if config.option.fast and markers & NOT_FAST_MARKERS:
         return True
     return "nightly" in markers and not config.option.nightly
+
+
+def _in_turn(items: list[pytest.Item], seed: int | None) -> list[pytest.Item]:
+    """Return the tests in the order to run them, those of a file together."""
+    turns = _turns(items)
+    if seed is not None:
+        draw = random.Random(seed)
+        files = sorted(turns)
+        turns = dict(zip(files, draw.sample(range(len(files)), len(files)), strict=True))
+        draw.shuffle(items)
+    return sorted(items, key=lambda each: turns[each.path])
 
 
 def _turns(items: list[pytest.Item]) -> dict[Path, float]:
