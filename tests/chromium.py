@@ -4,13 +4,14 @@ import contextlib
 import json
 import os
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 from urllib.parse import urljoin
 
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 from tests import setup_browser
+from tests.waiting import LIMIT_MS, until
 
 DISABLED = [
     # newer ones guard this machine against foreign pages; here it is we who have to
@@ -61,6 +62,9 @@ def browser() -> Iterator[Browser]:
         chromium.close()
 
 
+expect.set_options(timeout=LIMIT_MS)
+
+
 def new_page(
     chromium: Browser, width: int = 1280, height: int = 800, *, draws: bool = False, **options: Any
 ) -> Page:
@@ -71,9 +75,15 @@ def new_page(
         options: more of ``Browser.new_context``.
     """
     context = chromium.new_context(viewport={"width": width, "height": height}, **options)
+    context.set_default_timeout(LIMIT_MS)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
     return context.new_page()
+
+
+def until_on(page: Page, condition: Callable[[], object]) -> None:
+    """Wait for a condition to become true while Playwright handles a page's events."""
+    until(condition, lambda seconds: page.wait_for_timeout(1000 * seconds))
 
 
 _Kind = tuple[Browser, str]

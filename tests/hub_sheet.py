@@ -14,7 +14,6 @@ from playwright.sync_api import Browser
 from tests.chromium import browser
 from tests.class_sheet import PICTURES, SETTLE_MS
 from tests.classroom.test_real_hub import (
-    PATIENCE_MS,
     SETTINGS,
     Student,
     Teacher,
@@ -71,7 +70,7 @@ def _shoot(
     page.goto(url)
     if name:
         sign_in(page, name)
-        page.wait_for_url("**/services/ai4u-class/**", timeout=PATIENCE_MS)
+        page.wait_for_url("**/services/ai4u-class/**")
     page.wait_for_timeout(2 * SETTLE_MS)
     page.screenshot(path=path)
     context.close()

@@ -12,6 +12,8 @@ import tempfile
 import urllib.request
 from pathlib import Path
 
+from tests.waiting import LIMIT_S
+
 UV = [sys.executable, "-m", "uv"]
 PLAY = ["play", "--port", "0", "--no-open", "--no-wait-for-key"]
 
@@ -66,7 +68,7 @@ def served(
         assert process.stdout is not None
         words = (word for line in process.stdout for word in line.split())
         url = next((word for word in words if word.startswith("http")), "")
-        page = urllib.request.urlopen(url, timeout=60).read() if url else b""  # noqa: S310
+        page = urllib.request.urlopen(url, timeout=LIMIT_S).read() if url else b""  # noqa: S310
         process.terminate()
     if b"<html" not in page.lower():
         sys.exit(f"{name}: serves no page")

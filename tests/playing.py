@@ -6,7 +6,6 @@ import re
 import subprocess
 import sys
 import threading
-import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
@@ -15,6 +14,8 @@ from typing import Any
 
 from websockets.sync.client import connect
 from websockets.typing import Origin
+
+from tests.waiting import LIMIT_S, until
 
 
 @dataclass
@@ -41,14 +42,11 @@ class Played:
         with connect(url, origin=Origin(self.url.rstrip("/")), proxy=None) as page:
             page.send(json.dumps({"type": "command", "name": "resume"}))
             page.send(json.dumps({"type": "command", "name": "reset", "seed": seed}))
-            deadline = time.monotonic() + 20
-            while (now := self.snapshot())["episode"] == episode or now["paused"]:
-                assert time.monotonic() < deadline, f"no new episode: {now}"
-                time.sleep(0.02)
+            until(lambda: (now := self.snapshot())["episode"] != episode and not now["paused"])
 
     def _get(self, path: str) -> dict[str, Any]:
         try:
-            answer = urllib.request.urlopen(f"{self.url}{path}", timeout=5)  # noqa: S310  # our own
+            answer = urllib.request.urlopen(f"{self.url}{path}", timeout=LIMIT_S)  # noqa: S310  # our own
         except urllib.error.HTTPError as error:
             answer = error
         with answer:
@@ -76,14 +74,12 @@ def played(*args: str, waits_for_key: bool = False) -> Iterator[Played]:
         yield Played(process, _url(process, told), told)
     finally:
         process.terminate()
-        listener.join(10)
+        listener.join(LIMIT_S)
 
 
 def _url(process: subprocess.Popen[str], told: list[str]) -> str:
-    deadline = time.monotonic() + 90
-    while time.monotonic() < deadline and process.poll() is None:
-        found = re.search(r"http://\S+", "".join(told))
-        if found:
-            return found[0].rstrip("/") + "/"
-        time.sleep(0.05)
-    raise RuntimeError("the scene was not served: " + "".join(told))
+    until(lambda: process.poll() is not None or "http://" in "".join(told))
+    found = re.search(r"http://\S+", "".join(told))
+    if not found:
+        raise RuntimeError("the scene was not served: " + "".join(told))
+    return found[0].rstrip("/") + "/"

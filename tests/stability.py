@@ -142,7 +142,7 @@ def read_results(folder: Path) -> tuple[int, dict[str, str]]:
             bad = [each for each in case if each.tag in ("failure", "error")]
             if bad:
                 test = f"{case.get('classname')}::{case.get('name')}"
-                failures[test] = "\n".join(each.text or each.get("message", "") for each in bad)
+                failures[test] = "\n".join(each.text or each.get("message") or "" for each in bad)
             elif case.find("skipped") is None:
                 passed += 1
     return passed, failures

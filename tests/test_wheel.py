@@ -34,7 +34,7 @@ print(compiled_cast() is not None, found.hexdigest())
 """
 
 # Installing as a user does fetches every dependency.
-pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
+pytestmark = pytest.mark.slow
 
 
 def run(*command: str | Path, cwd: Path) -> str:

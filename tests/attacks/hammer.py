@@ -12,7 +12,6 @@ import random
 import signal
 import sys
 import threading
-import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -27,6 +26,7 @@ from ai4u_edu.base.errors import ActionError
 from ai4u_edu.remote import RemoteError, connect
 from tests.attacks.panel import Panel
 from tests.playing import Played, played
+from tests.waiting import LIMIT_S, until
 
 ENDS_WITHIN_S = 3.0
 """Time in which a server has to end; a command under way takes up to a second of a free core."""
@@ -72,10 +72,10 @@ def hammer(seconds: float, scene: str, seed: int, ends_within: float = ENDS_WITH
         over.wait(seconds)
         over.set()
         for thread in threads[:6]:  # the pages; a script waits as long as the world is paused
-            thread.join(20)
+            thread.join(LIMIT_S)
         tally.wrong += _goes_on(server)
         for thread in threads[6:]:
-            thread.join(20)
+            thread.join(LIMIT_S)
         waits = _has_blocks_error(server)  # as long as nobody mends the block, a script waits too
         stuck = [each for each in (threads[:6] if waits else threads) if each.is_alive()]
         tally.wrong += [f"{_stack(each)}did not end: {_summary(server)}" for each in stuck]
@@ -169,7 +169,7 @@ def _goes_on(server: Played) -> list[str]:
             return _place(server.snapshot()) != before or _has_blocks_error(server)
 
         try:
-            _until(has_moved)
+            until(has_moved)
         except TimeoutError:
             return [f"the world stands still: {_summary(server)}, before at {before}"]
     is_well = server.health()["status"] == "ok" or _has_blocks_error(server)
@@ -198,14 +198,6 @@ def _summary(server: Played) -> dict[str, Any]:
 
 def _place(snapshot: dict[str, Any]) -> tuple[int, int]:
     return int(snapshot["episode"]), int(snapshot["tick"])
-
-
-def _until(condition: Callable[[], object], timeout: float = 10.0) -> None:
-    deadline = time.monotonic() + timeout
-    while not condition():
-        if time.monotonic() > deadline:
-            raise TimeoutError
-        time.sleep(0.05)
 
 
 def _guarded(

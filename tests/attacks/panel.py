@@ -24,6 +24,7 @@ from tests.attacks.arguments import (
     show_message,
     spoilt,
 )
+from tests.waiting import LIMIT_S
 
 POINT = (0.0, 0.0, 0.0)
 MAX_WAITING = 3
@@ -80,7 +81,7 @@ class Panel:
         for socket in (self._panel, self._viser):
             socket.close()
         for reader in self._readers:
-            reader.join(5)
+            reader.join(LIMIT_S)
 
     def say(self, kind: str, **fields: Any) -> None:
         """Send one message to viser."""

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Self
 from urllib.parse import urlsplit
 
+from tests.waiting import LIMIT_S
+
 RETRY_S = 2
 """Time after which those who attack open a connection that was closed again."""
 
@@ -50,7 +52,7 @@ class Program:
     def terminate(self) -> tuple[int, str]:
         """End it by one SIGTERM; returns its exit status and what it wrote last."""
         self.process.send_signal(signal.SIGTERM)
-        said, _ = self.process.communicate(timeout=10)
+        said, _ = self.process.communicate(timeout=LIMIT_S)
         return self.process.returncode, said
 
     def log_lines(self) -> list[str]:

@@ -9,6 +9,7 @@ import pytest
 
 from tests.attacks.programs import program
 from tests.server.rooms import Page
+from tests.waiting import LIMIT_S
 
 COUNT = 45
 EPISODES = 4
@@ -25,7 +26,9 @@ def test_a_page_drives_on_and_the_server_ends_at_once(tmp_path: Path) -> None:
         page.receive("hello")
 
         async def attack() -> tuple[int, str]:
-            async with httpx.AsyncClient(base_url=server.url, timeout=60, limits=MANY) as client:
+            async with httpx.AsyncClient(
+                base_url=server.url, timeout=LIMIT_S, limits=MANY
+            ) as client:
                 wanted = [
                     f"api/past/{1 + number % EPISODES}.{ENDINGS[number % len(ENDINGS)]}"
                     for number in range(COUNT)

@@ -20,7 +20,8 @@ from ai4u_edu.server import ServerThread, lock_viser_port, proxy, room_app
 from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
 from ai4u_edu.viewer import Viewer
 from tests.editing.harness import EditorHarness
-from tests.viewer.pages import Page, shown, until
+from tests.viewer.pages import Page, shown
+from tests.waiting import LIMIT_S, until
 
 
 class Room(NamedTuple):
@@ -106,7 +107,7 @@ def in_order(room: Room) -> None:
     with connected(room) as late:
         kinds: set[Any] = set()
         while "ReplayDoneMessage" not in kinds:
-            kinds |= {message["type"] for message in told(late.recv(5))}
+            kinds |= {message["type"] for message in told(late.recv(LIMIT_S))}
         assert "BatchedMeshesMessage" in kinds
 
 
@@ -185,7 +186,7 @@ def test_what_is_no_message_ends_that_connection_alone(
             with pytest.raises(ConnectionClosed) as closed:  # noqa: PT012 - what comes first varies
                 here.send(frame)
                 while True:
-                    here.recv(5)
+                    here.recv(LIMIT_S)
             if len(frame) < 10_000_000:  # of a larger one not even all is read
                 assert closed.value.rcvd is not None
                 assert closed.value.rcvd.code == code

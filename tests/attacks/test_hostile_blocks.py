@@ -13,11 +13,11 @@ from ai4u_edu.runtime import tick_monitor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.exports import Exports
 from tests.attacks.hostile import HOOKS, MISDEEDS, Misdeed, divide, exit_process, hostile_sim
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def wait_for(event: threading.Event) -> None:
-    assert event.wait(30)
+    assert event.wait(LIMIT_S)
 
 
 @pytest.fixture(autouse=True)
@@ -52,10 +52,10 @@ def test_a_misdeed_is_told_and_a_reset_mends_it(
     assert len(error) < 4000
     assert "'red'" in error
     assert "Hostile" in error or "andler" in error
-    runner.pause().result(5)  # commands go on meanwhile
-    runner.resume().result(5)
+    runner.pause().result(LIMIT_S)  # commands go on meanwhile
+    runner.resume().result(LIMIT_S)
     Misdeed.is_armed = False
-    runner.reset().result(5)
+    runner.reset().result(LIMIT_S)
     until(lambda: runner.latest.tick > 1)
     assert not runner.latest.error
 
@@ -104,7 +104,7 @@ def test_a_replay_and_a_download_end_with_a_sentence(
 
     playing = threading.Thread(target=play)
     playing.start()
-    playing.join(10)
+    playing.join(LIMIT_S)
     assert "Hostile" in str(told)
 
     def make(*_: object) -> bytes:

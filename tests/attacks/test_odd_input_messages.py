@@ -12,7 +12,8 @@ from websockets.exceptions import ConnectionClosed
 from ai4u_edu.server import input as input_socket
 from ai4u_edu.server import messages, page_receiver
 from tests.builders import small_sim
-from tests.server.rooms import Page, Room, served, until
+from tests.server.rooms import Page, Room, served
+from tests.waiting import LIMIT_S, until
 
 ODD = (
     *("NaN", "Infinity", "-Infinity", "1e400", "-1e400", "1e20", "18446744073709551616", "-1"),
@@ -40,7 +41,7 @@ OTHERS: tuple[str | bytes, ...] = (
 @pytest.fixture(scope="module")
 def room() -> Iterator[Room]:
     with served() as room:
-        room.runner.pause().result(5)
+        room.runner.pause().result(LIMIT_S)
         yield room
 
 

@@ -17,6 +17,7 @@ from ai4u_edu.recording.file import MAX_FILE_BYTES
 from ai4u_edu.server import page_receiver
 from tests.attacks.test_odd_input_messages import ODD
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
+from tests.waiting import LIMIT_S
 
 OTHERS: tuple[str | bytes, ...] = (
     *("", " ", "{", "[]", "null", "1", "{}", '{"type": 1}', '{"type": "do"}', '{"type": "shwo"}'),
@@ -108,7 +109,7 @@ def test_a_file_that_never_ends_is_dropped(room: PanelRoom) -> None:
 
 
 def test_commands_that_wait_are_bounded(room: PanelRoom) -> None:
-    room.runner.resume().result(5)
+    room.runner.resume().result(LIMIT_S)
     with room.page() as page:
         for number in range(60):
             page.send({"type": "do", "id": number, "command": "decision"})

@@ -25,7 +25,8 @@ from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 from tests.fuzz.messages import KINDS, example
 from tests.remote.rooms import SECRET, Script, log_of, log_room
-from tests.server.rooms import Room, until
+from tests.server.rooms import Room
+from tests.waiting import until
 
 MAX_SENTENCE_CHARS = 1000
 

@@ -13,6 +13,7 @@ import pytest
 from ai4u_edu.base import atomic_write
 from ai4u_edu.base.atomic_write import partial_file, remove_leftovers, write_atomically
 from ai4u_edu.base.file_lock import FileLock, LockedError, is_locked
+from tests.waiting import LIMIT_S
 
 KILLED = """
 import os, signal, sys
@@ -172,7 +173,7 @@ def test_a_lock_ends_with_its_process(tmp_path: Path) -> None:
     ready, path = spawn.Event(), tmp_path / "x.lock"
     holder = spawn.Process(target=hold, args=(str(path), ready), daemon=True)
     holder.start()
-    assert ready.wait(30)
+    assert ready.wait(LIMIT_S)
     assert is_locked(path)
     with pytest.raises(LockedError, match="in use by another process"):
         FileLock(path)

@@ -15,6 +15,7 @@ from ai4u_edu.blocks.brains.links.link import (
 )
 from ai4u_edu.runtime.runner import Runner
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link, two_agents
+from tests.waiting import LIMIT_S
 
 
 def test_hold_lets_no_time_pass_and_asks_the_same_again() -> None:
@@ -71,7 +72,10 @@ def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_
     try:
         while sim.world.ticks == 0:
             time.sleep(0.001)
-        assert runner.submit(lambda: (sim.world.ticks, len(link.timeouts))).result(4) == (1, 1)
+        assert runner.submit(lambda: (sim.world.ticks, len(link.timeouts))).result(LIMIT_S) == (
+            1,
+            1,
+        )
     finally:
         runner.stop()
 
@@ -105,7 +109,9 @@ def test_a_held_world_is_a_good_moment_for_a_command(monkeypatch: pytest.MonkeyP
     sim = two_agents(ScriptedLink(), lambda percept: FORWARD)
     runner = Runner(sim, time_scale=math.inf)
     runner.start()
-    assert runner.submit(lambda: (sim.waiting_for_brain, sim.between_decisions())).result(5) == (
+    assert runner.submit(lambda: (sim.waiting_for_brain, sim.between_decisions())).result(
+        LIMIT_S
+    ) == (
         True,
         False,
     )

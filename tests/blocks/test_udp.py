@@ -8,9 +8,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu.blocks.brains.links.udp import MAX_DRAINED, UdpSocket
-
-SOON = 5000
-"""Milliseconds within which what was sent is there."""
+from tests.waiting import LIMIT_MS, LIMIT_S
 
 
 @pytest.fixture
@@ -31,7 +29,7 @@ def udp(other: socket.socket) -> Iterator[UdpSocket]:
 
 def heard(other: socket.socket) -> Any:
     """Receive the next datagram and return its sender's address."""
-    other.settimeout(SOON / 1000)
+    other.settimeout(LIMIT_S)
     return other.recvfrom(99)[1]
 
 
@@ -40,7 +38,7 @@ def test_what_comes_back_is_taken(other: socket.socket, udp: UdpSocket) -> None:
     with pytest.raises(BlockingIOError):
         udp.receive()
     other.sendto(b"hi", heard(other))
-    assert udp.wait_readable(SOON)
+    assert udp.wait_readable(LIMIT_MS)
     assert udp.receive() == (b"hi", True)
     assert not udp.wait_readable(0)
 
@@ -49,7 +47,7 @@ def test_what_a_stranger_sends_is_told_apart(other: socket.socket, udp: UdpSocke
     address = heard(other)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
         stranger.sendto(b"hi", address)
-    assert udp.wait_readable(SOON)
+    assert udp.wait_readable(LIMIT_MS)
     assert udp.receive() == (b"hi", False)
 
 
@@ -71,7 +69,7 @@ def test_after_a_refusal_waiting_waits_again(
 ) -> None:
     other.close()
     udp.send(b"is anybody there?")
-    assert udp.wait_readable(SOON)
+    assert udp.wait_readable(LIMIT_MS)
     if ends == "drain":
         assert udp.drain() == 0
     else:

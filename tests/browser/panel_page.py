@@ -1,7 +1,6 @@
 """A page with the panel, whose socket is fake; viser is left out."""
 
 import contextlib
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -18,7 +17,7 @@ from tests.browser.fake_panel import FakePanel
 from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.browser.served_viser import connected
 from tests.builders import small_sim
-from tests.chromium import close_page, quick_page
+from tests.chromium import close_page, quick_page, until_on
 from tests.server.rooms import Room, served
 
 CANVAS = PlainPage(
@@ -61,12 +60,9 @@ class PanelPage:
         connected(self.page)
         self.until(lambda: self.panel.received)
 
-    def until(self, condition: Callable[[], object], timeout: float = 20) -> None:
+    def until(self, condition: Callable[[], object]) -> None:
         """Wait for a condition while the fake socket works, which Playwright's loop serves."""
-        deadline = time.monotonic() + timeout
-        while not condition():
-            assert time.monotonic() < deadline, "it did not happen in time"
-            self.page.wait_for_timeout(20)
+        until_on(self.page, condition)
 
 
 @contextlib.contextmanager

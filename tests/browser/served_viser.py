@@ -8,7 +8,8 @@ from playwright.sync_api import Browser, Locator, Page
 
 from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import Room, until
+from tests.server.rooms import Room
+from tests.waiting import until
 
 SPEED, TURN = 5.0, 2.0
 """Speeds that W and D ask for in these tests (m/s, rad/s)."""

@@ -11,7 +11,7 @@ from tests.browser.plain_page import CLASS_ROOM
 from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, served_class
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -57,7 +57,7 @@ def test_students_join_drive_and_come_back(chromium: Browser, school: ServedClas
     start = agent_of(ben)["pose"]
     before = agent_of(ada)["pose"]
     ada.keyboard.down("KeyW")
-    until(lambda: agent_of(ada)["pose"] != before, 20)
+    until(lambda: agent_of(ada)["pose"] != before)
     ada.keyboard.up("KeyW")
     assert agent_of(ben)["pose"] == start
 

@@ -1,7 +1,7 @@
 """A student's page in a class: who is here, the teacher's message, the blank screen, a race."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -30,9 +30,10 @@ from ai4u_edu.wire.class_link import (
 from tests.browser.plain_page import ASKED
 from tests.browser.served_viser import PLAIN, centre, connected, driver_status
 from tests.builders import small_sim
-from tests.chromium import close_page, quick_page
+from tests.chromium import close_page, quick_page, until_on
 from tests.class_member.fake_link import FakeLink
-from tests.server.rooms import Room, SharedServer, served, until
+from tests.server.rooms import Room, SharedServer, served
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -121,15 +122,6 @@ def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfCla
         for page in school.pages:
             close_page(page)
         found[0].stop()
-
-
-def until_on(page: Page, condition: Callable[[], object]) -> None:
-    """Wait for a condition while a page's events are handled."""
-    for _ in range(200):
-        if condition():
-            return
-        page.wait_for_timeout(25)
-    raise AssertionError("it did not happen in time")
 
 
 def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -> None:

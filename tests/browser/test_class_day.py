@@ -15,10 +15,10 @@ from tests.browser.plain_page import CLASS_ROOM
 from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, served_class
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
-PATIENCE_MS = 30_000
 
 
 class Day:
@@ -90,15 +90,15 @@ def test_a_class_from_the_first_code_to_the_end(chromium: Browser, tmp_path: Pat
 def everybody_drives(day: Day) -> None:
     for name, page in day.students.items():
         page.keyboard.down("KeyA")
-        expect(day.card(name)).to_contain_text("driving", timeout=PATIENCE_MS)
+        expect(day.card(name)).to_contain_text("driving")
         page.keyboard.up("KeyA")
 
 
 def another_scene_comes(day: Day) -> None:
     day.dialog("Assign a scene…", "Assign", Which_scene="maze")
     for name, page in day.students.items():
-        expect(page).to_have_title(re.compile("Maze"), timeout=PATIENCE_MS)
-        expect(day.card(name)).to_contain_text("Maze", timeout=PATIENCE_MS)
+        expect(page).to_have_title(re.compile("Maze"))
+        expect(day.card(name)).to_contain_text("Maze")
 
 
 def nobody_escapes_a_blank_screen(day: Day) -> None:
@@ -111,15 +111,15 @@ def nobody_escapes_a_blank_screen(day: Day) -> None:
     dialog.get_by_role("button", name="Begin").click()
     first, *_ = pages = [*day.students.values()]
     for page in pages:
-        expect(blank(page)).to_contain_text("<b>Look</b> here", timeout=PATIENCE_MS)
+        expect(blank(page)).to_contain_text("<b>Look</b> here")
         expect(blank(page)).to_contain_text(re.compile(r"(9:\d\d|10:00)"))
     first.keyboard.press("Escape")
     first.reload()
-    expect(blank(first)).to_be_visible(timeout=PATIENCE_MS)
+    expect(blank(first)).to_be_visible()
     expect(blank(teacher)).to_have_count(0)
     teacher.get_by_role("button", name="End attention").click()
     for page in pages:
-        expect(blank(page)).to_be_hidden(timeout=PATIENCE_MS)
+        expect(blank(page)).to_be_hidden()
 
 
 def blank(page: Page) -> Locator:
@@ -132,7 +132,7 @@ def the_teacher_looks_in(day: Day) -> None:
     with day.teacher.context.expect_page() as opened:
         day.teacher.get_by_role("link", name="Look in").click()
     inside = opened.value
-    expect(inside).to_have_title(re.compile("Maze"), timeout=PATIENCE_MS)
+    expect(inside).to_have_title(re.compile("Maze"))
     assert inside.url.partition("?")[0] == student.url.partition("?")[0]
     inside.close()
     day.teacher.get_by_role("button", name="Close").click()
@@ -160,31 +160,31 @@ def everybody_is_still_there(day: Day) -> None:
     for name, page in day.students.items():
         page.reload()
         connected(page)
-        expect(page.locator(".ai4u-class-self")).to_have_text(name, timeout=PATIENCE_MS)
-        expect(page).to_have_title(re.compile("Maze"), timeout=PATIENCE_MS)
+        expect(page.locator(".ai4u-class-self")).to_have_text(name)
+        expect(page).to_have_title(re.compile("Maze"))
         expect(day.card(name)).to_be_visible()
 
 
 def a_race_has_a_board(day: Day) -> None:
     day.dialog("Race…", "Start the countdown", Which_scene="box_chase", Countdown="5")
     name, page = next(iter(day.students.items()))
-    expect(page).to_have_title(re.compile("Box chase"), timeout=PATIENCE_MS)
+    expect(page).to_have_title(re.compile("Box chase"))
     state: dict[str, Any] = {}
 
     def has_begun() -> bool:
         state.update(day.school.state())
         return bool(state["race"]) and state["race"]["phase"] == "running"
 
-    until(has_begun, 30)
+    until(has_begun)
     page.bring_to_front()
     page.keyboard.down("KeyW")  # over the edge: a result, too
-    until(lambda: day.school.state()["race"]["board"], 60)
+    until(lambda: day.school.state()["race"]["board"])
     page.keyboard.up("KeyW")
     (row,) = day.school.state()["race"]["board"]
     assert (row["name"], row["outcome"]) == (name, "fell")
     expect(day.teacher.get_by_text(name).first).to_be_visible()
     day.teacher.get_by_role("button", name="End race").click()
-    until(lambda: day.school.state()["race"]["phase"] == "over", 10)
+    until(lambda: day.school.state()["race"]["phase"] == "over")
 
 
 def the_export_opens(day: Day) -> None:
@@ -211,7 +211,7 @@ def after_forgetting_nothing_is_left(day: Day, folder: Path) -> None:
     dialog.get_by_label("I have the file, or need none").check()
     dialog.get_by_label(f"Type the code {CODE} to confirm").fill(CODE)
     dialog.get_by_role("button", name="Forget everything").click()
-    expect(dialog).to_have_count(0, timeout=PATIENCE_MS)
+    expect(dialog).to_have_count(0)
     left = [each for each in folder.rglob("*") if each.is_file()]
     for file in left:
         data = file.read_bytes()

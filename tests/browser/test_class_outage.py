@@ -12,10 +12,10 @@ from tests.browser.test_class import agent_of, join
 from tests.browser.whole import scene_picture
 from tests.chromium import new_page
 from tests.classroom.served_class import ServedClass, served_class
-from tests.server.rooms import until
+from tests.waiting import until
 from tests.wifi import Wifi
 
-pytestmark = [pytest.mark.browser, pytest.mark.nightly, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 OUTAGE_S = 60
 TOLD_MS = 30_000
 LOST = "No connection to this world"
@@ -25,7 +25,7 @@ def drive(page: Page) -> None:
     """Drive until the world answers."""
     before = agent_of(page)["pose"]
     page.keyboard.down("KeyW")
-    until(lambda: agent_of(page)["pose"] != before, 20)
+    until(lambda: agent_of(page)["pose"] != before)
     page.keyboard.up("KeyW")
 
 
@@ -45,7 +45,7 @@ def test_a_minute_without_wifi(chromium: Browser, tmp_path: Path, with_connectio
         wifi.go()
         expect(ada.get_by_text(LOST)).to_be_visible(timeout=TOLD_MS)
         expect(teacher.get_by_text("The class can't be reached.")).to_be_visible(timeout=TOLD_MS)
-        until(lambda: status_of_the_room(school) == "away", 40)
+        until(lambda: status_of_the_room(school) == "away")
         ada.keyboard.up("KeyW")
         time.sleep(OUTAGE_S - (time.monotonic() - began))  # the minute itself
         wifi.come_back(with_connections=with_connections)
@@ -55,7 +55,7 @@ def test_a_minute_without_wifi(chromium: Browser, tmp_path: Path, with_connectio
         assert ada.url == room
         before = scene_picture(ada)
         drive(ada)
-        until(lambda: not np.array_equal(scene_picture(ada), before), 20)
-        until(lambda: status_of_the_room(school) == "driving", 20)
+        until(lambda: not np.array_equal(scene_picture(ada), before))
+        until(lambda: status_of_the_room(school) == "driving")
         for page in (ada, teacher):
             page.context.close()

@@ -16,12 +16,10 @@ from tests.browser.wall_data import MARKUP
 from tests.chromium import new_page
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.classroom.test_programs import of_room
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
-PATIENCE_MS = 30_000
-"""Other tests share the machine."""
 PROGRAM = f"# {MARKUP}\ndef decide(percept):\n    return {{}}\n"
 SCENE, AGENT = "box_chase", "0"
 
@@ -55,11 +53,11 @@ class Desk(WithEditor):
             self.sent.append(json.loads(request.post_data or "{}"))
 
     def open_tab(self) -> None:
-        self.page.get_by_role("tab", name="Code").click(timeout=PATIENCE_MS)
+        self.page.get_by_role("tab", name="Code").click()
 
     def open(self) -> None:
         self.open_tab()
-        expect(self.editor).to_contain_text("def decide", timeout=PATIENCE_MS)
+        expect(self.editor).to_contain_text("def decide")
 
     @property
     def runs(self) -> Locator:
@@ -71,7 +69,7 @@ class Desk(WithEditor):
 
     def is_told(self, words: str) -> None:
         told = self.page.locator("p[role=status]").filter(has_text=words)
-        expect(told).to_be_visible(timeout=PATIENCE_MS)
+        expect(told).to_be_visible()
 
     def close(self) -> None:
         self.page.context.close()
@@ -109,7 +107,7 @@ def test_a_program_is_kept_goes_on_elsewhere_and_is_read(
     second.write(newer)
     second.page.get_by_role("button", name="Run", exact=True).click()
     second.is_told("Kept in the class.")
-    until(lambda: kept(school, ada) == newer, 10)
+    until(lambda: kept(school, ada) == newer)
     second.close()
 
     first.page.get_by_role("button", name="Run", exact=True).click()
@@ -122,7 +120,7 @@ def test_a_program_is_kept_goes_on_elsewhere_and_is_read(
     first.page.get_by_label("Earlier runs").select_option(index=1)
     assert first.text == PROGRAM  # the one of this device is kept
     first.is_told("Kept in the class.")
-    until(lambda: kept(school, ada) == PROGRAM, 10)
+    until(lambda: kept(school, ada) == PROGRAM)
 
     teacher = teachers_page(chromium, school)
     teacher.locator("button.ai4u-room").filter(has_text="Red Fox").click()
@@ -154,7 +152,7 @@ def test_without_network_it_stays_here_and_is_saved_later(
     assert kept(school, ben) == PROGRAM
     desk.write("# the end")
     desk.page.reload()  # saved while the page is closed
-    until(lambda: kept(school, ben) == "# the end", 10)
+    until(lambda: kept(school, ben) == "# the end")
     desk.open_tab()
     desk.write("x" * 100_001)
     desk.is_told("100000 characters")
@@ -200,9 +198,9 @@ def test_a_teachers_program_is_offered_and_replaces_nothing(
     dialog.get_by_label("Starting program (Python)").fill(given)
     dialog.get_by_role("button", name="Assign").click()
 
-    expect(desk.offer).to_be_visible(timeout=PATIENCE_MS)
+    expect(desk.offer).to_be_visible()
     assert desk.text == PROGRAM
-    expect(other.editor).to_contain_text("# from the teacher", timeout=PATIENCE_MS)
+    expect(other.editor).to_contain_text("# from the teacher")
     expect(other.offer).to_be_hidden()
     desk.offer.click()
     assert desk.text == given
@@ -216,8 +214,8 @@ def test_a_teachers_program_is_offered_and_replaces_nothing(
     assert desk.text == given
 
     assert school.command("assign", rooms="all", scene="maze").status_code == 200
-    expect(other.page).to_have_title(re.compile("Maze"), timeout=PATIENCE_MS)
-    expect(other.editor).not_to_contain_text("# from the teacher", timeout=PATIENCE_MS)
+    expect(other.page).to_have_title(re.compile("Maze"))
+    expect(other.editor).not_to_contain_text("# from the teacher")
     for each in (desk, other):
         each.close()
     teacher.context.close()

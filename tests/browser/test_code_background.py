@@ -8,7 +8,7 @@ from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.test_code_lockstep import CHEAP, DRIVE, SEED
 from tests.playing import played
 from tests.program.solutions import solution
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -51,7 +51,6 @@ def test_a_browser_that_stops_the_page_ends_the_run_and_the_tab_says_so(
 def test_a_real_program_needs_no_timers_either(chromium: Browser) -> None:
     with played(CHEAP, "--time-scale", "100") as server:
         page = code_page(chromium, server.url)
-        page.set_default_timeout(60_000)
         page.evaluate("engine.warm()")
         page.evaluate(HIDDEN)
         assert '"terminated":true' in page.evaluate(DRIVE, [solution(CHEAP), SEED, "0"])

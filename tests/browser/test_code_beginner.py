@@ -10,13 +10,14 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.served_viser import ready
-from tests.browser.test_code_drives import LOADING_MS, CodeTab
-from tests.browser.test_play import MIDDLE, until
+from tests.browser.test_code_drives import CodeTab
+from tests.browser.test_play import MIDDLE
 from tests.chromium import DRAW_NOTHING, new_page
 from tests.code_sheet import programs_in_docs
 from tests.playing import Played, played
+from tests.waiting import until
 
-pytestmark = [pytest.mark.browser, pytest.mark.nightly, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
 RUNS = 1000
 SLOW_MS = 120_000
@@ -39,7 +40,7 @@ def tab(server: Played, chromium: Browser) -> Iterator[CodeTab]:
     page.goto(server.url)
     ready(page)
     tab = CodeTab(page)
-    expect(tab.editor).to_contain_text("def decide", timeout=LOADING_MS)
+    expect(tab.editor).to_contain_text("def decide")
     yield tab
     page.context.close()
     assert problems == []
@@ -81,13 +82,13 @@ def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:
         server.restart(int(MIDDLE))
         tab.write(right.replace(good, bad))
         tab.press("Run")
-        expect(tab.mistake).to_contain_text(words, timeout=LOADING_MS)
+        expect(tab.mistake).to_contain_text(words)
     stars(tab.page, 0)
 
     server.restart(int(MIDDLE))
     tab.write(right)
     tab.press("Run")
-    expect(tab.state).to_contain_text("Goal reached", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Goal reached")
     stars(tab.page, 1)
     tab.press("Test")
     expect(tab.state).to_contain_text("10 of 10 reached the goal, in", timeout=SLOW_MS)
@@ -119,22 +120,22 @@ def test_a_program_that_does_its_worst_harms_neither_page_nor_world(
         tab.write(f"def decide(percept):\n{body}\n")
         tab.press("Run")
         said = re.compile(r"A mistake|The run ended|Runs|Stopped|is over")
-        expect(tab.state, name).to_contain_text(said, timeout=LOADING_MS)
+        expect(tab.state, name).to_contain_text(said)
         if words:
-            expect(tab.mistake, name).to_contain_text(words, timeout=LOADING_MS)
+            expect(tab.mistake, name).to_contain_text(words)
         lives(server, tab.page)
         if tab.page.get_by_role("button", name="Stop", exact=True).is_enabled():
             tab.press("Stop")
     server.restart(int(MIDDLE))
     tab.write(programs_in_docs()[0])
     tab.press("Run")
-    expect(tab.state).to_contain_text("Goal reached", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Goal reached")
 
 
 def test_a_thousand_runs(server: Played, tab: CodeTab) -> None:
     tab.write('def decide(percept):\n    return {"move": [0, 0.3, 0, 0]}\n')
     tab.press("Run")
-    expect(tab.state).to_contain_text("Runs", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Runs")
     run = tab.page.get_by_role("button", name="Run", exact=True)
     pressed = """async (run, runs) => {
       const state = document.querySelector(".ai4u-code-state");
@@ -148,7 +149,7 @@ def test_a_thousand_runs(server: Played, tab: CodeTab) -> None:
     }"""
     tab.page.set_default_timeout(600_000)
     run.evaluate(pressed, RUNS)
-    expect(tab.state).to_contain_text(re.compile(r"Runs\s*decision \d"), timeout=LOADING_MS)
+    expect(tab.state).to_contain_text(re.compile(r"Runs\s*decision \d"))
     lives(server, tab.page)
     until(lambda: "Remote" in server.snapshot()["agents"][0]["brain"])
     tab.press("Stop")
@@ -156,4 +157,4 @@ def test_a_thousand_runs(server: Played, tab: CodeTab) -> None:
     server.restart(int(MIDDLE))
     tab.write(programs_in_docs()[0])
     tab.press("Run")
-    expect(tab.state).to_contain_text("Goal reached", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Goal reached")

@@ -6,13 +6,13 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.test_class_programs import teachers_page
-from tests.browser.test_code_drives import LOADING_MS, CodeTab
+from tests.browser.test_code_drives import CodeTab
 from tests.chromium import DRAW_NOTHING, new_page
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.code_sheet import programs_in_docs
-from tests.server.rooms import until
+from tests.waiting import until
 
-pytestmark = [pytest.mark.browser, pytest.mark.nightly, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
 TURN = "# of Blue Otter\ndef decide(percept):\n    return {'move': [0, 0.3, 0, 0]}\n"
 
@@ -27,9 +27,9 @@ def tab_of(chromium: Browser, student: Student) -> CodeTab:
     ]
     page.context.add_cookies(cookies)  # type: ignore[arg-type]  # a TypedDict of playwright
     page.goto(student.address)
-    page.get_by_role("tab", name="Code").wait_for(timeout=LOADING_MS)
+    page.get_by_role("tab", name="Code").wait_for()
     tab = CodeTab(page)
-    expect(tab.editor).to_contain_text("def decide", timeout=LOADING_MS)
+    expect(tab.editor).to_contain_text("def decide")
     return tab
 
 
@@ -49,14 +49,14 @@ def test_the_teacher_sees_both(chromium: Browser, tmp_path_factory: pytest.TempP
         first.write(chase)
         second.write(TURN)
         second.press("Run")
-        expect(second.state).to_contain_text(re.compile(r"Runs\s*decision \d"), timeout=LOADING_MS)
+        expect(second.state).to_contain_text(re.compile(r"Runs\s*decision \d"))
         first.press("Run")
-        expect(first.state).to_contain_text("Goal reached", timeout=LOADING_MS)
+        expect(first.state).to_contain_text("Goal reached")
         expect(second.state).to_contain_text("Runs")
-        until(lambda: school.state()["stars"] == {"1": {"box_chase": 1}}, 20)
+        until(lambda: school.state()["stars"] == {"1": {"box_chase": 1}})
         first.press("Test")
-        expect(first.state).to_contain_text("10 of 10 reached the goal", timeout=2 * LOADING_MS)
-        until(lambda: school.state()["stars"] == {"1": {"box_chase": 3}}, 20)
+        expect(first.state).to_contain_text("10 of 10 reached the goal")
+        until(lambda: school.state()["stars"] == {"1": {"box_chase": 3}})
 
         teacher = teachers_page(chromium, school)
         driver = {each["id"]: each["driver"] for each in school.state()["rooms"]}
@@ -71,6 +71,6 @@ def test_the_teacher_sees_both(chromium: Browser, tmp_path_factory: pytest.TempP
 
         another = tab_of(chromium, ada)  # another device of the same student
         stars = another.page.locator(".ai4u-code-state .ai4u-stars")
-        expect(stars).to_have_attribute("aria-label", "3 of 3 stars", timeout=LOADING_MS)
+        expect(stars).to_have_attribute("aria-label", "3 of 3 stars")
         for page in (first.page, second.page, another.page, teacher):
             page.context.close()

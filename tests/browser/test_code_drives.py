@@ -8,15 +8,14 @@ from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.code_editor import WithEditor
 from tests.browser.served_viser import ready
-from tests.browser.test_play import MIDDLE, agent, until
+from tests.browser.test_play import MIDDLE, agent
 from tests.chromium import new_page
 from tests.code_sheet import programs_in_docs
 from tests.playing import Played, played
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
-LOADING_MS = 60_000
-"""Longest time until Python is loaded on a busy machine (ms)."""
 BODY = "def decide(percept):\n    "
 NUMBERS_AND_TEXTS = (
     'items => items.map(item => ["b", "span"].map(tag => item.querySelector(tag).innerText))'
@@ -87,8 +86,8 @@ def test_seven_lines_reach_the_box(server: Played, tab: CodeTab) -> None:
             tab.page.keyboard.press("Shift+Tab")
     tab.page.keyboard.press("ControlOrMeta+Enter")
     driver = tab.page.locator(".ai4u-row .ai4u-driver")
-    expect(driver).to_contain_text("Your program drives", timeout=LOADING_MS)
-    expect(tab.state).to_contain_text("Goal reached at decision", timeout=LOADING_MS)
+    expect(driver).to_contain_text("Your program drives")
+    expect(tab.state).to_contain_text("Goal reached at decision")
     assert agent(server)["reward_terms"]["touch"] == 100
     expect(tab.page.get_by_role("log")).to_contain_text("cosine 0.9")
     expect(driver).not_to_contain_text("Your program")
@@ -100,7 +99,7 @@ def test_a_mistake_is_a_sentence_at_its_line(
 ) -> None:
     tab.write(program)
     tab.press("Run")
-    expect(tab.mistake).to_contain_text(words, timeout=LOADING_MS)
+    expect(tab.mistake).to_contain_text(words)
     if line is not None:
         expect(tab.mistake).to_contain_text(f"Line {line}: ")
         marked = tab.page.locator(".ai4u-code-mistake-line")
@@ -113,7 +112,7 @@ def test_a_class_of_the_docs_drives(server: Played, tab: CodeTab) -> None:
     assert "def get_action" in patrol
     tab.write(patrol)
     tab.press("Run")
-    expect(tab.state).to_contain_text(re.compile(r"Runs\s*decision \d"), timeout=LOADING_MS)
+    expect(tab.state).to_contain_text(re.compile(r"Runs\s*decision \d"))
     until(lambda: server.snapshot()["agents"][0]["action"]["move"][0] != 0)
     expect(tab.page.locator(".ai4u-code-variables")).to_contain_text("self")
     tab.press("Stop")
@@ -122,7 +121,7 @@ def test_a_class_of_the_docs_drives(server: Played, tab: CodeTab) -> None:
 def test_stop_gives_the_robot_back(server: Played, tab: CodeTab) -> None:
     tab.write(BODY + 'return {"move": [0, 0.3, 0, 0]}')
     tab.press("Run")
-    expect(tab.state).to_contain_text("Runs", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Runs")
     until(lambda: "Remote" in agent(server)["brain"])
     tab.press("Stop")
     until(lambda: "Remote" not in agent(server)["brain"])
@@ -135,7 +134,7 @@ def test_back_in_time_stands_what_the_program_did_at_that_decision(tab: CodeTab)
     counts = "global count\n    count += 1\n    print('count', count)\n    "
     tab.write(f'count = 0\n{BODY}{counts}return {{"move": [0, 0.3, 0, 0]}}')
     tab.press("Run")
-    expect(tab.state).to_contain_text(re.compile(r"decision ([5-9]|\d\d)"), timeout=LOADING_MS)
+    expect(tab.state).to_contain_text(re.compile(r"decision ([5-9]|\d\d)"))
     tab.press("Stop")
     tab.page.get_by_role("tab", name="Past").click()
     tab.page.get_by_role("button", name="Current episode").click()
@@ -171,7 +170,7 @@ def test_step_makes_one_decision_and_run_goes_on(server: Played, tab: CodeTab) -
         "count = 0\n" + BODY + "global count\n    count += 1\n    print(count)\n    return {}"
     )
     tab.press("Step")
-    expect(tab.state).to_contain_text("Waits for the next step", timeout=LOADING_MS)
+    expect(tab.state).to_contain_text("Waits for the next step")
     log = tab.page.get_by_role("log").locator("span")
     expect(log).to_have_text(["1"])
     ticks = server.snapshot()["tick"]

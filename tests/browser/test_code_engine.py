@@ -30,7 +30,6 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
 @pytest.fixture(scope="module")
 def page(chromium: Browser, room: Room) -> Iterator[Page]:
     page = code_page(chromium, room.url)
-    page.set_default_timeout(60_000)
     page.evaluate("engine.warm()")
     yield page
     page.context.close()

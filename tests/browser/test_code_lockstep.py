@@ -18,6 +18,7 @@ from tests.browser.code_page import code_page
 from tests.playing import Played, played
 from tests.program.solutions import entry_of, solution
 from tests.program.test_same_everywhere import for_page
+from tests.waiting import LIMIT_S
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -62,7 +63,6 @@ def server() -> Iterator[Played]:
 @pytest.fixture(scope="module")
 def page(chromium: Browser, server: Played) -> Iterator[Page]:
     page = code_page(chromium, server.url)
-    page.set_default_timeout(60_000)
     page.evaluate("engine.warm()")
     yield page
     page.context.close()
@@ -71,7 +71,7 @@ def page(chromium: Browser, server: Played) -> Iterator[Page]:
 @pytest.mark.parametrize("name", [CHEAP, *REST])
 def test_the_episodes_are_the_same(name: str, page: Page, server: Played, tmp_path: Path) -> None:
     if name != CHEAP:
-        answer = httpx.post(f"{server.url}api/scene", json={"name": name}, timeout=30)
+        answer = httpx.post(f"{server.url}api/scene", json={"name": name}, timeout=LIMIT_S)
         assert answer.status_code == 200, answer.text
     source = solution(name)
     file = tmp_path / "program.py"

@@ -66,7 +66,6 @@ DRIVE = """
 def page(chromium: Browser) -> Iterator[Page]:
     with served() as room:
         page = code_page(chromium, room.url)
-        page.set_default_timeout(60_000)
         page.evaluate("engine.warm()")
         yield page
         page.context.close()
@@ -74,7 +73,6 @@ def page(chromium: Browser) -> Iterator[Page]:
 
 def driven(page: Page) -> list[dict[str, Any]]:
     """Let the program drive the agent of the page's room, and return its decisions."""
-    page.set_default_timeout(60_000)
     found: list[dict[str, Any]] = json.loads(page.evaluate(DRIVE, PROGRAM))
     assert [each["step"] for each in found] == list(range(len(found)))
     assert len(found) > 5

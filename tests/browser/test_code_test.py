@@ -10,13 +10,13 @@ from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
 from tests.browser.schemes import SCHEMES
 from tests.browser.served_viser import ready
-from tests.browser.test_code_drives import LOADING_MS
 from tests.browser.test_code_drives import CodeTab as RealTab
 from tests.browser.test_panel_accessibility import findings
-from tests.browser.test_play import MIDDLE, agent, until
+from tests.browser.test_play import MIDDLE, agent
 from tests.chromium import new_page
 from tests.code_sheet import programs_in_docs
 from tests.playing import played
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -349,7 +349,7 @@ def test_the_program_of_the_docs_is_tested_in_a_real_world(chromium: Browser) ->
         tab = RealTab(page)
         tab.write(programs_in_docs()[0])
         tab.press("Test")
-        expect(tab.state).to_contain_text("Tests the program", timeout=LOADING_MS)
+        expect(tab.state).to_contain_text("Tests the program")
         until(lambda: server.snapshot()["time_scale"] != 2)
         tab.press("Stop")
         expect(tab.state).to_contain_text("the robot is yours")
@@ -359,7 +359,7 @@ def test_the_program_of_the_docs_is_tested_in_a_real_world(chromium: Browser) ->
         page.keyboard.press("KeyW")
         expect(page.locator(".ai4u-row .ai4u-driver")).to_contain_text("You drive")
         tab.press("Test")
-        expect(tab.state).to_contain_text("of 10 reached the goal", timeout=2 * LOADING_MS)
+        expect(tab.state).to_contain_text("of 10 reached the goal")
         until(lambda: server.snapshot()["time_scale"] == 2)
         rows = page.locator(".ai4u-code-test tbody tr")
         expect(rows).to_have_count(10)

@@ -14,7 +14,8 @@ from ai4u_edu.server import RoomMount, ServerThread, room_app
 from tests.browser.panel_page import panel_room
 from tests.browser.served_viser import PLAIN, ServedViser, connected, driver_status, ready
 from tests.chromium import new_page
-from tests.server.rooms import Room, free_port, served, until
+from tests.server.rooms import Room, free_port, served
+from tests.waiting import until
 from tests.wifi import Wifi
 
 SENT = """performance.getEntriesByType("resource")
@@ -62,7 +63,7 @@ def test_a_page_comes_back_after_the_server_did(
     expect(driver_status(page)).to_have_text("Connecting …")
     until(lambda: room.held == [])
     with ServerThread(app, port=port):
-        expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
+        expect(driver_status(page)).to_have_text("Press a key to drive")
         time.sleep(0.3)
         assert room.held == [], "a key that was lost has to be pressed anew"
         page.keyboard.up("KeyW")
@@ -96,7 +97,7 @@ def test_a_page_notices_that_its_network_is_gone_and_comes_back(
         expect(lost).to_be_visible()
         wifi.come_back(with_connections=with_connections)
         page.clock.fast_forward(5000)
-        expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
+        expect(driver_status(page)).to_have_text("Press a key to drive")
         expect(lost).to_be_hidden()
         page.keyboard.up("KeyW")
         page.keyboard.down("KeyW")

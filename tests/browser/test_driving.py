@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 from ai4u_edu import BasicAgent
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from tests.browser.served_viser import SPEED, TURN, ServedViser, driver_status
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -63,7 +63,7 @@ def stretch(site: ServedViser, code: str) -> list[Pose]:
             found.clear()
 
     agent.end_of_step.connect(note)
-    until(lambda: len(found) == DECISIONS, timeout=20)
+    until(lambda: len(found) == DECISIONS)
     return found[2:]  # what was held in the decision before counts to its end
 
 
@@ -137,7 +137,7 @@ def test_a_page_that_loses_sight_lets_go(site: ServedViser, loss: str) -> None:
     page.keyboard.down("KeyW")
     until(lambda: held(site) == ["KeyW"])
     page.evaluate(loss)
-    until(lambda: held(site) == [], 0.25)
+    until(lambda: held(site) == [])
     assert stays_still(site)
 
 
@@ -145,7 +145,7 @@ def test_a_pause_lets_go_until_the_key_is_pressed_anew(site: ServedViser) -> Non
     page = site.page()
     page.keyboard.down("KeyW")
     until(lambda: held(site) == ["KeyW"])
-    site.room.runner.pause().result(5)
+    site.room.runner.pause().result(LIMIT_S)
     expect(page.get_by_text("Paused")).to_be_visible()
     page.get_by_role("button", name="Resume").click()
     until(lambda: not site.room.runner.latest.paused)
@@ -198,7 +198,7 @@ def test_going_to_a_text_box_lets_go(site: ServedViser) -> None:
     page.keyboard.down("KeyW")
     until(lambda: held(site) == ["KeyW"])
     page.get_by_role("textbox").first.focus()
-    until(lambda: held(site) == [], 0.25)
+    until(lambda: held(site) == [])
     assert stays_still(site)
 
 

@@ -23,7 +23,7 @@ from tests.browser.served_viser import SPEED, ServedViser, connected, driver_sta
 from tests.builders import small_sim
 from tests.chromium import new_page
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -321,7 +321,7 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     page.get_by_role("button", name="Take over").click()
     expect(driver_status(page)).to_have_text("You drive (page 1)")
     found += page.evaluate(CONTRAST)
-    site.room.runner.pause().result(5)
+    site.room.runner.pause().result(LIMIT_S)
     expect(page.get_by_text("Paused")).to_be_visible()
     found += page.evaluate(CONTRAST)
     page.keyboard.press("?")
@@ -349,14 +349,13 @@ def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
     chromium: Browser, zoo: Played
 ) -> None:
     page = new_page(chromium, color_scheme="dark", reduced_motion="reduce")
-    page.set_default_timeout(60_000)
     page.goto(zoo.url)
     expect_dark(page, is_dark=True)
     for part in (".ai4u-keycap", ".ai4u-driver", ".ai4u-panel"):
-        until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80, timeout=40)  # noqa: B023
+        until(lambda: max(page.evaluate(LIGHTNESS, part)) < 80)  # noqa: B023
     dark(page).click()
     expect_dark(page, is_dark=False)
-    until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180, timeout=40)
+    until(lambda: min(page.evaluate(LIGHTNESS, ".ai4u-keycap")) > 180)
     page.reload()  # it is remembered, against the system's wish
     expect_dark(page, is_dark=False)
     page.context.close()
@@ -365,7 +364,6 @@ def test_it_is_dark_where_the_system_is_until_somebody_says_otherwise(
 @pytest.mark.nightly
 def test_dark_is_remembered_against_a_light_system(chromium: Browser, zoo: Played) -> None:
     page = new_page(chromium, color_scheme="light", reduced_motion="reduce")
-    page.set_default_timeout(60_000)
     page.goto(zoo.url)
     expect_dark(page, is_dark=False)
     dark(page).click()
@@ -377,8 +375,8 @@ def test_dark_is_remembered_against_a_light_system(chromium: Browser, zoo: Playe
 def expect_dark(page: Page, *, is_dark: bool) -> None:
     """Wait until the switch and the page have the colours."""
     state, scheme = ("true", "dark") if is_dark else ("false", "light")
-    expect(dark(page)).to_have_attribute("aria-checked", state, timeout=40_000)
-    expect(page.locator("html")).to_have_attribute(SCHEME, scheme, timeout=40_000)
+    expect(dark(page)).to_have_attribute("aria-checked", state)
+    expect(page.locator("html")).to_have_attribute(SCHEME, scheme)
 
 
 NAMELESS = """() => [...document.querySelectorAll(
@@ -392,7 +390,6 @@ NAMELESS = """() => [...document.querySelectorAll(
 
 def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None:
     page = new_page(chromium, height=1200)
-    page.set_default_timeout(60_000)
     page.goto(zoo.url)
     connected(page)
     page.keyboard.press("KeyR")  # there is a past then
@@ -405,7 +402,7 @@ def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None
     }.items():
         page.get_by_role("tab", name=tab).click()
         page.get_by_role("button", name=last, exact=True).wait_for()
-        until(lambda: page.evaluate(NAMELESS) == [], timeout=40)
+        until(lambda: page.evaluate(NAMELESS) == [])
     page.context.close()
 
 
@@ -502,13 +499,13 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, site: Serve
     expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
     page.keyboard.press("KeyR")
     page.keyboard.down("KeyS")
-    until(lambda: action()[:1] < [-0.3] and action()[1:] == [0], 20)  # at a beginner's speed
+    until(lambda: action()[:1] < [-0.3] and action()[1:] == [0])  # at a beginner's speed
     expect(driver_status(page)).to_have_text("You drive")
     page.keyboard.up("KeyS")
     page.keyboard.press("KeyR")
     page.locator(".ai4u-dock").get_by_role("button", name="Let go").click()
     expect(driver_status(page)).to_have_text("A network drives \u2013 press W to take over")
-    until(lambda: action() not in ([], [-1, 0], [0, 0]), 20)
+    until(lambda: action() not in ([], [-1, 0], [0, 0]))
     page.context.close()
 
 
@@ -528,7 +525,7 @@ def worlds_robot(site: ServedViser) -> BasicAgent:
         )
         for body, agent_id in (("other", "1"), ("robot", "0"))
     ]
-    site.room.runner.replace_sim(ControlRequestor(world, agents)).result(5)
+    site.room.runner.replace_sim(ControlRequestor(world, agents)).result(LIMIT_S)
     return agents[1]
 
 
@@ -539,7 +536,7 @@ def test_a_page_follows_into_another_world(site: ServedViser, query: str) -> Non
     until(lambda: site.room.held == ["KeyW"])
     expect(driver_status(page)).to_have_text("You drive")
     new = worlds_robot(site)
-    expect(driver_status(page)).to_have_text("Press a key to drive", timeout=10_000)
+    expect(driver_status(page)).to_have_text("Press a key to drive")
     page.keyboard.up("KeyW")
     page.keyboard.down("KeyW")
     until(lambda: new.keyboard.held() == {"KeyW"})

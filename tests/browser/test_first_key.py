@@ -8,12 +8,9 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.served_viser import ServedViser, driver_status, ready
 from tests.chromium import new_page
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
-
-PATIENCE_S = 20
-"""Time that a page with viser may take: without a graphics card it draws a few frames a second."""
 
 
 @pytest.fixture
@@ -94,7 +91,7 @@ def test_the_result_offers_the_same_start_and_a_new_one(site: ServedViser) -> No
     def end() -> None:
         page.keyboard.press("KeyW")
         until(lambda: tick(site) > 0)
-        runner.submit(lambda: agent.add_reward(-1, request_done=True)).result(5)
+        runner.submit(lambda: agent.add_reward(-1, request_done=True)).result(LIMIT_S)
 
     seeds = []
     for name in ("Try again", "New start", "Try again"):
@@ -143,16 +140,16 @@ def test_keys_drive_again_after_the_panel_was_used(chromium: Browser) -> None:
                 page.keyboard.press(leave)
             expect(driver_status(page).first).to_have_text("Press a key to start")
             # the panel's socket and that of the keys don't wait for each other
-            until(partial(has_seed, server, ends), PATIENCE_S)
+            until(partial(has_seed, server, ends))
             page.keyboard.press("KeyW")
-            until(lambda: server.snapshot()["tick"] > 0, PATIENCE_S)
+            until(lambda: server.snapshot()["tick"] > 0)
             page.keyboard.press("KeyR")
-            until(lambda: server.snapshot()["waiting"] == "key", PATIENCE_S)
+            until(lambda: server.snapshot()["waiting"] == "key")
         page.get_by_label("Speed", exact=True).select_option("2x")
-        until(lambda: server.snapshot()["time_scale"] == 2, PATIENCE_S)
+        until(lambda: server.snapshot()["time_scale"] == 2)
         page.mouse.click(400, 300)
         page.keyboard.press("KeyW")
-        until(lambda: server.snapshot()["tick"] > 0, PATIENCE_S)
+        until(lambda: server.snapshot()["tick"] > 0)
         page.context.close()
 
 

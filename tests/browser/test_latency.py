@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import BasicAgent
 from tests.browser.served_viser import ServedViser
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.alone, pytest.mark.nightly]
 

@@ -8,7 +8,8 @@ from playwright.sync_api import Locator, Page, expect
 from ai4u_edu import ArrowController, BasicAgent, LocalBrain, RemoteBrain, WASDRBMoveController
 from tests.browser.served_viser import ServedViser, driver_status, hide_panel
 from tests.builders import still
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -124,7 +125,7 @@ def test_the_end_of_an_episode_and_a_new_one(site: ServedViser) -> None:
     def pay(amount: float) -> None:
         site.room.runner.submit(
             lambda: agent.add_reward(amount, request_done=True, name="goal")
-        ).result(5)
+        ).result(LIMIT_S)
 
     banner = page.locator(".ai4u-banner")
     pay(100)

@@ -2,7 +2,6 @@
 
 import re
 import signal
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -12,6 +11,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.served_viser import connected, ready
 from tests.chromium import new_page
 from tests.playing import Played, played
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -50,13 +50,6 @@ def page(server: Played, opened: Page) -> Page:
 def agent(server: Played) -> dict[str, Any]:
     found: dict[str, Any] = server.snapshot()["agents"][0]
     return found
-
-
-def until(met: Callable[[], bool], timeout: float = 20.0) -> None:
-    deadline = time.monotonic() + timeout
-    while not met():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
 
 
 def hold(page: Page, key: str, met: Callable[[], bool]) -> None:
@@ -120,7 +113,7 @@ def test_ctrl_c_ends_it_cleanly(chromium: Browser) -> None:
         page.goto(server.url)
         connected(page)
         server.process.send_signal(signal.SIGINT)
-        assert server.process.wait(10) == 0
+        assert server.process.wait(LIMIT_S) == 0
         page.context.close()
     assert "Traceback" not in "".join(server.told)
 
@@ -131,7 +124,7 @@ def test_a_taken_port_is_said(server: Played) -> None:
 
     port = server.url.rstrip("/").rsplit(":", 1)[1]
     command = [sys.executable, "-m", "ai4u_edu", "play", "--no-open", "--port", port]
-    told = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    told = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=False)
     assert told.returncode == 1
     assert told.stderr.startswith(f"error: port {port} is taken")
     assert "--port 0" in told.stderr

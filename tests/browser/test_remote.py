@@ -13,12 +13,11 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.served_viser import connected, driver_status
 from tests.chromium import new_page
 from tests.playing import Played, played
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
-SOON = 40_000
-"""Milliseconds."""
 SCENE = """
 name: bare
 title: A bare robot
@@ -56,7 +55,6 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
 @pytest.fixture
 def page(chromium: Browser, server: Played) -> Iterator[Page]:
     page = new_page(chromium)
-    page.set_default_timeout(60_000)
     page.goto(f"{server.url}")
     connected(page)
     yield page
@@ -81,31 +79,31 @@ def test_how_it_stands_with_a_script_is_seen_on_the_page(
     page: Page, server: Played, request: pytest.FixtureRequest
 ) -> None:
     trouble = page.locator(".ai4u-agent-state")
-    expect(trouble.filter(has_text="waits for its script")).to_be_visible(timeout=SOON)
+    expect(trouble.filter(has_text="waits for its script")).to_be_visible()
     script = request.getfixturevalue("script")
-    until(lambda: does(server, 0, 0.25, 0, 0), timeout=40)
-    expect(trouble.filter(has_text="script")).to_have_count(0, timeout=SOON)
+    until(lambda: does(server, 0, 0.25, 0, 0))
+    expect(trouble.filter(has_text="script")).to_have_count(0)
     script.send_signal(signal.SIGSTOP)
-    expect(trouble.filter(has_text="script is late")).to_be_visible(timeout=SOON)
+    expect(trouble.filter(has_text="script is late")).to_be_visible()
     script.send_signal(signal.SIGCONT)
-    expect(trouble.filter(has_text="script")).to_have_count(0, timeout=SOON)
+    expect(trouble.filter(has_text="script")).to_have_count(0)
     script.kill()
-    expect(trouble.filter(has_text="script is lost")).to_be_visible(timeout=SOON)
+    expect(trouble.filter(has_text="script is lost")).to_be_visible()
 
 
 def test_a_key_takes_the_agent_over_from_a_script_elsewhere_and_lets_it_go(
     page: Page, server: Played, script: "subprocess.Popen[bytes]"
 ) -> None:
     expect(driver_status(page)).to_have_text(
-        "A script elsewhere drives \u2013 press W to take over", timeout=SOON
+        "A script elsewhere drives \u2013 press W to take over"
     )
-    until(lambda: does(server, 0, 0.25, 0, 0), timeout=40)
+    until(lambda: does(server, 0, 0.25, 0, 0))
     page.keyboard.down("KeyW")
-    expect(driver_status(page)).to_have_text("You drive", timeout=SOON)
-    until(lambda: does(server, 1, 0, 0, 0), timeout=40)
+    expect(driver_status(page)).to_have_text("You drive")
+    until(lambda: does(server, 1, 0, 0, 0))
     page.keyboard.up("KeyW")
     assert script.poll() is None
     page.locator(".ai4u-dock").get_by_role("button", name="Let go").click()
-    expect(driver_status(page)).to_contain_text("A script elsewhere drives", timeout=SOON)
-    until(lambda: does(server, 0, 0.25, 0, 0), timeout=40)
+    expect(driver_status(page)).to_contain_text("A script elsewhere drives")
+    until(lambda: does(server, 0, 0.25, 0, 0))
     assert script.poll() is None

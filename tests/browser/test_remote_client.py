@@ -15,6 +15,7 @@ from ai4u_edu.wire import native
 from tests.browser.code_page import code_page
 from tests.chromium import new_page
 from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.browser
 
@@ -49,7 +50,7 @@ def chase(**options: Any) -> Iterator[Room]:
     """Serve the scene box_chase, fifty times as fast."""
     sim = Scene.load("box_chase").build(seed=1)
     with served(sim, **options) as room:
-        room.runner.scale_time(50).result(5)
+        room.runner.scale_time(50).result(LIMIT_S)
         yield room
 
 
@@ -62,7 +63,6 @@ def room() -> Iterator[Room]:
 @pytest.fixture
 def page(chromium: Browser, room: Room) -> Iterator[Page]:
     page = code_page(chromium, room.url)
-    page.set_default_timeout(60_000)
     page.evaluate(KEEP_SOCKETS)
     yield page
     page.evaluate("window.client?.close()")
@@ -120,7 +120,9 @@ def test_in_lockstep_the_page_gets_the_bits_that_a_script_gets(page: Page) -> No
 
 
 def test_in_realtime_the_world_goes_on_with_what_it_has(page: Page, room: Room) -> None:
-    room.runner.scale_time(1).result(5)  # fifty times as fast, the episode may be over too soon
+    room.runner.scale_time(1).result(
+        LIMIT_S
+    )  # fifty times as fast, the episode may be over too soon
     page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
     assert page.evaluate("client.welcome.mode") == "realtime"
     assert page.evaluate("client.outputs.move") == [[-1, -1, 0, 0], [1, 1, 1, 1]]
@@ -190,7 +192,7 @@ def test_a_wrong_action_is_told_and_can_be_mended(page: Page) -> None:
 
 
 def test_closing_gives_the_agent_back_at_once(page: Page, room: Room) -> None:
-    room.runner.scale_time(1).result(5)  # see above
+    room.runner.scale_time(1).result(LIMIT_S)  # see above
     for _ in range(3):
         page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
         page.evaluate("client.reset(1)")

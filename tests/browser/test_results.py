@@ -10,7 +10,7 @@ from tests.browser.plain_page import WITHOUT_VISER
 from tests.browser.served_viser import ServedViser, connected, ready
 from tests.chromium import new_page
 from tests.playing import played
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -30,7 +30,9 @@ def win(site: ServedViser, page: Page, after_s: float) -> str:
     expect(page.locator(".ai4u-banner[data-kind=goal]")).to_have_count(0)
     agent = site.room.sim.agents[0]
     until(lambda: site.room.runner.latest.episode_time >= after_s)
-    site.room.runner.submit(lambda: agent.add_reward(100, request_done=True, name="goal")).result(5)
+    site.room.runner.submit(lambda: agent.add_reward(100, request_done=True, name="goal")).result(
+        LIMIT_S
+    )
     banner = page.locator(".ai4u-banner[data-kind=goal]")
     return str(banner.locator("strong").text_content())
 
@@ -69,7 +71,7 @@ def test_after_a_win_the_next_scene_is_one_click_away(chromium: Browser) -> None
         connected(page)
         page.keyboard.down("KeyS")  # seed 5: the box is right behind
         server.restart(5)
-        page.get_by_role("button", name="Next scene").click(timeout=20_000)
+        page.get_by_role("button", name="Next scene").click()
         page.keyboard.up("KeyS")
-        until(lambda: server.health()["scene"] not in ("", "Box chase, as in AI4U"), timeout=20)
+        until(lambda: server.health()["scene"] not in ("", "Box chase, as in AI4U"))
         page.context.close()

@@ -11,7 +11,7 @@ from tests.browser.plain_page import WITHOUT_VISER
 from tests.browser.served_viser import connected
 from tests.chromium import new_page
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -75,6 +75,6 @@ def test_a_link_is_opened_after_a_question(server: Played, page: Page) -> None:
     assert server.health()["scene"] == "Box chase"
     page.evaluate("hash => (location.hash = hash)", LINK)
     question.get_by_role("button", name="Open").click()
-    until(lambda: server.health()["scene"] == "Maze", timeout=20)
-    until(lambda: server.snapshot()["seed"] == 77, timeout=20)
+    until(lambda: server.health()["scene"] == "Maze")
+    until(lambda: server.snapshot()["seed"] == 77)
     expect(question).to_be_hidden()

@@ -16,7 +16,7 @@ from tests.browser.test_panel_accessibility import findings
 from tests.browser.wall_data import MARKUP
 from tests.chromium import new_page
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -137,7 +137,7 @@ def copied(page: Page, server: Played) -> str:
     WITHOUT_VISER.serve(page, server.url)
     page.goto(server.url)
     connected(page)
-    until(lambda: server.health()["scene"] == "Maze", timeout=20)
+    until(lambda: server.health()["scene"] == "Maze")
     page.get_by_role("tab", name="Code").click()
     page.get_by_role("textbox", name="Program in Python").click()
     page.keyboard.press("ControlOrMeta+a")

@@ -17,7 +17,8 @@ from ai4u_edu.server import LessonView, room_app
 from tests.browser.plain_page import ASKED, WITHOUT_VISER
 from tests.browser.schemes import SCHEMES
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import NOWHERE, SharedServer, until
+from tests.server.rooms import NOWHERE, SharedServer
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -27,7 +28,6 @@ LESSONS = [
     LessonView(number="00", title="Start here", duration="45 minutes"),
     LessonView(number="15", title="Project: <your> own world", duration="Three to five hours"),
 ]
-PATIENCE_MS = 30_000
 
 
 @dataclass
@@ -74,7 +74,7 @@ def page(chromium: Browser, world: World) -> Iterator[Page]:
 
 def open_start(page: Page, world: World) -> None:
     page.goto(f"{world.url}start")
-    expect(page.locator("#scenes li")).to_have_count(len(Scene.names()), timeout=PATIENCE_MS)
+    expect(page.locator("#scenes li")).to_have_count(len(Scene.names()))
 
 
 def test_a_scene_is_played_by_keyboard_alone(world: World, page: Page) -> None:
@@ -122,15 +122,15 @@ def test_pictures_come_when_they_come_into_view(
     page.add_init_script(FAR_BELOW)
     page.goto(f"{world.url}start")
     saved, last = page.locator("#saved img"), page.locator("#library img").last
-    expect(saved).to_have_attribute("alt", "My sumo from above", timeout=PATIENCE_MS)
-    until(lambda: is_loaded(saved), 10)
+    expect(saved).to_have_attribute("alt", "My sumo from above")
+    until(lambda: is_loaded(saved))
     broken = page.get_by_role("button", name="Broken")
     expect(broken).to_contain_text("can't be read")
     expect(broken.locator(".ai4u-scene-picture svg")).to_be_visible()
     address = last.get_attribute("src") or "?"
     assert not [each for each in asked if each.endswith(address)]
     last.scroll_into_view_if_needed()
-    until(lambda: is_loaded(last), 10)
+    until(lambda: is_loaded(last))
     assert len([each for each in asked if each.endswith(address)]) == 1
     close_page(page)
 
@@ -150,7 +150,7 @@ def test_scenes_have_the_stars_that_programs_have_earned(page: Page) -> None:
     page.reload()
     for name, title in (("Maze", "2 of 3 stars"), ("Forage", "2 of 2 stars")):
         scene = page.get_by_role("button", name=name, exact=True)
-        expect(scene.get_by_role("img", name=title)).to_be_visible(timeout=PATIENCE_MS)
+        expect(scene.get_by_role("img", name=title)).to_be_visible()
     expect(page.get_by_role("img", name="0 of 3 stars")).to_have_count(len(Scene.names()) - 2)
 
 
@@ -163,7 +163,7 @@ def test_learn_lists_the_lessons(page: Page) -> None:
 
 
 def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
-    world.editor.change_settings({"title": "My maze"}).result(10)
+    world.editor.change_settings({"title": "My maze"}).result(LIMIT_S)
     tag = page.get_by_role("button", name="Tag", exact=True)
     tag.click()
     question = page.get_by_role("dialog", name="Open “Tag”?")

@@ -10,7 +10,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from tests.browser.served_viser import ServedViser, centre, connected, driver_status, hide_panel
 from tests.builders import small_sim, still
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -95,7 +95,7 @@ def test_a_push_takes_an_agent_over_and_let_go_gives_it_back(
 ) -> None:
     agent = site.room.sim.agents[0]
     script = LocalBrain(controller=still)
-    site.room.runner.submit(lambda: agent.use_brain(script)).result(5)
+    site.room.runner.submit(lambda: agent.use_brain(script)).result(LIMIT_S)
     expect(driver_status(phone)).to_contain_text("A script drives")
     fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
     fingers.touch("touchStart", a=(x, y - 55))

@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.wall_data import MARKUP, REFUSAL, handed_in, name_of, tournament
 from tests.browser.wall_server import WallServer, wall_server
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 GRAVE = {"serious", "critical"}

@@ -13,7 +13,7 @@ from tests.browser.schemes import SCHEMES
 from tests.browser.wall_data import CODE, MARKUP, class_message, name_of, race
 from tests.browser.wall_server import WallServer, wall_server
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -185,7 +185,7 @@ def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> N
     school.send(attention={"kind": "blank", "message": "Eyes to the front", "ends_in": 100.0})
     expect(page.locator("#held")).to_contain_text("All screens are blank.“Eyes to the front” Ends")
     page.get_by_role("button", name="End attention").click()
-    until(lambda: len(school.commands) == 3, 10)
+    until(lambda: len(school.commands) == 3)
     assert school.commands[-1] == {"do": "attention", "kind": "", "message": "", "seconds": 0}
 
 
@@ -232,14 +232,14 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     strip = page.locator("#running-race")
     expect(strip).to_contain_text(f"1. {name_of(3)} 12.4 s   2. {name_of(4)} 14.1 s   Refused")
     page.get_by_role("button", name="End race").click()
-    until(lambda: school.commands[-1] == {"do": "end race"}, 10)
+    until(lambda: school.commands[-1] == {"do": "end race"})
 
 
 def expect_picture(dialog: Locator, text: str) -> None:
     """Expect one picture with this text, which is really there."""
     picture = dialog.get_by_role("img")
     expect(picture).to_have_accessible_name(text)
-    until(lambda: picture.evaluate("each => each.naturalWidth") == 400, 10)
+    until(lambda: picture.evaluate("each => each.naturalWidth") == 400)
 
 
 def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> None:
@@ -262,7 +262,7 @@ def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> 
     )
     expect(stars.get_by_role("row", name=name_of(3))).to_contain_text("★★★★☆☆")
     expect(stars.get_by_role("img", name="2 of 3 stars")).to_be_visible()
-    until(lambda: school.commands != [], 10)
+    until(lambda: school.commands != [])
     assert requests
     assert [each for each in requests if "Hopper" in each or "Lovelace" in each] == []
     assert "Lovelace" not in json.dumps(school.commands)
@@ -328,11 +328,11 @@ def test_worlds_are_drawn_where_their_cards_are(page: Page, school: WallServer) 
             return data[4 * Math.floor(data.length / 8) + 3] && sum;
         });
     }"""
-    until(lambda: 0 not in page.evaluate(drawn), 10)
+    until(lambda: 0 not in page.evaluate(drawn))
     first = page.evaluate(drawn)
     moving = [room["status"] == "driving" for room in school.state["rooms"]]
     assert any(moving)
-    until(lambda: sum(a != b for a, b in zip(first, page.evaluate(drawn), strict=True)) >= 3, 10)
+    until(lambda: sum(a != b for a, b in zip(first, page.evaluate(drawn), strict=True)) >= 3)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -414,7 +414,7 @@ def test_check_says_yes_and_a_move_code_takes_the_names_away(
     expect(page.get_by_text("Choose your name here")).to_be_hidden()
     page.get_by_label("Code on your other device").fill("K7QPM")
     page.keyboard.press("Enter")
-    until(lambda: school.commands != [], 10)
+    until(lambda: school.commands != [])
     assert school.commands[0]["code"] == "K7QPM"
     assert school.commands[0]["name"] == ""
     page.wait_for_url("**/privacy")  # the room; Playwright may not close a page on its way

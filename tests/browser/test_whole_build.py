@@ -19,7 +19,7 @@ from tests.browser.whole import (
     whole_page,
 )
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -68,7 +68,7 @@ def test_a_card_of_the_start_page_opens_its_scene(page: Page, server: Played) ->
     page.locator(".ai4u-panel .ai4u-scene-button", has_text="Donut").wait_for()
     press(page, "Donut")
     page.locator("dialog[open] .ai4u-tile", has_text="Box chase, as in AI4U").click()
-    until(lambda: body(server, "box"), timeout=40)
+    until(lambda: body(server, "box"))
     expect(page.locator("dialog[open]")).to_have_count(0)
     page.locator(".ai4u-goal-text", has_text="Reach the box and touch it.").wait_for()
 
@@ -77,7 +77,7 @@ def test_a_sensor_is_added_changed_turned_off_and_deleted(page: Page, server: Pl
     open_tab(page, "Build")
     press(page, "Add a sensor")
     page.locator("dialog[open] .ai4u-tile", has_text="Ray sensor").first.click()
-    until(lambda: rays(server), timeout=40)
+    until(lambda: rays(server))
     scanner = card(page, "Ray sensor").last
     expect(scanner.locator(".ai4u-card-head").first).to_have_attribute("aria-expanded", "true")
     count = scanner.get_by_label("number of rays", exact=True)
@@ -88,21 +88,21 @@ def test_a_sensor_is_added_changed_turned_off_and_deleted(page: Page, server: Pl
     expect(count).to_have_value("many")
     count.fill("9")
     count.press("Enter")
-    until(lambda: len(rays(server)) == 9, timeout=40)
+    until(lambda: len(rays(server)) == 9)
     expect(row.locator(".ai4u-problem")).to_be_empty()
     press(page, "Turn off Ray sensor")
-    until(lambda: not rays(server), timeout=40)
+    until(lambda: not rays(server))
     press(page, "Turn on Ray sensor")
-    until(lambda: len(rays(server)) == 9, timeout=40)
+    until(lambda: len(rays(server)) == 9)
     press(page, "Delete Ray sensor")
-    until(lambda: not rays(server), timeout=40)
+    until(lambda: not rays(server))
     expect(scanner).to_have_count(0)
     page.locator(".ai4u-history button").first.click()
-    until(lambda: len(rays(server)) == 9, timeout=40)
+    until(lambda: len(rays(server)) == 9)
     page.locator(".ai4u-history button").last.click()
-    until(lambda: not rays(server), timeout=40)
+    until(lambda: not rays(server))
     page.keyboard.press("Control+KeyZ")
-    until(lambda: len(rays(server)) == 9, timeout=40)
+    until(lambda: len(rays(server)) == 9)
 
 
 def test_somebody_else_drives(page: Page, server: Played) -> None:
@@ -120,24 +120,24 @@ def test_somebody_else_drives(page: Page, server: Played) -> None:
 
 def test_a_wall_is_added_dragged_and_put_back(page: Page, server: Played) -> None:
     press(page, "Pause")
-    until(lambda: server.snapshot()["paused"], timeout=40)
+    until(lambda: server.snapshot()["paused"])
     open_tab(page, "World")
     press(page, "Wall")
-    until(lambda: body(server, "wall"), timeout=40)
+    until(lambda: body(server, "wall"))
     expect(page.get_by_role("switch", name="Move things")).to_have_attribute("aria-checked", "true")
     expect(card(page, "wall").locator(".ai4u-card-body")).to_be_visible()
     whole(page)
     here = where(server, "wall")
     take(page, here, HALF)
     carry(page, here, (here[0], -3), HALF)
-    until(lambda: where(server, "wall")[1] < -2, timeout=40)  # while it is held
+    until(lambda: where(server, "wall")[1] < -2)  # while it is held
     page.mouse.up()
     there = where(server, "wall")
     expect(button(page, "Undo move wall")).to_be_enabled()
     page.keyboard.press("Control+KeyZ")
-    until(lambda: where(server, "wall") == here, timeout=40)
+    until(lambda: where(server, "wall") == here)
     page.keyboard.press("Control+KeyY")
-    until(lambda: where(server, "wall") == there, timeout=40)
+    until(lambda: where(server, "wall") == there)
 
 
 def test_a_scene_is_saved_downloaded_and_opened_again(
@@ -145,7 +145,7 @@ def test_a_scene_is_saved_downloaded_and_opened_again(
 ) -> None:
     open_tab(page, "World")
     press(page, "Target")
-    until(lambda: body(server, "target"), timeout=40)
+    until(lambda: body(server, "target"))
     press(page, "Save")
     for name, told in (("../out", "expected a name of letters"), ("Mine", "")):
         page.get_by_label("Name", exact=True).fill(name)
@@ -159,11 +159,11 @@ def test_a_scene_is_saved_downloaded_and_opened_again(
     download.value.save_as(file)
     assert "target" in {each.name for each in Scene.load(file).description.bodies}
     unfold(page, "target").get_by_role("button", name="Delete").click()
-    until(lambda: body(server, "target") is None, timeout=40)
+    until(lambda: body(server, "target") is None)
     with page.expect_file_chooser() as chooser:
         press(page, "Open a file")
     chooser.value.set_files(str(file))
-    until(lambda: body(server, "target"), timeout=40)
+    until(lambda: body(server, "target"))
     wrong = tmp_path / "wrong.yaml"
     wrong.write_text(file.read_text().replace("kind: static", "kind: stone", 1))
     with page.expect_file_chooser() as chooser:

@@ -9,7 +9,7 @@ from ai4u_edu.base.colors import rgb
 from tests.browser.keys import carry, take, where, whole
 from tests.browser.whole import press, share, until_drawn, whole_page
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
@@ -28,9 +28,9 @@ def server() -> Iterator[Played]:
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
     with whole_page(chromium, server, draws=True) as page:
         press(page, "Pause")
-        until(lambda: server.snapshot()["paused"], timeout=40)
+        until(lambda: server.snapshot()["paused"])
         press(page, "Try again")  # so that all runs of the test show the same moment
-        until(lambda: server.snapshot()["tick"] == 0, timeout=40)
+        until(lambda: server.snapshot()["tick"] == 0)
         whole(page)
         yield page
 
@@ -60,7 +60,7 @@ def test_the_stand_in_is_dragged_and_the_robot_stays(server: Played, page: Page)
     take(page, (1.0, -3.0), HALF)
     carry(page, (1.0, -3.0), (3.0, -3.5), HALF)
     page.mouse.up()
-    until(lambda: abs(float(x.input_value()) - 3) < 0.4, timeout=20)
+    until(lambda: abs(float(x.input_value()) - 3) < 0.4)
     assert abs(float(y.input_value()) + 3.5) < 0.4
     assert where(server, "robot") == before
     page.get_by_role("switch", name="Try another place").click()

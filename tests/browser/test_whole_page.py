@@ -23,7 +23,7 @@ from tests.browser.whole import (
     whole_page,
 )
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -45,7 +45,7 @@ def test_each_page_looks_at_its_own_agent_and_at_others(chromium: Browser) -> No
         first.get_by_label("Robot", exact=True).select_option("blue_keeper")
         expect(button(first, "Drive this one")).to_be_visible()
         press(second, "Pause")
-        until(lambda: server.snapshot()["paused"], timeout=40)
+        until(lambda: server.snapshot()["paused"])
         second.mouse.click(*on_screen(second, server, "orange_striker"))
         expect(chosen(second)).to_contain_text("orange striker")
         expect(chosen(first)).to_contain_text("blue keeper")
@@ -89,7 +89,7 @@ def test_a_key_drives_and_the_readings_change(server: Played, page: Page) -> Non
     expect(last).to_contain_text("forward")
     before = way.inner_text()
     page.keyboard.down("KeyW")
-    until(lambda: where(server, "robot")[0] > 0.3, timeout=40)
+    until(lambda: where(server, "robot")[0] > 0.3)
     expect(last).to_contain_text("1.00")
     page.keyboard.up("KeyW")
     expect(way).not_to_have_text(before)
@@ -100,28 +100,28 @@ def test_the_time_stands_still_goes_on_by_ticks_and_as_fast_as_wanted(
     server: Played, page: Page
 ) -> None:
     press(page, "Pause")
-    until(lambda: server.snapshot()["paused"], timeout=40)
+    until(lambda: server.snapshot()["paused"])
     tick, steps = server.snapshot()["tick"], agent(server)["steps"]
     press(page, "Tick")
-    until(lambda: server.snapshot()["tick"] == tick + 1, timeout=40)
+    until(lambda: server.snapshot()["tick"] == tick + 1)
     press(page, "Decision")
-    until(lambda: agent(server)["steps"] == steps + 1, timeout=40)
+    until(lambda: agent(server)["steps"] == steps + 1)
     assert server.snapshot()["paused"]
     press(page, "Resume")
-    until(lambda: server.snapshot()["tick"] > tick + 10, timeout=40)
+    until(lambda: server.snapshot()["tick"] > tick + 10)
     speed = page.get_by_label("Speed", exact=True)
     for name, time_scale in (("0.25", 0.25), ("1", 1.0)):
         speed.select_option(name)
-        until(lambda: server.snapshot()["time_scale"] == time_scale, timeout=40)  # noqa: B023
+        until(lambda: server.snapshot()["time_scale"] == time_scale)  # noqa: B023
     seed = page.get_by_label("Seed", exact=True)
     seed.fill("seven")
     seed.press("Enter")
     page.get_by_text('Seed: expected a whole number such as 42, got "seven".').wait_for()
     seed.fill("77")
     seed.press("Enter")
-    until(lambda: server.snapshot()["seed"] == 77, timeout=40)
+    until(lambda: server.snapshot()["seed"] == 77)
     page.keyboard.press("KeyR")  # the keys drive again, and the start stays the same
-    until(lambda: server.snapshot()["seed"] == 77, timeout=40)
+    until(lambda: server.snapshot()["seed"] == 77)
 
 
 def test_the_camera_is_where_it_is_wanted(page: Page) -> None:
@@ -162,11 +162,11 @@ def test_light_and_dark(page: Page, server: Played, chromium: Browser) -> None:
     assert surface.evaluate(lightness) > 200
     dark.click()
     expect(page.locator("html")).to_have_attribute("data-mantine-color-scheme", "dark")
-    until(lambda: surface.evaluate(lightness) < 80, timeout=40)
+    until(lambda: surface.evaluate(lightness) < 80)
     with whole_page(chromium, server) as other:  # each page chooses
         expect(other.get_by_role("switch", name="Dark")).to_have_attribute("aria-checked", "false")
     dark.click()
-    until(lambda: surface.evaluate(lightness) > 200, timeout=40)
+    until(lambda: surface.evaluate(lightness) > 200)
 
 
 def chosen(page: Page) -> Any:

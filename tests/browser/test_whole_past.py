@@ -22,7 +22,7 @@ from tests.browser.whole import (
     whole_page,
 )
 from tests.playing import Played, played
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -41,7 +41,7 @@ def page(server: Played, chromium: Browser) -> Iterator[Page]:
     """A page with an episode in its past: the robot drove ahead for a while."""
     with whole_page(chromium, server, draws=True) as page:
         page.keyboard.down("KeyW")
-        until(lambda: where(server, "robot")[0] > 1, timeout=40)
+        until(lambda: where(server, "robot")[0] > 1)
         page.keyboard.up("KeyW")
         server.restart(MIDDLE)
         open_tab(page, "Past")
@@ -56,14 +56,14 @@ def moment(page: Page) -> Locator:
 
 def test_an_episode_is_shown_by_a_click_played_and_continued(server: Played, page: Page) -> None:
     unfold(page, "Episode 1")
-    until(lambda: server.snapshot()["past"].startswith("episode 1, "), timeout=40)
+    until(lambda: server.snapshot()["past"].startswith("episode 1, "))
     expect(moment(page)).to_contain_text("Step 1 of")
     assert (server.snapshot()["seed"], server.snapshot()["paused"]) == (MIDDLE, True)
     tick = server.snapshot()["tick"]
     press(page, "Step forward")
-    until(lambda: server.snapshot()["tick"] == tick + 5, timeout=40)
+    until(lambda: server.snapshot()["tick"] == tick + 5)
     press(page, "Step back")
-    until(lambda: server.snapshot()["tick"] == tick, timeout=40)
+    until(lambda: server.snapshot()["tick"] == tick)
     press(page, "4x")
     press(page, "Play")
     expect(moment(page)).to_contain_text("The end, after")
@@ -72,16 +72,16 @@ def test_an_episode_is_shown_by_a_click_played_and_continued(server: Played, pag
     expect(moment(page)).not_to_contain_text("The end")
     there = server.snapshot()["tick"]
     press(page, "Continue here")
-    until(lambda: not server.snapshot()["past"] and server.snapshot()["tick"] > there, timeout=40)
+    until(lambda: not server.snapshot()["past"] and server.snapshot()["tick"] > there)
     assert where(server, "robot")[0] > 0
     heading = (body(server, "robot") or [])[3]
     page.keyboard.down("KeyA")  # the keys drive again
-    until(lambda: (body(server, "robot") or [])[3] > heading + 0.2, timeout=40)
+    until(lambda: (body(server, "robot") or [])[3] > heading + 0.2)
     page.keyboard.up("KeyA")
     press(page, "Step back")
-    until(lambda: server.snapshot()["past"], timeout=15)
+    until(lambda: server.snapshot()["past"])
     press(page, "Back to live")
-    until(lambda: not server.snapshot()["past"], timeout=15)
+    until(lambda: not server.snapshot()["past"])
 
 
 def test_a_ghost_of_an_episode_drives_beside_the_robot(server: Played, page: Page) -> None:
@@ -89,11 +89,11 @@ def test_a_ghost_of_an_episode_drives_beside_the_robot(server: Played, page: Pag
     unfold(page, "Episode 1")
     press(page, "Race against it")
     expect(button(page, "Remove ghost")).to_be_visible()
-    until(lambda: not server.snapshot()["past"], timeout=40)
-    until(lambda: server.snapshot()["time"] > 3, timeout=40)  # there the ghost is ahead
+    until(lambda: not server.snapshot()["past"])
+    until(lambda: server.snapshot()["time"] > 3)  # there the ghost is ahead
     assert where(server, "robot")[0] == 0
     press(page, "Pause")
-    until(lambda: server.snapshot()["paused"], timeout=40)
+    until(lambda: server.snapshot()["paused"])
     page.wait_for_timeout(1000)
     before = scene_picture(page)
     press(page, "Remove ghost")

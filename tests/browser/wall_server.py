@@ -17,6 +17,7 @@ from ai4u_edu.classroom.pages import FILE_ROUTES
 from ai4u_edu.server import ServerThread
 from ai4u_edu.server.standalone import standalone_page
 from tests.browser.wall_data import class_message, drawing_message, poses_message
+from tests.waiting import LIMIT_S
 
 POSES_PER_S = 4
 
@@ -70,13 +71,13 @@ class WallServer:
     def push(self, message: dict[str, Any]) -> None:
         """Send a message to all pages."""
         assert self._loop is not None
-        asyncio.run_coroutine_threadsafe(self._broadcast(message), self._loop).result(10)
+        asyncio.run_coroutine_threadsafe(self._broadcast(message), self._loop).result(LIMIT_S)
 
     def drop(self) -> None:
         """Close all sockets."""
         assert self._loop is not None
         for socket in list(self._sockets):
-            asyncio.run_coroutine_threadsafe(socket.close(1001), self._loop).result(10)
+            asyncio.run_coroutine_threadsafe(socket.close(1001), self._loop).result(LIMIT_S)
 
     async def _broadcast(self, message: dict[str, Any]) -> None:
         for socket in list(self._sockets):

@@ -14,8 +14,6 @@ from tests.browser.served_viser import connected
 from tests.chromium import new_page
 from tests.playing import Played
 
-PATIENCE_MS = 40_000
-"""A page without a graphics card draws a few frames a second, or one if others are at work."""
 Picture = npt.NDArray[np.uint8]
 DRAW_SELDOM = """
 const frame = requestAnimationFrame.bind(self);
@@ -49,8 +47,6 @@ def whole_page(
     page = new_page(chromium, draws=draws, reduced_motion="reduce", **options)
     if draws:
         page.add_init_script(DRAW_SELDOM)
-    page.set_default_timeout(PATIENCE_MS)
-    expect.set_options(timeout=PATIENCE_MS)
     problems: list[str] = []
     page.on("pageerror", lambda error: problems.append(str(error)))
     page.goto(server.url + query)
@@ -59,7 +55,6 @@ def whole_page(
     page.locator(".ai4u-panel [role=tab][aria-selected=true]").wait_for()
     yield page
     page.context.close()
-    expect.set_options(timeout=5_000)
     assert problems == []
     assert "Traceback" not in "".join(server.told)
 

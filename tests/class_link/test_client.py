@@ -13,7 +13,8 @@ from ai4u_edu.class_link import client as client_module
 from ai4u_edu.wire.class_link import Attention, FromClass, Problem, State, Welcome
 from tests.class_link.messages import drawing, poses, result, state
 from tests.class_link.tiny_class import SECRET, TinyClass
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import until
 
 
 @pytest.fixture

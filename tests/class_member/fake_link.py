@@ -21,7 +21,7 @@ from ai4u_edu.wire.class_link import (
     decode_from_room,
     encode_from_room,
 )
-from tests.server.rooms import until
+from tests.waiting import until
 
 M = TypeVar("M")
 
@@ -78,7 +78,7 @@ class Joined:
             found[:] = [each for each in self.link.of(kind) if condition(each)]
             return bool(found)
 
-        until(is_there, 20)
+        until(is_there)
         return found[0]
 
     def state(self, **wanted: Any) -> State:
@@ -88,7 +88,7 @@ class Joined:
         )
 
     def result(self, number: int = 0) -> EpisodeResult:
-        until(lambda: len(self.link.of(EpisodeResult)) > number, 20)
+        until(lambda: len(self.link.of(EpisodeResult)) > number)
         return self.link.of(EpisodeResult)[number]
 
 

@@ -15,7 +15,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.class_link import Applied, Assignment
 from tests.builders import small_sim
 from tests.class_member.fake_link import FakeLink, Joined, joined
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 MAZE = Assignment("a1", "Maze", "maze", 7)
 YAML = Scene.load("parking").dumps().replace("title: ", "title: Our ", 1)
@@ -28,7 +28,7 @@ def applied(room: Joined, name: str) -> str:
 
 
 def edit(room: Joined) -> None:
-    room.editor.change_settings({"title": "A world of mine"}).result(10)
+    room.editor.change_settings({"title": "A world of mine"}).result(LIMIT_S)
 
 
 def test_a_scene_is_opened_with_its_seed_and_only_once(tmp_path: Path) -> None:
@@ -104,10 +104,10 @@ def test_what_a_student_changed_is_saved_first_under_a_name_that_is_free(tmp_pat
         assert store.load("My A world of mine 2").description.title == "A world of mine"
         assert store.load("My A world of mine").description.name == "donut"
         # nothing of the class's own or of the library's is saved, nor the same scene twice
-        room.editor.open(store.load("My A world of mine 2")).result(10)
+        room.editor.open(store.load("My A world of mine 2")).result(LIMIT_S)
         room.tell(Assignment("a2", "", "parking", None))
         assert applied(room, "a2") == ""
-        room.editor.open(Scene.load("donut")).result(10)
+        room.editor.open(Scene.load("donut")).result(LIMIT_S)
         room.tell(Assignment("a3", "", YAML, None), Assignment("a4", "", "maze", None))
         assert applied(room, "a4") == ""
         assert len(store.names()) == 2

@@ -4,7 +4,7 @@ from ai4u_edu import Scene
 from ai4u_edu.class_member.member import MAX_UNLINKED_HOLD_S, REST_AFTER_S
 from ai4u_edu.wire.class_link import Attention, People, Person, Problem, Welcome
 from tests.class_member.fake_link import Joined, joined
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 END = Attention("", "", 0.0)
 ADA = Person(3, "Red Fox", "#d55e00", True)
@@ -18,8 +18,8 @@ def is_held(room: Joined) -> bool:
 def stands_still(room: Joined) -> bool:
     """Return True if the world does not tick while the pages ask for it."""
     ticks = room.runner.latest.tick
-    room.runner.resume().result(5)
-    room.runner.start_episode().result(5)
+    room.runner.resume().result(LIMIT_S)
+    room.runner.start_episode().result(LIMIT_S)
     seen = room.runner.latest
     until(lambda: room.runner.latest is not seen)
     return room.runner.latest.tick == ticks
@@ -60,7 +60,7 @@ def test_it_holds_without_a_link_and_ends_at_its_time() -> None:
         room.link.is_connected = False
         room.clock.now += 59
         assert stands_still(room)
-        room.editor.open(Scene.load("maze")).result(10)  # another world is held too
+        room.editor.open(Scene.load("maze")).result(LIMIT_S)  # another world is held too
         assert stands_still(room)
         version = room.member.view.version
         room.clock.now += 1

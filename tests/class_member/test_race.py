@@ -10,7 +10,7 @@ from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.file import decode, encode
 from ai4u_edu.wire.class_link import Applied, EpisodeResult, Race, RaceRow
 from tests.class_member.fake_link import Joined, joined
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 Phase = Literal["countdown", "running", "over"]
 
@@ -43,7 +43,7 @@ def drive_to_the_box(room: Joined) -> None:
         robot.use_brain(steer)
         room.runner.set_time_scale(math.inf)
 
-    room.runner.submit(chase).result(10)
+    room.runner.submit(chase).result(LIMIT_S)
 
 
 def own_best(room: Joined) -> float | None:
@@ -78,11 +78,11 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         # another try: the same start again, also with a key that draws another one
         room.runner.new_start()
         until(lambda: room.runner.latest.seed == 11 and len(room.link.of(EpisodeResult)) > 1)
-        assert room.result(1).race == "r1"
-        assert own_best(room) == round(min(result.seconds, room.result(1).seconds), 2)
+        assert room.result(LIMIT_S).race == "r1"
+        assert own_best(room) == round(min(result.seconds, room.result(LIMIT_S).seconds), 2)
 
         row = RaceRow("Red Fox", "#d55e00", "goal", 1.5, "x")
-        best = (result.episode, room.result(1).episode)
+        best = (result.episode, room.result(LIMIT_S).episode)
         room.tell(race("running", board=(row,), ghosts=best))
         until(lambda: room.ghosts)
         ghosts = [(encode(ghost), name) for ghost, name in room.ghosts[-1]]
@@ -91,7 +91,7 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         room.tell(race("over", board=(row,)))
         until(lambda: not room.runner.latest.is_seed_locked)
         until(lambda: not room.ghosts[-1])
-        assert own_best(room) == round(min(result.seconds, room.result(1).seconds), 2)
+        assert own_best(room) == round(min(result.seconds, room.result(LIMIT_S).seconds), 2)
         room.tell(Race("", "over", 0.0, "", 0, ()))
         until(lambda: (room.member.view.event("student", 0) or {})["race"] is None)
 
@@ -104,19 +104,19 @@ def test_what_counts_in_a_race_is_an_untouched_episode_of_its_scene_and_seed() -
             count = len(room.link.of(EpisodeResult))
             room.clock.now += MIN_RESULT_INTERVAL_S
             agent = room.runner.sim.agents[0]
-            room.runner.submit(lambda: agent.add_reward(0.0, request_done=True)).result(5)
+            room.runner.submit(lambda: agent.add_reward(0.0, request_done=True)).result(LIMIT_S)
             return room.result(count)
 
         assert fall().race == "r1"
         assert own_best(room) is None  # it did not reach the goal
-        room.runner.reset().result(5)
+        room.runner.reset().result(LIMIT_S)
         robot = room.runner.sim.agents[0].body
-        room.runner.submit(lambda: robot.move_to(0.0, 2.0)).result(5)  # moved by hand
+        room.runner.submit(lambda: robot.move_to(0.0, 2.0)).result(LIMIT_S)  # moved by hand
         assert fall().race == ""
-        room.editor.change_body("box", {"position": [0.0, 4.0]}).result(10)
-        room.runner.reset().result(5)
+        room.editor.change_body("box", {"position": [0.0, 4.0]}).result(LIMIT_S)
+        room.runner.reset().result(LIMIT_S)
         assert fall().race == ""
-        room.editor.open(Scene.load("maze")).result(10)
+        room.editor.open(Scene.load("maze")).result(LIMIT_S)
         room.state(scene=Scene.load("maze").description.title, episodes=1)
         until(lambda: room.runner.latest.tick > 0)
         assert fall().race == ""

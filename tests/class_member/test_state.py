@@ -9,12 +9,12 @@ from ai4u_edu.class_member.room_state import IDLE_S, RoomState
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.wire.class_link import HEARTBEAT_S, Drawing, EpisodeResult, Poses, State, Work
 from tests.class_member.fake_link import Clock, Joined, joined
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def drive_off(room: Joined) -> None:
     """Put the first agent over the void."""
-    room.runner.submit(lambda: room.runner.sim.agents[0].body.move_to(40.0, 0.0)).result(5)
+    room.runner.submit(lambda: room.runner.sim.agents[0].body.move_to(40.0, 0.0)).result(LIMIT_S)
 
 
 def test_falls_restarts_and_goals_are_counted_and_told() -> None:
@@ -30,8 +30,8 @@ def test_falls_restarts_and_goals_are_counted_and_told() -> None:
         room.runner.reset(5)
         room.state(status="driving", episodes=2, falls=1)
         robot = room.runner.sim.agents[0]
-        room.runner.submit(lambda: robot.add_reward(0.0, request_done=True)).result(5)
-        assert (room.result(1).outcome, room.result(1).seed) == ("over", 5)
+        room.runner.submit(lambda: robot.add_reward(0.0, request_done=True)).result(LIMIT_S)
+        assert (room.result(LIMIT_S).outcome, room.result(LIMIT_S).seed) == ("over", 5)
 
 
 def test_another_scene_is_counted_anew_and_its_text_sent() -> None:
@@ -39,7 +39,7 @@ def test_another_scene_is_counted_anew_and_its_text_sent() -> None:
         drive_off(room)
         room.state(falls=1)
         assert "name: box_chase" in room.next(Work).scene
-        room.editor.open(Scene.load("parking")).result(10)
+        room.editor.open(Scene.load("parking")).result(LIMIT_S)
         room.state(scene=Scene.load("parking").description.title, falls=0, episodes=1)
         room.clock.now += 2
         assert "name: parking" in room.next(Work, lambda work: work.title != "Box chase").scene
@@ -56,7 +56,7 @@ def test_a_world_that_waits_and_one_with_an_error() -> None:
             raise ValueError("a student's mistake")
 
         agent = room.runner.sim.agents[0]
-        room.runner.submit(lambda: agent.use_brain(fail)).result(5)
+        room.runner.submit(lambda: agent.use_brain(fail)).result(LIMIT_S)
         room.runner.resume()
         room.runner.start_episode()
         state = room.state(status="error")
@@ -70,7 +70,7 @@ def test_a_resting_world_sends_only_its_heartbeat() -> None:
         until(lambda: room.link.of(Work))
         count = len(room.link.sent)
         seen = room.runner.latest
-        until(lambda: room.runner.latest is not seen, 5)
+        until(lambda: room.runner.latest is not seen)
         room.clock.now += HEARTBEAT_S
         until(lambda: len(room.link.sent) > count)
         assert isinstance(room.link.sent[-1], State)
@@ -85,7 +85,7 @@ def test_nothing_is_drawn_without_a_link() -> None:
         room.clock.now += HEARTBEAT_S
         until(lambda: len(room.link.of(State)) > states)
         drawn = len(room.link.of(Poses))
-        room.runner.submit(lambda: room.runner.sim.agents[0].body.move_to(1.0, 1.0)).result(5)
+        room.runner.submit(lambda: room.runner.sim.agents[0].body.move_to(1.0, 1.0)).result(LIMIT_S)
         room.clock.now += HEARTBEAT_S
         until(lambda: len(room.link.of(State)) > states + 1)
         assert len(room.link.of(Poses)) == drawn
@@ -97,7 +97,7 @@ def test_results_of_a_fast_network_are_limited_but_all_are_counted() -> None:
     with joined(time_scale=math.inf) as room:
         room.result()
         for number in range(2, 6):
-            room.runner.reset().result(5)
+            room.runner.reset().result(LIMIT_S)
             drive_off(room)
             room.state(falls=number - 1) if number > 2 else None
         assert len(room.link.of(EpisodeResult)) == 1

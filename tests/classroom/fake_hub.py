@@ -18,6 +18,7 @@ import httpx
 
 from ai4u_edu.classroom.hub.sign_in import COOKIE
 from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S
 
 NAME = "ai4u-class"
 PREFIX = f"/services/{NAME}/"
@@ -67,7 +68,7 @@ class HubClass:
     def client(self, token: str = "") -> httpx.Client:
         """Return a browser; with a token, one that has signed in."""
         cookies = {COOKIE: token} if token else None
-        return httpx.Client(base_url=self.url, cookies=cookies, timeout=30, trust_env=False)
+        return httpx.Client(base_url=self.url, cookies=cookies, timeout=LIMIT_S, trust_env=False)
 
     def state(self, token: str) -> dict[str, Any]:
         """Return what the teacher's page shows."""
@@ -176,4 +177,4 @@ def hub_class(folder: Path, hub: FakeHub, *options: str) -> Iterator[HubClass]:
             yield HubClass(hub, process, f"{hub.class_url}{PREFIX}", folder)
         finally:
             process.terminate()
-            listener.join(20)
+            listener.join(LIMIT_S)

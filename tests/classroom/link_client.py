@@ -26,8 +26,8 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.classroom.fake_hub import HubClass
 from tests.classroom.served_class import ServedClass, Student
+from tests.waiting import LIMIT_S
 
-TIMEOUT_S = 20.0
 M = TypeVar("M")
 _keys = count(1)
 
@@ -63,7 +63,7 @@ class RawLink:
     def next(self, kind: type[M], fits: Callable[[M], bool] = lambda _: True) -> M:
         """Return the next message of a kind, for which a condition holds."""
         while True:
-            message = decode_from_class(self.socket.recv(TIMEOUT_S, decode=False))
+            message = decode_from_class(self.socket.recv(LIMIT_S, decode=False))
             self.received.append(message)
             if isinstance(message, kind) and fits(message):
                 return message
@@ -79,7 +79,7 @@ class RawLink:
     def receive_all(self) -> None:
         """Receive messages until the link is closed, which raises an error."""
         while True:
-            frame = self.socket.recv(TIMEOUT_S, decode=False)
+            frame = self.socket.recv(LIMIT_S, decode=False)
             self.received.append(decode_from_class(frame))
 
 
@@ -106,7 +106,7 @@ class TeacherSocket:
             if found["type"] == kind and fits(found):
                 return self._waiting.pop(index)
         while True:
-            event: dict[str, Any] = json.loads(self.socket.recv(TIMEOUT_S))
+            event: dict[str, Any] = json.loads(self.socket.recv(LIMIT_S))
             if event["type"] == kind and fits(event):
                 return event
             self._waiting.append(event)

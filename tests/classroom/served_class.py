@@ -14,6 +14,8 @@ from urllib.parse import parse_qs, urlsplit
 
 import httpx
 
+from tests.waiting import LIMIT_S
+
 CODE = "BCDFG"
 _requests = count(1)
 
@@ -34,7 +36,7 @@ class ServedClass:
 
     def student(self) -> "Student":
         """Return a browser that has not joined."""
-        self.clients.append(httpx.Client(base_url=self.url, timeout=30))
+        self.clients.append(httpx.Client(base_url=self.url, timeout=LIMIT_S))
         return Student(self.clients[-1])
 
     def joined(self, **wanted: Any) -> "Student":
@@ -58,7 +60,7 @@ class ServedClass:
 
     def export(self) -> bytes:
         """Return the ZIP file with the work of the class."""
-        answer = httpx.get(f"{self.url}teacher/export", headers=self._auth(), timeout=30)
+        answer = httpx.get(f"{self.url}teacher/export", headers=self._auth(), timeout=LIMIT_S)
         assert answer.status_code == 200, answer.text
         return answer.content
 
@@ -128,4 +130,4 @@ def served_class(folder: Path, *options: str) -> Iterator[ServedClass]:
             for client in served.clients:
                 client.close()
             process.terminate()
-            listener.join(20)
+            listener.join(LIMIT_S)

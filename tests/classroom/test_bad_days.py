@@ -15,7 +15,8 @@ import psutil
 import pytest
 
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
-from tests.server.rooms import Page, until
+from tests.server.rooms import Page
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 MARKUP = "<img src=x onerror=alert(1)>"
@@ -80,7 +81,7 @@ def test_a_pair_shares_a_world_and_sees_each_other(tmp_path: Path) -> None:
         ):
             for page in (first, second):
                 page.receive("hello")
-            until(lambda: all(each["is_here"] for each in people(first)), 20)
+            until(lambda: all(each["is_here"] for each in people(first)))
             assert {each["name"] for each in first.last["class"]["people"]} == names
             number = first.last["hello"]["you"]
             with first.holding("KeyW"):
@@ -124,7 +125,7 @@ def test_no_path_leads_out_of_ones_own_room(
     request = f"GET {target} HTTP/1.1\r\nHost: {httpx.URL(served.url).netloc.decode()}\r\n"
     request += f"Cookie: {ada.cookies['Cookie']}\r\nConnection: close\r\n\r\n"
     url = httpx.URL(served.url)
-    with socket.create_connection((url.host, url.port or 80), timeout=10) as raw:
+    with socket.create_connection((url.host, url.port or 80), timeout=LIMIT_S) as raw:
         raw.sendall(request.encode())
         answer = b"".join(iter(lambda: raw.recv(65536), b""))
     status = int(answer.split()[1])
@@ -154,7 +155,9 @@ def test_a_flood_of_wrong_codes_lets_the_class_join_meanwhile(tmp_path: Path) ->
 
         async def flood() -> tuple[int, bool]:
             limits = httpx.Limits(max_connections=60)
-            async with httpx.AsyncClient(base_url=served.url, timeout=60, limits=limits) as client:
+            async with httpx.AsyncClient(
+                base_url=served.url, timeout=LIMIT_S, limits=limits
+            ) as client:
                 end = time.monotonic() + 5
                 guesses = [asyncio.create_task(guess(client, end)) for _ in range(40)]
                 await asyncio.sleep(1)
@@ -183,7 +186,9 @@ def test_thirty_join_at_once_and_everybody_gets_one_seat(served: ServedClass) ->
     async def all_join() -> list[str]:
         async with contextlib.AsyncExitStack() as stack:
             clients = [
-                await stack.enter_async_context(httpx.AsyncClient(base_url=served.url, timeout=60))
+                await stack.enter_async_context(
+                    httpx.AsyncClient(base_url=served.url, timeout=LIMIT_S)
+                )
                 for _ in range(30)
             ]
             return await asyncio.gather(*(join(*each[::-1]) for each in enumerate(clients)))
@@ -207,7 +212,7 @@ def test_a_class_that_slept_with_the_laptop_goes_on(served: ServedClass) -> None
         for each in everything:
             each.resume()
         with page.holding("KeyW"):
-            until(lambda: ada.get("api/snapshot").json()["tick"] > 10, 20)
+            until(lambda: ada.get("api/snapshot").json()["tick"] > 10)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux limits another process")

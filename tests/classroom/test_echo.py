@@ -11,6 +11,7 @@ from websockets.sync.connection import Connection
 
 from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, echo
 from ai4u_edu.server import ServerThread
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture
@@ -25,13 +26,13 @@ def socket() -> Iterator[Connection]:
 def test_texts_come_back_a_number_of_times(socket: Connection) -> None:
     for number in range(MAX_ECHOES):
         socket.send(f"echo {number}")
-        assert socket.recv(10) == f"echo {number}"
+        assert socket.recv(LIMIT_S) == f"echo {number}"
     with pytest.raises(ConnectionClosed):
-        socket.recv(10)
+        socket.recv(LIMIT_S)
 
 
 @pytest.mark.parametrize("message", ["x" * (MAX_ECHO_CHARS + 1), b"bytes"])
 def test_anything_else_ends_it(socket: Connection, message: str | bytes) -> None:
     socket.send(message)
     with pytest.raises(ConnectionClosed):
-        socket.recv(10)
+        socket.recv(LIMIT_S)

@@ -18,7 +18,7 @@ from ai4u_edu.wire.class_link import Ack, Race, Work
 from tests.classroom.link_client import RawLink, TeacherSocket, check, state
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.classroom.test_race import SEED, driven, result
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.slow
 POLL_S = 0.5
@@ -50,7 +50,7 @@ def work(served: ServedClass, ada: Student) -> None:
     file = served.folder / "rooms" / ada.room.split("/")[2] / "scene.yaml"
     assert ada.get("healthz").status_code == 200
     # the room has begun, and opens the race's scene; it would open it over the next one
-    until(lambda: file.is_file() and TITLE in file.read_text(), 20)
+    until(lambda: file.is_file() and TITLE in file.read_text())
     assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
 
 
@@ -67,7 +67,7 @@ def hand_in(student: Student) -> None:
         verdicts[:] = [e["verdict"] for e in student.client.get("api/network").json()["networks"]]
         return verdicts != ["open"]
 
-    until(is_checked, 30)
+    until(is_checked)
     assert verdicts == ["right"]
 
 
@@ -78,7 +78,7 @@ def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) ->
         work(served, ada)
         room = ada.room.split("/")[2]
         file = folder / "rooms" / room / "scene.yaml"
-        until(lambda: "title: Maze" in file.read_text(), 20)
+        until(lambda: "title: Maze" in file.read_text())
 
         files = zip_of(served.export())
         page = files["results.html"].decode()

@@ -26,7 +26,7 @@ from tests.classroom.fake_hub import (
     hub_class,
 )
 from tests.classroom.link_client import RawLink, check, state
-from tests.server.rooms import until
+from tests.waiting import until
 
 pytestmark = pytest.mark.slow
 
@@ -296,7 +296,7 @@ def test_a_network_comes_over_the_link_and_plays(hub: FakeHub, tmp_path: Path) -
             ):
                 answer = teacher.post("teacher/command", json=command)
                 assert answer.status_code == 200, answer.text
-            until(lambda: school.state(ALAN)["tournament"]["phase"] == "over", 60)
+            until(lambda: school.state(ALAN)["tournament"]["phase"] == "over")
             results = school.state(ALAN)["tournament"]["results"]
             assert {each["name"] for each in results["standings"]} == {name, "The scene's player"}
             assert name in teacher.get("teacher/tournament").text

@@ -21,7 +21,8 @@ from ai4u_edu.scenes import Scene
 from tests.classroom.link_client import TeacherSocket
 from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.playing import played
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 
@@ -54,7 +55,7 @@ class Kernel:
             content = message["content"]
             told.append(content.get("text") or content.get("data", {}).get("text/plain", ""))
 
-        reply = self._client.execute_interactive(cell, output_hook=note, timeout=60)
+        reply = self._client.execute_interactive(cell, output_hook=note, timeout=LIMIT_S)
         assert reply["content"]["status"] == "ok", reply["content"]
         return "".join(told)
 

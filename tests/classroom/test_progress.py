@@ -16,6 +16,7 @@ from ai4u_edu.lessons.exercise import find
 from ai4u_edu.wire.class_link import Ack, ExerciseResult, Hello
 from tests.classroom.link_client import RawLink, check
 from tests.classroom.served_class import ServedClass, served_class
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture
@@ -77,7 +78,7 @@ def test_what_was_acknowledged_is_there_after_sigkill_and_counts_once(tmp_path: 
                 link.send(each)
                 assert link.next(Ack).key == each.key
             os.kill(served.process.pid, signal.SIGKILL)
-            served.process.wait(20)
+            served.process.wait(LIMIT_S)
         token = ada.client.cookies["ai4u_edu_seat"]
     with served_class(tmp_path) as served:
         with RawLink(served, token, hello=Hello(1, token, "notebook")) as link:

@@ -16,7 +16,8 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from tests.chromium import browser
-from tests.lessons.hub import PATIENCE_S, WORD, hub, new_ports, shows, student
+from tests.lessons.hub import WORD, hub, new_ports, shows, student
+from tests.waiting import LIMIT_S
 
 pytestmark = [
     pytest.mark.browser,
@@ -44,7 +45,6 @@ def with_tile(spawner):
 c.Spawner.pre_spawn_hook = with_tile
 """
 JOIN = "from ai4u_edu.lessons import join_class; join_class()"
-PATIENCE_MS = 1000 * PATIENCE_S
 
 
 class Student:
@@ -61,7 +61,7 @@ class Student:
         self.page.keyboard.insert_text(JOIN)
         self.page.keyboard.press("Shift+Enter")
         told = self.page.get_by_text("You are ").first
-        told.wait_for(timeout=PATIENCE_MS)
+        told.wait_for()
         self.name = told.inner_text().partition("You are ")[2].partition(".")[0]
 
     def drive(self, key: str) -> None:
@@ -87,11 +87,11 @@ class Teacher:
         self.page = context.new_page()
         self.page.goto(url)
         sign_in(self.page, "teacher")
-        self.page.wait_for_url("**/services/ai4u-class/teacher", timeout=PATIENCE_MS)
+        self.page.wait_for_url("**/services/ai4u-class/teacher")
 
     def wait_for(self, fits: Callable[[dict[str, Any]], bool]) -> None:
         """Wait until the class fits."""
-        for _ in range(2 * PATIENCE_S):
+        for _ in range(2 * LIMIT_S):
             found: dict[str, Any] | None = self.page.evaluate(
                 "fetch('./teacher/state').then((answer) => answer.json()).catch(() => null)"
             )
@@ -122,7 +122,7 @@ def is_back(state: dict[str, Any], *students: Student) -> bool:
 def status_of(page: Page, url: str) -> int:
     """Return the status of the page at an address, for whoever has signed in there."""
     other = page.context.new_page()
-    answer = other.goto(url, timeout=PATIENCE_MS)
+    answer = other.goto(url)
     assert answer is not None
     other.close()
     return answer.status
@@ -167,7 +167,7 @@ def ended_at_failure(hub: psutil.Process) -> Iterator[None]:
 
 def both_are_drawn(teacher: Teacher, *students: Student) -> None:
     for each in students:
-        teacher.page.get_by_role("button", name=each.name).first.wait_for(timeout=PATIENCE_MS)
+        teacher.page.get_by_role("button", name=each.name).first.wait_for()
 
 
 def the_teacher_looks_in(teacher: Teacher, there: Student) -> None:
@@ -176,8 +176,8 @@ def the_teacher_looks_in(teacher: Teacher, there: Student) -> None:
     with teacher.page.context.expect_page() as opened:
         teacher.page.get_by_role("link", name="Look in").click()
     page = opened.value
-    page.get_by_role("button", name="Authorize").click(timeout=PATIENCE_MS)
-    page.locator(".ai4u-keycap").first.wait_for(timeout=PATIENCE_MS)
+    page.get_by_role("button", name="Authorize").click()
+    page.locator(".ai4u-keycap").first.wait_for()
     assert "/user/ada/proxy/" in page.url
     page.close()
     teacher.page.keyboard.press("Escape")
@@ -197,8 +197,8 @@ def a_world_without_a_notebook(
     """The tile of JupyterLab starts a world on the student's server, and takes the place there."""
     address = url.replace("/hub/", "/user/grace/ai4u-edu/")
     tile = student.page.context.new_page()
-    tile.goto(address, timeout=PATIENCE_MS)
-    tile.locator(".ai4u-keycap").first.wait_for(timeout=PATIENCE_MS)
+    tile.goto(address)
+    tile.locator(".ai4u-keycap").first.wait_for()
     teacher.wait_for(lambda state: statuses(state)[student.name] == "waiting")
     tile.keyboard.down("KeyA")
     teacher.wait_for(lambda state: statuses(state)[student.name] == "driving")

@@ -4,8 +4,6 @@ import asyncio
 import os
 import signal
 import sys
-import time
-from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
@@ -17,16 +15,9 @@ from ai4u_edu.classroom import LocalRooms
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits
+from tests.waiting import until_async
 
 pytestmark = pytest.mark.slow
-PATIENCE_S = 30
-
-
-async def _until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline
-        await asyncio.sleep(0.02)
 
 
 async def _snapshot(address: RoomAddress, room: str) -> dict[str, object]:
@@ -53,7 +44,7 @@ def test_a_room_that_nobody_uses_ends_and_wakes_with_its_start(tmp_path: Path) -
             before = await _snapshot(await rooms.enter("a", "box_chase"), "a")
             await asyncio.sleep(0.8)
             assert rooms.is_running("a")
-        await _until(lambda: not rooms.is_running("a"))
+        await until_async(lambda: not rooms.is_running("a"))
         with rooms.in_use("a"):
             after = await _snapshot(await rooms.enter("a", "box_chase"), "a")
         return before["seed"], after["seed"]
@@ -71,7 +62,7 @@ def test_a_room_that_does_not_answer_begins_anew(tmp_path: Path) -> None:
         first, other = await asyncio.gather(*(rooms.enter(each, "box_chase") for each in "ab"))
         with rooms.in_use("a"), rooms.in_use("b"):
             os.kill(_pid_of(first), signal.SIGSTOP)
-            await _until(lambda: not rooms.is_running("a"))
+            await until_async(lambda: not rooms.is_running("a"))
             assert rooms.is_running("b")
             assert await rooms.enter("b", "box_chase") == other
             assert await rooms.enter("a", "box_chase") != first
@@ -97,7 +88,7 @@ def test_a_room_with_too_much_memory_is_ended_and_told_why(tmp_path: Path) -> No
     async def twice() -> None:
         for _ in range(2):
             await rooms.enter("a", "box_chase")
-            await _until(lambda: not rooms.is_running("a"))
+            await until_async(lambda: not rooms.is_running("a"))
         with pytest.raises(RoomError, match=r"more than the 5 MB that it may"):
             await rooms.enter("a", "box_chase")
 

@@ -19,7 +19,8 @@ from ai4u_edu.remote import connect as connect_script
 from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.load.clients import CAMERA, VISER
-from tests.server.rooms import Page, until
+from tests.server.rooms import Page
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 
@@ -53,7 +54,7 @@ def test_nobody_enters_the_room_of_another(served: ServedClass) -> None:
             address = (ada.address + path).replace("http", "ws", 1)
             with connect(address, additional_headers=other.cookies, proxy=None) as socket:
                 with pytest.raises(ConnectionClosed) as closed:
-                    socket.recv(5)
+                    socket.recv(LIMIT_S)
                 assert closed.value.rcvd is not None
                 assert closed.value.rcvd.code == 1008
 
@@ -71,7 +72,7 @@ def test_the_room_can_not_be_entered_beside_the_class(served: ServedClass) -> No
     assert ports
     for port in ports:
         try:
-            answer = httpx.get(f"http://127.0.0.1:{port}/r/{room}/api/snapshot", timeout=5)
+            answer = httpx.get(f"http://127.0.0.1:{port}/r/{room}/api/snapshot", timeout=LIMIT_S)
         except httpx.HTTPError:
             continue
         assert answer.status_code != 200
@@ -85,11 +86,11 @@ def test_what_is_no_message_to_the_picture_is_refused_before_viser(
 ) -> None:
     ada = served.joined()
     with _picture(ada) as picture:
-        picture.recv(20)
+        picture.recv(LIMIT_S)
         picture.send(frame)
         with suppress(ConnectionClosed):
             while True:
-                picture.recv(20)
+                picture.recv(LIMIT_S)
         assert picture.close_code == code
 
 
@@ -162,7 +163,7 @@ def _python_lines(student: Student) -> str:
         drawn.send(CAMERA)
         told.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
         while True:
-            part = json.loads(told.recv(20))
+            part = json.loads(told.recv(LIMIT_S))
             if part.get("name") == "python" and student.address in str(part["lines"]):
                 return str(part["lines"])
 
@@ -224,7 +225,7 @@ def test_a_room_that_is_killed_comes_back_and_the_others_notice_nothing(
     with Page(ben.address + "ws/input", additional_headers=ben.cookies) as page:
         page.receive("hello")
         hers.kill()
-        until(lambda: ada.get("healthz").status_code == 200, 30)
+        until(lambda: ada.get("healthz").status_code == 200)
         with page.holding("KeyW"):
             until(lambda: ben.get("api/snapshot").json()["tick"] > 10)
 
@@ -237,7 +238,7 @@ def test_what_was_made_is_there_after_the_class_was_killed(tmp_path: Path) -> No
         rooms = _room_processes(served)
         token = dict(ada.client.cookies)
         os.kill(served.process.pid, signal.SIGKILL)
-        _, alive = psutil.wait_procs(rooms, timeout=20)
+        _, alive = psutil.wait_procs(rooms, timeout=LIMIT_S)
         assert alive == []
     with served_class(tmp_path) as served:
         again = served.student()

@@ -14,6 +14,7 @@ from ai4u_edu.wire.class_link import Applied, Assignment, Attention, Hello, Work
 from tests.classroom.link_client import RawLink, TeacherSocket, state
 from tests.classroom.served_class import ServedClass, served_class
 from tests.server.rooms import Page
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow
 OWN = Scene.load("box_chase").source.replace("title: Box chase", "title: <b>Mine</b>")
@@ -38,7 +39,7 @@ def test_pages_of_the_teacher_need_the_secret(served: ServedClass) -> None:
     for path in ("teacher/socket", "projector/socket"):
         address = served.url.replace("http", "ws", 1) + path
         with connect(address, proxy=None) as socket, pytest.raises(ConnectionClosed):
-            socket.recv(10)
+            socket.recv(LIMIT_S)
     assert httpx.get(served.url + "projector").status_code == 401
 
 

@@ -26,12 +26,11 @@ from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, Network, 
 from tests.classroom.link_client import RawLink, key
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
-from tests.server.rooms import until
 from tests.tournament.bad_networks import BAD, INPUTS, few_outputs
 from tests.training.networks import network
+from tests.waiting import LIMIT_S, until
 
 OCTETS = {"Content-Type": "application/octet-stream"}
-PATIENCE_S = 60.0
 POLL_S = 0.3
 
 
@@ -52,7 +51,7 @@ def verdicts(student: Student) -> list[tuple[str, str]]:
         found[:] = answer.json()["networks"]
         return all(each["verdict"] != "open" for each in found)
 
-    until(are_checked, PATIENCE_S)
+    until(are_checked)
     return [(each["file"], each["reason"] or each["verdict"]) for each in found]
 
 
@@ -66,7 +65,7 @@ def tournament(served: ServedClass, fits: Callable[[dict[str, Any]], Any]) -> di
         found.update(served.state()["tournament"] or {})
         return bool(found and fits(found))
 
-    until(does_fit, PATIENCE_S)
+    until(does_fit)
     return found
 
 
@@ -211,7 +210,7 @@ def test_a_tournament_goes_on_after_the_class_was_killed(tmp_path: Path, good: b
 def games_can_be_watched(served: ServedClass, number: int) -> None:
     auth = {"Authorization": f"Bearer {served.token}"}
     for path in ("teacher/tournament", f"teacher/tournament/{number}"):
-        page = httpx.get(served.url + path, headers=auth, timeout=30)
+        page = httpx.get(served.url + path, headers=auth, timeout=LIMIT_S)
         assert page.status_code == 200, page.text
         assert "sandbox allow-scripts" in page.headers["content-security-policy"]
         assert "Sumo" in page.text

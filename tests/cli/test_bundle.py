@@ -19,7 +19,7 @@ command = [*sys.argv[1:], "play", "--port", "0", "--no-open", "--no-wait-for-key
 pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 with subprocess.Popen(command, text=True, **pipes) as process:
     url = next(word for line in process.stdout for word in line.split() if word.startswith("http"))
-    page = urllib.request.urlopen(url, timeout=60).read()
+    page = urllib.request.urlopen(url, timeout=LIMIT_S).read()
     process.terminate()
 print("page", b"<html" in page.lower())
 """
@@ -73,7 +73,6 @@ def test_an_unknown_extra_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.timeout(900)
 @pytest.mark.skipif(shutil.which("unshare") is None, reason="switches the network off with unshare")
 def test_it_starts_without_a_network(tmp_path: Path) -> None:
     made = tmp_path / "bundle"

@@ -19,7 +19,7 @@ from ai4u_edu.cli.main import app
 from tests.chromium import browser
 from tests.docs_site.staging import DOCS, ROOT, Staging, name_in_site
 
-pytestmark = [pytest.mark.slow, pytest.mark.nightly, pytest.mark.timeout(600)]
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 FETCHED = {
     "audio": "src",

@@ -20,7 +20,7 @@ from ai4u_edu.editing.unsaved import choose_unsaved
 from tests.editing.harness import TEXT, EditorHarness
 from tests.editing.kill_autosaves import run
 from tests.playing import played
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 
@@ -75,7 +75,7 @@ def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Se
     harness, saver = EditorHarness(), Autosave(tmp_path, "small")
     harness.editor.recovery.autosave = saver
     harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
-    assert written.acquire(timeout=30)
+    assert written.acquire(timeout=LIMIT_S)
     harness.done(harness.editor.open(Scene.load("sumo")))
     harness.done(harness.editor.undo())
     harness.done(harness.editor.undo())
@@ -108,7 +108,7 @@ def test_two_servers_on_one_scene_leave_each_other_s_work_alone(
     for number, (harness, saver) in enumerate(zip(harnesses, savers, strict=True)):
         harness.editor.recovery.autosave = saver
         harness.done(harness.editor.add_body({"name": f"ball {number}", "position": [0, 3]}))
-        assert written.acquire(timeout=30)
+        assert written.acquire(timeout=LIMIT_S)
     assert len(list(tmp_path.glob("*.unsaved"))) == 2
     assert latest(tmp_path) is None, "the work of a server that lives is not offered"
     harnesses[1].done(harnesses[1].editor.undo())
@@ -270,11 +270,11 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
     harness.editor.recovery.autosave = saver
     harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     for _ in range(3):
-        assert tries.acquire(timeout=30)
+        assert tries.acquire(timeout=LIMIT_S)
     assert told == [f"changes can't be kept in {tmp_path}: the disk is full"]
     assert latest(tmp_path) is None
     is_full[0] = False
-    assert is_written.wait(30)
+    assert is_written.wait(LIMIT_S)
     saver.stop()
     assert len(told) == 1
     assert saver.problem == ""

@@ -6,7 +6,8 @@ from ai4u_edu import Scene
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.remote import RemoteError, Robot, connect
 from tests.editing.harness import TEXT
-from tests.server.rooms import served, until
+from tests.server.rooms import served
+from tests.waiting import LIMIT_S, until
 
 
 def drive_on(robot: Robot) -> None:
@@ -20,9 +21,9 @@ def test_a_script_hears_that_the_agent_is_another_one_and_can_come_back() -> Non
         editor = SceneEditor(room.runner, scene)
         with connect(room.url) as robot:
             robot.act(move=[1, 0, 0, 0])
-            editor.move_body("wall", -4, 1).result(5)
+            editor.move_body("wall", -4, 1).result(LIMIT_S)
             robot.act(move=[1, 0, 0, 0])  # that was none of its business
-            editor.add_block("0", "sensors", {"type": "HeadingSensor"}).result(5)
+            editor.add_block("0", "sensors", {"type": "HeadingSensor"}).result(LIMIT_S)
             with pytest.raises(RemoteError, match="the agent's blocks were changed; connect again"):
                 drive_on(robot)
         with connect(room.url) as robot:
@@ -40,7 +41,7 @@ def test_another_scene_ends_a_scripts_turn_and_leaves_nothing_behind() -> None:
         with connect(room.url) as robot:
             robot.act(move=[1, 0, 0, 0])
             old = room.runner.sim.agents[0]
-            editor.open(Scene.load("sumo")).result(5)
+            editor.open(Scene.load("sumo")).result(LIMIT_S)
             with pytest.raises(RemoteError):
                 drive_on(robot)
         assert old.brain.status().state == "waiting"  # type: ignore[attr-defined]  # it is remote

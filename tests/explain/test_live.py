@@ -13,7 +13,7 @@ from ai4u_edu.explain.live import Driver, LiveExplainer, Why
 from ai4u_edu.snapshot import AgentState, capture_snapshot, capture_static_scene
 from tests.explain.test_sentence import turns_for_ray
 from tests.explain.worlds import robot_and_box
-from tests.server.rooms import until
+from tests.waiting import until
 
 
 def state_of(sim: ControlRequestor) -> AgentState:

@@ -21,7 +21,7 @@ from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import Snapshot, capture_snapshot, capture_static_scene
 from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
-from tests.server.rooms import until
+from tests.waiting import until
 
 
 @pytest.fixture(autouse=True)

@@ -11,7 +11,6 @@ from tests.jobs.ray_cluster import ray_cluster
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 
-@pytest.mark.timeout(900)
 def test_a_machine_that_dies_loses_no_job_and_none_is_counted_twice() -> None:
     jobs = [Job.of(functions.square_on_machine, number=number) for number in range(12)]
     results, tries, is_ending = [], [], False

@@ -18,6 +18,7 @@ import pytest
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.jobs import Engine, Job, Journal, Outcome, engine, run_jobs
 from tests.jobs import functions
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow
 
@@ -122,7 +123,6 @@ def test_jobs_run_elsewhere_with_a_thread_each(apart: Engine) -> None:
 
 
 @pytest.mark.parametrize("name", ["processes", ON_RAY])
-@pytest.mark.timeout(400)
 def test_closing_ends_what_still_runs(name: str) -> None:
     before = {each.pid for each in psutil.Process().children(recursive=True)}
     with engine(name, width=2) as made:
@@ -197,7 +197,6 @@ if __name__ == "__main__":
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
 @pytest.mark.parametrize("name", ["processes", ON_RAY])
-@pytest.mark.timeout(400)
 def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path, name: str) -> None:
     script = tmp_path / "many_jobs.py"
     script.write_text(PROGRAM)
@@ -219,8 +218,8 @@ def test_ctrl_c_keeps_what_is_finished_and_the_next_run_goes_on(tmp_path: Path, 
             *psutil.Process(process.pid).children(recursive=True),
         ]
         os.killpg(process.pid, signal.SIGINT)
-        process.wait(60)
-    _, alive = psutil.wait_procs(family, timeout=5)
+        process.wait(LIMIT_S)
+    _, alive = psutil.wait_procs(family, timeout=LIMIT_S)
     assert not alive
     lines = (tmp_path / "out" / "journal.jsonl").read_text().splitlines()
     assert 3 <= len(lines) < 50
@@ -261,7 +260,7 @@ def test_ctrl_c_just_as_an_answer_comes_ends_the_program(tmp_path: Path) -> None
         text=True,
     )
     try:
-        _, told = process.communicate(timeout=60)
+        _, told = process.communicate(timeout=LIMIT_S)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()

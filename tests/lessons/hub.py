@@ -23,6 +23,7 @@ from playwright.sync_api import Browser, Page
 
 from tests.chromium import DRAW_NOTHING, browser
 from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S, Deadline
 
 CONFIG = Path(__file__).parents[2] / "docs" / "jupyterhub_config.py"
 OWN = """
@@ -48,7 +49,6 @@ KINDS = {
     "jupyterhub": "hub",
 }
 """Kind of a process by a word of its command; the first one counts."""
-PATIENCE_S = 180
 
 
 Ports = tuple[int, int, int, int]
@@ -79,7 +79,7 @@ def hub(
         class_port=class_port,
         word=WORD,
         folder=folder,
-        patience=PATIENCE_S,
+        patience=LIMIT_S,
     )
     config.write_text(CONFIG.read_text(encoding="utf-8") + own + more, encoding="utf-8")
     url = f"http://127.0.0.1:{port}/hub/"
@@ -96,7 +96,7 @@ def hub(
             yield url, psutil.Process(process.pid)
         finally:
             process.terminate()
-            process.wait(60)
+            process.wait(LIMIT_S)
 
 
 def _env() -> dict[str, str]:
@@ -105,10 +105,10 @@ def _env() -> dict[str, str]:
 
 
 def _wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while time.monotonic() < deadline and process.poll() is None:
+    deadline = Deadline()
+    while deadline.left() and process.poll() is None:
         with contextlib.suppress(urllib.error.URLError, ConnectionError):
-            urllib.request.urlopen(url, timeout=5)  # noqa: S310 - our own
+            urllib.request.urlopen(url, timeout=LIMIT_S)  # noqa: S310 - our own
             return
         time.sleep(0.3)
     raise RuntimeError(f"JupyterHub did not come up: {log.read_text()}")
@@ -150,7 +150,7 @@ def student(chromium: Browser, url: str, name: str) -> Page:
     page.fill("input[name=username]", name)
     page.fill("input[name=password]", WORD)
     page.click("#login_submit")
-    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=1000 * PATIENCE_S)
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     assert page.get_by_text("Jupyter news").count() == 0
     return page
 
@@ -161,7 +161,7 @@ def shows(page: Page) -> None:
         page.locator(".jp-CodeCell").nth(number).locator(".cm-content").click()
         page.keyboard.press("Shift+Enter")
     frame = page.frame_locator("iframe[src*=token]")
-    frame.locator(".ai4u-keycap").first.wait_for(timeout=1000 * PATIENCE_S)
+    frame.locator(".ai4u-keycap").first.wait_for()
 
 
 def main() -> None:

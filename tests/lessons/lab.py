@@ -12,8 +12,7 @@ from pathlib import Path
 
 from ai4u_edu.lessons.handout import lab_config
 from tests.server.rooms import free_port
-
-PATIENCE = 180
+from tests.waiting import LIMIT_S, Deadline
 
 
 @contextlib.contextmanager
@@ -50,15 +49,15 @@ def lab(
             yield url
         finally:
             process.terminate()
-            process.wait(20)
+            process.wait(LIMIT_S)
 
 
 def wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:
     """Waits until a server answers."""
-    deadline = time.monotonic() + PATIENCE
-    while time.monotonic() < deadline and process.poll() is None:
+    deadline = Deadline()
+    while deadline.left() and process.poll() is None:
         try:
-            with urllib.request.urlopen(url, timeout=5):  # noqa: S310 - our own
+            with urllib.request.urlopen(url, timeout=LIMIT_S):  # noqa: S310 - our own
                 return
         except (urllib.error.URLError, ConnectionError):
             pass

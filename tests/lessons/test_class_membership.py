@@ -28,7 +28,8 @@ from tests.class_link.messages import drawing
 from tests.class_link.tiny_class import TinyClass
 from tests.lessons.class_with_a_seat import class_with_a_seat
 from tests.lessons.test_checking import go, stay
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import until
 
 WITHOUT_A_CLASS = """
 import sys

@@ -13,7 +13,7 @@ from tests.lessons.lab import lab
 from tests.lessons.test_in_lab import chromium
 
 __all__ = ["chromium"]  # a fixture
-pytestmark = [pytest.mark.browser, pytest.mark.nightly, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
 CODE = """from ai4u_edu.lessons import cards, sliders
 
@@ -36,19 +36,19 @@ def test_sliders_are_moved_tried_and_checked(chromium: Browser, tmp_path: Path) 
     with lab(tmp_path) as url:
         page = chromium.new_page(viewport={"width": 1366, "height": 768})
         page.goto(url + "lab/tree/sliders.ipynb")
-        page.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
+        page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
         page.locator(".jp-CodeCell .cm-content").first.click()
         page.keyboard.press("Control+Enter")
-        page.get_by_role("slider").first.focus(timeout=60_000)
+        page.get_by_role("slider").first.focus()
         assert page.get_by_text("If nothing happens, run this cell again.").is_visible()
         page.keyboard.press("End")
         page.get_by_role("button", name="Try", exact=True).click()
-        page.get_by_alt_text("the episode").wait_for(timeout=60_000)
+        page.get_by_alt_text("the episode").wait_for()
         shots = os.environ.get("AI4U_SHOTS")
         if shots:
             page.screenshot(path=Path(shots) / "sliders_try.png")
         page.get_by_role("button", name="Check", exact=True).click()
-        page.get_by_text("In 12 worlds it turned its back").wait_for(timeout=60_000)
+        page.get_by_text("In 12 worlds it turned its back").wait_for()
         assert page.get_by_alt_text("the episode").count() == 0
         if shots:
             page.screenshot(path=Path(shots) / "sliders_check.png")

@@ -18,9 +18,10 @@ from ai4u_edu.lessons.live import Live
 from ai4u_edu.runtime.runner import Runner
 from tests.chromium import browser, new_page
 from tests.lessons.lab import lab, wait_for
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S, until
 
-pytestmark = [pytest.mark.browser, pytest.mark.timeout(600)]
+pytestmark = pytest.mark.browser
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BASE = "/user/ann/"
@@ -53,12 +54,12 @@ def notebook(page: Page, url: str, live: Live, base: str = BASE) -> FrameLocator
 
 def drives(page: Page, frame: FrameLocator, runner: Runner) -> None:
     """Clicks into the world, holds a key, and sees the robot move and nothing else scroll."""
-    frame.locator(".ai4u-keycap").first.wait_for(timeout=60_000)
+    frame.locator(".ai4u-keycap").first.wait_for()
     frame.locator(".ai4u-driver, .ai4u-row").first.wait_for()
     before = runner.latest.bodies[0]
     page.locator("iframe").click(position={"x": 250, "y": 150})
     page.keyboard.down("KeyW")
-    until(lambda: runner.latest.bodies[0].x > before.x + 1, timeout=20)
+    until(lambda: runner.latest.bodies[0].x > before.x + 1)
     page.keyboard.up("KeyW")
     until(lambda: not runner.latest.agents[0].held_keys)
 
@@ -100,7 +101,7 @@ def test_without_a_proxy_the_page_comes_from_its_own_port(chromium: Browser, liv
         f"http://localhost:{live.port}/?token="
     )
     live.close()  # as when the kernel is restarted: nothing takes the frame away
-    page.get_by_text("run its cell again for a new world").wait_for(timeout=60_000)
+    page.get_by_text("run its cell again for a new world").wait_for()
     page.context.close()
 
 
@@ -142,12 +143,12 @@ def test_from_the_wheel_lesson_02_is_driven_in_jupyterlab(
         page.goto(f"http://localhost:{port}/lab/tree/02_drive.ipynb?token={token}")
         src = _shown(page)
         frame = page.frame_locator("iframe[src*=token]")
-        frame.locator(".ai4u-keycap").first.wait_for(timeout=60_000)
+        frame.locator(".ai4u-keycap").first.wait_for()
         where, _, query = src.partition("?")
         before = _pose(where, query)
         page.locator("iframe[src*=token]").click(position={"x": 250, "y": 150})
         page.keyboard.down("KeyW")
-        until(lambda: _pose(where, query)[0] > before[0] + 1, timeout=20)
+        until(lambda: _pose(where, query)[0] > before[0] + 1)
         if os.environ.get("AI4U_SHOTS"):
             page.screenshot(path=Path(os.environ["AI4U_SHOTS"]) / "lab.png")
         page.keyboard.up("KeyW")
@@ -157,7 +158,7 @@ def test_from_the_wheel_lesson_02_is_driven_in_jupyterlab(
         page.context.close()
     finally:
         process.send_signal(signal.SIGTERM)
-        process.wait(20)
+        process.wait(LIMIT_S)
 
 
 def _installed(folder: Path) -> Path:
@@ -185,16 +186,16 @@ def _run(*command: str) -> None:
 
 def _shown(page: Page) -> str:
     """Runs the first two cells of code, and gives the address of the world under the second."""
-    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for(timeout=60_000)
+    page.get_by_text("Python 3 (ipykernel) | Idle").wait_for()
     for number in range(2):
         page.locator(".jp-CodeCell").nth(number).locator(".cm-content").click()
         page.keyboard.press("Shift+Enter")
     world = page.locator("iframe[src*=token]")
-    world.wait_for(timeout=60_000)
+    world.wait_for()
     return str(world.get_attribute("src"))
 
 
 def _pose(where: str, query: str) -> list[float]:
-    with urllib.request.urlopen(f"{where}api/snapshot?{query}", timeout=5) as answer:  # noqa: S310
+    with urllib.request.urlopen(f"{where}api/snapshot?{query}", timeout=LIMIT_S) as answer:  # noqa: S310
         found: dict[str, Any] = json.load(answer)
     return [float(each) for each in found["agents"][0]["pose"]]

@@ -18,7 +18,8 @@ from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.rollouts import drives
 from tests.builders import small_sim
 from tests.panel.rooms import PanelPage
-from tests.server.rooms import raw_answer, until
+from tests.server.rooms import raw_answer
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture(autouse=True)
@@ -108,7 +109,7 @@ def test_a_finished_episode_is_kept_beneath_once(shown: list[tuple[str, str, str
     world.keep()
     assert len(shown) == 2  # nothing has come to its end
     until(lambda: world.runner.latest.tick > 10)
-    world.runner.reset().result(5)
+    world.runner.reset().result(LIMIT_S)
     world.keep()
     world.keep()
     assert len(shown) == 3
@@ -149,7 +150,7 @@ def test_a_person_is_shown_a_world_of_their_own(tmp_path: Path) -> None:
 def test_another_brain_drives_and_its_episodes_are_kept(tmp_path: Path) -> None:
     world = show("box_chase", drive, record=tmp_path / "drives")
     until(lambda: world.runner.latest.agents[0].action.get("move") == (1.0, 0.2, 0.0, 0.0))
-    world.runner.reset(9).result(5)
+    world.runner.reset(9).result(LIMIT_S)
     assert world.episodes[0].agents
     until(lambda: list((tmp_path / "drives").glob("*.episode")))
     assert all(isinstance(each, Episode) for each in world.episodes)

@@ -16,6 +16,7 @@ from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.progress_file import ProgressFile
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 from tests.lessons.workbook import run, tried
+from tests.waiting import LIMIT_S
 
 SLIPS: dict[str, tuple[str, str, str, str]] = {
     "no return": (
@@ -209,7 +210,7 @@ Program.load("def decide(percept):\\n    return {}")  # traced
 
 def test_traced_code_goes_on_after_a_check_in_a_thread() -> None:
     # in a process of its own, since Python's interpreter would hang where no timer ends it
-    subprocess.run([sys.executable, "-c", AFTER_A_CHECK], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", AFTER_A_CHECK], check=True, timeout=LIMIT_S)
 
 
 def test_many_slow_calls_end_too() -> None:

@@ -53,7 +53,6 @@ def ran(folder: Path, numbers: list[str], *options: str) -> dict[str, Any]:
     ],
     ids=" ".join,
 )
-@pytest.mark.timeout(300)
 def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(
     numbers: list[str], tmp_path: Path
 ) -> None:
@@ -77,7 +76,6 @@ def test_unfinished_they_run_to_the_end_and_every_check_says_not_yet(
     ],
     ids=" ".join,
 )
-@pytest.mark.timeout(300)
 def test_solved_they_run_as_scripts_and_every_check_passes(
     numbers: list[str], tmp_path: Path
 ) -> None:
@@ -92,7 +90,6 @@ def test_solved_they_run_as_scripts_and_every_check_passes(
     "number",
     [pytest.param(each, marks=[] if each in IN_KERNEL else [pytest.mark.nightly]) for each in ALL],
 )
-@pytest.mark.timeout(300)
 def test_solved_it_runs_in_a_kernel_and_every_check_passes(
     number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -9,7 +9,7 @@ from ai4u_edu.lessons import show, stop
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.stall_watch import StallWatch
 from tests.lessons.workbook import run
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 WAITS = "stuck = True\ndef go(percept):\n    while stuck:\n        pass\n    return {}"
 LOOP = "def go(percept):\n    while True:\n        pass"
@@ -58,7 +58,7 @@ def test_an_endless_loop_ends_with_its_line_and_the_world_can_be_reset() -> None
     until(lambda: world.runner.latest.error == wanted)
     assert world.runner.stall is None
     go.__globals__["stuck"] = False
-    world.runner.reset(1).result(5)
+    world.runner.reset(1).result(LIMIT_S)
     until(lambda: world.runner.latest.tick > 10)
     assert world.runner.latest.error == ""
 

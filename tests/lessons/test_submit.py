@@ -20,7 +20,7 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.class_link.tiny_class import TinyClass
 from tests.lessons.class_with_a_seat import class_with_a_seat
-from tests.server.rooms import until
+from tests.waiting import until
 
 
 @pytest.fixture(autouse=True)

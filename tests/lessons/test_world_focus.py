@@ -6,10 +6,11 @@ from playwright.sync_api import Browser, expect
 from ai4u_edu.lessons.live import Live
 from tests.chromium import new_page
 from tests.lessons.test_in_lab import chromium, live, notebook
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import until
 
 __all__ = ["chromium", "live"]  # fixtures
-pytestmark = [pytest.mark.browser, pytest.mark.timeout(300)]
+pytestmark = pytest.mark.browser
 
 
 def test_keys_drive_without_a_click_and_the_notebook_says_who_has_them(
@@ -19,22 +20,22 @@ def test_keys_drive_without_a_click_and_the_notebook_says_who_has_them(
     url = f"http://localhost:{free_port()}/"
     page.route(url + "proxy/**", lambda route: route.fulfill(status=404, body="none"))
     frame = notebook(page, url, live, base="/")
-    frame.locator(".ai4u-keycap").first.wait_for(timeout=60_000)
+    frame.locator(".ai4u-keycap").first.wait_for()
     page.get_by_text("the keys go to the world").wait_for()
     before = live.runner.latest.bodies[0]
     page.keyboard.down("KeyW")
-    until(lambda: live.runner.latest.bodies[0].x > before.x + 1, timeout=20)
+    until(lambda: live.runner.latest.bodies[0].x > before.x + 1)
     page.keyboard.up("KeyW")
     box = page.locator("iframe").bounding_box()
     assert box is not None
     assert box["y"] >= 0
     assert box["y"] + box["height"] <= 768
     asks = f"{live.port}/healthz"
-    with page.expect_event("requestfinished", lambda each: asks in each.url, timeout=20_000):
+    with page.expect_event("requestfinished", lambda each: asks in each.url):
         pass  # the notebook asks every 5 s whether the world is still there
     page.locator("iframe").evaluate("frame => frame.blur()")
     say = page.locator("[data-say]")
-    expect(say).to_have_text("Click here to drive", timeout=20_000)
+    expect(say).to_have_text("Click here to drive")
     say.click()
     page.get_by_text("the keys go to the world").wait_for()
     page.context.close()
@@ -50,7 +51,7 @@ def test_who_is_typing_keeps_the_keys(chromium: Browser, live: Live) -> None:
         "})"
     )
     frame = notebook(page, url, live, base="/")
-    frame.locator(".ai4u-keycap").first.wait_for(timeout=60_000)
+    frame.locator(".ai4u-keycap").first.wait_for()
     page.get_by_text("Click here to drive").wait_for()
     page.keyboard.type("dd")
     assert page.locator("textarea").input_value() == "dd"

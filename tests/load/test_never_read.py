@@ -16,7 +16,8 @@ from ai4u_edu.viewer import Viewer
 from ai4u_edu.wire import native
 from tests.load.clients import CAMERA
 from tests.load.world import crowd
-from tests.server.rooms import UPGRADE, raw_request, until
+from tests.server.rooms import UPGRADE, raw_request
+from tests.waiting import until
 
 pytestmark = pytest.mark.alone
 
@@ -62,23 +63,21 @@ def test_a_hundred_clients_that_never_read_stop_no_other() -> None:
             connections += [opened(*scripts, hello(number)) for number in range(BRAINS)]
             pages = server.url, f"viser-v{viser.__version__}", CAMERA
             connections += [opened(*pages) for _ in range(VIEWERS)]
-            until(lambda: all(agent.remote for agent in runner.latest.agents), 10)
-            until(lambda: len(viewer.server.get_clients()) == VIEWERS, 20)
+            until(lambda: all(agent.remote for agent in runner.latest.agents))
+            until(lambda: len(viewer.server.get_clients()) == VIEWERS)
             tick = runner.latest.tick
-            until(lambda: runner.latest.tick > tick + 30, 20)
+            until(lambda: runner.latest.tick > tick + 30)
             with urlopen(server.url + "api/snapshot") as answer:  # noqa: S310 - our own server
                 assert len(json.load(answer)["agents"]) == BRAINS
             for connection in connections:
                 connection.close()
             # who is gone leaves nothing behind: the seats are free, and viser has forgotten them
-            until(lambda: not any(agent.remote for agent in runner.latest.agents), 20)
-            until(lambda: not viewer.server.get_clients(), 20)
+            until(lambda: not any(agent.remote for agent in runner.latest.agents))
+            until(lambda: not viewer.server.get_clients())
             assert runner.error == ""
     finally:
         for connection in connections:
             connection.close()
         viewer.stop()
         runner.stop()
-    until(
-        lambda: process.num_fds() <= before[0] + 8 and process.num_threads() <= before[1] + 40, 10
-    )
+    until(lambda: process.num_fds() <= before[0] + 8 and process.num_threads() <= before[1] + 40)

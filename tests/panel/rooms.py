@@ -2,7 +2,6 @@
 
 import json
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -23,7 +22,7 @@ from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.viewer_client import ViewerClient
 from tests.load.clients import CAMERA
-from tests.server.rooms import until
+from tests.waiting import Deadline, until
 
 Message = dict[str, Any]
 
@@ -122,9 +121,9 @@ class PanelPage:
 
     def receive(self, condition: Callable[[Message], Any]) -> Message:
         """Return the next message for which a condition holds; keep all parts."""
-        deadline = time.monotonic() + 10
+        deadline = Deadline()
         while True:
-            message: Message = json.loads(self.socket.recv(deadline - time.monotonic()))
+            message: Message = json.loads(self.socket.recv(deadline.left()))
             if message["type"] == "part":
                 self.parts[message["name"]] = message
             else:
@@ -134,10 +133,10 @@ class PanelPage:
 
     def end(self) -> tuple[int, str]:
         """Wait for the close, and return its code and reason."""
-        deadline = time.monotonic() + 10
+        deadline = Deadline()
         while True:
             try:
-                self.socket.recv(deadline - time.monotonic())
+                self.socket.recv(deadline.left())
             except ConnectionClosed as closed:
                 return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")
 

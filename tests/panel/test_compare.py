@@ -10,7 +10,7 @@ from ai4u_edu import trained_brain
 from ai4u_edu.editing.drivers import DriverRegistry
 from tests.explain.planted import linear_network
 from tests.panel.rooms import panel_room
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
@@ -24,7 +24,7 @@ def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
         room.editor._drivers = DriverRegistry([tmp_path])
         agent = room.runner.sim.agents[0]
         brain = trained_brain(str(tmp_path / "checkpoint-000001000.onnx"))
-        room.runner.submit(lambda: agent.use_brain(brain)).result(10)
+        room.runner.submit(lambda: agent.use_brain(brain)).result(LIMIT_S)
         page.show("0", "past")
         assert "choose an episode first" in page.failed("compare", first="", second="x")["text"]
         before = len(page.part("past")["episodes"])

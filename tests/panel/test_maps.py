@@ -9,12 +9,12 @@ from ai4u_edu import trained_brain
 from ai4u_edu.explain import map_maker
 from ai4u_edu.explain.elsewhere import Pose
 from tests.panel.rooms import PanelRoom, panel_room, picture
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def drive(room: PanelRoom, brain: Any) -> None:
     agent = room.runner.sim.agents[0]
-    room.runner.submit(lambda: agent.use_brain(brain)).result(10)
+    room.runner.submit(lambda: agent.use_brain(brain)).result(LIMIT_S)
 
 
 def is_complete(part: dict[str, Any]) -> bool:

@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu.recording.file import encode
 from tests.panel.rooms import Message, PanelPage, PanelRoom, panel_room
-from tests.server.rooms import until
+from tests.waiting import until
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ import pytest
 
 from ai4u_edu.snapshot.agent_words import ending
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture(scope="module")
@@ -16,7 +17,7 @@ def room() -> Iterator[PanelRoom]:
 
 @pytest.fixture
 def page(room: PanelRoom) -> Iterator[PanelPage]:
-    room.runner.pause().result(5)
+    room.runner.pause().result(LIMIT_S)
     with room.page() as page:
         yield page
 
@@ -93,7 +94,7 @@ def test_the_seed_is_repeated_drawn_and_locked(page: PanelPage, room: PanelRoom)
     for is_on in (True, False):
         page.done("lock_seed", on=is_on)
         page.part("run", is_seed_locked=is_on)
-        room.runner.reset().result(5)
+        room.runner.reset().result(LIMIT_S)
         assert (room.runner.latest.seed == seeds[1]) == is_on
 
 

@@ -11,7 +11,7 @@ from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.agent import agent_part
 from ai4u_edu.viewer.scene.view import Mode
 from tests.panel.rooms import PanelRoom, panel_room, picture
-from tests.server.rooms import until
+from tests.waiting import until
 
 
 @pytest.fixture(scope="module")

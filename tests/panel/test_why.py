@@ -7,13 +7,13 @@ import pytest
 from ai4u_edu import trained_brain
 from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS
 from tests.panel.rooms import panel_room
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def test_it_comes_when_it_is_asked_for() -> None:
     with panel_room("maze") as room, room.page() as page, room.page() as other:
         agent = room.runner.sim.agents[0]
-        room.runner.submit(lambda: agent.use_brain(trained_brain("zoo:maze"))).result(10)
+        room.runner.submit(lambda: agent.use_brain(trained_brain("zoo:maze"))).result(LIMIT_S)
         for each in (page, other):
             each.show("0", "agent")
             each.part("agent")
@@ -48,7 +48,7 @@ def test_what_if_a_number_were_another_one() -> None:
         def steer(percept: Any) -> Any:
             return {"move": [1, percept["orientation"][0] / 2, 0, 0]}
 
-        room.runner.submit(lambda: agent.use_brain(steer)).result(10)
+        room.runner.submit(lambda: agent.use_brain(steer)).result(LIMIT_S)
         page.show("0", "agent")
         told = page.done("what_if", changes=[])
         (dial,) = [each for each in told["dials"] if each["name"] == "orientation: cosine"]
@@ -78,7 +78,7 @@ def test_in_a_recorded_episode_the_baseline_is_its_mean() -> None:
         def steer(percept: Any) -> Any:
             return {"move": [0, percept["orientation"][0] / 2 + 0.5, 0, 0]}
 
-        room.runner.submit(lambda: agent.use_brain(steer)).result(10)
+        room.runner.submit(lambda: agent.use_brain(steer)).result(LIMIT_S)
         page.show("0", "agent", "past")
         page.done("why", on=True)
         assert page.part("why", problem="")["baseline"] == "the middle of its range"

@@ -12,7 +12,7 @@ from ai4u_edu import Scene
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.unsaved import Unsaved
 from tests.panel.rooms import Message, PanelPage, PanelRoom, panel_room, picture
-from tests.server.rooms import until
+from tests.waiting import until
 
 
 @pytest.fixture

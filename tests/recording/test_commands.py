@@ -22,6 +22,7 @@ from ai4u_edu.recording import Episode, Recorder, Replay, recorder_into
 from ai4u_edu.runtime.runner import Runner
 from tests.playing import played
 from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow
 
@@ -235,7 +236,7 @@ def test_record_says_what_it_waits_for_and_ends_with_ctrl_c(tmp_path: Path) -> N
         told = process.stderr.readline()
         assert told.startswith("agent '0' waits: no AI4U script listens at 127.0.0.1:")
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=10)
+        process.communicate(timeout=LIMIT_S)
     finally:
         process.kill()
     assert process.returncode not in (0, -signal.SIGKILL)

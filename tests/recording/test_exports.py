@@ -19,7 +19,7 @@ from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
 from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.recording.recorded_drives import Take, take
-from tests.server.rooms import until
+from tests.waiting import until
 
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
 

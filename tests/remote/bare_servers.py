@@ -16,8 +16,8 @@ from ai4u_edu.remote.address import Address
 from ai4u_edu.remote.async_connection import AsyncConnection
 from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Receive, Send
 from ai4u_edu.remote.sync_connection import SyncConnection
+from tests.waiting import LIMIT_S
 
-SOON_S = 5.0
 """Timeout of what happens at once if all is well."""
 
 Kind = Literal["sync", "async"]
@@ -38,7 +38,7 @@ class Client:
             return self._sync.run(flow)
         return self._runner.run(self._async.run(flow))
 
-    def open(self, timeout: float = SOON_S) -> None:
+    def open(self, timeout: float = LIMIT_S) -> None:
         def flow() -> Flow[None]:
             yield Open(timeout)
 
@@ -50,7 +50,7 @@ class Client:
 
         self.run(flow())
 
-    def receive(self, timeout: float = SOON_S) -> bytes | None:
+    def receive(self, timeout: float = LIMIT_S) -> bytes | None:
         def flow() -> Flow[bytes | None]:
             received: bytes | None = yield Receive(timeout)
             return received
@@ -102,8 +102,8 @@ def raw_server(kind: Kind) -> Iterator[tuple[Client, socket.socket]]:
         thread.start()
         try:
             url = f"ws://127.0.0.1:{listener.getsockname()[1]}"
-            with client(kind, url) as near, accepted.get(timeout=SOON_S) as far:
-                far.settimeout(SOON_S)
+            with client(kind, url) as near, accepted.get(timeout=LIMIT_S) as far:
+                far.settimeout(LIMIT_S)
                 yield near, far
         finally:
             thread.join()

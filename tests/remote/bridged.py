@@ -18,11 +18,11 @@ import numpy as np
 from ai4u_edu import BasicAgent, RemoteBrain, Scene
 from ai4u_edu.remote.bridge import Bridge
 from ai4u_edu.server.scripts import Rules
-from tests.remote import test_ai4u_package
 from tests.remote.faults import BAD
 from tests.remote.faulty_proxy import Faults, FaultyProxy
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S
 
 TOKEN = "open sesame"
 EPISODE = 60
@@ -82,7 +82,7 @@ def bridged(url: str, **options: Any) -> Iterator[tuple[int, list[str]]]:
         yield port, told
     finally:
         bridge.stop()
-        thread.join(30)
+        thread.join(LIMIT_S)
         assert not thread.is_alive()
 
 
@@ -128,7 +128,6 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    test_ai4u_package.PATIENCE = 60 + 3 * options.steps
     wrong = run(options.steps, seed=options.seed)
     print("\n".join(wrong[:20]) or "every observation as the world recorded it")
     sys.exit(bool(wrong))

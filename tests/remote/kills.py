@@ -20,6 +20,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.server.scripts import Rules
 from tests.remote.rooms import log_room
 from tests.server.rooms import Room
+from tests.waiting import until
 
 STOPPED, FREE, RESUMED = 0.5, 5.0, 1.0
 """Seconds that it may take."""
@@ -90,10 +91,8 @@ def run(times: int, seed: int = 1, grace: float = GRACE) -> tuple[Times, list[st
             once(room, agent, rng, found, resumes=number % 2 == 0)
             if agent.brain is not before or agent.brains != [before]:
                 wrong.append(f"after kill {number}: expected the brain from before")
-        wait_for(lambda: holdings() <= held, 15)
+        until(lambda: holdings() <= held)  # else threads or open files are left over
         print(f"(threads, open files) {held} before, {holdings()} after")
-        if holdings() > held:
-            wrong.append("threads or open files are left over")
     return found, wrong
 
 
@@ -113,30 +112,20 @@ def once(room: Room, agent: BasicAgent, rng: random.Random, found: Times, *, res
     before = agent.brain
     driver, heir = Driver(room.url), Driver(room.url)
     session = driver.begin()
-    wait_for(lambda: agent.last_action.get("log") == (5.0,))
+    until(lambda: agent.last_action.get("log") == (5.0,))
     time.sleep(rng.uniform(0.0, 0.1))
     killed = driver.kill()
     if resumes:
         assert heir.begin(session).startswith(session.partition(":")[0])
         found.resumed.append(time.monotonic() - killed)
-        wait_for(lambda: agent.last_action.get("log") == (5.0,))
+        until(lambda: agent.last_action.get("log") == (5.0,))
         killed = heir.kill()
     else:
         heir.kill()
-    wait_for(lambda: agent.last_action.get("log") != (5.0,))
+    until(lambda: agent.last_action.get("log") != (5.0,))
     found.stopped.append(time.monotonic() - killed)
-    wait_for(lambda: agent.brain is before and len(agent.brains) == 1)
+    until(lambda: agent.brain is before and len(agent.brains) == 1)
     found.free.append(time.monotonic() - killed)
-
-
-def wait_for(condition: object, timeout: float = 30.0) -> None:
-    """Waits until something is so; it is an error if that takes too long."""
-    assert callable(condition)
-    deadline = time.monotonic() + timeout
-    while not condition():
-        if time.monotonic() > deadline:
-            raise TimeoutError("it did not happen in time")
-        time.sleep(0.002)
 
 
 def holdings() -> tuple[int, int]:

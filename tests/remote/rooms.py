@@ -22,6 +22,7 @@ from ai4u_edu.server.scripts import Rules
 from ai4u_edu.wire import native
 from tests.builders import still
 from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S
 
 SECRET = "a secret of the tests"
 LARGEST = 1e9
@@ -142,7 +143,7 @@ class Script:
         self.say(native.Hello(**(fields | changes)))
         return self.hear()
 
-    def hear(self, timeout: float = 5.0) -> native.Message:
+    def hear(self, timeout: float = LIMIT_S) -> native.Message:
         return native.decode(self.socket.recv(timeout, decode=False), native.MAX_WORLD_FRAME_BYTES)
 
     def percept(self) -> native.Percept:
@@ -170,6 +171,6 @@ class Script:
         """Wait for the world to close the connection, and return the code and the reason."""
         while True:
             try:
-                self.socket.recv(5)
+                self.socket.recv(LIMIT_S)
             except ConnectionClosed as closed:
                 return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")

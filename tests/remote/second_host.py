@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from secrets import token_hex
 
 from tests.playing import Played, played
+from tests.waiting import LIMIT_S
 
 HERE, THERE = "10.231.77.1", "10.231.77.2"
 """Addresses of the two ends; of a network that is nobody's."""
@@ -81,7 +82,7 @@ def script(url: str, *prefix: str) -> str:
 
 def run(*command: str) -> str:
     """Run a command and return its output."""
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LIMIT_S)
     assert done.returncode == 0, (command, done.stdout, done.stderr)
     return done.stdout
 

@@ -36,7 +36,6 @@ from tests.remote import ai4u_venv
 from tests.wire.test_ai4u import EVERY_KIND
 
 SCRIPTS = Path(__file__).with_name("ai4u_scripts")
-PATIENCE = 90
 
 
 def free_port() -> int:
@@ -67,7 +66,7 @@ def run_script(
                 while b"ai4u2godot started" not in script.stdout.readline():
                     assert script.poll() is None
                 once_it_listens()
-            told, errors = script.communicate(given, timeout=PATIENCE)
+            told, errors = script.communicate(given)
         finally:
             script.kill()
     output = told.decode()

@@ -24,6 +24,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.validation import WireError
 from tests.builders import small_sim
 from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
+from tests.waiting import LIMIT_S
 
 AHEAD = "move;4;1.0;0;0;0"
 
@@ -475,10 +476,10 @@ def test_a_world_that_waits_still_does_what_the_page_asks_for(script: UDPScript)
     script.say(WAIT)
     runner.start()
     began = time.monotonic()
-    runner.submit(lambda: None).result(2)
-    runner.pause().result(2)
+    runner.submit(lambda: None).result(LIMIT_S)
+    runner.pause().result(LIMIT_S)
     assert runner.latest.paused
-    runner.reset(seed=5).result(2)
+    runner.reset(seed=5).result(LIMIT_S)
     assert runner.latest.seed == 5
     assert time.monotonic() - began < 2
     runner.stop()

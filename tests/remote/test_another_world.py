@@ -7,7 +7,8 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.remote import LostError, RemoteError, Robot, connect
-from tests.server.rooms import served, until
+from tests.server.rooms import served
+from tests.waiting import LIMIT_S, until
 
 AHEAD = [0.1, 0.0, 0.0, 0.0]
 
@@ -22,7 +23,7 @@ def test_a_script_is_told_and_gets_the_agent_of_the_same_id_in_the_other_world()
         robot = connect(room.url)
         robot.act(move=AHEAD)
         other = Scene.load("box_chase").build()
-        room.runner.replace_sim(other, seed=3).result(5)
+        room.runner.replace_sim(other, seed=3).result(LIMIT_S)
         with pytest.raises(LostError, match="another world has taken its place; connect anew"):
             drive(robot, 20)
         with connect(room.url, mode="lockstep") as again:
@@ -41,9 +42,9 @@ def test_a_script_keeps_its_agent_when_the_world_goes_back_in_time() -> None:
             first = robot.reset(seed=6)
             drive(robot, 10)
             assert robot.sense().step == 10
-            episode = room.runner.submit(recorder.current_episode).result(5)
+            episode = room.runner.submit(recorder.current_episode).result(LIMIT_S)
             assert episode is not None
-            room.runner.continue_from(Replay(episode), 4).result(5)
+            room.runner.continue_from(Replay(episode), 4).result(LIMIT_S)
             drive(robot, 4)  # what it says of what it sensed before counts no more
             percept = robot.sense()
             assert percept.episode > first.episode
@@ -70,11 +71,11 @@ def test_a_script_whose_world_is_replaced_while_it_asks_for_an_agent_is_told() -
             except RemoteError as error:
                 told.append(str(error))
 
-        room.runner.submit(lambda: may_go.wait(10))
+        room.runner.submit(lambda: may_go.wait(LIMIT_S))
         room.runner.replace_sim(Scene.load("box_chase").build())
         script = threading.Thread(target=drive_there)
         script.start()
         until(lambda: len(room.runner._queue) == 2)  # the other world, then the script's wish
         may_go.set()
-        script.join(10)
+        script.join(LIMIT_S)
         assert "another world has taken its place" in told[0]

@@ -18,9 +18,8 @@ from tests.remote.faulty_proxy import Faults, FaultyProxy
 from tests.remote.rooms import log_of, log_room
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
-from tests.server.rooms import served, until
-
-PATIENCE = 10.0
+from tests.server.rooms import served
+from tests.waiting import LIMIT_S, until
 
 
 def test_the_unmodified_client_sees_what_the_world_recorded_whatever_the_network_does() -> None:
@@ -93,9 +92,9 @@ def begin(script: UDPScript) -> dict[str, Any]:
 
 def heard(script: UDPScript, expected: str) -> dict[str, Any]:
     """Return the next request. If a script's answer takes long, a bridge repeats its first."""
-    request = script.hear(PATIENCE)
+    request = script.hear(LIMIT_S)
     while expected != "wait_command" and "wait_command" in request:
-        request = script.hear(PATIENCE)
+        request = script.hear(LIMIT_S)
     assert expected in request, request
     return request
 
@@ -175,7 +174,7 @@ def test_a_lost_connection_is_a_delay_and_no_more() -> None:
         before = len(log_of(room))
         for number in range(1, 31):
             script.say(f"log;1;{number}")
-            assert script.hear(PATIENCE)["steps"] == number
+            assert script.hear(LIMIT_S)["steps"] == number
         assert [number for _, _, number in log_of(room)[before:]] == list(range(1, 31))
         assert proxy.happened["reset"] >= 3
 
@@ -208,8 +207,8 @@ def test_whoever_ends_the_bridge_waits_for_no_script() -> None:
         thread.start()
         begin(script)  # and it does not answer what it is told
         bridge.stop()
-        assert "__stop__" in script.hear(PATIENCE)
-        thread.join(PATIENCE)
+        assert "__stop__" in script.hear(LIMIT_S)
+        thread.join(LIMIT_S)
         assert not thread.is_alive()
 
 
@@ -234,9 +233,9 @@ def test_a_world_that_ends() -> None:
             thread.start()
             begin(script)
         script.say("log;1;1")
-        assert "__stop__" in script.hear(PATIENCE)
+        assert "__stop__" in script.hear(LIMIT_S)
         script.say("halt")
-        thread.join(PATIENCE)
+        thread.join(LIMIT_S)
         assert len(told) == 1
         assert "expected connect" in told[0] or "ended the session" in told[0]
 
@@ -265,9 +264,9 @@ def test_a_bridge_can_be_stopped_while_it_waits_for_a_world_that_stands_still() 
         thread = threading.Thread(target=bridge.run, daemon=True)
         thread.start()
         begin(script)
-        room.runner.pause().result(5)
+        room.runner.pause().result(LIMIT_S)
         script.say("log;1;7")
         until(lambda: len(room.sim.agents[0].brain._link.exchange) == 1)  # type: ignore[attr-defined]
         bridge.stop()
-        thread.join(10)
+        thread.join(LIMIT_S)
         assert not thread.is_alive()

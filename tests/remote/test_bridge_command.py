@@ -11,7 +11,7 @@ from ai4u_edu.cli.main import app
 from tests.remote.bridged import TOKEN, scene_room
 from tests.remote.rooms import log_room
 from tests.remote.test_ai4u_package import free_port, run_script
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 TAKE_IT = "take the whole address that its terminal shows, as in connect('http://teacher:8080/"
 
@@ -36,7 +36,7 @@ def refused(*args: str) -> str:
 def test_what_is_wrong_is_said_in_a_sentence() -> None:
     with scene_room() as room:
         with bridge(room.url) as process:
-            said, why = process.communicate(timeout=30)
+            said, why = process.communicate(timeout=LIMIT_S)
         assert (process.returncode, said) == (1, "")
         assert why == f"error: expected this world's token, got none; {TAKE_IT}?token=...')\n"
         assert "got another one" in refused(room.url, "--token", "guess")
@@ -66,7 +66,7 @@ def test_a_script_drives_and_ctrl_c_ends_the_bridge() -> None:
                 log = run_script("steps.py", port, 20)["log"]
                 assert [each["steps"] for each in log] == list(range(1, 21))
                 process.send_signal(signal.SIGINT)
-                _, wrong = process.communicate(timeout=30)
+                _, wrong = process.communicate(timeout=LIMIT_S)
             finally:
                 process.kill()
         assert (process.returncode, wrong) == (0, "")

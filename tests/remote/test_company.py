@@ -10,7 +10,7 @@ from ai4u_edu.remote import Robot, connect
 from ai4u_edu.server import frames
 from ai4u_edu.server.scripts import sockets
 from tests.remote.rooms import Place, Script, log_of, log_room
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def test_in_lockstep_all_agents_take_each_step_together() -> None:
@@ -28,7 +28,7 @@ def test_in_lockstep_all_agents_take_each_step_together() -> None:
         for thread in threads:
             thread.start()
         for thread in threads:
-            thread.join(20)
+            thread.join(LIMIT_S)
         assert len(ends) == 3
         for agent in "abc":
             # whoever has finished has the others wait, and does its last action again
@@ -53,12 +53,12 @@ def test_a_world_that_waits_still_does_what_people_ask() -> None:
     with log_room(receive_timeout=60_000) as room, Script(room) as script:
         script.hello()
         percept = script.percept()
-        room.runner.pause().result(5)
+        room.runner.pause().result(LIMIT_S)
         assert room.runner.latest.paused
-        room.runner.resume().result(5)
+        room.runner.resume().result(LIMIT_S)
         script.act(percept, 1)
         percept = script.percept()
-        room.runner.reset(seed=9).result(5)
+        room.runner.reset(seed=9).result(LIMIT_S)
         told = script.percept if not script.silence() else None
         script.act(percept, 2)
         percept = script.percept()

@@ -15,8 +15,8 @@ from websockets.sync.server import ServerConnection
 
 from ai4u_edu.remote.connection_options import OPTIONS
 from ai4u_edu.remote.steps import ConnectionLostError
-from tests.remote.bare_servers import SOON_S, Client, Kind, client, loss_of, raw_server, serving
-from tests.server.rooms import until
+from tests.remote.bare_servers import Client, Kind, client, loss_of, raw_server, serving
+from tests.waiting import LIMIT_S, until
 
 KINDS = pytest.mark.parametrize("kind", ["sync", "async"])
 
@@ -114,12 +114,12 @@ def test_a_ping_is_answered_while_the_script_computes() -> None:
     answered = threading.Event()
 
     def ping(far: ServerConnection) -> None:
-        if far.ping().wait(SOON_S):
+        if far.ping().wait(LIMIT_S):
             answered.set()
         idle(far)
 
     with serving(ping) as url, client("sync", url):
-        assert answered.wait(SOON_S)
+        assert answered.wait(LIMIT_S)
 
 
 @KINDS

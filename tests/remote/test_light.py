@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+from tests.waiting import LIMIT_S
+
 HEAVY = ("pymunk", "viser", "pydantic", "starlette", "uvicorn", "ruamel", "typer", "rich")
 OURS = ("blocks", "world", "agent", "scenes", "runner", "server", "viewer", "parameters")
 
@@ -16,6 +18,6 @@ def test_the_client_is_light() -> None:
         f"[name for name in {OURS} if 'ai4u_edu.' + name in sys.modules])"
     )
     found = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=LIMIT_S
     )
     assert found.stdout.strip() == "[]"

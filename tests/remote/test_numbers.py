@@ -8,7 +8,8 @@ from ai4u_edu import BasicAgent
 from ai4u_edu.remote import RefusedError, connect
 from ai4u_edu.wire import native
 from tests.remote.rooms import Script, log_of, log_room
-from tests.server.rooms import Room, until
+from tests.server.rooms import Room
+from tests.waiting import LIMIT_S, until
 
 
 def test_each_action_is_the_answer_to_one_percept() -> None:
@@ -146,12 +147,12 @@ def answered_in_realtime(room: Room, script: Script) -> native.Percept:
 
     The world is paused; the decision before went on without the script.
     """
-    room.runner.pause().result(5)
+    room.runner.pause().result(LIMIT_S)
     script.hello(mode="realtime")
-    room.runner.step().result(5)
+    room.runner.step().result(LIMIT_S)
     script.act(script.percept(), 1)
     until(lambda: answers(room) == 1)
-    room.runner.step().result(5)
+    room.runner.step().result(LIMIT_S)
     return script.percept()
 
 
@@ -169,7 +170,7 @@ def test_in_realtime_a_percept_comes_before_the_next_tick() -> None:
 def test_in_realtime_a_late_action_counts() -> None:
     with log_room(skip_frame=1, time_scale=1.0) as room, Script(room) as script:
         answered_in_realtime(room, script)
-        room.runner.step().result(5)
+        room.runner.step().result(LIMIT_S)
         assert log_of(room)[-1][2] == 1.0
 
 
@@ -177,7 +178,7 @@ def test_in_realtime_a_late_action_gives_way_to_one_in_time() -> None:
     with log_room(skip_frame=1, time_scale=1.0) as room, Script(room) as script:
         script.act(answered_in_realtime(room, script), 2)
         until(lambda: answers(room) == 2)
-        room.runner.step(4).result(5)
+        room.runner.step(4).result(LIMIT_S)
         assert [number for _, _, number in log_of(room)] == [2.0] * 4
         status = room.sim.agents[0].brain.status()  # type: ignore[attr-defined]  # a RemoteBrain
         assert (status.decisions, status.ignored) == (1, 1)

@@ -17,7 +17,8 @@ from ai4u_edu.remote import Robot, connect
 from ai4u_edu.wire import native
 from tests.remote.faulty_proxy import Faults, FaultyProxy
 from tests.remote.rooms import Script, log_room
-from tests.server.rooms import Room, until
+from tests.server.rooms import Room
+from tests.waiting import LIMIT_S, until
 
 LATE = Faults(latency=0.02)
 LOSSY = Faults(drop=0.1, duplicate=0.1, reorder=0.1, latency=0.01, reset=0.03)
@@ -83,10 +84,10 @@ def test_over_a_bad_network_a_reset_begins_one_episode(faults: Faults) -> None:
 
 def begin_in_realtime(room: Room, script: Script) -> tuple[native.Welcome, native.Percept]:
     """Says hello in a world that stands still, in the middle of a decision without the script."""
-    room.runner.pause().result(5)
+    room.runner.pause().result(LIMIT_S)
     welcome = script.hello(mode="realtime")
     assert isinstance(welcome, native.Welcome)
-    room.runner.step().result(5)
+    room.runner.step().result(LIMIT_S)
     return welcome, script.percept()
 
 
@@ -106,7 +107,7 @@ def test_a_reset_in_the_middle_of_a_decision_is_not_answered_with_its_end(is_los
         if is_lost:
             script.socket.socket.shutdown(SHUT_RDWR)
             until(lambda: room.sim.agents[0].brain._link.outbox is None)  # type: ignore[attr-defined]
-        room.runner.step(6).result(5)
+        room.runner.step(6).result(LIMIT_S)
         if is_lost:
             script = scripts.enter_context(Script(room))
             assert script.hello(mode="realtime", session=welcome.session) == welcome
@@ -115,7 +116,7 @@ def test_a_reset_in_the_middle_of_a_decision_is_not_answered_with_its_end(is_los
         assert room.sim.agents[0].episode == before.episode + 1
         script.act(percept, 1)
         until(lambda: heard(room))
-        room.runner.step(2).result(5)
+        room.runner.step(2).result(LIMIT_S)
         assert script.percept().episode == percept.episode
 
 
@@ -151,17 +152,17 @@ def test_an_ai4u_script_is_not_told_of_the_episode_that_it_has_ended() -> None:
 
     def talk(situation: Observation | None, until: float) -> Reply | None:
         told.put(situation)
-        asks_for_reset.wait(5)
+        asks_for_reset.wait(LIMIT_S)
         return Reply(Reset(), situation)
 
     before, after, anew = map(situation_of, (1, 2, 3))
     desk = LinkThread(talk, "a script's desk")
     desk.put(before)
-    assert told.get(timeout=5) is before
+    assert told.get(timeout=LIMIT_S) is before
     desk.put(after)  # the end of the decision in which it asks
     asks_for_reset.set()
     assert desk.exchange(after, 5) == Reply(Reset(), before)
     assert not desk._has_work()  # there is nothing to tell it until the episode has begun
     desk.put(anew)
-    assert told.get(timeout=5) is anew
+    assert told.get(timeout=LIMIT_S) is anew
     desk.close()

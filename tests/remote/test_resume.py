@@ -14,7 +14,7 @@ from ai4u_edu.remote.steps import ConnectionLostError, Flow, Open, Receive, Send
 from ai4u_edu.server.scripts.sockets import MAX_STRAY_FRAMES_PER_S
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, log_of, log_room
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def cut(robot: Robot) -> None:
@@ -147,7 +147,7 @@ def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
                 flooding = threading.Thread(target=lambda: ended.append(flood(script, late)))
                 flooding.start()
                 other.sense()
-                flooding.join(10)
+                flooding.join(LIMIT_S)
             assert ended == [(native.PROBLEMS["too_fast"], FLOODED)]
         with Script(room) as script:
             assert script.hello(session=welcome.session) == welcome
@@ -240,7 +240,7 @@ def test_a_script_or_its_room_says_what_is_done_when_its_action_is_missing(
 
         def done_since() -> object:
             until(lambda: agent.steps > steps + 5)
-            return room.runner.submit(lambda: agent.last_action.get("log")).result(5)
+            return room.runner.submit(lambda: agent.last_action.get("log")).result(LIMIT_S)
 
         assert done_since() == late
         cut(robot)

@@ -9,7 +9,7 @@ from ai4u_edu.base.errors import ActionError, NameNotFoundError
 from ai4u_edu.remote import AsyncRobot, LostError, RemoteError, Robot, connect
 from ai4u_edu.wire.native import Output
 from tests.remote.rooms import log_of, log_room
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 def test_sense_act_reset() -> None:
@@ -130,7 +130,7 @@ def test_another_brain_takes_the_place_and_the_script_is_told() -> None:
     with log_room() as room, connect(room.url, mode="lockstep") as robot:
         robot.act(log=[1])
         agent = room.sim.agents[0]
-        room.runner.submit(lambda: agent.use_brain(agent.brains[0])).result(5)
+        room.runner.submit(lambda: agent.use_brain(agent.brains[0])).result(LIMIT_S)
         with pytest.raises(LostError, match="ended"):
             drive(robot)
         assert agent.brain is agent.brains[0]

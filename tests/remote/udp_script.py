@@ -8,8 +8,8 @@ from typing import Any
 
 from ai4u_edu import ControlRequestor
 from ai4u_edu.wire.ai4u import decode_request
+from tests.waiting import LIMIT_S
 
-PATIENCE = 5.0
 WAIT = "__waitnewaction__;1;0"
 RESET = "__reset__;1;0"
 NOOP = "__noop__;1;0"
@@ -24,7 +24,7 @@ class UDPScript:
         self.port: int = self._socket.getsockname()[1]
         self._world: Any = None
 
-    def hear(self, timeout: float = PATIENCE) -> dict[str, Any]:
+    def hear(self, timeout: float = LIMIT_S) -> dict[str, Any]:
         """The fields of the next request."""
         self._socket.settimeout(timeout)
         data, self._world = self._socket.recvfrom(2**16)
@@ -61,7 +61,7 @@ class UDPScript:
 
     def next(self, sim: ControlRequestor) -> dict[str, Any]:
         """Lets the world tick until it asks something."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + LIMIT_S
         while time.monotonic() < end:
             request = self.heard()
             if request is not None:

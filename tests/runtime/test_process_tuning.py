@@ -17,7 +17,7 @@ from ai4u_edu.runtime.process_tuning import (
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.builders import small_sim
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture(autouse=True)
@@ -71,7 +71,7 @@ def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
     runner.start()
     viewer.start()
     try:
-        assert runner.submit(settings).result(5) == before
+        assert runner.submit(settings).result(LIMIT_S) == before
     finally:
         viewer.stop()
         runner.stop()

@@ -29,7 +29,8 @@ from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.builders import small_sim, small_world
-from tests.server.rooms import free_port, until
+from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture
@@ -142,15 +143,15 @@ def test_bad_time_scale(scale: float) -> None:
 def test_pause_lets_keys_go_and_resume_goes_on(runner: Runner) -> None:
     keyboard = runner.sim.agents[0].keyboard
     keyboard.hold(["KeyW"])
-    runner.pause().result(5)
+    runner.pause().result(LIMIT_S)
     assert keyboard.held() == set()
     tick = runner.latest.tick
     time.sleep(0.1)
     assert runner.latest.tick == tick
     assert runner.latest.paused
-    runner.step(3).result(5)
+    runner.step(3).result(LIMIT_S)
     assert runner.latest.tick == tick + 3
-    runner.resume().result(5)
+    runner.resume().result(LIMIT_S)
     wait_for(runner, tick + 10)
 
 
@@ -159,7 +160,7 @@ def test_commands_run_between_two_decisions_in_the_runners_thread(runner: Runner
         return runner.sim.between_decisions(), threading.current_thread().name
 
     for _ in range(10):
-        assert runner.submit(look).result(5) == (True, "runner")
+        assert runner.submit(look).result(LIMIT_S) == (True, "runner")
 
 
 def test_commands_are_not_starved_where_decisions_always_overlap() -> None:
@@ -172,13 +173,13 @@ def test_commands_are_not_starved_where_decisions_always_overlap() -> None:
     sim = ControlRequestor(world, agents)
     runner = Runner(sim, time_scale=0.5)
     runner.start()
-    assert runner.submit(lambda: 5).result(5) == 5
+    assert runner.submit(lambda: 5).result(LIMIT_S) == 5
     runner.stop()
 
 
 def test_a_commands_error_goes_to_whoever_asked(runner: Runner) -> None:
     with pytest.raises(ZeroDivisionError):
-        runner.submit(lambda: 1 / 0).result(5)
+        runner.submit(lambda: 1 / 0).result(LIMIT_S)
     assert runner.latest.error == ""
     wait_for(runner, runner.latest.tick + 5)
 
@@ -200,7 +201,7 @@ def test_an_error_in_a_block_stops_the_world_with_a_sentence_and_reset_goes_on()
         "RuntimeError: no idea (while LocalBrain(ScriptController) of agent '0' was deciding)"
     )
     fail[0] = False
-    runner.reset(seed=9).result(5)
+    runner.reset(seed=9).result(LIMIT_S)
     wait_for(runner, 5)
     assert runner.latest.error == ""
     assert runner.latest.seed == 9
@@ -222,8 +223,8 @@ def test_the_snapshot_shows_the_percept_that_the_brain_got(runner: Runner) -> No
     def look() -> bool:
         return runner.latest.agents[0].percept is runner.sim.agents[0].percept
 
-    runner.pause().result(5)
-    assert runner.submit(look).result(5)
+    runner.pause().result(LIMIT_S)
+    assert runner.submit(look).result(LIMIT_S)
 
 
 def test_stop_cancels_what_still_waits() -> None:
@@ -240,14 +241,14 @@ def test_another_world_takes_this_ones_place(runner: Runner) -> None:
     closed: list[str] = []
     before.agents[0].brain.close = lambda: closed.append("old")  # type: ignore[method-assign]
     other = Scene.load("donut").build()
-    runner.pause().result(5)
-    runner.replace_sim(other, seed=7).result(5)
+    runner.pause().result(LIMIT_S)
+    runner.replace_sim(other, seed=7).result(LIMIT_S)
     assert runner.sim is other
     assert (runner.latest.seed, runner.latest.tick, runner.latest.paused) == (7, 0, True)
     assert {body.name for body in runner.latest.static_scene.bodies} == set(other.world.bodies)
     assert closed == ["old"]
     assert not before.agents[0].keyboard.held()
-    runner.resume().result(5)
+    runner.resume().result(LIMIT_S)
     wait_for(runner, 5)
     assert other.world.ticks >= 5
 
@@ -255,7 +256,7 @@ def test_another_world_takes_this_ones_place(runner: Runner) -> None:
 def test_another_world_goes_on_where_it_stands_with_the_brain_that_it_shares(
     runner: Runner,
 ) -> None:
-    runner.pause().result(5)
+    runner.pause().result(LIMIT_S)
     brain = runner.sim.agents[0].brain
     brain.close = lambda: pytest.fail("it still drives")  # type: ignore[method-assign]
     other = Scene.load("box_chase").build()
@@ -263,7 +264,7 @@ def test_another_world_goes_on_where_it_stands_with_the_brain_that_it_shares(
     other.step()
     other.agents[0].use_brain(brain)
     ticks = other.world.ticks
-    runner.replace_sim(other).result(5)
+    runner.replace_sim(other).result(LIMIT_S)
     assert (runner.latest.seed, runner.latest.tick) == (3, ticks)
     del brain.close
 
@@ -286,7 +287,7 @@ def test_a_world_that_can_not_begin_changes_nothing(runner: Runner) -> None:
 
     other.agents[0].before_the_reset.connect(fail)
     with pytest.raises(ZeroDivisionError):
-        runner.replace_sim(other).result(5)
+        runner.replace_sim(other).result(LIMIT_S)
     assert runner.sim is before
     wait_for(runner, runner.latest.tick + 5)
 
@@ -327,10 +328,10 @@ TURNS: list[dict[str, list[float]]] = [
 
 
 def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
-    runner.pause().result(5)
+    runner.pause().result(LIMIT_S)
     live = runner.latest
     past = replace(live, past="step 1 of 3", tick=-7, paused=False)
-    runner.show_past(past).result(5)
+    runner.show_past(past).result(LIMIT_S)
     seen = runner.latest
     assert (seen.past, seen.tick, seen.paused, seen.static_scene) == (
         "step 1 of 3",
@@ -340,14 +341,14 @@ def test_the_past_is_seen_and_changes_nothing(runner: Runner) -> None:
     )
     time.sleep(0.25)
     assert runner.latest is seen  # nobody has to draw it again
-    runner.show_past(None).result(5)
+    runner.show_past(None).result(LIMIT_S)
     assert (runner.latest.past, runner.latest.tick, runner.latest.paused) == ("", live.tick, True)
 
 
 def test_whoever_looks_at_the_past_has_the_time_stand_still(runner: Runner) -> None:
     keyboard = runner.sim.agents[0].keyboard
     keyboard.hold(["KeyW"])
-    runner.show_past(replace(runner.latest, past="then")).result(5)
+    runner.show_past(replace(runner.latest, past="then")).result(LIMIT_S)
     ticks = runner.sim.world.ticks
     assert not keyboard.held()
     time.sleep(0.1)
@@ -356,8 +357,8 @@ def test_whoever_looks_at_the_past_has_the_time_stand_still(runner: Runner) -> N
 
 @pytest.mark.parametrize("order", ["resume", "reset", "step"])
 def test_as_soon_as_something_goes_on_it_is_now(runner: Runner, order: str) -> None:
-    runner.show_past(replace(runner.latest, past="then")).result(5)
-    getattr(runner, order)().result(5)
+    runner.show_past(replace(runner.latest, past="then")).result(LIMIT_S)
+    getattr(runner, order)().result(LIMIT_S)
     assert runner.latest.past == ""
 
 
@@ -425,9 +426,9 @@ def test_a_decision_that_does_not_begin_is_refused_and_the_world_goes_on(
     runner.start()
     try:
         with pytest.raises(NoDecisionError, match=r"agent '0' took no decision: Silent answered"):
-            runner.step_decision().result(5)
+            runner.step_decision().result(LIMIT_S)
         assert runner.latest.tick == ticks
-        runner.resume().result(5)
+        runner.resume().result(LIMIT_S)
     finally:
         runner.stop()
     assert not runner.is_left_behind
@@ -483,7 +484,7 @@ def test_a_block_can_not_end_the_runners_thread(error: BaseException) -> None:
         assert type(error).__name__ in told
         assert "Brain LocalBrain(ScriptController) of agent '0', test_runner.py, line" in told
         fail[0] = False
-        runner.reset(seed=9).result(5)
+        runner.reset(seed=9).result(LIMIT_S)
         wait_for(runner, 5)
     finally:
         runner.stop()
@@ -495,7 +496,7 @@ def test_a_commands_ending_is_handed_on_as_an_error(runner: Runner, error: BaseE
         raise fresh(error)
 
     with pytest.raises(BlockError, match=type(error).__name__):
-        runner.submit(command).result(5)
+        runner.submit(command).result(LIMIT_S)
     wait_for(runner, runner.latest.tick + 5)
 
 
@@ -549,7 +550,7 @@ def test_a_world_that_can_not_be_pictured_says_so_in_the_last_picture() -> None:
         seen = runner.wait(seen, 1.0)
     assert runner.latest.error == "RuntimeError: no title"
     Nameless.fails = False
-    runner.reset().result(5)
+    runner.reset().result(LIMIT_S)
     assert runner.latest.error == ""
     runner.stop()
 
@@ -582,13 +583,13 @@ def stuck_runner(**options: Any) -> Iterator[tuple[Runner, Stuck]]:
     sensor.goes_on.clear()
     sensor.is_read.clear()
     runner.start()
-    assert sensor.is_read.wait(5)
+    assert sensor.is_read.wait(LIMIT_S)
     try:
         yield runner, sensor
     finally:
         sensor.goes_on.set()
         runner.stop()
-        assert closed.wait(5)
+        assert closed.wait(LIMIT_S)
 
 
 def test_a_block_that_does_not_answer_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -614,7 +615,7 @@ def test_a_command_that_does_not_end_is_a_stall_too(
         goes_on.wait()
 
     runner.submit(command)
-    assert begun.wait(5)
+    assert begun.wait(LIMIT_S)
     stall = runner.stall
     goes_on.set()
     assert stall is not None
@@ -633,7 +634,7 @@ def test_a_world_that_stands_still_or_waits_for_a_script_is_not_stalled(
     )  # whatever is under way is one
     runner.start()
     until(lambda: sim.waiting_for_brain and runner.stall is None)
-    runner.pause().result(5)
+    runner.pause().result(LIMIT_S)
     until(lambda: runner.stall is None)
     runner.stop()
 
@@ -669,7 +670,7 @@ def test_a_long_pause_between_two_ticks_keeps_no_command_waiting(ask: str) -> No
     runner.start()
     wait_for(runner, 1)
     asked = runner.scale_time(1.0) if ask == "scale" else getattr(runner, ask)()
-    asked.result(5)
+    asked.result(LIMIT_S)
     if ask == "scale":
         wait_for(runner, 3)
     runner.stop()

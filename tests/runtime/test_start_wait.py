@@ -24,6 +24,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import capture_bodies
 from tests.builders import small_sim, still
 from tests.server.rooms import free_port
+from tests.waiting import LIMIT_S
 
 
 def played_sim(*controllers: Any) -> ControlRequestor:
@@ -188,7 +189,7 @@ def test_waiting_changes_no_number_and_records_nothing() -> None:
 
 def test_a_key_starts_a_world_with_a_thread_at_once() -> None:
     with started(played_sim(WASDRBMoveController())) as runner:
-        runner.start_episode().result(5)
+        runner.start_episode().result(LIMIT_S)
         seen = runner.latest
         while not runner.latest.tick:
             seen = runner.wait(seen, 5)

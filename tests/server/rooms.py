@@ -3,7 +3,6 @@
 import json
 import socket
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from ai4u_edu import ControlRequestor, WASDRBMoveController
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app
 from tests.builders import small_sim
+from tests.waiting import LIMIT_S, Deadline
 
 NOWHERE = 9
 """Port at which no viser listens."""
@@ -137,29 +137,21 @@ class Page:
 
     def receive(self, kind: str, **wanted: Any) -> dict[str, Any]:
         """Return the next event of a type with the given fields; skip others."""
-        deadline = time.monotonic() + 5
+        deadline = Deadline()
         while True:
-            frame = json.loads(self.socket.recv(deadline - time.monotonic()))
+            frame = json.loads(self.socket.recv(deadline.left()))
             self.last[frame["type"]] = frame
             if frame["type"] == kind and wanted.items() <= frame.items():
                 return dict(frame)
 
     def end(self) -> tuple[int, str]:
         """Wait for the close, and return its code and reason."""
-        deadline = time.monotonic() + 5
+        deadline = Deadline()
         while True:
             try:
-                self.socket.recv(deadline - time.monotonic())
+                self.socket.recv(deadline.left())
             except ConnectionClosed as closed:
                 return (closed.rcvd.code, closed.rcvd.reason) if closed.rcvd else (1006, "")
-
-
-def until(condition: Callable[[], object], timeout: float = 20) -> None:
-    """Wait for a condition to become true."""
-    deadline = time.monotonic() + timeout
-    while not condition():
-        assert time.monotonic() < deadline, "it did not happen in time"
-        time.sleep(0.005)
 
 
 def free_port() -> int:
@@ -172,7 +164,7 @@ def free_port() -> int:
 def raw_request(url: str, *lines: str) -> socket.socket:
     """Return a connection after a request with exactly these headers."""
     parts = urlsplit(url)
-    connection = socket.create_connection((parts.hostname, parts.port or 80), timeout=5)
+    connection = socket.create_connection((parts.hostname, parts.port or 80), timeout=LIMIT_S)
     connection.sendall("\r\n".join([f"GET {parts.path} HTTP/1.1", *lines, "", ""]).encode())
     return connection
 

@@ -20,7 +20,8 @@ from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.server.api import SnapshotView, finite
 from tests.builders import small_sim
 from tests.json_schema import validator_of
-from tests.server.rooms import Room, served, until
+from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S, until
 
 if TYPE_CHECKING:
     from jsonschema import Draft202012Validator
@@ -101,7 +102,7 @@ def test_a_training_tells_its_progress(room: Room) -> None:
 def test_a_snapshot_tells_what_the_world_is_like(room: Room) -> None:
     with room.page() as page, page.holding("KeyW"):
         until(lambda: get(room, "api/snapshot")["agents"][0]["action"]["move"][0] == 1)
-    room.runner.pause().result(5)
+    room.runner.pause().result(LIMIT_S)
     seen, latest = get(room, "api/snapshot"), room.runner.latest
     assert (seen["tick"], seen["episode"], seen["seed"]) == (latest.tick, latest.episode, 1)
     assert seen["paused"] is True
@@ -128,14 +129,14 @@ def test_health_follows_the_world(room: Room) -> None:
         "since": None,
     }
     assert health["uptime"] >= 0
-    room.runner.pause().result(5)
+    room.runner.pause().result(LIMIT_S)
     assert get(room, "healthz")["status"] == "paused"
 
     def broken(_: BasicAgent) -> None:
         raise RuntimeError("odd")
 
     room.sim.agents[0].end_of_step.connect(broken)
-    room.runner.step().result(5)
+    room.runner.step().result(LIMIT_S)
     assert get(room, "healthz")["status"] == "error"
     told = "RuntimeError: odd (while handler broken of end_of_step of agent '0' was called)"
     assert get(room, "api/snapshot")["error"] == told
@@ -166,7 +167,7 @@ def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatc
         try:
             sensor.may_answer.clear()
             sensor.is_asked.clear()
-            assert sensor.is_asked.wait(5)
+            assert sensor.is_asked.wait(LIMIT_S)
             answer = httpx.get(room.url + "healthz")
             document = httpx.get(room.url + "api/openapi.json").json()
         finally:
@@ -184,15 +185,15 @@ def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatc
 def test_a_block_that_sleeps_keeps_nobody_but_the_world_waiting() -> None:
     sensor = Slow()
     with served(small_sim([sensor])) as room:
-        room.runner.scale_time(math.inf).result(5)
+        room.runner.scale_time(math.inf).result(LIMIT_S)
         with connect(room.url, mode="lockstep") as robot:
             robot.sense()
             sensor.may_answer.clear()
             sensor.is_asked.clear()
             robot.act(move=[0, 0, 0, 0])
             try:
-                assert sensor.is_asked.wait(5)  # the script's answer has the world tick
-                assert httpx.get(room.url + "healthz", timeout=5).status_code in (200, 503)
+                assert sensor.is_asked.wait(LIMIT_S)  # the script's answer has the world tick
+                assert httpx.get(room.url + "healthz", timeout=LIMIT_S).status_code in (200, 503)
                 assert not sensor.may_answer.is_set()
             finally:
                 sensor.may_answer.set()

@@ -3,7 +3,8 @@
 from typing import Any
 
 from ai4u_edu.server.class_feed import ROLE_HEADER, SEAT_HEADER
-from tests.server.rooms import Page, served, until
+from tests.server.rooms import Page, served
+from tests.waiting import LIMIT_S, until
 
 
 class Feed:
@@ -49,7 +50,7 @@ def test_a_room_without_a_class_says_nothing_of_one() -> None:
 def test_keys_do_nothing_while_the_world_is_held() -> None:
     with served() as room, room.page() as page:
         page.receive("hello")
-        room.runner.hold(True).result(5)
+        room.runner.hold(True).result(LIMIT_S)
         with page.holding("KeyW"):
             page.receive("state", waiting="teacher")
             page.send("command", name="resume")
@@ -57,5 +58,5 @@ def test_keys_do_nothing_while_the_world_is_held() -> None:
             page.receive("state", episode=3)
             assert room.held == []
             assert room.runner.latest.tick == 0
-            room.runner.hold(False).result(5)
+            room.runner.hold(False).result(LIMIT_S)
             until(lambda: room.held == ["KeyW"])

@@ -13,7 +13,8 @@ import pytest
 
 from ai4u_edu.server import connections as limits
 from ai4u_edu.server.connections import MAX_EVICTING, MAX_PER_ADDRESS, Connections, max_connections
-from tests.server.rooms import UPGRADE, Page, Room, raw_request, served, until
+from tests.server.rooms import UPGRADE, Page, Room, raw_request, served
+from tests.waiting import LIMIT_S, until
 
 
 class Transport:
@@ -101,7 +102,8 @@ def crowd(room: Room, count: int) -> Iterator[list[socket.socket]]:
     with ExitStack() as stack:
         place = (str(parts.hostname), parts.port or 80)
         yield [
-            stack.enter_context(socket.create_connection(place, timeout=5)) for _ in range(count)
+            stack.enter_context(socket.create_connection(place, timeout=LIMIT_S))
+            for _ in range(count)
         ]
 
 
@@ -160,7 +162,7 @@ def test_a_lack_of_descriptors_costs_the_new_connection_and_one_line(
 
     with served() as room:
         monkeypatch.setattr(socket.socket, "accept", fail)
-        assert httpx.get(room.url + "healthz", timeout=10).status_code == 200
+        assert httpx.get(room.url + "healthz", timeout=LIMIT_S).status_code == 200
         monkeypatch.undo()
         assert httpx.get(room.url + "healthz").status_code == 200
     assert 1 <= len(caplog.records) <= 3

@@ -18,9 +18,9 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.blocks.brains.command import Answer
-from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
 from tests.builders import small_sim, still
-from tests.server.rooms import Room, served, until
+from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture
@@ -106,7 +106,7 @@ def test_a_silent_page_keeps_the_seat_but_not_the_keys(room: Room) -> None:
     with room.page() as page, room.page() as other:
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
-        until(lambda: room.held == [], 3 * KEY_TIMEOUT_S)
+        until(lambda: room.held == [])
         other.hold("KeyS")
         other.send("nonsense")
         other.receive("error")
@@ -121,13 +121,13 @@ def test_the_world_tells_which_keys_it_sees(room: Room) -> None:
 
 def test_a_tap_that_is_over_before_the_next_decision_counts() -> None:
     with served() as room:
-        room.runner.pause().result(5)
+        room.runner.pause().result(LIMIT_S)
         with room.page() as page:
             page.hold("KeyW")
             page.hold()
             page.send("nonsense")  # its answer shows that the tap has come through
             page.receive("error")
-            room.runner.step().result(5)
+            room.runner.step().result(LIMIT_S)
             assert room.runner.latest.agents[0].action["move"][0] == 1.0
 
 
@@ -219,7 +219,7 @@ def test_another_brain_is_told_to_the_page(room: Room) -> None:
         page.receive("hello", brain="LocalBrain(WASDRBMoveController)")
         brain = LocalBrain(controller=WASDRBMoveController(forward=["KeyZ"]))
         agent = room.sim.agents[0]
-        room.runner.submit(lambda: agent.use_brain(brain)).result(5)
+        room.runner.submit(lambda: agent.use_brain(brain)).result(LIMIT_S)
         keys = page.receive("hello")["keys"]
         assert keys["forward"] == ["KeyZ"]
 

@@ -9,11 +9,12 @@ import pytest
 
 from ai4u_edu import ControlRequestor, WASDRBMoveController
 from tests.builders import small_sim
-from tests.server.rooms import Page, Room, served, until
+from tests.server.rooms import Page, Room, served
+from tests.waiting import LIMIT_S, until
 
 
 def get(room: Room, path: str) -> dict[str, Any]:
-    with urllib.request.urlopen(room.url + path, timeout=5) as answer:  # noqa: S310  # our own
+    with urllib.request.urlopen(room.url + path, timeout=LIMIT_S) as answer:  # noqa: S310  # our own
         found: dict[str, Any] = json.load(answer)
         return found
 
@@ -33,7 +34,7 @@ def settle(page: Page, room: Room) -> None:
     """Wait until all that a page has sent was carried out."""
     page.send("command", name="explode")
     page.receive("error")
-    room.runner.submit(lambda: None).result(5)
+    room.runner.submit(lambda: None).result(LIMIT_S)
 
 
 def runs(room: Room) -> bool:

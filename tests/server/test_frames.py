@@ -22,7 +22,8 @@ from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.input import MAX_MESSAGE_BYTES, MAX_MESSAGES_PER_S
 from ai4u_edu.server.page_receiver import MAX_MISTAKES
 from ai4u_edu.server.serve import MAX_MESSAGE_BYTES as MAX_FRAME_BYTES
-from tests.server.rooms import served, until
+from tests.server.rooms import served
+from tests.waiting import until
 
 MALFORMED = [
     ("", "expected JSON, got ''"),

@@ -33,7 +33,8 @@ from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.key_labels import usable_keys
 from ai4u_edu.snapshot.agent_words import driver_title
 from tests.builders import small_sim, still
-from tests.server.rooms import Room, free_port, served, until
+from tests.server.rooms import Room, free_port, served
+from tests.waiting import LIMIT_S, until
 
 
 def spin(_percept: Any) -> dict[str, Any]:
@@ -81,7 +82,7 @@ def test_a_page_that_lets_go_and_leaves_at_once_gives_back(room: Room) -> None:
     with room.page() as page:
         page.hold("KeyW")
         page.receive("hello", others="")
-        room.runner.submit(lambda: may_go.wait(5))
+        room.runner.submit(lambda: may_go.wait(LIMIT_S))
         for _ in range(50):  # one of them is carried out, they are not heaped up
             page.send("let_go")
             page.send("take")
@@ -201,7 +202,7 @@ def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) 
             assert agent.brain is brain
             until(lambda: brain.status().reason == "")
             assert steps == sorted(steps)
-        script.join(10)
+        script.join(LIMIT_S)
         until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
 
 
@@ -224,19 +225,19 @@ def test_whoever_changes_the_brain_meanwhile_has_the_last_word(room: Room) -> No
     with room.page() as page:
         page.hold("KeyW")
         page.receive("hello", others="")
-        room.runner.submit(lambda: agent.use_brain(third)).result(5)
+        room.runner.submit(lambda: agent.use_brain(third)).result(LIMIT_S)
         page.receive("hello", others="A script", instead="")
         page.send("let_go")
         page.send("nonsense")
         page.receive("error")
-        room.runner.submit(lambda: None).result(5)
+        room.runner.submit(lambda: None).result(LIMIT_S)
         assert agent.brain is third
 
 
 @pytest.mark.parametrize("paused", [True, False])
 def test_the_world_stays_as_it_is(room: Room, paused: bool) -> None:
     if paused:
-        room.runner.pause().result(5)
+        room.runner.pause().result(LIMIT_S)
     before = room.runner.latest
     with room.page() as page:
         page.send("take")

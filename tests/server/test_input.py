@@ -18,7 +18,8 @@ from ai4u_edu import (
 )
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
 from tests.builders import small_sim
-from tests.server.rooms import Room, served, until
+from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S, until
 
 
 def spin(_percept: Any) -> dict[str, Any]:
@@ -57,7 +58,7 @@ def test_another_world_sends_pages_away_and_has_them_back() -> None:
         with room.page() as page:
             page.hold("KeyW")
             until(lambda: room.held == ["KeyW"])
-            room.runner.replace_sim(new).result(5)
+            room.runner.replace_sim(new).result(LIMIT_S)
             assert page.end() == (1012, "another world")
         with room.page("?after_another&agent=0") as page:
             assert page.receive("hello")["agent"] == "0"
@@ -75,9 +76,9 @@ def test_an_agent_of_the_old_world_is_not_given_back(room: Room) -> None:
         page.hold("KeyW")
         page.receive("hello", others="")
         ours = agent.brain
-        room.runner.replace_sim(another("0")).result(5)
+        room.runner.replace_sim(another("0")).result(LIMIT_S)
         assert page.end()[0] == 1012
-    room.runner.submit(lambda: None).result(5)
+    room.runner.submit(lambda: None).result(LIMIT_S)
     assert agent.brain is ours
 
 
@@ -112,7 +113,7 @@ def test_a_stick_rests_when_its_page_falls_silent(room: Room) -> None:
     with room.page() as page:
         page.send("keys", held=[], stick={"forward": 0.5})
         until(lambda: keyboard.stick() == Stick(0.5, 0))
-        until(lambda: keyboard.stick() == Stick(0, 0), 2)
+        until(lambda: keyboard.stick() == Stick(0, 0))
 
 
 # -- a page that stops reading -------------------------------------------------------------------

@@ -15,7 +15,8 @@ from websockets.sync.connection import Connection
 
 from ai4u_edu.server.page import STYLES
 from ai4u_edu.server.web_files import WebFiles, web_folder
-from tests.server.rooms import Room, raw_answer, served, until
+from tests.server.rooms import Room, raw_answer, served
+from tests.waiting import LIMIT_S, until
 
 SVG_NAMESPACE = "http://www.w3.org/2000/svg"
 """A name, which no browser asks for."""
@@ -57,7 +58,7 @@ def test_the_title_follows_the_scene() -> None:
 
 def title_in(socket: Connection) -> str:
     """Return the scene's title in the next message; "" if it has none."""
-    return str(json.loads(socket.recv(timeout=10)).get("title", ""))
+    return str(json.loads(socket.recv(timeout=LIMIT_S)).get("title", ""))
 
 
 def test_the_page_may_talk_to_nobody_but_us(room: Room) -> None:

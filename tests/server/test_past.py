@@ -19,7 +19,8 @@ from ai4u_edu.recording.file import decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import Rules, ServerThread, exports, past, room_app
 from ai4u_edu.server.past import WRITERS
-from tests.server.rooms import NOWHERE, raw_request, until
+from tests.server.rooms import NOWHERE, raw_request
+from tests.waiting import LIMIT_S, until
 
 TOKEN = "sesame sesame"
 BEARER = f"Bearer {TOKEN}"
@@ -53,7 +54,7 @@ def _served() -> Iterator[str]:
 
 
 def get(address: str, path: str) -> httpx.Response:
-    return httpx.get(f"{address}api/past{path}", params={"token": TOKEN}, timeout=30)
+    return httpx.get(f"{address}api/past{path}", params={"token": TOKEN}, timeout=LIMIT_S)
 
 
 def test_they_are_listed(address: str) -> None:
@@ -112,7 +113,7 @@ def test_many_at_once_get_the_same_one_and_too_many_are_told_when_to_come_again(
 
     def write(replay: Replay, path: Path) -> Path:
         made.append(path)
-        assert is_going_on.wait(20)
+        assert is_going_on.wait(LIMIT_S)
         path.write_text("made")
         return path
 
@@ -143,7 +144,7 @@ def test_those_who_wait_leave_connections_for_others(
     is_going_on = Event()
 
     def write(replay: Replay, path: Path) -> Path:
-        assert is_going_on.wait(20)
+        assert is_going_on.wait(LIMIT_S)
         path.write_text("made")
         return path
 

@@ -20,7 +20,8 @@ from zstandard import ZstdDecompressor
 from ai4u_edu.server import page_messages
 from ai4u_edu.server.proxy import MAX_MESSAGES_PER_S
 from tests.load.clients import CAMERA
-from tests.server.rooms import UPGRADE, Room, raw_request, served, until
+from tests.server.rooms import UPGRADE, Room, raw_request, served
+from tests.waiting import LIMIT_S, until
 
 PROTOCOL = Subprotocol(f"viser-v{viser.__version__}")
 
@@ -63,14 +64,14 @@ def test_visers_frames_come_through_and_go_back(room: Room, inner: viser.ViserSe
         assert page.subprotocol == PROTOCOL
         uuid = None
         while uuid is None:
-            for message in told(page.recv(5)):
+            for message in told(page.recv(LIMIT_S)):
                 if message["type"] == "GuiTextMessage":
                     uuid = message["uuid"]
         update = {"type": "GuiUpdateMessage", "uuid": uuid, "updates": {"value": "after"}}
         page.send(msgspec.msgpack.encode(update))
         until(lambda: field.value == "after")
         inner.gui.add_markdown("from below")
-        while not any("from below" in str(message) for message in told(page.recv(5))):
+        while not any("from below" in str(message) for message in told(page.recv(LIMIT_S))):
             pass
 
 
@@ -78,7 +79,7 @@ def test_another_version_is_told_why_it_is_sent_away(room: Room) -> None:
     with client(room, "viser-v0.0.1") as page:
         assert page.subprotocol == "viser-v0.0.1"
         with pytest.raises(ConnectionClosed) as closed:
-            page.recv(5)
+            page.recv(LIMIT_S)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1002
         assert "Version mismatch" in closed.value.rcvd.reason
@@ -86,7 +87,7 @@ def test_another_version_is_told_why_it_is_sent_away(room: Room) -> None:
 
 def test_a_page_that_goes_is_gone_for_viser_too(room: Room, inner: viser.ViserServer) -> None:
     with client(room) as page:
-        page.recv(5)
+        page.recv(LIMIT_S)
         until(lambda: inner._websock_server._live_connections)
     until(lambda: not inner._websock_server._live_connections)
 
@@ -100,7 +101,7 @@ def test_no_page_can_open_a_tunnel(
     monkeypatch.setattr(inner, "disconnect_share_url", lambda: asked.append("disconnect"))
     field = inner.gui.add_text("Name", initial_value="before")
     with client(room) as page:
-        page.recv(5)
+        page.recv(LIMIT_S)
         page.send(msgspec.msgpack.encode({"type": kind}))
         update = {"type": "GuiUpdateMessage", "uuid": field._impl.uuid, "updates": {"value": "x"}}
         page.send(msgspec.msgpack.encode(update))
@@ -110,11 +111,11 @@ def test_no_page_can_open_a_tunnel(
 
 def test_text_is_not_visers_language(room: Room) -> None:
     with client(room) as page:
-        page.recv(5)
+        page.recv(LIMIT_S)
         page.send("hello")
         with pytest.raises(ConnectionClosed):  # noqa: PT012 - frames may come before
             while True:
-                page.recv(5)
+                page.recv(LIMIT_S)
 
 
 Behaviour = Callable[[ServerConnection], Awaitable[None]]
@@ -159,10 +160,10 @@ def test_large_frames_come_through_whole_in_both_directions() -> None:
     with stand_in(echo) as port, served(viser_port=port) as room, client(room) as page:
         for size in (0, 1, 125, 126, 65536, 200_000):
             page.send(msgspec.msgpack.encode(typed(size)))
-            frame = page.recv(20)
+            frame = page.recv(LIMIT_S)
             assert isinstance(frame, bytes)
             assert msgspec.msgpack.decode(frame) == typed(size)
-            assert page.recv(20) == bytes(40 * len(frame))
+            assert page.recv(LIMIT_S) == bytes(40 * len(frame))
 
 
 def test_viser_gets_what_was_understood_and_nothing_else() -> None:
@@ -265,7 +266,7 @@ def test_viser_closing_closes_the_page_with_its_words() -> None:
 
     with stand_in(dismiss) as port, served(viser_port=port) as room, client(room) as page:
         with pytest.raises(ConnectionClosed) as closed:
-            page.recv(5)
+            page.recv(LIMIT_S)
         assert closed.value.rcvd is not None
         assert (closed.value.rcvd.code, closed.value.rcvd.reason) == (1000, "enough for today")
 
@@ -284,7 +285,7 @@ def test_frames_keep_their_order_whether_the_page_is_slow_or_not() -> None:
         for number, frame in enumerate(frames):
             if number % 100 == 0:
                 time.sleep(0.1)
-            assert page.recv(5) == frame
+            assert page.recv(LIMIT_S) == frame
 
 
 def test_a_viser_that_breaks_off_closes_the_page() -> None:
@@ -293,7 +294,7 @@ def test_a_viser_that_breaks_off_closes_the_page() -> None:
 
     with stand_in(break_off) as port, served(viser_port=port) as room, client(room) as page:
         with pytest.raises(ConnectionClosed) as closed:
-            page.recv(5)
+            page.recv(LIMIT_S)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1001
 
@@ -325,7 +326,7 @@ def test_a_slow_page_slows_its_stream_down_and_nothing_piles_up(
             time.sleep(0.3)
         assert sent < 20_000_000, "what lies in the buffers of the system, and no more"
         with client(room) as quick:
-            assert quick.recv(5) == chunk
+            assert quick.recv(LIMIT_S) == chunk
         stopping = time.monotonic()
     assert time.monotonic() - stopping < 3, "nobody waits for it at the end"
     slow.close()

@@ -10,7 +10,8 @@ import psutil
 import pytest
 
 from ai4u_edu.server import frames, requests
-from tests.server.rooms import UPGRADE, Room, served, until
+from tests.server.rooms import UPGRADE, Room, served
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +29,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def connected(room: Room) -> socket.socket:
     parts = urlsplit(room.url)
-    return socket.create_connection((parts.hostname or "", parts.port or 80), timeout=5)
+    return socket.create_connection((parts.hostname or "", parts.port or 80), timeout=LIMIT_S)
 
 
 def heard(connection: socket.socket) -> bytes:
@@ -114,7 +115,7 @@ def test_a_reader_that_takes_nothing_is_given_up(
             ends = psutil.Process().net_connections("tcp")
             return all(end.raddr != connection.getsockname() for end in ends)
 
-        until(ended, 20)
+        until(ended)
 
 
 @pytest.mark.parametrize(
@@ -210,7 +211,7 @@ def test_a_socket_whose_app_does_not_answer_ends(monkeypatch: pytest.MonkeyPatch
     with ServerThread(silent) as server:
         parts = urlsplit(server.url)
         place = (parts.hostname or "", parts.port or 80)
-        with socket.create_connection(place, timeout=5) as connection:
+        with socket.create_connection(place, timeout=LIMIT_S) as connection:
             head = "\r\n".join(["GET / HTTP/1.1", "Host: localhost", *UPGRADE, "", ""])
             connection.sendall(head.encode())
             assert heard(connection).startswith(b"HTTP/1.1 500 ")

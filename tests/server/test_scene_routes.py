@@ -19,6 +19,7 @@ from ai4u_edu.scenes.scene_link import encode_link
 from ai4u_edu.server import Rules, ServerThread, room_app, scene_routes
 from tests.server.rooms import NOWHERE, served
 from tests.server.test_api import checker
+from tests.waiting import LIMIT_S
 
 LINK = shared_link(Scene.load("maze"), 2**60 + 1).fragment
 
@@ -35,7 +36,7 @@ class Shared:
         return httpx.get(self.url + path).json()
 
     def post(self, path: str, **body: Any) -> httpx.Response:
-        return httpx.post(self.url + path, json=body, timeout=20)
+        return httpx.post(self.url + path, json=body, timeout=LIMIT_S)
 
 
 @pytest.fixture
@@ -53,7 +54,7 @@ def room() -> Iterator[Shared]:
 
 
 def test_a_link_holds_the_present_scene_with_its_changes_and_seed(room: Shared) -> None:
-    room.editor.change_settings({"title": "Lesson 1"}).result(5)
+    room.editor.change_settings({"title": "Lesson 1"}).result(LIMIT_S)
     assert room.get("api/scene") == {
         "name": "box_chase",
         "title": "Lesson 1",
@@ -78,7 +79,7 @@ def test_a_scene_is_opened_from_a_link_and_undone(room: Shared) -> None:
     assert room.editor.title == "Maze"
     assert room.runner.latest.seed == 2**60 + 1
     assert not room.get("api/scene")["is_changed"]
-    room.editor.undo().result(5)
+    room.editor.undo().result(LIMIT_S)
     assert room.editor.state.description.name == "box_chase"
 
 
@@ -94,12 +95,12 @@ def test_a_saved_scene_has_no_unsaved_changes(room: Shared) -> None:
     def is_changed() -> object:
         return room.get("api/scene")["is_changed"]
 
-    room.editor.change_settings({"title": "Lesson 1"}).result(5)
+    room.editor.change_settings({"title": "Lesson 1"}).result(LIMIT_S)
     room.editor.recovery.mark_saved(room.editor.scene)
     assert not is_changed()
-    room.editor.change_settings({"title": "Lesson 2"}).result(5)
+    room.editor.change_settings({"title": "Lesson 2"}).result(LIMIT_S)
     assert is_changed()
-    room.editor.undo().result(5)
+    room.editor.undo().result(LIMIT_S)
     assert not is_changed()
 
 
@@ -196,7 +197,7 @@ def test_a_world_that_does_not_answer_is_told(
     finally:
         is_released.set()
     assert (answer.status_code, answer.headers["Retry-After"]) == (503, "5")
-    room.runner.submit(lambda: None).result(5)
+    room.runner.submit(lambda: None).result(LIMIT_S)
     assert room.editor.version == 0  # it is not opened later
 
 
@@ -204,7 +205,7 @@ def test_own_blocks_are_named(room: Shared) -> None:
     class Mine(Sensor):
         """A sensor of one's own."""
 
-    room.runner.pause().result(5)
+    room.runner.pause().result(LIMIT_S)
     agents = [dict(each) for each in room.editor.state.description.agents]
     agents[0]["sensors"] = [{"type": "Mine"}]
     description = room.editor.state.description.model_copy(update={"agents": tuple(agents)})

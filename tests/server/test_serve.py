@@ -25,7 +25,8 @@ from ai4u_edu import server
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.server.frames import FramesProtocol
-from tests.server.rooms import UPGRADE, Page, free_port, raw_answer, raw_request, served, until
+from tests.server.rooms import UPGRADE, Page, free_port, raw_answer, raw_request, served
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 
@@ -84,7 +85,7 @@ def test_a_signal_ends_it_cleanly_with_pages_open(number: signal.Signals) -> Non
             process.send_signal(number)
             code, _ = page.end()
             assert code == 1012, "as a server that will be back"
-            out, err = process.communicate(timeout=10)
+            out, err = process.communicate(timeout=LIMIT_S)
         assert process.returncode == 0
         assert "ENDED" in out
         assert err == ""
@@ -107,7 +108,7 @@ def test_it_ends_with_half_requests_and_readers_that_take_nothing() -> None:
         assert connection.recv(1).startswith(b"H")
         assert httpx.get(url + "healthz").status_code == 200
         process.send_signal(signal.SIGTERM)
-        out, err = process.communicate(timeout=10)
+        out, err = process.communicate(timeout=LIMIT_S)
         assert process.returncode == 0
         assert "ENDED" in out
         assert err == ""
@@ -235,10 +236,10 @@ def test_an_answer_that_is_read_to_its_end_while_stopping_leaves_no_error(
         parts: Any = urlsplit(room.url)
         answer = pool.submit(httpx.get, room.url)
         pool.submit(_suppressed_get, f"{room.url}wait")  # keeps the server until the end
-        assert asked.acquire(timeout=5)
-        assert asked.acquire(timeout=5)
+        assert asked.acquire(timeout=LIMIT_S)
+        assert asked.acquire(timeout=LIMIT_S)
         room.stop()
-        assert len(answer.result(5).content) == 5_000_000
+        assert len(answer.result(LIMIT_S).content) == 5_000_000
     assert caplog.records == []
 
 
@@ -253,17 +254,17 @@ def test_stopping_waits_for_no_worker_that_does_not_return() -> None:
     with ServerThread(Starlette(routes=[Route("/", wait)])) as server:
         asking = threading.Thread(target=lambda: _suppressed_get(server.url))
         asking.start()
-        assert begun.wait(5)
+        assert begun.wait(LIMIT_S)
         server.stop()
         assert not goes_on.is_set()
     goes_on.set()
-    asking.join(5)
+    asking.join(LIMIT_S)
     assert not asking.is_alive()
 
 
 def _suppressed_get(url: str) -> None:
     with suppress(httpx.HTTPError):
-        httpx.get(url, timeout=30)
+        httpx.get(url, timeout=LIMIT_S)
 
 
 async def _nothing(scope: object, receive: object, send: object) -> None:
@@ -294,7 +295,7 @@ def knock(place: tuple[str, int], stack: ExitStack) -> list[socket.socket]:
     made: list[socket.socket] = []
     with suppress(OSError):
         while len(made) < 2000:
-            made.append(stack.enter_context(socket.create_connection(place, timeout=5)))
+            made.append(stack.enter_context(socket.create_connection(place, timeout=LIMIT_S)))
     return made
 
 

@@ -15,6 +15,7 @@ from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.server import LessonView, Rules
 from tests.server.rooms import Room, served
 from tests.server.test_api import checker
+from tests.waiting import LIMIT_S
 
 TOKEN = "open sesame"
 LESSON = LessonView(number="00", title="Start here", duration="45 minutes")
@@ -33,7 +34,7 @@ def room(editor: SceneEditor) -> Iterator[Room]:
 
 
 def test_all_scenes_are_listed_the_easiest_first(room: Room) -> None:
-    scenes = httpx.get(room.url + "api/scenes", timeout=60).json()["scenes"]
+    scenes = httpx.get(room.url + "api/scenes", timeout=LIMIT_S).json()["scenes"]
     assert sorted(each["name"] for each in scenes) == Scene.names()
     levels = [(*LEVELS, "").index(each["level"]) for each in scenes]
     assert levels == sorted(levels)
@@ -44,8 +45,8 @@ def test_all_scenes_are_listed_the_easiest_first(room: Room) -> None:
 
 
 def test_each_scene_has_a_picture(room: Room) -> None:
-    for each in httpx.get(room.url + "api/scenes", timeout=60).json()["scenes"]:
-        answer = httpx.get(room.url + each["picture"], timeout=60)
+    for each in httpx.get(room.url + "api/scenes", timeout=LIMIT_S).json()["scenes"]:
+        answer = httpx.get(room.url + each["picture"], timeout=LIMIT_S)
         assert answer.headers["Content-Type"] == "image/png"
         picture = Image.open(io.BytesIO(answer.content))
         assert max(picture.size) == 400
@@ -54,7 +55,7 @@ def test_each_scene_has_a_picture(room: Room) -> None:
 
 
 def test_browsers_keep_a_picture_until_it_is_another_one(room: Room) -> None:
-    scenes = httpx.get(room.url + "api/scenes", timeout=60).json()["scenes"]
+    scenes = httpx.get(room.url + "api/scenes", timeout=LIMIT_S).json()["scenes"]
     (address,) = [each["picture"] for each in scenes if each["name"] == "maze"]
     answer = httpx.get(room.url + address)
     assert "immutable" in answer.headers["Cache-Control"]
@@ -94,7 +95,7 @@ def test_the_routes_are_described(room: Room) -> None:
     assert "/api/scenes/{file}" in document["paths"]
     for path in ("/api/scenes", "/api/lessons"):
         described = document["paths"][path]["get"]["responses"]["200"]["content"]
-        answer = httpx.get(room.url + path[1:], timeout=60).json()
+        answer = httpx.get(room.url + path[1:], timeout=LIMIT_S).json()
         checker(document, described["application/json"]["schema"]).validate(answer)
 
 
@@ -111,7 +112,7 @@ def test_the_token_is_asked_for_and_leads_back_to_the_page(editor: SceneEditor) 
         answer = browser.get("start", params={"token": TOKEN})
         assert (answer.status_code, answer.headers["Location"]) == (303, "./start")
         for path in paths:
-            assert browser.get(path, timeout=60).status_code == 200
+            assert browser.get(path, timeout=LIMIT_S).status_code == 200
 
 
 def test_a_room_without_an_editor_has_no_start_page() -> None:

@@ -14,7 +14,7 @@ import httpx
 import numpy as np
 import pytest
 
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 
@@ -151,8 +151,8 @@ def test_what_does_not_return_is_named_and_the_first_signal_ends_it(
     tmp_path: Path, how: str, number: signal.Signals, block: str
 ) -> None:
     with playing(tmp_path, how) as (process, url):
-        until(lambda: httpx.get(url + "healthz", timeout=10).status_code == 503, 30)
-        assert httpx.get(url + "healthz", timeout=10).json()["block"].startswith(block)
+        until(lambda: httpx.get(url + "healthz", timeout=LIMIT_S).status_code == 503)
+        assert httpx.get(url + "healthz", timeout=LIMIT_S).json()["block"].startswith(block)
         process.send_signal(number)
         _, err = process.communicate(timeout=EXIT_LIMIT_S)
     assert process.returncode == 0

@@ -10,7 +10,7 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.server import lock_viser_port
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
-from tests.server.rooms import until
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture
@@ -39,7 +39,7 @@ def test_who_comes_around_the_proxy_hears_nothing(
     inner.gui.add_text("Name", initial_value="secret")
     with directly(inner, **headers) as page:
         with pytest.raises(ConnectionClosed) as closed:
-            page.recv(5)
+            page.recv(LIMIT_S)
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 1008
     until(lambda: not inner.get_clients())
@@ -47,10 +47,10 @@ def test_who_comes_around_the_proxy_hears_nothing(
 
 def test_the_proxy_comes_in(inner: viser.ViserServer) -> None:
     with directly(inner, **{PROXY_SECRET_HEADER: PROXY_SECRET}) as proxy:
-        assert proxy.recv(5)
+        assert proxy.recv(LIMIT_S)
 
 
 def test_locking_it_twice_is_no_harm(inner: viser.ViserServer) -> None:
     lock_viser_port(inner)
     with directly(inner, **{PROXY_SECRET_HEADER: PROXY_SECRET}) as proxy:
-        assert proxy.recv(5)
+        assert proxy.recv(LIMIT_S)

@@ -228,7 +228,6 @@ def test_a_sweep_goes_on_where_it_ended(tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.timeout(600)
 def test_which_term_taught_it(tmp_path: Path) -> None:
     """Without what it is paid for touching the box or for coming closer, it learns to do less."""
     out = tmp_path / "out"

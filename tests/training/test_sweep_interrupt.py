@@ -40,7 +40,6 @@ def table(folder: Path) -> list[dict[str, str]]:
     return [{name: row[name] for name in SAME} for row in rows]
 
 
-@pytest.mark.timeout(900)
 @pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is sent in another way there")
 def test_ctrl_c_keeps_what_is_finished_and_the_table_is_that_of_a_whole_run(tmp_path: Path) -> None:
     whole, part = tmp_path / "whole", tmp_path / "part"

@@ -226,7 +226,6 @@ def test_the_model_of_each_check_is_kept_if_asked_for(tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly
-@pytest.mark.timeout(300)
 def test_checkpoints_are_exported_to_be_compared(tmp_path: Path) -> None:
     scene = Scene.load("box_chase")
     result = train(scene, "ppo", small_settings(), tmp_path, keep_checkpoints=True, quiet=True)

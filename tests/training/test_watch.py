@@ -7,8 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
@@ -21,6 +20,7 @@ from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.run import Run
 from ai4u_edu.training.watch import Watch
 from tests.training.small import copied_training, small_settings
+from tests.waiting import LIMIT_S, until
 
 TOTAL = 5000
 TRAIN = "train box_chase --algo ppo --steps 128 --watch"
@@ -55,16 +55,7 @@ def address_in(stream: IO[str]) -> str:
 
 
 def get(address: str, path: str) -> Any:
-    return httpx.get(address + path, timeout=20).json()
-
-
-def until(is_so: Callable[[], bool]) -> None:
-    """Wait until something is so."""
-    for _ in range(300):
-        if is_so():
-            return
-        time.sleep(0.1)
-    pytest.fail("it never was so")
+    return httpx.get(address + path, timeout=LIMIT_S).json()
 
 
 def only_turn(model: Any) -> None:
@@ -133,7 +124,7 @@ def train_command(folder: Path) -> subprocess.Popen[str]:
 def is_served(address: str) -> bool:
     """Return True while somebody answers at an address."""
     try:
-        httpx.get(address + "healthz", timeout=20)
+        httpx.get(address + "healthz", timeout=LIMIT_S)
     except httpx.TransportError:
         return False
     return True

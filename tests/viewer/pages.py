@@ -2,7 +2,6 @@
 
 import contextlib
 import threading
-import time
 from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
@@ -17,6 +16,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
+from tests.waiting import until
 
 P = TypeVar("P")
 
@@ -113,14 +113,6 @@ def part_of(viewer: Viewer, kind: type[P]) -> P:
     """The viewer's part of that kind."""
     (part,) = (each.part for each in viewer.parts if isinstance(each.part, kind))
     return part
-
-
-def until(condition: Callable[[], Any], patience: float = 10.0) -> None:
-    """Waits until something holds."""
-    end = time.monotonic() + patience
-    while not condition():
-        assert time.monotonic() < end, "it never came to that"
-        time.sleep(0.01)
 
 
 def publish(runner: Runner) -> None:

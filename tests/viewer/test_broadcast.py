@@ -24,7 +24,8 @@ from ai4u_edu.viewer.backend import broadcast
 from ai4u_edu.viewer.backend.broadcast import Broadcaster, LoopEvent
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from tests.load.clients import CAMERA
-from tests.server.rooms import served, until
+from tests.server.rooms import served
+from tests.waiting import LIMIT_S, until
 
 PROXY_URLS: dict[int, str] = {}
 """Addresses that pages use in place of viser's own, by viser's port."""
@@ -82,7 +83,7 @@ def told(frame: object) -> list[dict[str, Any]]:
 def frame_with(page: Connection, text: str) -> bytes:
     """The first frame in which a text is."""
     while True:
-        frame = page.recv(5)
+        frame = page.recv(LIMIT_S)
         assert isinstance(frame, bytes)
         if text in str(told(frame)):
             return frame
@@ -172,7 +173,7 @@ def test_who_comes_gets_what_there_is_then_the_mark_and_then_what_is_new(
         text.content = "new"
         seen: list[dict[str, Any]] = []
         while "new" not in str(seen[-1:]):
-            seen += told(page.recv(5))
+            seen += told(page.recv(LIMIT_S))
     kinds = [message["type"] for message in seen]
     mark = kinds.index("ReplayDoneMessage")
     assert kinds.count("ReplayDoneMessage") == 1
@@ -211,7 +212,7 @@ def test_what_one_page_has_said_goes_to_all_others(server: LocalServer) -> None:
         server.gui.add_markdown("later")
         heard: list[dict[str, Any]] = []
         while "later" not in str(heard[-1:]):
-            heard += told(writer.recv(5))
+            heard += told(writer.recv(LIMIT_S))
         assert "mine" not in str(heard)
 
 
@@ -234,7 +235,7 @@ def test_a_page_that_does_not_read_gets_the_newest_when_it_does(server: LocalSer
     text.content = "the last"
     seen: list[str] = []
     while not seen or "the last" not in seen[-1]:
-        seen += [str(message) for message in told(slow.recv(5))]
+        seen += [str(message) for message in told(slow.recv(LIMIT_S))]
     assert len(seen) < 55
     for page in (slow, quick):
         page.close()
@@ -252,7 +253,7 @@ def test_one_page_s_own_things_come_in_their_order_and_all(server: LocalServer) 
                 time.sleep(0.02)
         seen: list[str] = []
         while "299" not in seen:
-            seen += marks(told(page.recv(5)))
+            seen += marks(told(page.recv(LIMIT_S)))
     assert list(dict.fromkeys(seen)) == [str(number) for number in range(300)]
 
 
@@ -273,7 +274,7 @@ def test_a_message_that_can_not_be_packed_is_left_out(
         with client(server) as late:  # the message is still kept for who comes
             seen: list[dict[str, Any]] = []
             while "ReplayDoneMessage" not in str(seen):
-                seen += told(late.recv(5))
+                seen += told(late.recv(LIMIT_S))
             assert {"before", "after"} <= set(marks(seen))
             assert "no widget" not in str(seen)
             server.gui.add_markdown("<last>")

@@ -11,7 +11,8 @@ from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.recording.recorded_drives import take
-from tests.viewer.pages import publish, shown, until
+from tests.viewer.pages import publish, shown
+from tests.waiting import until
 
 
 def driving(seed: int, steps: int, turn: float) -> tuple[Runner, list[Any], Episode]:

@@ -13,7 +13,8 @@ from ai4u_edu.viewer.scene.drags import Action, Drag, Goal
 from ai4u_edu.viewer.scene.handles import Handles
 from ai4u_edu.world import AreaDescription, BodyDescription, BoxShape, CapsuleShape
 from tests.editing.harness import EditorHarness
-from tests.viewer.pages import Page, page, publish, shown, until
+from tests.viewer.pages import Page, page, publish, shown
+from tests.waiting import LIMIT_S, until
 
 AREA = {"name": "home", "shape": {"type": "box", "size": [2, 2]}, "position": [0, 4]}
 LAMP = {
@@ -73,14 +74,14 @@ class HandledPage:
                 owner=self._owner,
             )
         until(lambda: len(self.results) > count)
-        self.results[-1].result(5)
+        self.results[-1].result(LIMIT_S)
         self.draw()
 
 
 @pytest.fixture
 def handled(harness: EditorHarness) -> Iterator[HandledPage]:
-    harness.editor.add_region(AREA, "areas").result(5)
-    harness.editor.add_body(LAMP).result(5)
+    harness.editor.add_region(AREA, "areas").result(LIMIT_S)
+    harness.editor.add_body(LAMP).result(LIMIT_S)
     viewer = Viewer(harness.runner, editor=harness.editor)
     with page(viewer) as here:
         yield HandledPage(viewer, here, harness)
@@ -141,7 +142,7 @@ def test_an_area_is_chosen_by_a_click_and_moved_turned_and_resized(
     assert thing(harness, "home").shape.size == (2, 3)
     for label in ("resize home", "move home", "move home"):
         assert harness.editor.undo_label == label
-        harness.editor.undo().result(5)
+        harness.editor.undo().result(LIMIT_S)
     assert thing(harness, "home").position == (0, 4)
 
 

@@ -7,6 +7,7 @@ import rich
 from viser import _messages
 
 from ai4u_edu.viewer.backend.local_server import LocalServer
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture
@@ -41,7 +42,7 @@ def test_no_page_can_ask_for_a_public_address(
     monkeypatch.setattr("viser._viser.ViserTunnel", lambda *args: tunnels.append(args))
     for message in (_messages.ShareUrlRequest(), _messages.ShareUrlDisconnect()):
         asked = server._websock_server._handle_incoming_message(0, message)  # type: ignore[arg-type]
-        asyncio.run_coroutine_threadsafe(asked, server.get_event_loop()).result(5)
+        asyncio.run_coroutine_threadsafe(asked, server.get_event_loop()).result(LIMIT_S)
     server._thread_executor.shutdown(wait=True)
     assert tunnels == []
     assert server._share_tunnel is None

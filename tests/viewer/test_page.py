@@ -30,7 +30,7 @@ def tab(viewer: Viewer, runner: Runner) -> "Iterator[Page]":
     with browser() as chromium:
         tab = new_page(chromium, 900, 560, draws=True)
         tab.goto(f"http://127.0.0.1:{viewer.port}")
-        tab.wait_for_function(READY, timeout=60_000)
+        tab.wait_for_function(READY)
         yield tab
     runner.stop()
 

@@ -18,7 +18,8 @@ from ai4u_edu.viewer.scene.field_arrows import LEFT, RIGHT, STRAIGHT, arrow_colo
 from ai4u_edu.viewer.scene.policy_maps import PageMaps, PolicyMaps
 from ai4u_edu.viewer.scene.stand_in import StandIn, StandIns
 from tests.explain.worlds import robot_and_box
-from tests.viewer.pages import Page, page, part_of, publish, seen, until
+from tests.viewer.pages import Page, page, part_of, publish, seen
+from tests.waiting import until
 
 
 def turns_to_box(percept: Any) -> Any:

@@ -8,7 +8,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Archive, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE, ReplayPlayer
-from tests.viewer.pages import until
+from tests.waiting import LIMIT_S, until
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_a_moment_is_shown_and_left(runner: Runner, player: ReplayPlayer) -> Non
     until(lambda: runner.latest.past == "episode 1, step 1 of 20")
     player.go_to(99)
     until(lambda: runner.latest.past == "episode 1, the end")
-    player.return_to_present().result(5)
+    player.return_to_present().result(LIMIT_S)
     assert (runner.latest.past, runner.latest.seed, runner.latest.tick) == ("", 6, 40)
     assert runner.latest.paused
 
@@ -85,16 +85,16 @@ def test_what_is_under_way_is_taken_anew_when_it_has_gone_on(
     opened(player, RUNNING_EPISODE)
     player.go_to(3)
     until(lambda: runner.latest.past == "episode 2, step 4 of 8")
-    player.return_to_present().result(5)
+    player.return_to_present().result(LIMIT_S)
 
     def go_on() -> None:
         for _ in range(4):
             runner.sim.step()
 
-    runner.submit(go_on).result(5)
+    runner.submit(go_on).result(LIMIT_S)
     player.move(-1)
     until(lambda: runner.latest.past == "episode 2, step 12 of 12")
-    player.return_to_present().result(5)
+    player.return_to_present().result(LIMIT_S)
     player.go_to(10)
     until(lambda: runner.latest.past == "episode 2, step 11 of 12")
 
@@ -125,7 +125,7 @@ def test_if_somebody_has_the_world_go_on_it_stops_playing(
     opened(player, 1)
     player.play()
     until(lambda: runner.latest.past)
-    runner.resume().result(5)
+    runner.resume().result(LIMIT_S)
     until(lambda: not player.is_playing)
     assert runner.latest.past == ""
     assert not runner.paused
@@ -135,7 +135,7 @@ def test_the_world_goes_on_from_a_moment(runner: Runner, player: ReplayPlayer) -
     opened(player, 1)
     player.go_to(4)
     until(lambda: runner.latest.past)
-    player.continue_from_here().result(5)
+    player.continue_from_here().result(LIMIT_S)
     assert runner.latest.past == ""
     until(lambda: runner.latest.tick > 20)
     assert (runner.latest.seed, runner.sim.world.seeds.seed) == (5, 5)
@@ -144,9 +144,9 @@ def test_the_world_goes_on_from_a_moment(runner: Runner, player: ReplayPlayer) -
 
 def test_what_is_not_there_is_said(runner: Runner, player: ReplayPlayer) -> None:
     with pytest.raises(Exception, match="choose an episode first"):
-        player.continue_from_here().result(5)
+        player.continue_from_here().result(LIMIT_S)
     player.open(99)
     assert player.problem == "episode 99 is not kept any more"
-    runner.reset(7).result(5)
+    runner.reset(7).result(LIMIT_S)
     player.open(RUNNING_EPISODE)
     until(lambda: player.problem == "nothing of it is recorded yet")

@@ -24,7 +24,8 @@ from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.pointers import RING_RADIUS, pointer
 from ai4u_edu.viewer.scene.sense_overlay import is_drawable
-from tests.viewer.pages import Page, page, publish, shown, until
+from tests.viewer.pages import Page, page, publish, shown
+from tests.waiting import until
 
 
 def two() -> ControlRequestor:

@@ -11,7 +11,8 @@ from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.framing import Frame, frame_arena, frame_point
 from ai4u_edu.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
-from tests.viewer.pages import Page, page, until
+from tests.viewer.pages import Page, page
+from tests.waiting import until
 
 PLACE = (1.0, -2.0, 80.0)
 """Somewhere a person might move the camera."""

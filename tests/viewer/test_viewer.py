@@ -10,8 +10,9 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.bodies import Bodies
-from tests.viewer.pages import page, publish, until
+from tests.viewer.pages import page, publish
 from tests.viewer.worlds import busy_sim
+from tests.waiting import LIMIT_S, until
 
 
 def nodes(viewer: Viewer) -> list[str]:
@@ -144,7 +145,7 @@ def test_an_error_is_told_once_and_drawing_goes_on(
     runner.start()
     viewer.start()
     with page(viewer):
-        assert drawn.wait(10)
+        assert drawn.wait(LIMIT_S)
         assert viewer.thread.is_alive()
     runner.stop()
     told = capsys.readouterr().err
@@ -163,9 +164,9 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
 
     monkeypatch.setattr(viewer.viewer_clients, "refresh", fail)
     viewer.start()
-    assert failed.wait(5)
+    assert failed.wait(LIMIT_S)
     failed.clear()
-    assert failed.wait(5)
+    assert failed.wait(LIMIT_S)
     viewer.stop()
     assert capsys.readouterr().err.count("OSError: no clients") == 1
 
