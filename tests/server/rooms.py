@@ -15,6 +15,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from ai4u_edu import ControlRequestor, WASDRBMoveController
+from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app
 from tests.builders import small_sim
@@ -53,15 +54,20 @@ def served(
     wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
     wait_for_key: bool = False,
     server: "SharedServer | None" = None,
+    key_clock: Callable[[], float] = lambda: 0.0,
     **options: Any,
 ) -> Iterator[Room]:
     """Serve a room at a free port, or at that of a server that is there.
 
     Args:
         wrap: may wrap the room's app.
+        key_clock: clock of the keyboards; default, it stands still, and keys are held until they
+            are released, although a page on a busy machine is silent for too long.
         options: more of :func:`room_app`.
     """
     sim = sim or small_sim(controller=WASDRBMoveController())
+    for agent in sim.agents:
+        agent.keyboard = Keyboard(clock=key_clock)
     runner = Runner(sim, seed=1, wait_for_key=wait_for_key)
     app = room_app(runner, viser_port=viser_port, title=title, **options)
     runner.start()
