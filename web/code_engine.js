@@ -1,9 +1,7 @@
 /** Python in the browser: starts the worker of a student's program, and ends it if it does not answer. */
 
-/** Time that a program has for one call; the program package's own limit is shorter, and names the line. */
-const CALL_TIMEOUT_MS = 2000;
-/** Time in which a call begins, also on a machine that is very busy. */
-const BEGIN_TIMEOUT_MS = 10_000;
+import { codeLimits } from "./code_limits.js";
+
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
 const WASM = "./vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
@@ -73,7 +71,7 @@ export class CodeEngine {
       return problem("unavailable", error.message);
     }
     const dtypes = Object.fromEntries(readings.map(({ key, dtype }) => [key, dtype]));
-    const answer = await this.#call("load", json({ source, outputs, readings: dtypes }));
+    const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: codeLimits.programS }));
     this.#isLoaded = answer.ok;
     clearTimeout(this.#timer);
     if (answer.ok) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), SPARE_DELAY_MS);
@@ -162,10 +160,10 @@ class Runtime {
     this.#line = 0;
     let timer;
     const late = new Promise((resolve) => {
-      timer = setTimeout(resolve, BEGIN_TIMEOUT_MS, "");
+      timer = setTimeout(resolve, codeLimits.beginMs, "");
       this.#onbegun = () => {
         clearTimeout(timer);
-        timer = setTimeout(resolve, CALL_TIMEOUT_MS, "");
+        timer = setTimeout(resolve, codeLimits.callMs, "");
       };
     });
     const answer = await Promise.race([this.#ask({ method, text }), late]);

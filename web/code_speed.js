@@ -1,7 +1,6 @@
 /** The world's speed during a test, and how it comes back to what it was. */
 
-/** Time for which the end of an episode is waited for (ms). */
-const OUTCOME_TIMEOUT_MS = 1000;
+import { codeLimits } from "./code_limits.js";
 
 export class WorldSpeed {
   #panel;
@@ -49,7 +48,7 @@ export function outcomeOf(panel, { step }, seed) {
       const { result, decision, seed: present } = panel.part("run") ?? {};
       if (result && decision === step && present === String(seed)) end(result);
     };
-    const timer = setTimeout(end, OUTCOME_TIMEOUT_MS, "over");
+    const timer = setTimeout(end, codeLimits.outcomeMs, "over");
     panel.addEventListener("part:run", check);
     check();
   });

@@ -6,6 +6,7 @@
  * last frame; if the connection is lost, it reconnects, as long as the world keeps the agent for it.
  */
 
+import { codeLimits } from "./code_limits.js";
 import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./remote_messages.js";
 
 /** Time after which a frame is repeated for the first time; it doubles with each repetition. */
@@ -17,8 +18,6 @@ const FIRST_BACKOFF_MS = 20;
 const MAX_BACKOFF_MS = 500;
 /** Time that opening a connection gets even if the deadline is nearer. */
 const MIN_OPEN_TIMEOUT_MS = 100;
-/** Timeout of the first welcome. */
-const PATIENCE_MS = 10_000;
 /** Close code of a server in front of the world that refuses. */
 const CLOSE_REFUSED = 1008;
 
@@ -65,7 +64,7 @@ export class Dialogue {
 
   /** Connect, and get the agent. */
   *begin() {
-    const lost = yield* this.#connect(performance.now() + PATIENCE_MS);
+    const lost = yield* this.#connect(performance.now() + codeLimits.connectMs);
     if (lost === null) return;
     yield { close: true };
     throw new RemoteError(`The world does not answer (${lost.message}). Is it still running?`, "lost");

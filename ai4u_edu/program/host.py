@@ -6,7 +6,8 @@ other file of ai4u_edu, not even its ``__init__.py``.
 ====== ============================================= ===============================================
 call   takes                                         returns
 ====== ============================================= ===============================================
-load   source, outputs, readings; optional: entry    ok
+load   source, outputs, readings;                    ok
+       optional: entry, limit_s
 begin                                                ok
 decide percept, decision                             ok, values, printed, lines, variables
 ====== ============================================= ===============================================
@@ -16,6 +17,7 @@ as far as they are known; it is never raised. ``begin`` and ``load`` return what
 ``watch`` takes a function, which is called with a line before it runs.
 
 - ``outputs`` is ``{name: [[low, ...], [high, ...]]}``.
+- ``limit_s`` is the longest time of a call (s).
 - ``readings`` is a list of the percept's keys, or ``{key: dtype}`` with the welcome's dtypes
   (``<f4``, ``<i4``, ``|b1``, ``|u1``; empty for text). With dtypes, numbers get the type that they
   have outside the page: JavaScript writes 1.0 as 1.
@@ -31,7 +33,7 @@ from typing import Any
 from ai4u_edu.program.mistakes import ProgramError
 from ai4u_edu.program.output import Output
 from ai4u_edu.program.program import Program
-from ai4u_edu.program.tracing import ReportLine
+from ai4u_edu.program.tracing import DECISION_LIMIT_S, ReportLine
 
 WORDS = {"inf": float("inf"), "-inf": float("-inf"), "nan": float("nan"), "-0": -0.0}
 """Numbers that are written as texts."""
@@ -75,6 +77,7 @@ def load(text: str) -> str:
             entry=said.get("entry", ""),
             outputs=outputs or None,
             output=output,
+            limit_s=said.get("limit_s", DECISION_LIMIT_S),
             report_line=_report_line,
         )
     except ProgramError as error:
