@@ -32,7 +32,7 @@ LOOP = "import os; parent = os.getppid()\nwhile os.getppid() == parent: pass"
 
 @dataclass
 class Run:
-    """How one run ended."""
+    """Result of one run of the tests."""
 
     code: int
     seconds: float

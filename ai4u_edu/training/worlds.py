@@ -99,11 +99,10 @@ class WithoutReward(VecEnvWrapper):  # type: ignore[misc]  # seen without its ty
 
 
 def table_for(space: spaces.Box, given: Sequence[Sequence[float]] = ()) -> npt.NDArray[np.float32]:
-    """Return the actions that DQN chooses from.
+    """Return the actions that DQN chooses from, an array of shape (actions, numbers).
 
-    >>> low, high = np.array([-1, 0], np.float32), np.array([1, 1], np.float32)
-    >>> table_for(spaces.Box(low, high)).tolist()
-    [[0.0, 0.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    By default the first is rest; in each other, one number is at its minimum or maximum and all
+    others are 0. For numbers from [-1, 0] to [1, 1] they are [0, 0], [-1, 0], [1, 0] and [0, 1].
     """
     count = int(np.prod(space.shape))
     if given:

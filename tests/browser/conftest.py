@@ -13,6 +13,8 @@ from tests.builders import small_sim
 from tests.chromium import browser
 from tests.server.rooms import SharedServer, served
 
+pytestmark = pytest.mark.browser
+
 
 @pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:

@@ -13,6 +13,8 @@ from traitlets.config import Config
 
 from ai4u_edu.cli.server_proxy import server_proxy
 
+pytestmark = pytest.mark.needs("hub")
+
 DOCS = Path(__file__).parents[2] / "docs"
 USE_CLASS = {"access:services!service=ai4u-class", "read:services!service=ai4u-class"}
 

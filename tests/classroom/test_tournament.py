@@ -30,6 +30,8 @@ from tests.tournament.bad_networks import BAD, INPUTS, few_outputs
 from tests.training.networks import network
 from tests.waiting import LIMIT_S, until
 
+pytestmark = pytest.mark.needs("train", "tournament")
+
 OCTETS = {"Content-Type": "application/octet-stream"}
 POLL_S = 0.3
 

@@ -96,9 +96,6 @@ def exists(target: str) -> bool:
 
     Annotations and docstrings use the names of the module in which they stand, which autodoc does
     not tell.
-
-    >>> exists("numpy.ndarray"), exists("Scene.load"), exists("numpi.ndarray"), exists("Scene.lod")
-    (True, True, False, False)
     """
     name = target.partition("[")[0].removeprefix("types.")  # types.Annotated, says Sphinx
     if hasattr(builtins, name.partition(".")[0]) or _has_attributes(types, name.split(".")):

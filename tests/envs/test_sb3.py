@@ -16,6 +16,8 @@ from ai4u_edu.envs.sb3 import SceneVecEnv
 from ai4u_edu.registration import env_id
 from tests.envs.scenes import SCENES, first_agent
 
+pytestmark = pytest.mark.needs("train")
+
 COUNT = 3
 
 

@@ -12,6 +12,8 @@ from ai4u_edu.explain import field, value_map
 from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
 
+pytestmark = pytest.mark.needs("train")
+
 BOX = np.array([3.0, 1.0])
 
 

@@ -23,6 +23,8 @@ from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
 from tests.waiting import until
 
+pytestmark = pytest.mark.needs("train")
+
 
 @pytest.fixture(autouse=True)
 def _few_places(monkeypatch: pytest.MonkeyPatch) -> None:

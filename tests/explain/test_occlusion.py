@@ -23,6 +23,8 @@ from ai4u_edu.training import QTable
 from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
 
+pytestmark = pytest.mark.needs("train")
+
 NUMBERS = some.floats(-4, 4, width=32)
 PERCEPT = {"eyes": np.array([0.3, -0.7, 1.0]), "speed": np.array([0.25, 0.5])}
 ZEROS = {"eyes": np.zeros(3), "speed": np.zeros(2)}

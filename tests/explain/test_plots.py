@@ -4,9 +4,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-pytest.importorskip("matplotlib")
-
 from matplotlib.figure import Figure
 
 from ai4u_edu.explain import (
@@ -26,6 +23,8 @@ from ai4u_edu.explain.plots import (
 )
 from tests.explain.test_disagreement import circles, late, recorded
 from tests.explain.worlds import robot_and_box
+
+pytestmark = pytest.mark.needs("train")
 
 
 def words_in(figure: Figure) -> str:

@@ -6,14 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("torch")
-pytest.importorskip("stable_baselines3")
-
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.explain import groups_of_agent, mean_of, occlusion, percepts_of, sentence
 from ai4u_edu.explain.sentence import axes_of_agent
 from ai4u_edu.recording import Recorder
 from ai4u_edu.training.cloning import clone
+
+pytestmark = pytest.mark.needs("train")
 
 LAMP_BESIDE_BOX = """
 name: lamp

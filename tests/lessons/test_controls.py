@@ -13,6 +13,8 @@ from ai4u_edu.lessons.controls import Controls
 from ai4u_edu.lessons.progress_file import ProgressFile
 from ai4u_edu.lessons.time_limit import TimeLimit
 
+pytestmark = pytest.mark.needs("lessons")
+
 widgets: Any = pytest.importorskip("ipywidgets")
 
 

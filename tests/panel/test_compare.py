@@ -12,6 +12,8 @@ from tests.explain.planted import linear_network
 from tests.panel.rooms import panel_room
 from tests.waiting import LIMIT_S, until
 
+pytestmark = pytest.mark.needs("train")
+
 
 def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
     ahead = {"orientation": np.zeros((2, 4))}

@@ -21,6 +21,8 @@ from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.recording.recorded_drives import Take, take
 from tests.waiting import until
 
+pytestmark = pytest.mark.needs("video")
+
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
 
 

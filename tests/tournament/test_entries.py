@@ -18,6 +18,8 @@ from ai4u_edu.tournament.sides import sides_of
 from tests.tournament.bad_networks import BAD, INPUTS
 from tests.training.networks import network
 
+pytestmark = pytest.mark.needs("train", "tournament")
+
 SUMO = {"name": "sumo"}
 
 

@@ -17,6 +17,8 @@ from ai4u_edu.tournament.standings import standings
 from tests.tournament.bad_networks import INPUTS, few_outputs
 from tests.training.networks import network
 
+pytestmark = pytest.mark.needs("train", "tournament")
+
 
 def entries(*names: str) -> list[Entry]:
     return [Entry(name=name, drivers={"": {"kind": "random"}}) for name in names]

@@ -5,10 +5,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-pytest.importorskip("torch")
-pytest.importorskip("stable_baselines3")
-
 import torch
 
 from ai4u_edu import LocalBrain, Percept, Scene
@@ -21,6 +17,8 @@ from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
 from tests.recording.recorded_drives import take
 from tests.scenes.solvers import solver_of
+
+pytestmark = pytest.mark.needs("train")
 
 
 def solved(name: str, seeds: tuple[int, ...]) -> list[Episode]:

@@ -17,6 +17,8 @@ from ai4u_edu.training.run import Run
 from ai4u_edu.training.watch import Watch
 from tests.training.small import CHOICES, copied_training, small_settings
 
+pytestmark = pytest.mark.needs("train")
+
 
 def run(*arguments: str) -> str:
     told = CliRunner().invoke(app, list(arguments))

@@ -6,9 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("torch")
-pytest.importorskip("stable_baselines3")
-
 from ai4u_edu import Percept, Scene, World
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.training import evaluate
@@ -16,6 +13,8 @@ from ai4u_edu.training.dagger import FIRST_SEED, TeacherData, imitate
 from ai4u_edu.training.settings import DaggerSettings
 from tests.scenes.solvers import solver_of
 from tests.training.teachers import OWN
+
+pytestmark = pytest.mark.needs("train")
 
 FEW = DaggerSettings(rounds=2, episodes=2, updates=50, layers=(16,))
 

@@ -15,6 +15,8 @@ from ai4u_edu.training.evaluating import DEFAULT_MAX_DECISIONS, Evaluation, eval
 from ai4u_edu.training.plots import plot_curves, plot_evaluations
 from ai4u_edu.training.policies import Entrant, entrant
 
+pytestmark = pytest.mark.needs("train")
+
 ROAD = """
 name: road
 success: touch

@@ -21,6 +21,8 @@ from ai4u_edu.training.settings import Algorithm, Settings
 from ai4u_edu.training.worlds import Choices, make_worlds
 from tests.training.small import CHOICES, copied_training, small_settings, small_training
 
+pytestmark = pytest.mark.needs("train")
+
 
 def config(algorithm: Algorithm, settings: Settings, scene: str = "box_chase") -> Config:
     return Config(scene=scene, algorithm=algorithm, seed=0, steps=1, settings=settings, versions={})

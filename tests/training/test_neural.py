@@ -31,6 +31,8 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import AI4UError, BlockError, SetupError
 from tests.training.networks import network
 
+pytestmark = pytest.mark.needs("train")
+
 
 def sim_with(
     path: Path | str, *sensors: Sensor, actuator: str = "move", **parameters: object

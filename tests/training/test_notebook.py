@@ -9,9 +9,6 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("torch")
-pytest.importorskip("stable_baselines3")
-
 from ai4u_edu import Controller, Percept, Scene
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training import clone, demonstrate, evaluate, export, train
@@ -19,6 +16,8 @@ from ai4u_edu.training.learning import Trained
 from ai4u_edu.training.progress_bar import ProgressBar, counted
 from tests.training.small import SMALL
 from tests.training.test_evaluate import ROAD
+
+pytestmark = pytest.mark.needs("train")
 
 FEW: dict[str, Any] = SMALL | {"check_episodes": 2, "max_steps": 20, "enough": 0}
 

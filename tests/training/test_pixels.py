@@ -6,10 +6,6 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
-
-pytest.importorskip("torch")
-pytest.importorskip("stable_baselines3")
-
 from stable_baselines3 import DQN, PPO
 from stable_baselines3.common.env_util import make_vec_env
 from stable_baselines3.common.vec_env import VecFrameStack
@@ -21,6 +17,8 @@ from ai4u_edu.envs import SceneEnv
 from ai4u_edu.envs.sb3 import SceneVecEnv
 from ai4u_edu.training import evaluate, export, train
 from ai4u_edu.training.algorithms import load_model
+
+pytestmark = pytest.mark.needs("train")
 
 SEEN = "{type: LocalGridSensor, perception_key: picture, width: 36, height: 36, %s}"
 

@@ -4,10 +4,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-pytest.importorskip("torch")
-pytest.importorskip("stable_baselines3")
-
 import torch
 from gymnasium.spaces import Box
 
@@ -19,6 +15,8 @@ from ai4u_edu.training.cloning import Clone, write_network
 from ai4u_edu.training.rays import CLOSE, Rays, rays_of
 from ai4u_edu.training.settings import DaggerSettings
 from tests.scenes.solvers import solver_of
+
+pytestmark = pytest.mark.needs("train")
 
 NAMED = {"food": 2, "wall": 4}
 

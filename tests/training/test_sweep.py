@@ -24,6 +24,8 @@ from ai4u_edu.training.sweep.trial import CHECKS, trial
 from ai4u_edu.training.worlds import make_worlds
 from tests.training.small import CHOICES, small_settings
 
+pytestmark = pytest.mark.needs("sweep")
+
 
 def plan(**changes: object) -> Plan:
     return Plan.model_validate(

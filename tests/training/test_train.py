@@ -21,6 +21,8 @@ from ai4u_edu.training.run import Check, Run, run_of
 from ai4u_edu.training.settings import ALGORITHMS, Algorithm
 from tests.training.small import copied_training, small_settings, small_training
 
+pytestmark = pytest.mark.needs("train")
+
 ONE_OR_ALL = [
     each if each == "ppo" else pytest.param(each, marks=pytest.mark.nightly) for each in ALGORITHMS
 ]

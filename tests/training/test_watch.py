@@ -22,6 +22,8 @@ from ai4u_edu.training.watch import Watch
 from tests.training.small import copied_training, small_settings
 from tests.waiting import LIMIT_S, until
 
+pytestmark = pytest.mark.needs("train")
+
 TOTAL = 5000
 TRAIN = "train box_chase --algo ppo --steps 128 --watch"
 

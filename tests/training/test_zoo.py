@@ -8,6 +8,8 @@ from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.zoo import MAX_NETWORK_BYTES, MIN_SUCCESS_SHARE
 
+pytestmark = pytest.mark.needs("train")
+
 NAMES = zoo.names()
 
 

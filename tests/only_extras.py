@@ -1,0 +1,80 @@
+"""Refuse imports of packages that some extras of pyproject.toml don't bring.
+
+An environment adds up what was ever installed into it, and would hide that a test needs more than
+its tier promises.
+"""
+
+import importlib.abc
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from importlib.machinery import ModuleSpec
+from importlib.metadata import PackageNotFoundError, packages_distributions, requires
+from types import ModuleType
+
+from packaging.requirements import Requirement
+
+INSTALLERS = {"pip", "setuptools", "wheel"}
+"""Packages of a new environment."""
+
+
+class OnlyExtras(importlib.abc.MetaPathFinder):
+    """Finder of modules that raises an error for those of other packages.
+
+    Args:
+        extras: of this project.
+    """
+
+    def __init__(self, extras: set[str]) -> None:
+        self._extras = ", ".join(sorted(extras))
+        allowed = set(_brought("ai4u-edu", frozenset(extras), set())) | INSTALLERS
+        self.refused = frozenset(
+            module
+            for module, packages in packages_distributions().items()
+            if not allowed & set(map(_normal, packages))
+        )
+        """Names of the refused top-level modules."""
+
+    def install(self) -> None:
+        """Refuse from now on what was not imported yet."""
+        sys.meta_path.insert(0, self)
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Raise an error for a refused module, and leave all others to the next finder.
+
+        Raises:
+            ModuleNotFoundError: the module comes with other extras.
+        """
+        if name.partition(".")[0] in self.refused:
+            raise ModuleNotFoundError(
+                f"No module named {name!r} among the packages of [{self._extras}]; mark the test "
+                "with the extra that it needs: pytest.mark.needs(...)",
+                name=name,
+            )
+        return None
+
+
+def _brought(
+    package: str, extras: frozenset[str], seen: set[tuple[str, frozenset[str]]]
+) -> Iterator[str]:
+    """Yield the names of a package and of all that it requires with some extras."""
+    if (package, extras) in seen:
+        return
+    seen.add((package, extras))
+    try:
+        requirements = requires(package) or []
+    except PackageNotFoundError:  # of another platform
+        return
+    yield package
+    for text in requirements:
+        one = Requirement(text)
+        if one.marker is None or any(
+            one.marker.evaluate({"extra": extra}) for extra in extras or {""}
+        ):
+            yield from _brought(_normal(one.name), frozenset(one.extras), seen)
+
+
+def _normal(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
