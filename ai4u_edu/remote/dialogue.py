@@ -107,6 +107,12 @@ class Dialogue:
         """The latest percept has an answer."""
         self._refusable_seq = -1
         """Number of the percept whose answer the world may still refuse."""
+        self._copies = 0
+        """Times that the answer to the latest percept was sent."""
+        self._refusal: native.Problem | None = None
+        """The latest problem that was raised."""
+        self._stale_refusals = 0
+        """Times that this problem may still arrive, for the other copies of that answer."""
         self._ended: RemoteError | None = None
         """The error that ended the session; every method raises it from then on."""
         self.percept: RemotePercept | None = None
@@ -157,7 +163,7 @@ class Dialogue:
                 frame = yield Receive(timeout)
                 if frame is None:
                     timeout = min(2 * timeout, MAX_TIMEOUT_S)
-                    yield Send(self._last_frame)
+                    yield self._repeat()
                 else:
                     self._handle(frame)
             except ConnectionLostError as lost:
@@ -223,7 +229,7 @@ class Dialogue:
             try:
                 yield from self._attempt(min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S))
                 if self._is_answered and not is_first:
-                    yield Send(self._last_frame)
+                    yield self._repeat()
             except ConnectionLostError as failed:
                 self._end_if_refused(failed)
                 lost = failed
@@ -275,11 +281,16 @@ class Dialogue:
     def _answer(self, message: native.Answer) -> Flow[None]:
         """Send the answer to the latest percept."""
         self._last_frame, self._is_answered = native.encode(message), True
-        self._refusable_seq = message.seq
+        self._refusable_seq, self._copies = message.seq, 1
         try:
             yield Send(self._last_frame)
         except ConnectionLostError as lost:
             yield from self._reconnect(lost)
+
+    def _repeat(self) -> Send:
+        """Return the step that sends the last frame once more."""
+        self._copies += 1
+        return Send(self._last_frame)
 
     def _handle_welcome(self, frame: bytes) -> bool:
         """Handle a frame that may be the welcome; return True if it is."""
@@ -300,7 +311,7 @@ class Dialogue:
     def _handle(self, frame: bytes) -> None:
         """Handle a frame of the session; old percepts and repeated problems are ignored."""
         message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
-        latest = self.percept.seq if self.percept else 0
+        latest = self.percept.seq if self.percept is not None else 0
         match message:
             case native.Percept(seq=seq) if seq > latest:
                 self.percept = RemotePercept(self.readings, message)
@@ -310,8 +321,12 @@ class Dialogue:
             case native.Problem(seq=0):
                 self._is_answered = self.percept is None  # the last frame was no answer
                 raise RemoteError(message.text, message.code)
+            case native.Problem() if message == self._refusal and self._stale_refusals:
+                # the world refuses each copy of an answer; this one is not about the present answer
+                self._stale_refusals -= 1
             case native.Problem(code=code, seq=seq) if seq == self._refusable_seq:
-                self._refusable_seq = -1  # the problem may be sent twice
+                self._refusal, self._stale_refusals = message, self._copies - 1
+                self._refusable_seq = -1
                 self._is_answered = self._is_answered and seq != latest
                 if code == "seed_refused":
                     raise RefusedError(message.text, code)
