@@ -4,7 +4,7 @@ import asyncio
 import time
 from collections.abc import Callable
 
-LIMIT_S = 180
+LIMIT_S = 180.0
 """Time (s) that a test waits for an event; on a busy machine everything takes ten times as long."""
 LIMIT_MS = 1000 * LIMIT_S
 

@@ -17,7 +17,7 @@ from playwright.sync_api import Browser, Page
 
 from tests.chromium import browser
 from tests.lessons.hub import WORD, hub, new_ports, shows, student
-from tests.waiting import LIMIT_S
+from tests.waiting import Deadline
 
 pytestmark = [
     pytest.mark.browser,
@@ -91,14 +91,16 @@ class Teacher:
 
     def wait_for(self, fits: Callable[[dict[str, Any]], bool]) -> None:
         """Wait until the class fits."""
-        for _ in range(2 * LIMIT_S):
+        deadline = Deadline()
+        while True:
             found: dict[str, Any] | None = self.page.evaluate(
                 "fetch('./teacher/state').then((answer) => answer.json()).catch(() => null)"
             )
             if found is not None and fits(found):
                 return
-            self.page.wait_for_timeout(500)
-        raise AssertionError(json.dumps(found and [found["rooms"], found["seats"]], indent=1))
+            told = json.dumps(found and [found["rooms"], found["seats"]], indent=1)
+            assert deadline.left(), told
+            self.page.wait_for_timeout(500)  # real time: between two questions
 
 
 def sign_in(page: Page, name: str) -> None:
