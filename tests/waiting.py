@@ -38,12 +38,15 @@ class Deadline:
     def __init__(self) -> None:
         self._end = time.monotonic() + LIMIT_S
 
-    def left(self) -> float:
+    def left(self, state: str = "") -> float:
         """Return the seconds that are left.
+
+        Args:
+            state: text for the error, as what is there in place of what was expected.
 
         Raises:
             AssertionError: there are none.
         """
         left = self._end - time.monotonic()
-        assert left > 0, f"it did not happen within {LIMIT_S:.0f} s"
+        assert left > 0, f"it did not happen within {LIMIT_S:.0f} s {state}"
         return left
