@@ -18,10 +18,28 @@ from tests.builders import small_sim
 FORWARD = {"move": [1, 0, 0, 0]}
 
 
+class StillClock:
+    """A clock that stands still until a test advances it."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+    def advance(self, seconds: float) -> None:
+        self.now += seconds
+
+
 class ScriptedLink:
-    """A link with a list of answers; each one answers the latest observation."""
+    """A link with a list of answers; each one answers the latest observation.
+
+    Attributes:
+        clock: of the brain; a script is silent for no time until a test advances it.
+    """
 
     def __init__(self, *answers: Any) -> None:
+        self.clock = StillClock()
         self.answers = list(answers)
         self.state = LinkState.CONNECTED
         self.reason = ""
@@ -51,6 +69,10 @@ class ScriptedLink:
             return answer
         return Reply(answer, situation)
 
+    def ask_for_time(self) -> None:
+        """Ask for more time, as a script does that still computes."""
+        self.time_asked_at = self.clock()
+
     def refuse(self, answered: Reply, reason: str) -> bool:
         self.refused.append(reason)
         return self.may_try_again
@@ -69,7 +91,7 @@ def sim_with_link(link: ScriptedLink, **fields: Any) -> Any:
         for name in ("mode", "on_missing", "receive_timeout", "skip_frame")
         if name in fields
     }
-    brain = RemoteBrain.with_link(link, **({"skip_frame": 0} | brain_fields))
+    brain = RemoteBrain.with_link(link, clock=link.clock, **({"skip_frame": 0} | brain_fields))
     sim = small_sim([BearingSensor(target="box")], brains=[brain], **fields)
     return sim, brain
 
@@ -78,9 +100,8 @@ def two_agents(link: ScriptedLink, controller: Any) -> ControlRequestor:
     """Return a sim: agent 0 is remote and decides every tick, agent 1 is local, every fifth."""
     world = World()
     agents = []
-    for index, brain in enumerate(
-        (RemoteBrain.with_link(link, skip_frame=0), LocalBrain(controller=controller, skip_frame=4))
-    ):
+    remote = RemoteBrain.with_link(link, clock=link.clock, skip_frame=0)
+    for index, brain in enumerate((remote, LocalBrain(controller=controller, skip_frame=4))):
         world.add_body(f"robot{index}", CircleShape(), position=(0, 3 * index))
         agents.append(
             BasicAgent(

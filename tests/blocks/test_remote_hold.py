@@ -1,7 +1,6 @@
 """Holds and calls: a RemoteBrain that stops the time of its world."""
 
 import math
-import time
 from typing import Any
 
 import pytest
@@ -15,7 +14,7 @@ from ai4u_edu.blocks.brains.links.link import (
 )
 from ai4u_edu.runtime.runner import Runner
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link, two_agents
-from tests.waiting import LIMIT_S
+from tests.waiting import LIMIT_S, until
 
 
 def test_hold_lets_no_time_pass_and_asks_the_same_again() -> None:
@@ -55,7 +54,7 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
 def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_vain(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.world_thread.ANSWER_POLL_S", 5.0)
+    monkeypatch.setattr("ai4u_edu.runtime.world_thread.ANSWER_POLL_S", LIMIT_S)
     link = ScriptedLink(Reset(7))
     sim, _ = sim_with_link(link)
     runner = Runner(sim, time_scale=math.inf)
@@ -70,12 +69,9 @@ def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_
     assert sim.world.ticks == 0  # whoever calls has other things to do
     runner.start()
     try:
-        while sim.world.ticks == 0:
-            time.sleep(0.001)
-        assert runner.submit(lambda: (sim.world.ticks, len(link.timeouts))).result(LIMIT_S) == (
-            1,
-            1,
-        )
+        until(lambda: sim.world.ticks)
+        asked = runner.submit(lambda: (sim.world.ticks, len(link.timeouts)))
+        assert asked.result(LIMIT_S) == (1, 1)
     finally:
         runner.stop()
 
@@ -108,11 +104,8 @@ def test_a_held_world_is_a_good_moment_for_a_command(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("ai4u_edu.runtime.world_thread.DECISION_WAIT_S", math.inf)
     sim = two_agents(ScriptedLink(), lambda percept: FORWARD)
     runner = Runner(sim, time_scale=math.inf)
-    runner.start()
-    assert runner.submit(lambda: (sim.waiting_for_brain, sim.between_decisions())).result(
-        LIMIT_S
-    ) == (
-        True,
-        False,
-    )
-    runner.stop()
+    runner.advance()
+    assert sim.waiting_for_brain
+    command = runner.submit(sim.between_decisions)
+    runner.advance()
+    assert command.result(0) is False

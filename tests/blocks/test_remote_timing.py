@@ -1,6 +1,5 @@
 """Late and missing answers of a RemoteBrain, in lockstep and in real time."""
 
-import time
 from typing import Any
 
 import pytest
@@ -10,20 +9,41 @@ from ai4u_edu.blocks.brains.links.link import (
     Reply,
     Reset,
 )
-from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S
+from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S, YIELDING_WAIT_S
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link, two_agents
+
+RECEIVE_TIMEOUT_S = 2.0
+"""Default of a brain's ``receive_timeout``."""
+MOMENT_S = 0.001
 
 
 def test_a_script_that_asks_for_time_does_not_stop_the_others_for_long() -> None:
     link = ScriptedLink()
-    began = time.monotonic()  # the brain counts from its own beginning
     sim = two_agents(link, lambda percept: FORWARD)
-    while sim.world.ticks < 5:
-        assert time.monotonic() < began + 5
-        link.time_asked_at = time.monotonic()
+    sim.tick()
+    link.clock.advance(YIELD_AFTER_S - MOMENT_S)
+    link.ask_for_time()
+    sim.tick()
+    assert sim.world.ticks == 0
+    link.clock.advance(2 * MOMENT_S)
+    for _ in range(5):
+        link.ask_for_time()
         sim.tick()
-    assert time.monotonic() - began >= YIELD_AFTER_S
     assert [agent.steps for agent in sim.agents] == [0, 1]
+    assert link.timeouts[-1] == YIELDING_WAIT_S
+
+
+def test_a_script_that_asks_for_time_is_waited_for_in_a_world_of_its_own() -> None:
+    link = ScriptedLink()
+    sim, brain = sim_with_link(link)
+    for _ in range(10):
+        sim.tick()
+        link.clock.advance(RECEIVE_TIMEOUT_S)
+        link.ask_for_time()
+    assert (sim.world.ticks, brain.status().missing, brain.status().state) == (0, 0, "connected")
+    link.clock.advance(RECEIVE_TIMEOUT_S + MOMENT_S)  # it has asked for no more
+    sim.tick()
+    assert (sim.world.ticks, brain.status().missing, brain.status().state) == (1, 1, "late")
 
 
 @pytest.mark.parametrize(
@@ -56,13 +76,15 @@ def test_while_it_waits_for_a_script_the_agent_takes_no_decisions() -> None:
 def test_a_script_that_is_silent_for_too_long_is_late() -> None:
     link = ScriptedLink()
     sim, brain = sim_with_link(link, receive_timeout=200, on_missing="stop")
-    until = time.monotonic() + 5
-    while sim.world.ticks == 0:
-        assert time.monotonic() < until
-        sim.tick()
+    sim.tick()
+    link.clock.advance(0.2 - MOMENT_S)
+    sim.tick()
+    assert (sim.world.ticks, brain.status().state) == (0, "connected")
+    link.clock.advance(2 * MOMENT_S)
+    sim.tick()
     status = brain.status()
-    assert (status.state, status.missing) == ("late", 1)
-    assert status.reason.startswith("no action for 0.")
+    assert (sim.world.ticks, status.state, status.missing) == (1, "late", 1)
+    assert status.reason.startswith("no action for 0.2 s")
     link.answers.append(FORWARD)
     sim.tick()
     assert (brain.status().state, brain.status().reason) == ("connected", "")
@@ -70,13 +92,25 @@ def test_a_script_that_is_silent_for_too_long_is_late() -> None:
 
 def silent_sim(link: ScriptedLink, **fields: Any) -> Any:
     """Return a sim and its brain in lockstep whose script has timed out."""
-    sim, brain = sim_with_link(link, receive_timeout=200, **fields)
+    sim, brain = sim_with_link(link, **fields)
     sim.tick()
-    until = time.monotonic() + 5
-    while brain.status().state != "late":
-        assert time.monotonic() < until
-        sim.tick()
+    link.clock.advance(RECEIVE_TIMEOUT_S + MOMENT_S)
+    sim.tick()
+    assert brain.status().state == "late"
     return sim, brain
+
+
+def test_a_brain_may_get_another_receive_timeout_at_any_time() -> None:
+    link = ScriptedLink()
+    sim, brain = sim_with_link(link)
+    sim.tick()
+    brain.receive_timeout = 60_000
+    link.clock.advance(60)
+    sim.tick()
+    assert sim.waiting_for_brain
+    brain.receive_timeout = 59_000
+    sim.tick()
+    assert brain.status().state == "late"
 
 
 def test_a_script_that_was_given_up_is_not_waited_for() -> None:
@@ -109,7 +143,8 @@ def test_a_script_that_was_given_up_is_waited_for_again_once_it_speaks(speaks: s
         case "resets":
             link.answers.append(Reset())
         case "asks for time":
-            link.time_asked_at = time.monotonic()
+            link.clock.advance(MOMENT_S)
+            link.ask_for_time()
     sim.tick()
     assert sim.agents[0].last_action != {"move": (0.0, 1.0, 0.0, 0.0)}
     sim.tick()

@@ -1,6 +1,7 @@
 """The time for which a world in lockstep waits for a script."""
 
 import time
+from collections.abc import Callable
 
 from ai4u_edu.blocks.brains.links.link import Link
 
@@ -19,41 +20,43 @@ class Patience:
     Only the runner's thread calls it.
 
     Args:
-        timeout_s: time for which a script may be silent.
+        clock: seconds, the one of the link's ``time_asked_at``.
     """
 
-    def __init__(self, timeout_s: float) -> None:
-        self._timeout_s = timeout_s
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self.timeout_s = 0.0
+        """Time for which a script may be silent; may change at any time."""
+        self._clock = clock
         self._asked = 0.0
-        self._given_up = 0.0
+        self._given_up: float | None = None
         self._silent_since = 0.0
 
     @property
     def is_given_up(self) -> bool:
         """True while the world does not wait, since the script was silent for too long."""
-        return self._given_up > 0
+        return self._given_up is not None
 
     @property
     def silence_s(self) -> float:
         """Time since the script was asked for the action that it owes."""
-        return time.monotonic() - (self._silent_since if self.is_given_up else self._asked)
+        return self._clock() - (self._silent_since if self.is_given_up else self._asked)
 
     def restart(self) -> None:
         """Give the script its time anew, as for another answer."""
-        self._asked = time.monotonic()
+        self._asked = self._clock()
 
     def give_up(self) -> None:
         """Stop waiting until the script speaks."""
         if not self.is_given_up:
-            self._given_up, self._silent_since = time.monotonic(), self._asked
+            self._given_up, self._silent_since = self._clock(), self._asked
 
     def resume(self) -> None:
         """Wait for the script again."""
-        self._given_up = 0.0
+        self._given_up = None
 
     def asks_for_time(self, link: Link) -> bool:
         """Return True if a script that was given up has asked for time since then."""
-        return self.is_given_up and link.time_asked_at > self._given_up
+        return self._given_up is not None and link.time_asked_at > self._given_up
 
     def has_time(self, link: Link, *, can_act: bool) -> bool:
         """Return True if the world may wait for the script.
@@ -66,11 +69,11 @@ class Patience:
         if self.is_given_up:
             return False
         since = max(self._asked, link.time_asked_at) if can_act else self._asked
-        return time.monotonic() - since <= self._timeout_s
+        return self._clock() - since <= self.timeout_s
 
     def yields(self, link: Link) -> bool:
         """Return True if the script has asked for time for so long that others may go on."""
-        return link.time_asked_at > self._asked and time.monotonic() - self._asked > YIELD_AFTER_S
+        return link.time_asked_at > self._asked and self._clock() - self._asked > YIELD_AFTER_S
 
     def wait_s(self, link: Link, *, can_act: bool, has_company: bool) -> float:
         """Return the time to wait for an answer now.
@@ -82,7 +85,7 @@ class Patience:
         """
         if self.is_given_up:
             return 0.0
-        if time.monotonic() - self._asked <= YIELD_AFTER_S:
+        if self._clock() - self._asked <= YIELD_AFTER_S:
             return WAIT_SLICE_S  # whatever the script said meanwhile
         if not self.has_time(link, can_act=can_act):
             return 0.0

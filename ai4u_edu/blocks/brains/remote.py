@@ -1,5 +1,7 @@
 """A brain whose script runs in another process, or on another machine."""
 
+import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field
@@ -87,7 +89,7 @@ class RemoteBrain(Brain):
         self._last_asked: Observation | None = None
         """The last observation that the script was asked about; None without a script."""
         self._number = 0
-        self._patience = Patience(self.receive_timeout / 1000)
+        self._patience = Patience()
         self._status = StatusTracker()
         self._seed: int | None = None
         self._is_stopped = False
@@ -98,10 +100,18 @@ class RemoteBrain(Brain):
         """The script has yet to be told that its episode was cut off."""
 
     @classmethod
-    def with_link(cls, link: Link, **parameters: Any) -> Self:
-        """Make a remote brain that uses a link of its own instead of ``host`` and ``port``."""
+    def with_link(
+        cls, link: Link, *, clock: Callable[[], float] = time.monotonic, **parameters: Any
+    ) -> Self:
+        """Make a remote brain that uses a link of its own instead of ``host`` and ``port``.
+
+        Args:
+            link: to the script.
+            clock: seconds, for ``receive_timeout``; the one of the link's ``time_asked_at``.
+            parameters: of the brain.
+        """
         brain = cls(**parameters)
-        brain._own_link = link
+        brain._own_link, brain._patience = link, Patience(clock)
         return brain
 
     @property
@@ -161,6 +171,7 @@ class RemoteBrain(Brain):
                 f"{self.title()} was closed; expected agent.use_brain(...) to open it again"
             )
         observation = self._current or self._observe(percept)
+        self._patience.timeout_s = self.receive_timeout / 1000
         if self.override is not None:
             return self._decide_overridden(self.override, link, observation)
         timeout = self._timeout(link)

@@ -3,6 +3,7 @@
 import socket
 import time
 import weakref
+from collections.abc import Callable
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.command import Command
@@ -53,13 +54,20 @@ class AI4ULink:
         port: its UDP port.
         receive_timeout: seconds for which a script may be silent.
         threaded: whether a thread of its own talks to the script, so that the world never waits.
+        clock: seconds; the brain's.
 
     Raises:
         SetupError: there is no such host.
     """
 
     def __init__(
-        self, host: str, port: int, *, receive_timeout: float = 2.0, threaded: bool = False
+        self,
+        host: str,
+        port: int,
+        *,
+        receive_timeout: float = 2.0,
+        threaded: bool = False,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.where = f"{host}:{port}"
         self.state = LinkState.WAITING
@@ -69,6 +77,7 @@ class AI4ULink:
         self._peer = _resolve(host, port)
         self._timeout = receive_timeout
         self._is_threaded = threaded
+        self._clock = clock
         self._socket: UdpSocket | None = None
 
     @property
@@ -106,7 +115,7 @@ class AI4ULink:
         self._socket = UdpSocket(self._peer)
         self._close_socket = weakref.finalize(self, self._socket.close)
         if self._is_threaded:
-            self._thread = LinkThread(self.talk, f"ai4u {self.where}")
+            self._thread = LinkThread(self.talk, f"ai4u {self.where}", self._clock)
 
     def tell(self, observation: Observation) -> None:
         """Send an observation in advance, or let the thread send it."""
@@ -124,7 +133,7 @@ class AI4ULink:
         if self._early_reply is not None:
             reply, self._early_reply = self._early_reply, None
             return reply
-        return self.talk(observation, time.monotonic() + timeout)
+        return self.talk(observation, self._clock() + timeout)
 
     def refuse(self, reply: Reply, reason: str) -> bool:
         """Return False: the protocol can't express it; the script gets the next state instead."""
@@ -135,7 +144,7 @@ class AI4ULink:
         if self._is_threaded or self._socket is None or self._early_reply is not None:
             return
         if self._asked is not None or not self.expects_reply:
-            self._early_reply = self.talk(self._asked, time.monotonic())
+            self._early_reply = self.talk(self._asked, self._clock())
 
     def close(self, reason: str) -> None:
         """Tell the script that the world has ended."""
@@ -165,7 +174,7 @@ class AI4ULink:
 
     def _send(self, observation: Observation | None, deadline: float) -> bool:
         """Send the next request if it is due; return True if a request is in flight."""
-        now = time.monotonic()
+        now = self._clock()
         due = self._sent_at + self._interval()
         if due > now:
             deadline = min(due, self._wait_until(deadline))
@@ -182,7 +191,7 @@ class AI4ULink:
         udp = self._open_socket
         self.ignored += udp.drain()
         request = self._dialogue.request(self._state[1] if self._state else None)
-        self._sent_at = time.monotonic()
+        self._sent_at = self._clock()
         try:
             udp.send(request)
         except OSError as error:
@@ -215,7 +224,7 @@ class AI4ULink:
         """Return the reply to the request in flight; None if it is not there yet, or was lost."""
         udp = self._open_socket
         for _ in range(MAX_RECEIVED_AT_ONCE):
-            udp.wait_readable(max(0.0, self._wait_until(deadline) - time.monotonic()) * 1000)
+            udp.wait_readable(max(0.0, self._wait_until(deadline) - self._clock()) * 1000)
             try:
                 datagram, is_from_script = udp.receive()
             except BlockingIOError:
@@ -243,7 +252,7 @@ class AI4ULink:
             case ReplyKind.CONFIGURED:
                 self._sent_at = NEVER
             case ReplyKind.WAIT:
-                self.time_asked_at = time.monotonic()
+                self.time_asked_at = self._clock()
             case ReplyKind.RESET:
                 return Reply(Reset(), observation)
             case ReplyKind.HALT:
@@ -255,7 +264,7 @@ class AI4ULink:
         return None
 
     def _check_timeout(self) -> None:
-        silence = time.monotonic() - self._sent_at
+        silence = self._clock() - self._sent_at
         if self._dialogue.phase is Phase.CONNECTING:
             self._dialogue.in_flight = silence < CONNECT_INTERVAL_S
         elif silence > self._timeout:

@@ -127,9 +127,10 @@ class Link(Protocol):
 
     @property
     def time_asked_at(self) -> float:
-        """The time (time.monotonic) at which the script last asked for more time; 0 for never.
+        """The time at which the script last asked for more time; 0 for never.
 
-        It stays 0 if the transport has no such message.
+        It is of the brain's clock, by default time.monotonic, and stays 0 if the transport has no
+        such message.
         """
 
     @property

@@ -18,14 +18,19 @@ class LinkThread:
     ``exchange`` and ``close``; the thread itself calls ``talk``. A condition guards both.
 
     Args:
-        talk: continues the dialogue until a deadline (time.monotonic) or an answer.
+        talk: continues the dialogue until a deadline (s, of the clock) or an answer.
         name: of the thread.
+        clock: seconds.
     """
 
     def __init__(
-        self, talk: Callable[[Observation | None, float], Reply | None], name: str
+        self,
+        talk: Callable[[Observation | None, float], Reply | None],
+        name: str,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._talk = talk
+        self._clock = clock
         self._changed = threading.Condition()
         self._latest: Observation | None = None
         self._reply: Reply | None = None
@@ -75,7 +80,7 @@ class LinkThread:
                     return
                 observation = self._latest
             try:
-                reply = self._talk(observation, time.monotonic() + POLL_S)
+                reply = self._talk(observation, self._clock() + POLL_S)
             except AI4UError as error:
                 self._error = error
                 return
