@@ -15,19 +15,47 @@ COMMAND_POLL_S = 0.05
 """Poll interval for commands in a longer pause."""
 
 
+class Clock:
+    """A clock by which a world runs, and the ways to sleep by it; by default the wall clock.
+
+    A subclass gives a world a time of its own, as that of another program that it has to keep step
+    with. A world whose clock moves on in :meth:`sleep` alone takes no longer than its ticks do.
+
+    Args:
+        read: returns the time (s); any thread may call it.
+
+    >>> class Unslept(Clock):
+    ...     time_s = 0.0
+    ...     def sleep(self, seconds):
+    ...         self.time_s += seconds
+    >>> clock = Unslept(lambda: clock.time_s)
+    >>> clock.sleep(3600.0)
+    >>> clock.read()
+    3600.0
+    """
+
+    def __init__(self, read: Callable[[], float] = time.perf_counter) -> None:
+        self.read = read
+
+    def sleep(self, seconds: float) -> None:
+        """Sleep for a while; only the world's thread does."""
+        time.sleep(seconds)
+
+    def wait(self, event: threading.Event, seconds: float) -> bool:
+        """Sleep until an event is set, but no longer than a while; return True if it is set."""
+        return event.wait(seconds)
+
+
 class TickSchedule:
     """Times at which ticks are due, with the lateness and the speed that were reached.
 
     The runner's thread calls :meth:`tick_ended` and :meth:`sleep` after each tick. Any thread may
     read the numbers.
-
-    Args:
-        clock: seconds.
     """
 
-    def __init__(self, clock: Callable[[], float]) -> None:
+    def __init__(self, clock: Clock) -> None:
         self._clock = clock
-        self.due = clock()
+        self.due = clock.read()
         """Time (s) at which the next tick is to begin."""
         self.lateness = 0.0
         """Moving average of the lateness (s) of ticks."""
@@ -42,7 +70,7 @@ class TickSchedule:
             period: seconds from one tick to the next; 0 for a world that runs as fast as it can.
             held: True if the tick did not take place, so that there is nothing to catch up with.
         """
-        now = self._clock()
+        now = self._clock.read()
         self._window.append((now, self.ticked))
         if held:
             self.due = now
@@ -58,11 +86,11 @@ class TickSchedule:
             wake: set when there is a command.
             run_commands: runs those that wait; returns False to end the sleep.
         """
-        while (left := self.due - self._clock()) > 0:
+        while (left := self.due - self._clock.read()) > 0:
             if left <= UNINTERRUPTED_SLEEP_S:
-                time.sleep(left)
+                self._clock.sleep(left)
                 return
-            if wake.wait(min(left - UNINTERRUPTED_SLEEP_S / 2, COMMAND_POLL_S)):
+            if self._clock.wait(wake, min(left - UNINTERRUPTED_SLEEP_S / 2, COMMAND_POLL_S)):
                 wake.clear()
             if not run_commands():
                 return
@@ -71,7 +99,7 @@ class TickSchedule:
         """Start anew after the world was paused."""
         self._window.clear()
         self.lateness = 0.0
-        self.due = self._clock()
+        self.due = self._clock.read()
 
     def real_time_factor(self, dt: float) -> float | None:
         """Return how fast the time ran over the last 60 ticks; None if it has only begun.

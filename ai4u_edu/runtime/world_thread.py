@@ -14,7 +14,7 @@ from ai4u_edu.agent.block_errors import sentence_of, storable
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder
-from ai4u_edu.runtime.clock import TickSchedule
+from ai4u_edu.runtime.clock import Clock, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
 from ai4u_edu.runtime.episode_clock import EpisodeClock
 from ai4u_edu.runtime.frame_budget import FrameBudget
@@ -39,7 +39,7 @@ HOLD_POLL_S = 0.001
 REST_POLL_S, HELD_POLL_S = 0.1, 0.5
 """Time between two snapshots while the world is paused, and while it is held."""
 STOP_S = 1.0
-"""Time that the thread has to end; a block that does not return may keep it from that."""
+"""Time that the thread usually has to end; a block that does not return may keep it from that."""
 
 WORLD_REPLACED = "another world has taken its place; connect anew to drive there"
 """Reason that the scripts of a replaced world are told."""
@@ -59,7 +59,7 @@ class WorldThread:
         recorder: keeps the episodes; it has to listen to the same sim.
         wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
         frame_budget: limits of how often the world is drawn; left out, the usual ones.
-        clock: seconds; to be replaced in tests.
+        clock: seconds; a :class:`~ai4u_edu.runtime.clock.Clock` also sleeps between two ticks.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class WorldThread:
         recorder: Recorder | None = None,
         wait_for_key: bool = False,
         frame_budget: FrameBudget | None = None,
-        clock: Callable[[], float] = time.perf_counter,
+        clock: Callable[[], float] | Clock = time.perf_counter,
     ) -> None:
         self.sim = sim
         self.recorder = recorder
@@ -86,20 +86,21 @@ class WorldThread:
         if time_scale is not None:
             self.set_time_scale(time_scale)
         self.frame_budget = frame_budget or FrameBudget()
-        self._clock = clock
+        whole_clock = clock if isinstance(clock, Clock) else Clock(clock)
+        self._clock = read = whole_clock.read
         self._wake = threading.Event()
-        self._queue = CommandQueue(clock, self._wake)
+        self._queue = CommandQueue(read, self._wake)
         self._answers = PendingAnswers(self._wake)
         self._stopping = False
         self._thread: threading.Thread | None = None
-        self._schedule = TickSchedule(clock)
-        self._monitor = TickMonitor(clock, lambda: self.sim.agents)
+        self._schedule = TickSchedule(whole_clock)
+        self._monitor = TickMonitor(read, lambda: self.sim.agents)
         self._start_wait = StartWait(is_enabled=wait_for_key)
         self._episode_clock = EpisodeClock()
         sim.reset(seed)
         self._past: Snapshot | None = None
         self._static_scenes = StaticSceneCache(sim)
-        self._publisher = SnapshotPublisher(self._picture(), self.frame_budget, clock)
+        self._publisher = SnapshotPublisher(self._picture(), self.frame_budget, read)
 
     # -- for any thread --------------------------------------------------------------------------
 
@@ -137,11 +138,14 @@ class WorldThread:
         self._thread.start()
         self._monitor.start()
 
-    def stop(self) -> None:
+    def stop(self, timeout: float | None = None) -> None:
         """End the thread; cancel commands that still wait, and close brains.
 
-        If a block does not return within :data:`STOP_S`, the thread is left behind with the brains
-        that it uses; :attr:`is_left_behind` is True then.
+        If a block does not return in time, the thread is left behind with the brains that it uses;
+        :attr:`is_left_behind` is True then.
+
+        Args:
+            timeout: time (s) that the thread has to end; default: :data:`STOP_S`.
         """
         self._stopping = True
         self._queue.close()
@@ -150,7 +154,7 @@ class WorldThread:
         if thread is None:
             self._end()
         elif thread is not threading.current_thread():
-            thread.join(STOP_S)
+            thread.join(STOP_S if timeout is None else timeout)
         if self.is_left_behind:
             where = self._monitor.under_way()
             logger.warning("the world is left behind unfinished: %s", where or "it did not end")

@@ -40,7 +40,7 @@ PAGE_POLL_S = 0.1
 MIN_PAUSE_S = 0.001
 """Pause after a frame that took longer than it may, so that other threads run."""
 STOP_S = 2.0
-"""Time that all threads of a viewer have to end."""
+"""Time that all threads of a viewer usually have to end."""
 
 
 class Viewer:
@@ -121,18 +121,21 @@ class Viewer:
         """Start to draw."""
         self.thread.start()
 
-    def stop(self) -> None:
+    def stop(self, timeout: float | None = None) -> None:
         """End the thread and viser's server.
 
-        Wait for them no longer than :data:`STOP_S`, since blocks of a replayed episode may not
-        return. Threads that still run then are daemons.
+        Blocks of a replayed episode may not return. Threads that do not end in time are left
+        behind; they are daemons.
+
+        Args:
+            timeout: time (s) that they have to end; default: :data:`STOP_S`.
         """
         self._stopping.set()
         self.explainer.stop()
         self.maps.stop()
         ending = threading.Thread(target=self._end, name="viewer end", daemon=True)
         ending.start()
-        ending.join(STOP_S)
+        ending.join(STOP_S if timeout is None else timeout)
 
     def _end(self) -> None:
         if self.thread.is_alive():

@@ -7,6 +7,7 @@ import pytest
 
 from ai4u_edu import WASDRBMoveController
 from ai4u_edu.base.errors import NoDecisionError
+from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
 
@@ -18,6 +19,7 @@ def advance(runner: Runner, times: int = 2) -> None:
 
 def driven(time_scale: float = 1.0) -> Runner:
     sim = small_sim(controller=WASDRBMoveController())
+    sim.agents[0].keyboard = Keyboard(clock=lambda: 0.0)  # holds keys until they are released
     return Runner(sim, seed=1, time_scale=time_scale)
 
 

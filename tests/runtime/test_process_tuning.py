@@ -73,8 +73,8 @@ def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
     try:
         assert runner.submit(settings).result(LIMIT_S) == before
     finally:
-        viewer.stop()
-        runner.stop()
+        viewer.stop(LIMIT_S)
+        runner.stop(LIMIT_S)
 
 
 def test_play_tunes_its_process_while_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:

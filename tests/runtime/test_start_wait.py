@@ -1,8 +1,7 @@
 """Worlds that wait for a key, seeds that repeat, and the time of an episode."""
 
 import math
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -23,7 +22,8 @@ from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import capture_bodies
 from tests.builders import small_sim, still
-from tests.server.rooms import free_port
+from tests.runtime.running import running, wait_for_tick
+from tests.server.rooms import NOWHERE
 from tests.waiting import LIMIT_S
 
 
@@ -53,15 +53,6 @@ def spin(_percept: Any) -> dict[str, Any]:
 def advance(runner: Runner, times: int = 3) -> None:
     for _ in range(times):
         runner.advance()
-
-
-@contextmanager
-def started(sim: ControlRequestor, **options: Any) -> Iterator[Runner]:
-    """A runner with a thread of its own."""
-    runner = Runner(sim, seed=1, wait_for_key=True, **options)
-    runner.start()
-    yield runner
-    runner.stop()
 
 
 @pytest.mark.parametrize("time_scale", [1.0, math.inf])
@@ -117,7 +108,7 @@ def test_the_person_may_sit_at_any_agent() -> None:
 
 
 def test_nothing_waits_where_no_person_drives() -> None:
-    for controller in (spin, RemoteBrain(port=free_port())):
+    for controller in (spin, RemoteBrain(port=NOWHERE)):
         sim = played_sim(controller)
         advance(Runner(sim, wait_for_key=True))
         assert sim.world.ticks > 0
@@ -188,11 +179,10 @@ def test_waiting_changes_no_number_and_records_nothing() -> None:
 
 
 def test_a_key_starts_a_world_with_a_thread_at_once() -> None:
-    with started(played_sim(WASDRBMoveController())) as runner:
+    sim = played_sim(WASDRBMoveController())
+    with running(Runner(sim, seed=1, wait_for_key=True)) as runner:
         runner.start_episode().result(LIMIT_S)
-        seen = runner.latest
-        while not runner.latest.tick:
-            seen = runner.wait(seen, 5)
+        wait_for_tick(runner, 1)
 
 
 # -- seeds ---------------------------------------------------------------------------------------
