@@ -1,13 +1,13 @@
 """The player of recorded episodes, which shows the same decision on all pages."""
 
 import threading
-from concurrent.futures import CancelledError, Future
-from contextlib import suppress
+from concurrent.futures import Future, wait
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Archive, ArchiveEntry, RecordingError
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 
 RUNNING_EPISODE = 0
 """Number of the episode that is still running."""
@@ -15,8 +15,6 @@ MAX_PAUSE_S = 1.0
 """Longest time (s) between two decisions during playback, which shortens long waits."""
 FRAME_POLL_S = 0.25
 """Interval (s) at which a wait for a frame checks whether the frame is still wanted."""
-NEXT_FRAME_TIMEOUT_S = 5.0
-"""Time (s) that playback waits for the next frame before it stops."""
 
 
 class ReplayPlayer:
@@ -209,40 +207,60 @@ class ReplayPlayer:
                 goes_on, self._is_next_frame = self._is_next_frame, False
             if frame_cache is None:
                 continue
-            if self._show(frame_cache, step, request_id, goes_on=goes_on) and self.is_playing:
-                self._request_next(frame_cache, step, request_id)
+            shown = self._show(frame_cache, step, request_id, goes_on=goes_on)
+            if shown is not None and self.is_playing:
+                self._request_next(frame_cache, shown, step, request_id)
 
-    def _show(self, frame_cache: FrameCache, step: int, request_id: int, *, goes_on: bool) -> bool:
-        """Wait for a frame and show it; return False if it was not shown."""
+    def _is_current(self, request_id: int) -> bool:
+        return request_id == self._request_id and not self._stopping
+
+    def _wait_for_frame(
+        self, frame_cache: FrameCache, step: int, request_id: int
+    ) -> Snapshot | None:
+        """Wait for a frame; return None if there is none, or if it is no longer wanted."""
         while (snapshot := frame_cache.snapshot(step, timeout=FRAME_POLL_S)) is None:
-            if request_id != self._request_id or self._stopping:
-                return False
-            if not frame_cache.is_alive or step > frame_cache.last:
+            if not (
+                self._is_current(request_id) and frame_cache.is_alive and step <= frame_cache.last
+            ):
+                return None
+        return snapshot
+
+    def _show(
+        self, frame_cache: FrameCache, step: int, request_id: int, *, goes_on: bool
+    ) -> Snapshot | None:
+        """Wait for a frame, show it and return it; return None if it was not shown."""
+        snapshot = self._wait_for_frame(frame_cache, step, request_id)
+        with self._changed:
+            if not self._is_current(request_id):
+                return None
+            if snapshot is None:
                 self.problem = frame_cache.problem or "there is nothing to see"
                 self.is_playing = False
-                return False
-        with self._changed:
-            if request_id != self._request_id:
-                return False
+                return None
             shown = self._runner.show_past(snapshot, goes_on=goes_on)
-        with suppress(CancelledError, TimeoutError):
-            shown.result(1.0)
-        return True
+        # However long the world takes to show it, playback goes on from there.
+        while not wait([shown], FRAME_POLL_S).done:
+            if not self._is_current(request_id):
+                return None
+        return snapshot
 
-    def _request_next(self, frame_cache: FrameCache, step: int, request_id: int) -> None:
+    def _request_next(
+        self, frame_cache: FrameCache, this: Snapshot, step: int, request_id: int
+    ) -> None:
         """Wait as long as the decision took when recorded, and request the next one."""
-        this = frame_cache.snapshot(step)
         following = None
         if step < frame_cache.last:
-            following = frame_cache.snapshot(step + 1, timeout=NEXT_FRAME_TIMEOUT_S)
-        # not showing any more: somebody returned to the present or continued the world
-        if this is None or following is None or not self.is_showing:
-            self.is_playing = False
-            return
-        pause = min((following.time - this.time) / self.speed, MAX_PAUSE_S)
+            following = self._wait_for_frame(frame_cache, step + 1, request_id)
         with self._changed:
-            self._changed.wait_for(lambda: request_id != self._request_id or self._stopping, pause)
-            if request_id == self._request_id:
+            if not self._is_current(request_id):
+                return
+            # not showing any more: somebody returned to the present or continued the world
+            if following is None or not self.is_showing:
+                self.is_playing = False
+                return
+            pause = min((following.time - this.time) / self.speed, MAX_PAUSE_S)
+            self._changed.wait_for(lambda: not self._is_current(request_id), pause)
+            if self._is_current(request_id):
                 self.step, self._has_request, self._is_next_frame = step + 1, True, True
 
 
