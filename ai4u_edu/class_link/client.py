@@ -17,6 +17,7 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.class_link.dialogue import LinkDialogue, Phase, PresentState
 from ai4u_edu.class_link.outbox import Outbox
+from ai4u_edu.class_link.timeouts import LinkTimeouts
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     PATH,
@@ -27,11 +28,6 @@ from ai4u_edu.wire.class_link import (
     Hello,
 )
 
-OPEN_TIMEOUT_S = 5.0
-SEND_TIMEOUT_S = 5
-"""Timeout of sending; a connection that takes nothing for twice as long counts as lost."""
-CLOSE_TIMEOUT_S = 0.5
-
 _logger = logging.getLogger("ai4u_edu.class_link")
 _silent = logging.getLogger("ai4u_edu.class_link.websockets")
 _silent.setLevel(logging.CRITICAL + 1)  # a lost connection is normal
@@ -40,11 +36,6 @@ _OPTIONS: dict[str, Any] = {
     "subprotocols": [Subprotocol(SUBPROTOCOL)],
     "compression": None,
     "max_size": MAX_FRAME_BYTES,
-    # seconds; a network that is gone is noticed after the sum of both
-    "ping_interval": 5,
-    "ping_timeout": 10,
-    "close_timeout": CLOSE_TIMEOUT_S,
-    "open_timeout": OPEN_TIMEOUT_S,
     "proxy": None,
     "logger": _silent,
 }
@@ -64,6 +55,7 @@ class LinkClient:
         receive: called for each message except :class:`~ai4u_edu.wire.class_link.Ack`, one after
             the other, in a thread of the client.
         outbox: for results; left out, they are kept in memory only.
+        timeouts: of the connection, and of the class's answers.
     """
 
     def __init__(
@@ -73,11 +65,14 @@ class LinkClient:
         kind: Literal["room", "notebook"],
         receive: Callable[[FromClass], object],
         outbox: Outbox | None = None,
+        timeouts: LinkTimeouts | None = None,
     ) -> None:
         self.outbox = Outbox() if outbox is None else outbox
+        self._timeouts = timeouts or LinkTimeouts()
         self._url = url.rstrip("/") + PATH
         self._receive = receive
-        self._dialogue = LinkDialogue(Hello(VERSION, secret, kind), self.outbox)
+        hello = Hello(VERSION, secret, kind)
+        self._dialogue = LinkDialogue(hello, self.outbox, timeouts=self._timeouts)
         self._changed = Condition()
         """Guards the dialogue and the attributes below; notified when there is something to do."""
         self._stop_at: float | None = None
@@ -116,7 +111,7 @@ class LinkClient:
             self._changed.notify_all()
         own = (self._thread, self._reader)
         if self._thread.is_alive() and current_thread() not in own:
-            self._thread.join(timeout_s + 2 * CLOSE_TIMEOUT_S)
+            self._thread.join(timeout_s + 2 * self._timeouts.close)
 
     def renew(self) -> None:
         """Connect again if the class has ended the link, such as for another program's."""
@@ -188,11 +183,20 @@ class LinkClient:
         address = urlsplit(self._url)
         is_safe = address.scheme == "https"
         port = address.port or (443 if is_safe else 80)
-        raw = socket.create_connection((address.hostname or "", port), OPEN_TIMEOUT_S)
+        limits = self._timeouts
+        raw = socket.create_connection((address.hostname or "", port), limits.open)
         try:
             raw.settimeout(None)  # a link may be silent; pings tell whether it is alive
-            _set_send_timeout(raw)
-            connection = connect(self._url.replace("http", "ws", 1), sock=raw, **_OPTIONS)
+            _set_send_timeout(raw, limits.send)
+            connection = connect(
+                self._url.replace("http", "ws", 1),
+                sock=raw,
+                open_timeout=limits.open,
+                ping_interval=limits.ping,
+                ping_timeout=limits.pong,
+                close_timeout=limits.close,
+                **_OPTIONS,
+            )
         except BaseException:
             raw.close()
             raise
@@ -269,11 +273,10 @@ class LinkClient:
             _logger.exception("a message of the class could not be handled")
 
 
-def _set_send_timeout(raw: socket.socket) -> None:
+def _set_send_timeout(raw: socket.socket, timeout_s: float) -> None:
     """Let sending fail when the network is gone; a ping would have to wait behind what is sent."""
-    is_windows = sys.platform == "win32"
-    seconds = SEND_TIMEOUT_S
-    value = struct.pack("L", 1000 * seconds) if is_windows else struct.pack("ll", seconds, 0)
+    is_windows, ms = sys.platform == "win32", round(1000 * timeout_s)
+    value = struct.pack("L", ms) if is_windows else struct.pack("ll", ms // 1000, ms % 1000 * 1000)
     with suppress(OSError):  # the system's own timeout stays
         raw.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, value)
 

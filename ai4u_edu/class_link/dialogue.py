@@ -9,6 +9,7 @@ from collections.abc import Callable
 from enum import Enum
 
 from ai4u_edu.class_link.outbox import Outbox
+from ai4u_edu.class_link.timeouts import LinkTimeouts
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     Ack,
@@ -29,10 +30,6 @@ from ai4u_edu.wire.validation import WireError
 MIN_BACKOFF_S = 0.5
 """Pause after the first failed attempt to connect; it doubles with each failure."""
 MAX_BACKOFF_S = 10.0
-WELCOME_TIMEOUT_S = 10.0
-"""Timeout of the answer to the hello."""
-ACK_TIMEOUT_S = 10.0
-"""Time after which a result that was not acknowledged is sent again over the same connection."""
 MIN_BYTES_PER_S = 50_000
 """Rate of a slow network; a large result has more time until it is sent again."""
 MAX_RESULTS_IN_FLIGHT = 8
@@ -74,10 +71,15 @@ class LinkDialogue:
         hello: begins each connection.
         outbox: results to deliver.
         jitter: returns random numbers in [0, 1).
+        timeouts: of the class's answers.
     """
 
     def __init__(
-        self, hello: Hello, outbox: Outbox, jitter: Callable[[], float] = random.random
+        self,
+        hello: Hello,
+        outbox: Outbox,
+        jitter: Callable[[], float] = random.random,
+        timeouts: LinkTimeouts | None = None,
     ) -> None:
         self.phase = Phase.WAITING
         self.problem = ""
@@ -86,6 +88,7 @@ class LinkDialogue:
         self.retry_at = 0.0
         """Time of the next attempt to connect, while :attr:`phase` is WAITING."""
         self._hello, self._outbox, self._jitter = hello, outbox, jitter
+        self._timeouts = timeouts or LinkTimeouts()
         self._backoff_s = MIN_BACKOFF_S
         self._greeted_at = 0.0
         self._latest: dict[type, PresentState] = {}
@@ -138,7 +141,7 @@ class LinkDialogue:
 
     def is_overdue(self, now: float) -> bool:
         """Return True if the class has not answered the hello in time."""
-        return self.phase is Phase.GREETING and now >= self._greeted_at + WELCOME_TIMEOUT_S
+        return self.phase is Phase.GREETING and now >= self._greeted_at + self._timeouts.welcome
 
     # -- from the class --------------------------------------------------------------------------
 
@@ -203,7 +206,8 @@ class LinkDialogue:
                 break
             frame = self._outbox.frame(key)
             if frame is not None and (due is None or now >= due):
-                self._in_flight[key] = now + ACK_TIMEOUT_S + len(frame) // MIN_BYTES_PER_S
+                due = now + self._timeouts.ack + len(frame) // MIN_BYTES_PER_S
+                self._in_flight[key] = due
                 return frame
         while self._unsent:
             kind = next(iter(self._unsent))
@@ -223,7 +227,7 @@ class LinkDialogue:
             case Phase.WAITING:
                 due = self.retry_at
             case Phase.GREETING:
-                due = self._greeted_at + WELCOME_TIMEOUT_S
+                due = self._greeted_at + self._timeouts.welcome
             case Phase.LINKED if self._in_flight:
                 due = min(self._in_flight.values())
             case _:

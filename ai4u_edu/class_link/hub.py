@@ -13,7 +13,7 @@ import httpx
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
-from ai4u_edu.class_link.joining import MAX_SENTENCE_CHARS, TIMEOUT_S, Seat
+from ai4u_edu.class_link.joining import MAX_SENTENCE_CHARS, TIMEOUT, Seat
 
 SERVICE = "ai4u-class"
 """Usual name of the hub's service."""
@@ -66,7 +66,7 @@ def join_at_hub(service: str = SERVICE, variables: Mapping[str, str] = os.enviro
         raise NotJoinedError(NO_HUB)
     token = variables["JUPYTERHUB_API_TOKEN"]
     headers = {"Authorization": f"token {token}"}
-    with httpx.Client(headers=headers, timeout=TIMEOUT_S, trust_env=False) as client:
+    with httpx.Client(headers=headers, timeout=TIMEOUT, trust_env=False) as client:
         url = variables.get(ADDRESS_VARIABLE) or _class_address(client, service, variables)
         url = f"{url.rstrip('/')}/"
         answer = _ask(client, "POST", f"{url}api/hub-seat", "class")

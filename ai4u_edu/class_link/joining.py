@@ -13,7 +13,12 @@ from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
 
 SEAT_COOKIE = "ai4u_edu_seat"
 """Cookie with a seat's token; scripts in a page can't read it."""
-TIMEOUT_S = 10.0
+CONNECT_TIMEOUT_S = 10.0
+"""Time in which the class's machine has to be reached."""
+ANSWER_TIMEOUT_S = 90.0
+"""Time for an answer: after many wrong codes from a school's network, the class lets the right one
+wait up to a minute for its turn."""
+TIMEOUT = httpx.Timeout(ANSWER_TIMEOUT_S, connect=CONNECT_TIMEOUT_S)
 MAX_NAME_ROUNDS = 5
 """Limit of lists of names to ask for; a whole class may choose from the same few at once."""
 MAX_SENTENCE_CHARS = 300
@@ -121,7 +126,7 @@ def is_seat_valid(seat: Seat) -> bool:
 def _client(address: str, token: str) -> httpx.Client:
     cookies = {SEAT_COOKIE: token} if token else None
     # a class is near: what the environment says of proxies is for the Internet
-    return httpx.Client(base_url=address, timeout=TIMEOUT_S, cookies=cookies, trust_env=False)
+    return httpx.Client(base_url=address, timeout=TIMEOUT, cookies=cookies, trust_env=False)
 
 
 def _ask(client: httpx.Client, method: str, path: str, **rest: Any) -> httpx.Response:
@@ -131,8 +136,10 @@ def _ask(client: httpx.Client, method: str, path: str, **rest: Any) -> httpx.Res
             return client.request(method, path, **rest)
         except (httpx.ReadError, httpx.RemoteProtocolError):
             return client.request(method, path, **rest)
+    except httpx.ConnectTimeout:
+        why = f"no connection within {CONNECT_TIMEOUT_S:g} s"
     except httpx.TimeoutException:
-        why = f"no answer within {TIMEOUT_S:g} s"
+        why = f"no answer within {ANSWER_TIMEOUT_S:g} s"
     except httpx.TransportError as error:
         why = str(error) or type(error).__name__
     raise UnreachableError(

@@ -4,16 +4,14 @@ from random import Random
 
 import pytest
 
+from ai4u_edu.class_link import LinkTimeouts, Outbox
 from ai4u_edu.class_link.dialogue import (
-    ACK_TIMEOUT_S,
     MAX_BACKOFF_S,
     MAX_RESULTS_IN_FLIGHT,
     MIN_BACKOFF_S,
-    WELCOME_TIMEOUT_S,
     LinkDialogue,
     Phase,
 )
-from ai4u_edu.class_link.outbox import Outbox
 from ai4u_edu.wire.class_link import (
     VERSION,
     Ack,
@@ -31,6 +29,7 @@ from ai4u_edu.wire.class_link import (
 from tests.class_link.messages import drawing, poses, result, state
 
 HELLO = Hello(VERSION, "secret", "room")
+TIMEOUTS = LinkTimeouts(welcome=7.0, ack=9.0)
 WELCOME = Welcome(VERSION, "Red Fox", "#d55e00")
 
 
@@ -39,7 +38,7 @@ class Talk:
 
     def __init__(self, outbox: Outbox | None = None) -> None:
         self.outbox = outbox or Outbox()
-        self.dialogue = LinkDialogue(HELLO, self.outbox, jitter=lambda: 1.0)
+        self.dialogue = LinkDialogue(HELLO, self.outbox, lambda: 1.0, TIMEOUTS)
         self.now = 100.0
 
     def link(self) -> "Talk":
@@ -134,22 +133,22 @@ def test_rooms_of_a_class_do_not_come_back_in_the_same_moment() -> None:
 def test_a_class_that_takes_the_socket_and_says_nothing_is_overdue() -> None:
     talk = Talk()
     talk.greet()
-    assert talk.dialogue.wait_s(talk.now) == WELCOME_TIMEOUT_S
-    assert not talk.dialogue.is_overdue(talk.now + WELCOME_TIMEOUT_S - 0.1)
-    assert talk.dialogue.is_overdue(talk.now + WELCOME_TIMEOUT_S)
+    assert talk.dialogue.wait_s(talk.now) == TIMEOUTS.welcome
+    assert not talk.dialogue.is_overdue(talk.now + TIMEOUTS.welcome - 0.1)
+    assert talk.dialogue.is_overdue(talk.now + TIMEOUTS.welcome)
 
 
 def test_a_result_without_acknowledgement_is_sent_again_with_the_same_key() -> None:
     talk = Talk().link()
     talk.outbox.add(result(1))
     assert talk.sent() == [result(1)]
-    assert talk.dialogue.wait_s(talk.now) == ACK_TIMEOUT_S
-    talk.now += ACK_TIMEOUT_S
+    assert talk.dialogue.wait_s(talk.now) == TIMEOUTS.ack
+    talk.now += TIMEOUTS.ack
     assert talk.sent() == [result(1)]
     talk.lose()
     assert talk.link().sent() == [result(1)]
     assert talk.hear(Ack(result(1).key)) is None
-    talk.now += ACK_TIMEOUT_S
+    talk.now += TIMEOUTS.ack
     assert talk.sent() == []
     assert talk.dialogue.wait_s(talk.now) is None
 

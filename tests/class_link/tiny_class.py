@@ -1,12 +1,16 @@
 """A class that knows one secret, remembers what it got, and breaks off when a test says so."""
 
+import os
+import socket
 import threading
+import weakref
 from typing import Self
 
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import Server, ServerConnection, serve
 from websockets.typing import Subprotocol
 
+from ai4u_edu.class_link import LinkTimeouts
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     SUBPROTOCOL,
@@ -24,12 +28,15 @@ from ai4u_edu.wire.class_link import (
     decode_from_room,
     encode_from_class,
 )
+from tests.waiting import LIMIT_S
 
 SECRET = "seat-token"
+PATIENT = LinkTimeouts(*[LIMIT_S] * 7)
+"""Time limits of a client that only a fault reaches."""
 
 
 class TinyClass:
-    """A server of links at one port, also after a restart."""
+    """A server of links at one port, which nobody else gets before its start or after its end."""
 
     def __init__(self) -> None:
         self.got: list[FromRoom] = []
@@ -39,7 +46,8 @@ class TinyClass:
         self.is_welcoming = True
         self.refusal = ""
         """Reason with which every connection is closed."""
-        self.port = 0
+        self._socket = self._bound(0)
+        self.port: int = self._socket.getsockname()[1]
         self._connections: list[ServerConnection] = []
         self._server: Server | None = None
         self._thread: threading.Thread | None = None
@@ -50,6 +58,7 @@ class TinyClass:
 
     def __exit__(self, *_: object) -> None:
         self.stop()
+        self._socket.close()
 
     @property
     def url(self) -> str:
@@ -68,21 +77,26 @@ class TinyClass:
         return [each for each in self.got if isinstance(each, kind)]
 
     def start(self) -> None:
+        if self._socket.getsockname()[1] != self.port:
+            self._socket.close()
+            self._socket = self._bound(self.port)
+        self._socket.listen()
         self._server = serve(
             self._talk,
-            "127.0.0.1",
-            self.port,
+            sock=self._socket,
             subprotocols=[Subprotocol(SUBPROTOCOL)],
             max_size=MAX_FRAME_BYTES,
+            open_timeout=LIMIT_S,
+            ping_interval=None,
         )
-        self.port = self._server.socket.getsockname()[1]
         self._thread = threading.Thread(target=self._server.serve_forever)
         self._thread.start()
 
     def stop(self) -> None:
-        """End the server; its port is free for :meth:`start`."""
+        """End the server, which may start again."""
         if self._server is not None and self._thread is not None:
             self._server.shutdown()
+            self._socket = self._bound(self.port)
             self._thread.join()
             self.drop()
             self._server = None
@@ -124,3 +138,12 @@ class TinyClass:
                     send(Ack(message.key))
         except ConnectionClosed:
             pass
+
+    def _bound(self, port: int) -> socket.socket:
+        """Return a socket at a port, or at any free one for 0; nobody listens there yet."""
+        made = socket.socket()
+        weakref.finalize(self, made.close)  # also if nobody ends this class
+        if os.name == "posix":  # else the port of a server that has ended is taken for a minute
+            made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        made.bind(("127.0.0.1", port))
+        return made
