@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Page
 from ai4u_edu.server import program_zip
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
+from tests.waiting import LIMIT_MS, LIMIT_S
 
 HOST = """
 import json
@@ -40,10 +41,45 @@ ROOM = {
     "readings": [{"key": "reading", "dtype": "<f4"}],
 }
 """Actuators and readings that a program is loaded for."""
+PATIENT = {
+    "programS": LIMIT_S,
+    "callMs": LIMIT_MS,
+    "beginMs": LIMIT_MS,
+    "connectMs": LIMIT_MS,
+    "outcomeMs": LIMIT_MS,
+}
+"""Time limits of programs that only a fault reaches; see web/code_limits.js."""
+SET_LIMITS = """async (limits) => {
+    const scripts = [...document.scripts].map((each) => each.src);
+    const own = scripts.filter((each) => each.endsWith("/main.js"));
+    // modules that a test imports have another address than those of the page itself
+    for (const base of [new URL("./web/main.js", document.baseURI), ...own]) {
+        const { codeLimits } = await import(new URL("code_limits.js", base));
+        Object.assign(codeLimits, limits);
+    }
+}"""
+WORLD_WAITS = (
+    *("--grace", str(LIMIT_S)),
+    *("--receive-timeout", str(LIMIT_MS)),
+    *("--on-missing", "stop"),
+)
+"""Options of ``ai4u-edu play`` for a world that waits for programs, however late they are.
+
+Without its program a robot stands still, or it would be elsewhere by the next decision.
+"""
+
+
+def set_limits(page: Page, **limits: float) -> None:
+    """Change the time limits of programs in a page, until it is loaded again.
+
+    Args:
+        limits: those to change; the others become such that only a fault reaches them.
+    """
+    page.evaluate(SET_LIMITS, PATIENT | limits)
 
 
 def code_page(chromium: Browser, url: str) -> Page:
-    """Return a room's page, with the modules in ``window``."""
+    """Return a room's page, with the modules in ``window``, and no time limits."""
     page = new_page(chromium)
     WITHOUT_VISER.serve(page, url)
     page.goto(url)
@@ -51,9 +87,11 @@ def code_page(chromium: Browser, url: str) -> Page:
         """async () => {
             Object.assign(window, await import("./web/code_engine.js"));
             Object.assign(window, await import("./web/remote_client.js"));
+            Object.assign(window, await import("./web/code_limits.js"));
             window.engine = new CodeEngine();
         }"""
     )
+    set_limits(page)
     return page
 
 

@@ -11,6 +11,7 @@ from ai4u_edu.program import Program
 from tests.browser.blocks import State, act, block, compare, near, number, program, stack
 from tests.browser.fake_panel import PARTS
 from tests.browser.tab_page import TabPage
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.browser
 
@@ -47,7 +48,7 @@ def translated(
 
 def decided(text: str, *percepts: dict[str, Any]) -> list[list[float]]:
     """Return what a program does for percepts of an episode."""
-    loaded = Program.load(text, outputs=OUTPUTS)
+    loaded = Program.load(text, outputs=OUTPUTS, limit_s=LIMIT_S)
     loaded.begin()
     return [loaded.decide({**PERCEPT, **percept})["move"] for percept in percepts]
 
@@ -213,4 +214,4 @@ def test_the_text_of_a_program_holds_its_blocks(page: Page) -> None:
     assert not left["isOfBlocks"]
     assert longer["blocks"] is wrong["blocks"] is None
     assert text.startswith(python)
-    assert Program.load(text, outputs=OUTPUTS).file == "program.py"
+    assert Program.load(text, outputs=OUTPUTS, limit_s=LIMIT_S).file == "program.py"

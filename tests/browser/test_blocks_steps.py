@@ -13,6 +13,7 @@ from ai4u_edu.program import Program
 from tests.browser.blocks_steps import PROGRAMS
 from tests.browser.tab_page import TabPage
 from tests.panel.rooms import panel_room
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.browser
 
@@ -57,7 +58,7 @@ def sources(tab: TabPage) -> list[str]:
 @cache
 def driven(source: str, seed: int, decisions: int) -> list[dict[str, Any]]:
     """Return what a program saw and did in the maze."""
-    program = Program.load(source)
+    program = Program.load(source, limit_s=LIMIT_S)
     sim = Scene.load("maze").build()
     seen: list[dict[str, Any]] = []
 

@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.browser.code_page import code_page
+from tests.browser.code_page import WORLD_WAITS, code_page
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.test_code_lockstep import CHEAP, DRIVE, SEED
 from tests.playing import played
@@ -49,7 +49,7 @@ def test_a_browser_that_stops_the_page_ends_the_run_and_the_tab_says_so(
 
 @pytest.mark.nightly
 def test_a_real_program_needs_no_timers_either(chromium: Browser) -> None:
-    with played(CHEAP, "--time-scale", "100") as server:
+    with played(CHEAP, "--time-scale", "100", *WORLD_WAITS) as server:
         page = code_page(chromium, server.url)
         page.evaluate("engine.warm()")
         page.evaluate(HIDDEN)

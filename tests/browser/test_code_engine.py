@@ -6,8 +6,18 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from ai4u_edu.server import program_zip
-from tests.browser.code_page import ROOM, code_page, decide, load, run, use_stand_in
+from tests.browser.code_page import (
+    ROOM,
+    code_page,
+    decide,
+    load,
+    run,
+    set_limits,
+    use_stand_in,
+)
+from tests.chromium import until_on
 from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_MS
 
 pytestmark = pytest.mark.browser
 
@@ -17,6 +27,9 @@ FORBIDDEN = [
     *("indexedDB", "caches", "cookieStore", "Notification", "FileReaderSync", "RTCPeerConnection"),
     *("storage", "localStorage", "StorageManager", "createImageBitmap", "OffscreenCanvas"),
 ]
+
+CALL_MS = 2000
+"""Time after which a page ends a program that does not come back; the product's own limit."""
 
 
 @pytest.fixture(scope="module")
@@ -67,11 +80,15 @@ def test_only_a_loaded_program_is_asked(page: Page) -> None:
 def test_a_program_that_never_comes_back_is_ended_and_the_page_goes_on(
     page: Page, body: str
 ) -> None:
+    load(page, f"def decide(percept):\n    {body}")
+    # a timer that is due before the engine's own limit: it fires first, if the page is not stuck
     page.evaluate("(() => { window.beats = 0; window.beat = setInterval(() => beats++, 50); })()")
-    answer = run(page, body)
+    set_limits(page, callMs=CALL_MS)
+    answer = decide(page)
+    set_limits(page)
     assert (answer["ok"], answer["kind"]) == (False, "endless")
     assert "endless" in answer["text"]
-    assert page.evaluate("clearInterval(beat), beats") > 10
+    assert page.evaluate("clearInterval(beat), beats") > 0
     assert decide(page)["kind"] == "not_loaded"
     assert run(page, "return {'move': [1, 1]}")["values"] == {"move": [1, 1]}
 
@@ -79,7 +96,15 @@ def test_a_program_that_never_comes_back_is_ended_and_the_page_goes_on(
 @pytest.mark.nightly
 def test_a_program_that_is_loaded_while_another_is_stuck_runs_after_it(page: Page) -> None:
     load(page, "def decide(percept):\n    10**10**8")
-    page.evaluate("void (window.stuck = engine.decide({}, 1))")
+    page.evaluate(
+        """([limit, patient]) => {
+            codeLimits.callMs = limit;
+            // the next program has the time that it needs
+            const after = () => (codeLimits.callMs = patient);
+            window.stuck = engine.decide({}, 1).finally(after);
+        }""",
+        [CALL_MS, LIMIT_MS],
+    )
     assert run(page, "return {'move': [1, 0]}")["values"] == {"move": [1, 0]}
     assert page.evaluate("stuck")["kind"] == "endless"
 
@@ -94,13 +119,31 @@ def test_of_a_stopped_program_no_answer_comes_later_and_no_file_is_left(page: Pa
     assert run(page, "return {}")["ok"]
 
 
-def test_who_waits_for_an_engine_that_is_ended_is_told(page: Page) -> None:
-    start = "(room) => { window.other = new CodeEngine(); window.loaded = other.load('', room); }"
-    for pause in (0, 200):
-        page.evaluate(start, ROOM)
-        page.wait_for_timeout(pause)
-        page.evaluate("other.end()")
-        assert page.evaluate("loaded")["ok"] is False
+@pytest.mark.parametrize(
+    "method",
+    [
+        pytest.param("", id="while-files-are-fetched"),
+        pytest.param("start", id="while-python-starts"),
+        pytest.param("load", id="while-the-program-is-loaded"),
+    ],
+)
+def test_who_waits_for_an_engine_that_is_ended_is_told(page: Page, method: str) -> None:
+    answer = page.evaluate(
+        """async ([method, room]) => {
+            const other = new CodeEngine();
+            const { postMessage } = Worker.prototype;
+            Worker.prototype.postMessage = function (message) {
+                postMessage.call(this, message);
+                if (message.method === method) other.end();
+            };
+            const loaded = other.load("", room);
+            await null; // it makes its worker
+            if (!method) other.end();
+            return loaded.finally(() => (Worker.prototype.postMessage = postMessage));
+        }""",
+        [method, ROOM],
+    )
+    assert answer["ok"] is False
 
 
 def test_an_answer_has_a_limited_size(page: Page) -> None:
@@ -137,8 +180,7 @@ def test_python_reaches_neither_page_nor_network(page: Page, body: str) -> None:
 
 def test_nothing_is_left_to_the_worker_that_connects_or_stores(page: Page) -> None:
     page.evaluate("engine.end()")
-    while page.workers:  # Chromium ends them a bit later
-        page.wait_for_timeout(10)
+    until_on(page, lambda: not page.workers)  # Chromium ends them a bit later
     assert run(page, "return {}")["ok"]
     worker = page.workers[0]  # there may be a spare one, too
     found = worker.evaluate("(names) => names.filter((name) => name in self)", FORBIDDEN)
@@ -150,12 +192,17 @@ def test_nothing_is_left_to_the_worker_that_connects_or_stores(page: Page) -> No
 
 def test_the_policy_forbids_the_worker_what_it_still_has(page: Page) -> None:
     page.evaluate(
-        """async () => {
-            window.bare = new Worker(new URL("web/code_worker.js", location), { type: "module" });
-            await new Promise((resolve) => setTimeout(resolve, 1000));
+        """() => {
+            const url = new URL("web/code_worker.js?bare", location);
+            window.bare = new Worker(url, { type: "module" });
+            // it has no program, and says so
+            return new Promise((answered) => {
+                bare.onmessage = () => answered();
+                bare.postMessage({ id: 1, method: "begin", text: "" });
+            });
         }"""
     )
-    worker = page.workers[-1]
+    (worker,) = (each for each in page.workers if each.url.endswith("?bare"))
     refused = worker.evaluate(
         """async () => {
             const attempts = {
@@ -167,7 +214,8 @@ def test_the_policy_forbids_the_worker_what_it_still_has(page: Page) -> None:
                 worker: () => new Promise((resolve, reject) => {
                     const worker = new Worker(location, { type: "module" });
                     worker.onerror = reject;
-                    setTimeout(resolve, 5000);
+                    worker.onmessage = resolve;
+                    worker.postMessage({ id: 1, method: "begin", text: "" });
                 }),
                 data: () => import("data:text/javascript,1"),
                 text: () => new Function("1"),

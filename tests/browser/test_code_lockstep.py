@@ -14,7 +14,7 @@ from playwright.sync_api import Browser, Page
 
 from ai4u_edu import Scene
 from ai4u_edu.training.policies import entrant
-from tests.browser.code_page import code_page
+from tests.browser.code_page import WORLD_WAITS, code_page
 from tests.playing import Played, played
 from tests.program.solutions import entry_of, solution
 from tests.program.test_same_everywhere import for_page
@@ -56,7 +56,8 @@ REST = [pytest.param(name, marks=pytest.mark.nightly) for name in Scene.names() 
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[Played]:
-    with played(CHEAP, "--lockstep", "--seeded-resets", "--time-scale", "100") as server:
+    options = ("--lockstep", "--seeded-resets", "--time-scale", "100", *WORLD_WAITS)
+    with played(CHEAP, *options) as server:
         yield server
 
 

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.code_page import WORLD_WAITS, set_limits
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
 from tests.browser.schemes import SCHEMES
@@ -147,25 +148,39 @@ def test_an_episode_without_a_limit_ends_after_a_minute(page: Page) -> None:
 
 
 def test_stop_ends_it_at_once(page: Page) -> None:
-    stuck = "setup.isStuck = ({ step }) => step === 2;"
-    found = results(
-        page, stuck, "await new Promise((ended) => setTimeout(ended, 50)); test.stop();"
-    )
+    stuck = """
+      const { promise: isStuck, resolve } = Promise.withResolvers();
+      setup.isStuck = ({ step }) => step === 2 && (resolve(), true);
+    """
+    found = results(page, stuck, "await isStuck; test.stop();")
     assert (found["end"]["reason"], found["isOn"]) == ("stopped", False)
     assert found["world"] == {"max": 1, "restored": 1, "closed": 1, "connected": 1}
     assert {row["outcome"] for row in found["rows"]} == {""}
 
 
 def test_stop_before_the_world_answers_closes_the_connection(page: Page) -> None:
-    wait = "await new Promise((ended) => setTimeout(ended, 50));"
-    slow = (
-        f"const now = parts.connect;parts.connect = async (each) => {{ {wait} return now(each); }};"
-    )
-    again = 'await 0; await 0; await 0; test.stop(); test.run("source", "0");'
-    found = results(page, slow, f"{again} await 0; await 0; await 0; test.stop(); {wait} {wait}")
-    assert found["world"]["connected"] > 0
-    assert found["world"]["closed"] == found["world"]["connected"]
-    assert found["world"]["max"] == 0
+    late = """
+      const { connect } = parts;
+      const asked = [1, 2].map(() => Promise.withResolvers());
+      const answers = [];
+      parts.connect = async (options) => {
+        const { promise, resolve } = Promise.withResolvers();
+        asked[answers.push(resolve) - 1].resolve();
+        await promise;
+        return connect(options);
+      };
+    """
+    stopped_twice = """
+      await asked[0].promise;
+      test.stop();
+      const again = test.run("source", "0");
+      await asked[1].promise;
+      test.stop();
+      for (const answer of answers) answer();
+      await Promise.all([running, again]);
+    """
+    found = results(page, late, stopped_twice)
+    assert found["world"] == {"max": 0, "restored": 2, "closed": 2, "connected": 2}
 
 
 @pytest.mark.parametrize("late", ["connectError", "resetError"])
@@ -342,10 +357,12 @@ def test_it_fits_a_phone_and_has_no_grave_finding(chromium: Browser, scheme: str
 
 @pytest.mark.nightly
 def test_the_program_of_the_docs_is_tested_in_a_real_world(chromium: Browser) -> None:
-    with played("box_chase", "--seed", MIDDLE, "--time-scale", "2") as server:
+    options = ("--seed", MIDDLE, "--time-scale", "2", *WORLD_WAITS)
+    with played("box_chase", *options) as server:
         page = new_page(chromium)
         page.goto(server.url)
         ready(page)
+        set_limits(page)
         tab = RealTab(page)
         tab.write(programs_in_docs()[0])
         tab.press("Test")
