@@ -1,7 +1,6 @@
 """AI4U's protocol over real sockets: a session, and everything that can happen to it."""
 
 import threading
-import time
 from collections.abc import Iterator
 from typing import Any, Literal
 
@@ -20,13 +19,16 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks.brains.links.ai4u import AI4ULink
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.validation import WireError
 from tests.builders import small_sim
-from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
-from tests.waiting import LIMIT_S
+from tests.remote.udp_script import NOOP, RESET, TICK_S, WAIT, UDPScript, udp_script
+from tests.waiting import LIMIT_S, Deadline, until
 
 AHEAD = "move;4;1.0;0;0;0"
+RECEIVE_TIMEOUT_S = 0.2
+"""Time for which a script may be silent, by its clock."""
 
 
 @pytest.fixture
@@ -40,17 +42,28 @@ def remote_sim(script: UDPScript, **fields: Any) -> tuple[ControlRequestor, Remo
     given = {
         name: fields.pop(name) for name in ("mode", "on_missing", "skip_frame") if name in fields
     }
-    brain = RemoteBrain(port=script.port, receive_timeout=200, **given)
+    brain = remote_brain(script, **given)
     sim = small_sim([BearingSensor(target="box")], brains=[brain], **fields)
     return sim, brain
 
 
-def silent(sim: ControlRequestor, brain: RemoteBrain) -> None:
-    """Lets time pass until a script that says nothing is given up."""
-    until = time.monotonic() + 5
-    while brain.status().state != "lost":
-        assert time.monotonic() < until
-        sim.tick()
+def remote_brain(script: UDPScript, **given: Any) -> RemoteBrain:
+    """A brain that knows no time but the script's."""
+    link = AI4ULink(
+        "127.0.0.1",
+        script.port,
+        receive_timeout=RECEIVE_TIMEOUT_S,
+        threaded=given.get("mode") == "realtime",
+        clock=script.clock,
+    )
+    timeout = int(1000 * RECEIVE_TIMEOUT_S)
+    return RemoteBrain.with_link(link, clock=script.clock, receive_timeout=timeout, **given)
+
+
+def silent(script: UDPScript, sim: ControlRequestor, brain: RemoteBrain) -> None:
+    """Let time pass until a script that says nothing is given up."""
+    script.clock.advance(RECEIVE_TIMEOUT_S)
+    until(lambda: script.tick(sim) or brain.status().state == "lost")
 
 
 # -- a session -------------------------------------------------------------------------------------
@@ -101,12 +114,13 @@ def test_a_script_that_is_not_there_yet_keeps_nobody_waiting(script: UDPScript) 
     sim, brain = remote_sim(script)
     script.close()
     for _ in range(300):
-        sim.tick()
+        script.tick(sim)
     assert (sim.world.ticks, sim.agents[0].steps) == (300, 0)
     status = brain.status()
     assert status.state == "waiting"
     assert status.reason == f"no AI4U script listens at 127.0.0.1:{script.port} yet"
     with udp_script(script.port) as late:
+        late.clock = script.clock
         late.meet(sim)
         assert brain.status().state == "connected"
         assert brain.status().reason == ""
@@ -117,8 +131,8 @@ def test_the_world_stands_still_while_the_script_asks_for_time(script: UDPScript
     sim, brain = remote_sim(script)
     script.meet(sim)
     ticks = sim.world.ticks
-    began = time.monotonic()
-    while time.monotonic() < began + 0.5:  # more than the timeout: it is there, and says so
+    for _ in range(10):  # for more than the timeout: it is there, and says so
+        script.clock.advance(RECEIVE_TIMEOUT_S / 2)
         script.say(WAIT)
         state = script.next(sim)
         assert state["steps"] == 0
@@ -198,7 +212,7 @@ def test_envcontrol_goes_back_to_the_beginning(script: UDPScript) -> None:
     assert request["__envcontrol__"] == "__envcontrol__"
     ticks = sim.world.ticks
     for _ in range(10):
-        sim.tick()
+        script.tick(sim)
     assert sim.world.ticks == ticks + 10  # nobody waits for a script that doesn't play
     script.say(RESET)
     assert script.next(sim)["done"] is False
@@ -253,7 +267,7 @@ def test_with_others_there_a_reset_is_the_agents_own(script: UDPScript) -> None:
     agents = []
     for index in range(2):
         world.add_body(f"robot{index}", CircleShape(), position=(0, 3 * index))
-        remote = RemoteBrain(port=script.port, skip_frame=0)
+        remote = remote_brain(script, skip_frame=0)
         local = LocalBrain(controller=lambda percept: {"move": [1, 0, 0, 0]}, skip_frame=0)
         agents.append(
             BasicAgent(
@@ -342,7 +356,7 @@ def test_a_lost_reply_ends_the_session_and_the_world_goes_on(
     script.meet(sim)
     script.say(AHEAD)
     script.next(sim)  # and its reply is lost
-    silent(sim, brain)
+    silent(script, sim, brain)
     status = brain.status()
     assert status.reason.startswith(
         f"the script at 127.0.0.1:{script.port} did not answer for 0.2 s: its session is over"
@@ -361,7 +375,7 @@ def test_a_lost_reply_ends_the_session_and_the_world_goes_on(
 def test_after_a_loss_a_new_session_begins_without_a_restart(script: UDPScript) -> None:
     sim, brain = remote_sim(script)
     script.meet(sim)
-    silent(sim, brain)
+    silent(script, sim, brain)
     script.say(AHEAD)  # much too late
     ignored = brain.status().ignored
     while script.heard() is not None:
@@ -416,12 +430,10 @@ def test_a_script_that_is_killed_and_one_that_comes_after_it(script: UDPScript) 
     script.meet(sim)
     script.say(AHEAD)
     script.close()
-    until = time.monotonic() + 5
-    while brain.status().state != "lost":
-        assert time.monotonic() < until
-        sim.tick()
+    until(lambda: script.tick(sim) or brain.status().state == "lost")
     assert "is gone (Connection refused); start it again" in brain.status().reason
     with udp_script(script.port) as another:
+        another.clock = script.clock
         assert another.meet(sim)["done"] is False
         another.say(AHEAD)
         assert another.next(sim)["steps"] == 1
@@ -434,7 +446,7 @@ def test_the_others_go_on_when_a_script_is_lost(script: UDPScript) -> None:
     for index in range(2):
         world.add_body(f"robot{index}", CircleShape(), position=(0, 3 * index))
         brain = (
-            RemoteBrain(port=script.port, receive_timeout=200, skip_frame=0)
+            remote_brain(script, skip_frame=0)
             if index
             else LocalBrain(controller=lambda percept: {}, skip_frame=0)
         )
@@ -452,7 +464,7 @@ def test_the_others_go_on_when_a_script_is_lost(script: UDPScript) -> None:
     script.meet(sim, agent="1")
     remote = agents[1].brain
     assert isinstance(remote, RemoteBrain)
-    silent(sim, remote)
+    silent(script, sim, remote)
     before = [agent.steps for agent in sim.agents]
     for _ in range(20):
         sim.tick()
@@ -469,39 +481,48 @@ def test_a_host_that_there_is_not() -> None:
 
 
 def test_a_world_that_waits_still_does_what_the_page_asks_for(script: UDPScript) -> None:
-    sim, brain = remote_sim(script)
-    brain.receive_timeout = 5000
+    sim, brain = remote_sim(script)  # whose clock stands still: it never stops waiting
     script.meet(sim)
     runner = Runner(sim, seed=1, time_scale=float("inf"))  # resets the world, too
     script.say(WAIT)
     runner.start()
-    began = time.monotonic()
-    runner.submit(lambda: None).result(LIMIT_S)
+    ticks = runner.submit(lambda: sim.world.ticks).result(LIMIT_S)
     runner.pause().result(LIMIT_S)
     assert runner.latest.paused
     runner.reset(seed=5).result(LIMIT_S)
     assert runner.latest.seed == 5
-    assert time.monotonic() - began < 2
-    runner.stop()
+    assert (ticks, brain.status().missing) == (0, 0)
+    runner.stop(LIMIT_S)
 
 
 def test_a_page_that_pauses_does_not_lose_the_script(script: UDPScript) -> None:
     sim, brain = remote_sim(script)
     runner = Runner(sim, seed=1, time_scale=float("inf"))
+
+    def rest() -> dict[str, Any]:
+        """Let the paused world rest until it asks something."""
+        deadline = Deadline()
+        while (request := script.heard()) is None:
+            deadline.left()
+            script.clock.advance(TICK_S)
+            runner.advance()
+        return request
+
     runner.pause()
-    runner.start()
     for expected, reply in (("wait_command", NOOP), ("config", "max_steps;1;0@id;1;0")):
-        assert expected in script.hear()
+        assert expected in rest()
         script.say(reply)
     for _ in range(3):  # it is asked again and again, so that it doesn't take us for dead
-        assert "wait_command" in script.hear()
+        assert "wait_command" in rest()
         script.say(NOOP)
-    script.hear()
+    rest()
     script.say(RESET)
-    time.sleep(0.3)
+    for _ in range(5):
+        script.clock.advance(RECEIVE_TIMEOUT_S)
+        runner.advance()
     assert script.heard() is None  # its reset waits until the time goes on
     runner.resume()
-    assert script.hear()["steps"] == 0
+    assert rest()["steps"] == 0
     script.say(WAIT)
     runner.stop()
     assert brain.status().state == "waiting"
@@ -518,11 +539,9 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
         ("config", "max_steps;1;0@id;1;0"),
         ("wait_command", RESET),
     ):
-        sim.tick()
-        assert expected in script.hear()
+        assert expected in script.next(sim)
         script.say(reply)
-    while sim.episode == 1:
-        sim.tick()
+    until(lambda: sim.tick() or sim.episode > 1)
     assert script.hear()["steps"] == 0  # as soon as it is sensed, and not with the next tick
     before = (sim.world.ticks, agent.steps, brain.status().missing)
     for _ in range(10):
@@ -532,10 +551,7 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
     assert brain.status().state == "late"
     assert agent.last_action == {"move": (0.0, 0.0, 0.0, 0.0)}
     script.say(AHEAD)  # late: it counts for the next decision
-    until = time.monotonic() + 5
-    while brain.status().decisions == 0:
-        assert time.monotonic() < until
-        sim.tick()
+    until(lambda: sim.tick() or brain.status().decisions)
     assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
     assert brain.status().decisions == 1
     state = script.hear()
@@ -547,7 +563,7 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
 def test_what_does_not_fit_into_a_datagram_is_an_error_of_the_world(
     script: UDPScript, mode: Literal["lockstep", "realtime"]
 ) -> None:
-    brain = RemoteBrain(port=script.port, mode=mode)
+    brain = remote_brain(script, mode=mode)
     sensor = AgentArraySensor(size=1000, stacked_observations=40)
     sim = small_sim([sensor], brains=[brain])
     for reply in (NOOP, "max_steps;1;0@id;1;0", RESET):
@@ -560,14 +576,16 @@ def test_what_does_not_fit_into_a_datagram_is_an_error_of_the_world(
 
 def test_a_closed_brain_leaves_nothing_behind(script: UDPScript) -> None:
     process = psutil.Process()
-    before = process.num_fds(), threading.active_count()
+    before = process.num_fds()
     for mode in ("lockstep", "realtime"):
         sim, brain = remote_sim(script, mode=mode)
         for _ in range(5):
             sim.tick()
         brain.close()
         brain.close()
-    assert (process.num_fds(), threading.active_count()) == before
+    assert process.num_fds() <= before
+    where = f"127.0.0.1:{script.port}"
+    assert not [thread for thread in threading.enumerate() if where in thread.name]
 
 
 @pytest.mark.parametrize("mode", ["lockstep", "realtime"])
@@ -579,6 +597,6 @@ def test_garbage_without_an_end_does_not_stop_the_world(
     link: Any = brain._link
     monkeypatch.setattr(link._socket, "receive", lambda: (b"garbage", False))
     ticks = sim.world.ticks
-    silent(sim, brain)
+    silent(script, sim, brain)
     assert sim.world.ticks >= ticks
     assert link.ignored > 0

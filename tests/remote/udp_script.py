@@ -2,23 +2,30 @@
 
 import contextlib
 import socket
-import time
 from collections.abc import Iterator
 from typing import Any
 
 from ai4u_edu import ControlRequestor
 from ai4u_edu.wire.ai4u import decode_request
-from tests.waiting import LIMIT_S
+from tests.blocks.scripted_link import StillClock
+from tests.waiting import LIMIT_S, Deadline
 
 WAIT = "__waitnewaction__;1;0"
 RESET = "__reset__;1;0"
 NOOP = "__noop__;1;0"
+TICK_S = 0.01
+"""Time that passes with each tick by the clock of a script."""
 
 
 class UDPScript:
-    """Listens like an AI4U script; says only what a test has it say."""
+    """Listens like an AI4U script; says only what a test has it say.
+
+    Attributes:
+        clock: for the brain of a world that :meth:`next` ticks; it passes with these ticks alone.
+    """
 
     def __init__(self, port: int = 0) -> None:
+        self.clock = StillClock()
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.bind(("127.0.0.1", port))
         self.port: int = self._socket.getsockname()[1]
@@ -61,13 +68,16 @@ class UDPScript:
 
     def next(self, sim: ControlRequestor) -> dict[str, Any]:
         """Lets the world tick until it asks something."""
-        end = time.monotonic() + LIMIT_S
-        while time.monotonic() < end:
-            request = self.heard()
-            if request is not None:
-                return request
-            sim.tick()
-        raise AssertionError("the world asked nothing")
+        deadline = Deadline()
+        while (request := self.heard()) is None:
+            deadline.left()
+            self.tick(sim)
+        return request
+
+    def tick(self, sim: ControlRequestor, seconds: float = TICK_S) -> None:
+        """Let some time pass, and the world tick once."""
+        self.clock.advance(seconds)
+        sim.tick()
 
     def close(self) -> None:
         """Is gone: its port is free."""
