@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
+from typing import Any
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
@@ -39,7 +40,7 @@ from ai4u_edu.wire.class_link import PATH as LINK_PATH
 PAGES = re.compile(r"/|/teacher|/projector|/check|/privacy|/r/\w+/(start)?")
 """Paths of pages, to which other sites may lead a person."""
 
-SERVER_LIMITS = {"per_address": 1000, "max_message_bytes": MAX_FRAME_BYTES}
+SERVER_LIMITS: dict[str, Any] = {"per_address": 1000, "max_message_bytes": MAX_FRAME_BYTES}
 """Arguments of :func:`~ai4u_edu.server.serve`: a school's students may all have one address."""
 
 

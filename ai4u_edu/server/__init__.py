@@ -11,6 +11,7 @@ from ai4u_edu.server.scripts import Rules
 from ai4u_edu.server.serve import ServerThread, serve
 from ai4u_edu.server.start_page import LessonView
 from ai4u_edu.server.startup_banner import startup_banner
+from ai4u_edu.server.timeouts import Timeouts
 from ai4u_edu.server.token_auth import token_for, with_token
 from ai4u_edu.server.viser_lockdown import lock_viser_port
 
@@ -22,6 +23,7 @@ __all__ = [
     "RoomMount",
     "Rules",
     "ServerThread",
+    "Timeouts",
     "hosts_for",
     "lock_viser_port",
     "open_on_desktop",

@@ -23,6 +23,7 @@ from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Rules
 from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.server.token_auth import TokenAuth
 from ai4u_edu.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.server.vendor_files import VendorFiles
@@ -44,6 +45,7 @@ def room_app(
     editor: SceneEditor | None = None,
     lessons: Callable[[], list[LessonView]] = list,
     class_feed: ClassFeed | None = None,
+    timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
 
@@ -61,6 +63,7 @@ def room_app(
             no start page.
         lessons: returns the lessons that the start page lists.
         class_feed: of the class that the room belongs to; pages show it.
+        timeouts: time limits of the room's answers; those of connections belong to the server.
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
@@ -76,7 +79,10 @@ def room_app(
     scenes: list[Route] = []
     if editor is not None:
         scenes = _scene_routes(
-            SceneRoutes(runner, editor), StartPage(lessons, editor), auth, page_auth
+            SceneRoutes(runner, editor, timeouts.open_scene),
+            StartPage(lessons, editor),
+            auth,
+            page_auth,
         )
     return Starlette(
         routes=[
@@ -90,7 +96,11 @@ def room_app(
             Route("/api/past/{file}", past.file, middleware=auth),
             Route("/api/openapi.json", state.describe, middleware=auth),
             *scenes,
-            WebSocketRoute("/", ViserProxy(viser_port, rules.token, viser_secret), middleware=auth),
+            WebSocketRoute(
+                "/",
+                ViserProxy(viser_port, rules.token, viser_secret, timeouts.viser),
+                middleware=auth,
+            ),
             WebSocketRoute("/ws/input", Inputs(runner, current_title, class_feed), middleware=auth),
             *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello

@@ -9,21 +9,18 @@ ASGI's. See ``docs/adr/0003-limits-of-connections.md``.
 import asyncio
 from asyncio.transports import BaseTransport
 from collections.abc import Callable, MutableMapping
-from typing import Any
+from typing import Any, cast
 
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.exceptions import InvalidState
 from websockets.http11 import Request
 
 from ai4u_edu.server.plain_response import plain_response
+from ai4u_edu.server.requests import ServerConfig
+from ai4u_edu.server.timeouts import Timeouts
 
 EXTENSION = "ai4u_edu.frames"
 """Key of the protocol in an ASGI scope's ``extensions``."""
-
-HANDSHAKE_TIMEOUT_S = 15.0
-"""Time in which an app has to accept a socket; the proxy waits for viser for up to 10 s."""
-CLOSE_TIMEOUT_S = 3.0
-"""Time in which the other side has to answer a close."""
 
 Listener = Callable[[bytes], bool]
 """Callback that gets each binary frame; one for which it returns False goes through ASGI."""
@@ -39,8 +36,8 @@ class FramesProtocol(WebSocketsSansIOProtocol):
     def connection_made(self, transport: BaseTransport) -> None:
         """Start the handshake's timeout."""
         super().connection_made(transport)
-        self.close_timeout = CLOSE_TIMEOUT_S
-        self._handshake_timer = self.loop.call_later(HANDSHAKE_TIMEOUT_S, self._end_handshake)
+        self.close_timeout = self._timeouts.close
+        self._handshake_timer = self.loop.call_later(self._timeouts.handshake, self._end_handshake)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Cancel the timeouts."""
@@ -70,12 +67,12 @@ class FramesProtocol(WebSocketsSansIOProtocol):
         """Close a connection that answers no pings; abort it if it does not read either."""
         super().keepalive_timeout()
         self.disconnected = True  # see handle_parser_exception
-        self._abort_after(CLOSE_TIMEOUT_S)
+        self._abort_after(self._timeouts.close)
 
     def on_task_complete(self, task: asyncio.Task[None]) -> None:
         """Abort the connection after its app has ended if the other side does not read the rest."""
         super().on_task_complete(task)
-        self._abort_after(2 * CLOSE_TIMEOUT_S)
+        self._abort_after(2 * self._timeouts.close)
 
     def handle_connect(self, event: Request) -> None:
         """Add the extension to the scope; refuse a request that websockets fails to refuse."""
@@ -97,6 +94,10 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             super().shutdown()
         except InvalidState:  # uvicorn would send a second close, and not end
             self.transport.close()
+
+    @property
+    def _timeouts(self) -> Timeouts:
+        return cast(ServerConfig, self.config).timeouts
 
     def _abort_after(self, seconds: float) -> None:
         # a transport that closed after it sent its last bytes raises an error in abort()

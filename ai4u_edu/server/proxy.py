@@ -18,6 +18,7 @@ from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.server import page_messages
 from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.server.socket_pump import pump_sockets
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.server.token_auth import with_token
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
 
@@ -63,24 +64,33 @@ class ViserProxy:
         port: viser's port on 127.0.0.1.
         token: the room's token, for the address that the page shows if nobody gives another one.
         secret: viser's, as given to :func:`~ai4u_edu.server.viser_lockdown.lock_viser_port`.
+        timeout: time (s) for viser to accept a connection.
     """
 
-    def __init__(self, port: int, token: str = "", secret: str = PROXY_SECRET) -> None:
-        self._port, self._token, self._secret = port, token, secret
+    def __init__(
+        self,
+        port: int,
+        token: str = "",
+        secret: str = PROXY_SECRET,
+        timeout: float = DEFAULT_TIMEOUTS.viser,
+    ) -> None:
+        self._port, self._token, self._secret, self._timeout = port, token, secret, timeout
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's connection until one side closes it."""
         page = WebSocket(scope, receive, send)
         try:
             token = page.headers.get(SCRIPT_KEY_HEADER, self._token)
-            viser = await connect_viser(scope, self._port, self._secret, token)
+            viser = await connect_viser(scope, self._port, self._secret, token, self._timeout)
         except (OSError, InvalidHandshake):
             await page.close(1013, "the viewer does not answer; reload the page in a moment")
             return
         await pump_sockets(page, viser, pass_up(page, viser))
 
 
-async def connect_viser(scope: Scope, port: int, secret: str, token: str) -> ClientConnection:
+async def connect_viser(
+    scope: Scope, port: int, secret: str, token: str, timeout: float = DEFAULT_TIMEOUTS.viser
+) -> ClientConnection:
     """Connect with viser in the name of a page.
 
     Args:
@@ -88,6 +98,7 @@ async def connect_viser(scope: Scope, port: int, secret: str, token: str) -> Cli
         port: viser's on 127.0.0.1.
         secret: viser's.
         token: secret in the address that the page shows to scripts.
+        timeout: time (s) for viser to accept the connection.
 
     Raises:
         OSError, InvalidHandshake: viser does not answer.
@@ -104,6 +115,7 @@ async def connect_viser(scope: Scope, port: int, secret: str, token: str) -> Cli
         subprotocols=_subprotocols(scope["subprotocols"]) or None,
         compression=None,  # viser compresses by itself
         max_size=None,
+        open_timeout=timeout,
         max_queue=1,  # frames for a slow page wait in viser, where newer ones replace them
         ping_interval=None,  # the other connection has pings
         proxy=None,

@@ -16,21 +16,17 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from ai4u_edu.server.connections import Connections
 from ai4u_edu.server.plain_response import plain_response
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
-REQUEST_TIMEOUT_S = 5.0
-"""Timeout of a request's head, since the connection's or its own first byte; and of its body."""
 PART_BYTES = 4096
 """Bytes of a head that are parsed at a time, until it is complete."""
-STALL_TIMEOUT_S = 20.0
-"""Time without progress after which an answer that nobody reads is aborted."""
-LINGER_S = 1.0
-"""Time that the other side has to read why its connection is closed."""
 
 
 class ServerConfig(uvicorn.Config):
-    """uvicorn's configuration, by which the protocols reach the server's connections."""
+    """uvicorn's configuration, by which the protocols reach what belongs to the server."""
 
     connections: Connections | None = None
+    timeouts = DEFAULT_TIMEOUTS
 
 
 class RequestProtocol(H11Protocol):
@@ -131,7 +127,7 @@ class RequestProtocol(H11Protocol):
             return
         # closing a socket with unread bytes resets it, and the answer would be lost
         self.transport.write_eof()
-        self._set_deadline(LINGER_S, self.transport.abort)
+        self._set_deadline(self._timeouts.linger, self.transport.abort)
 
     def _wait_for_request(self) -> None:
         self._has_begun = bool(self.conn.trailing_data[0])
@@ -139,7 +135,7 @@ class RequestProtocol(H11Protocol):
         self._restart_deadline()
 
     def _restart_deadline(self) -> None:
-        self._set_deadline(REQUEST_TIMEOUT_S, self._time_out)
+        self._set_deadline(self._timeouts.request, self._time_out)
 
     def _stop_waiting(self) -> None:
         self._set_idle(False)
@@ -164,13 +160,13 @@ class RequestProtocol(H11Protocol):
         elif self.conn.their_state is h11.SEND_BODY and self.cycle.response_started:
             self.transport.abort()  # it was answered without its body
         else:
-            expected = f"expected the whole request within {REQUEST_TIMEOUT_S:g} s"
+            expected = f"expected the whole request within {self._timeouts.request:g} s"
             self.end(plain_response(HTTPStatus.REQUEST_TIMEOUT, expected))
 
     def _watch_reader(self) -> None:
         if self._stall is None and self.transport.get_write_buffer_size():
             self._unread = self.transport.get_write_buffer_size()
-            self._stall = self.loop.call_later(STALL_TIMEOUT_S, self._look_at_reader)
+            self._stall = self.loop.call_later(self._timeouts.stall, self._look_at_reader)
 
     def _look_at_reader(self) -> None:
         self._stall = None
@@ -183,6 +179,10 @@ class RequestProtocol(H11Protocol):
     def _set_idle(self, idle: bool) -> None:
         if self._connections is not None:
             self._connections.set_idle(self.transport, idle)
+
+    @property
+    def _timeouts(self) -> Timeouts:
+        return cast(ServerConfig, self.config).timeouts
 
     @property
     def _connections(self) -> Connections | None:

@@ -22,8 +22,6 @@ from ai4u_edu.server.json_body import read_json
 MAX_BODY_BYTES = 2 * MAX_LINK_CHARS + 1000
 MAX_WAITING = 8
 """Requests that wait until another one's scene was read, which takes up to a second."""
-OPEN_TIMEOUT_S = 10.0
-"""Time for the world to open a scene; a block that does not return keeps it from doing so."""
 RETRY_AFTER_S = 5
 
 
@@ -93,10 +91,11 @@ class SceneRoutes:
     Args:
         runner: runs the world.
         editor: changes the world, so that opening a scene can be undone.
+        open_timeout: time (s) for the world to open a scene.
     """
 
-    def __init__(self, runner: Runner, editor: SceneEditor) -> None:
-        self._runner, self._editor = runner, editor
+    def __init__(self, runner: Runner, editor: SceneEditor, open_timeout: float) -> None:
+        self._runner, self._editor, self._open_timeout = runner, editor, open_timeout
         self._reading = asyncio.Lock()
         self._waiting = 0
 
@@ -139,7 +138,7 @@ class SceneRoutes:
         else:
             shared = await self._read(lambda: _named(wanted.name))
         try:
-            async with asyncio.timeout(OPEN_TIMEOUT_S):
+            async with asyncio.timeout(self._open_timeout):
                 await asyncio.wrap_future(self._editor.open(shared.scene))
                 if shared.seed is not None:
                     await asyncio.wrap_future(self._runner.reset(shared.seed))

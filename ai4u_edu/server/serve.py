@@ -1,6 +1,7 @@
 """Run the web server, in this thread or another one, and shut it down cleanly."""
 
 import asyncio
+import math
 import signal
 import socket
 import threading
@@ -17,6 +18,7 @@ from ai4u_edu.server.connections import MAX_PER_ADDRESS, Connections, raise_desc
 from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.listener import Listener
 from ai4u_edu.server.requests import RequestProtocol, ServerConfig
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
 if TYPE_CHECKING:  # uvicorn has the type for checkers alone
     from uvicorn.server import Protocols
@@ -26,13 +28,6 @@ MAX_MESSAGE_BYTES = 2**20
 
 The largest one is a part of a file for viser, of 512 KiB.
 """
-PING_S = 10.0
-"""Time between two pings of a WebSocket, and time for the answer. A page whose network is gone
-keeps others from driving for up to twice as long."""
-SHUTDOWN_TIMEOUT_S = 1
-"""Time that uvicorn waits for open connections at shutdown."""
-ABORT_AFTER_S = 0.3
-"""Time after which requests that are still waiting for an answer are aborted at shutdown."""
 
 
 def serve(
@@ -43,6 +38,7 @@ def serve(
     *,
     per_address: int = MAX_PER_ADDRESS,
     max_message_bytes: int = MAX_MESSAGE_BYTES,
+    timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> None:
     """Serve an app in this thread until Ctrl-C or SIGTERM.
 
@@ -53,6 +49,7 @@ def serve(
         on_ready: called with the page's address when the server accepts connections.
         per_address: limit of connections from one address, except from this machine.
         max_message_bytes: size of a WebSocket message to the server.
+        timeouts: time limits of its connections.
 
     Raises:
         PortTakenError: another program listens there.
@@ -60,13 +57,29 @@ def serve(
     """
     listener = listen(host, port)
     raise_descriptor_limit()
-    _Server(app, url_of(host, listener), on_ready, per_address, max_message_bytes).run([listener])
+    server = _Server(
+        app, url_of(host, listener), on_ready, per_address, timeouts, max_message_bytes
+    )
+    server.run([listener])
 
 
 class ServerThread:
     """Server in a thread of its own, for tests and notebooks.
 
     ``with ServerThread(app) as server: ... server.url``
+
+    Clients may connect as soon as it is made; they are answered when it is started.
+
+    Args:
+        app: the ASGI app.
+        host: address to listen at.
+        port: 0 for a free one.
+        per_address: limit of connections from one address, except from this machine.
+        timeouts: time limits of its connections.
+
+    Raises:
+        PortTakenError: another program listens there.
+        AddressError: the server can't listen there, for another reason.
     """
 
     def __init__(
@@ -76,12 +89,13 @@ class ServerThread:
         port: int = 0,
         *,
         per_address: int = MAX_PER_ADDRESS,
+        timeouts: Timeouts = DEFAULT_TIMEOUTS,
     ) -> None:
         self._listener = listen(host, port)
         self.url = url_of(host, self._listener)
         """The page's address, with a slash at the end."""
         self._ready = threading.Event()
-        self._server = _Server(app, self.url, lambda _: self._ready.set(), per_address)
+        self._server = _Server(app, self.url, lambda _: self._ready.set(), per_address, timeouts)
         self._thread = threading.Thread(
             target=self._server.run, args=([self._listener],), name="server", daemon=True
         )
@@ -112,6 +126,7 @@ class _Server(uvicorn.Server):
         url: str,
         on_ready: Callable[[str], object] | None,
         per_address: int,
+        timeouts: Timeouts,
         max_message_bytes: int = MAX_MESSAGE_BYTES,
     ) -> None:
         config = ServerConfig(
@@ -121,17 +136,19 @@ class _Server(uvicorn.Server):
             ws=FramesProtocol,
             ws_max_size=max_message_bytes,
             ws_per_message_deflate=False,
-            ws_ping_interval=PING_S,
-            ws_ping_timeout=PING_S,
+            ws_ping_interval=timeouts.ping,
+            ws_ping_timeout=timeouts.ping,
             lifespan="off",
             log_config=None,
             log_level="warning",
             access_log=False,
             server_header=False,
-            timeout_graceful_shutdown=SHUTDOWN_TIMEOUT_S,
+            timeout_keep_alive=math.ceil(timeouts.request),  # RequestProtocol has its own
+            timeout_graceful_shutdown=math.ceil(timeouts.shutdown),
         )
         super().__init__(config)
         self._connections = config.connections = Connections(per_address=per_address)
+        self._timeouts = config.timeouts = timeouts
         self._on_ready = on_ready
         self._url = url
 
@@ -152,7 +169,7 @@ class _Server(uvicorn.Server):
             if connection.transport.get_write_buffer_size():
                 connection.transport.abort()
             else:
-                loop.call_later(ABORT_AFTER_S, self._abort, connection)
+                loop.call_later(self._timeouts.abort, self._abort, connection)
         await asyncio.sleep(0)  # asyncio makes transports of what it accepted
         await super().shutdown(sockets)
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-import httpx
 import numpy as np
 import pytest
 from gymnasium.spaces import Box
@@ -20,6 +19,7 @@ from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.server.api import SnapshotView, finite
 from tests.builders import small_sim
 from tests.json_schema import validator_of
+from tests.server import http_client
 from tests.server.rooms import Room, served
 from tests.waiting import LIMIT_S, until
 
@@ -44,7 +44,7 @@ def checker(document: dict[str, Any], schema: dict[str, Any]) -> "Draft202012Val
 
 
 def get(room: Room, path: str) -> Any:
-    answer = httpx.get(room.url + path)
+    answer = http_client.get(room.url + path)
     assert answer.status_code == 200
     assert answer.headers["Content-Type"] == "application/json"
     return json.loads(answer.text, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
@@ -100,8 +100,9 @@ def test_a_training_tells_its_progress(room: Room) -> None:
 
 
 def test_a_snapshot_tells_what_the_world_is_like(room: Room) -> None:
-    with room.page() as page, page.holding("KeyW"):
-        until(lambda: get(room, "api/snapshot")["agents"][0]["action"]["move"][0] == 1)
+    with room.page() as page:
+        page.hold("KeyW")
+        until(lambda: get(room, "api/snapshot")["agents"][0]["action"].get("move", [0])[0] == 1)
     room.runner.pause().result(LIMIT_S)
     seen, latest = get(room, "api/snapshot"), room.runner.latest
     assert (seen["tick"], seen["episode"], seen["seed"]) == (latest.tick, latest.episode, 1)
@@ -160,16 +161,16 @@ class Slow(Sensor):
         return [0.0]
 
 
-def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.tick_monitor.STALL_S", 0.0)
+def test_health_tells_which_block_does_not_return() -> None:
     sensor = Slow()
-    with served(small_sim([sensor])) as room:
+    began = datetime.now(UTC).replace(microsecond=0)
+    with served(small_sim([sensor]), stall_s=0.0) as room:
         try:
             sensor.may_answer.clear()
             sensor.is_asked.clear()
             assert sensor.is_asked.wait(LIMIT_S)
-            answer = httpx.get(room.url + "healthz")
-            document = httpx.get(room.url + "api/openapi.json").json()
+            answer = http_client.get(room.url + "healthz")
+            document = http_client.get(room.url + "api/openapi.json").json()
         finally:
             sensor.may_answer.set()
     assert answer.status_code == 503
@@ -178,8 +179,7 @@ def test_health_tells_which_block_does_not_return(monkeypatch: pytest.MonkeyPatc
     assert health["block"].startswith("Sensor Slow 'slow' of agent '0' (test_api.py, line ")
     described = document["paths"]["/healthz"]["get"]["responses"]["503"]["content"]
     checker(document, described["application/json"]["schema"]).validate(health)
-    since = datetime.fromisoformat(health["since"])
-    assert abs((datetime.now(UTC) - since).total_seconds()) < 60
+    assert began <= datetime.fromisoformat(health["since"]) <= datetime.now(UTC)
 
 
 def test_a_block_that_sleeps_keeps_nobody_but_the_world_waiting() -> None:
@@ -193,7 +193,7 @@ def test_a_block_that_sleeps_keeps_nobody_but_the_world_waiting() -> None:
             robot.act(move=[0, 0, 0, 0])
             try:
                 assert sensor.is_asked.wait(LIMIT_S)  # the script's answer has the world tick
-                assert httpx.get(room.url + "healthz", timeout=LIMIT_S).status_code in (200, 503)
+                assert http_client.get(room.url + "healthz").status_code in (200, 503)
                 assert not sensor.may_answer.is_set()
             finally:
                 sensor.may_answer.set()
@@ -209,4 +209,4 @@ def test_what_json_has_no_word_for_becomes_null() -> None:
 
 def test_the_api_only_looks(room: Room) -> None:
     for path in ("healthz", "api/snapshot", "api/past", "api/training", "api/openapi.json", ""):
-        assert httpx.post(room.url + path).status_code == 405
+        assert http_client.post(room.url + path).status_code == 405

@@ -3,7 +3,6 @@
 import asyncio
 from collections.abc import Iterator
 
-import httpx
 import pytest
 from websockets.exceptions import InvalidStatus
 
@@ -15,6 +14,7 @@ from ai4u_edu.server.attempts import (
 )
 from ai4u_edu.server.wrong_counts import MAX_ADDRESSES, MAX_WRONG
 from ai4u_edu.wire import native
+from tests.server import http_client
 from tests.server.rooms import Page, Room, served
 
 TOKEN = "sesame sesame"
@@ -122,21 +122,23 @@ def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
     ],
 )
 def test_guesses_get_429_on_every_way_in(room: Room, guess: dict[str, dict[str, str]]) -> None:
-    (cookie,) = httpx.get(room.url, params={"token": TOKEN}).cookies
+    (cookie,) = http_client.get(room.url, params={"token": TOKEN}).cookies
     given = {
         kind: {name: value.format(cookie=cookie) for name, value in values.items()}
         for kind, values in guess.items()
     }
     paths = ("", "healthz", "api/past/1.gif", "web/main.js")
     for path in paths[:3]:
-        assert httpx.get(room.url + path, **given).status_code == 401  # type: ignore[arg-type]
+        assert http_client.get(room.url + path, **given).status_code == 401  # type: ignore[arg-type]
     for path in paths:
-        answer = httpx.get(room.url + path, **given)  # type: ignore[arg-type]
+        answer = http_client.get(room.url + path, **given)  # type: ignore[arg-type]
         assert answer.status_code == 429
         assert answer.text.startswith("token: too many wrong tokens from this address; try again")
         assert int(answer.headers["Retry-After"]) > 0
-    assert httpx.get(room.url + "healthz", params={"token": TOKEN}).status_code == 200
-    assert httpx.get(room.url + "healthz").status_code == 401, "who says nothing, guesses nothing"
+    assert http_client.get(room.url + "healthz", params={"token": TOKEN}).status_code == 200
+    assert http_client.get(room.url + "healthz").status_code == 401, (
+        "who says nothing, guesses nothing"
+    )
 
 
 def test_a_page_is_told_to_come_again_later(room: Room) -> None:
@@ -159,7 +161,7 @@ def test_scripts_that_guess_are_slowed_down_too(
     with pytest.raises(InvalidStatus, match="429"):
         _script(room)
     monkeypatch.undo()
-    assert httpx.get(room.url, params={"token": TOKEN}).status_code in (200, 303)
+    assert http_client.get(room.url, params={"token": TOKEN}).status_code in (200, 303)
     with _script(room):
         pass
 

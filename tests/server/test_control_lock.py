@@ -18,8 +18,9 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
 from tests.builders import small_sim, still
-from tests.server.rooms import Room, served
+from tests.server.rooms import Clock, Room, served
 from tests.waiting import LIMIT_S, until
 
 
@@ -53,20 +54,24 @@ def test_who_presses_first_drives_and_nobody_else(room: Room) -> None:
         driver = second.receive("seat", pages=2, driver=second.receive("hello")["you"])["driver"]
         first.hold("KeyS")
         first.receive("seat", driver=driver)
+        first.settle()
+        assert room.held == ["KeyW"]
         second.hold("KeyW", "KeyD")
         until(lambda: room.held == ["KeyD", "KeyW"])
         first.hold()
+        first.settle()
+        assert room.held == ["KeyD", "KeyW"]
         second.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
 
 
 def test_holding_nothing_does_not_take_control(room: Room) -> None:
-    with room.page() as page:
+    with room.page() as page, room.page() as other:
         page.hold()
-        page.hold("KeyW")
-        first = page.receive("seat", driver=None)
-        assert first["driver"] is None
-        page.receive("seat", driver=1)
+        page.settle()
+        other.hold("KeyW")  # it would be ignored if the lock were not free
+        other.receive("seat", driver=2)
+        assert room.held == ["KeyW"]
 
 
 def test_the_seat_can_be_taken_and_the_old_drivers_keys_are_let_go(room: Room) -> None:
@@ -78,6 +83,8 @@ def test_the_seat_can_be_taken_and_the_old_drivers_keys_are_let_go(room: Room) -
         assert seat["pages"] == 2
         until(lambda: room.held == [])
         old.hold("KeyW")
+        old.settle()
+        assert room.held == []
         new.hold("KeyA")
         until(lambda: room.held == ["KeyA"])
 
@@ -86,7 +93,8 @@ def test_a_page_that_goes_lets_go_and_frees_control(room: Room) -> None:
     with room.page() as staying:
         with room.page() as going:
             going.hold("KeyW")
-            until(lambda: room.held == ["KeyW"])
+            staying.receive("seat", driver=2, pages=2)
+            assert room.held == ["KeyW"]
         until(lambda: room.held == [])
         staying.receive("seat", driver=None, pages=1)
         staying.hold("KeyD")
@@ -102,15 +110,20 @@ def test_a_page_that_is_cut_off_releases_control_too(room: Room) -> None:
         until(lambda: room.held == [])
 
 
-def test_a_silent_page_keeps_the_seat_but_not_the_keys(room: Room) -> None:
-    with room.page() as page, room.page() as other:
+def test_a_silent_page_keeps_the_lock_but_not_its_keys() -> None:
+    clock = Clock()
+    with served(key_clock=clock) as room, room.page() as page, room.page() as other:
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
-        until(lambda: room.held == [])
-        other.hold("KeyS")
-        other.send("nonsense")
-        other.receive("error")
+        clock.now += KEY_TIMEOUT_S
+        assert room.held == ["KeyW"]
+        clock.now += 0.01
         assert room.held == []
+        other.hold("KeyS")
+        other.settle()
+        assert room.held == []
+        page.hold("KeyD")
+        until(lambda: room.held == ["KeyD"])
 
 
 def test_the_world_tells_which_keys_it_sees(room: Room) -> None:
@@ -125,10 +138,9 @@ def test_a_tap_that_is_over_before_the_next_decision_counts() -> None:
         with room.page() as page:
             page.hold("KeyW")
             page.hold()
-            page.send("nonsense")  # its answer shows that the tap has come through
-            page.receive("error")
+            page.settle()
             room.runner.step().result(LIMIT_S)
-            assert room.runner.latest.agents[0].action["move"][0] == 1.0
+            assert room.move[0] == 1.0
 
 
 def test_pause_resume_and_reset(room: Room) -> None:

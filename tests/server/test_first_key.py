@@ -32,8 +32,7 @@ def waits(room: Room) -> bool:
 
 def settle(page: Page, room: Room) -> None:
     """Wait until all that a page has sent was carried out."""
-    page.send("command", name="explode")
-    page.receive("error")
+    page.settle()
     room.runner.submit(lambda: None).result(LIMIT_S)
 
 
@@ -119,7 +118,7 @@ def test_r_and_try_again_repeat_the_start_and_a_new_one_is_drawn_when_asked(room
             until(lambda episode=episode: room.runner.latest.episode == episode)  # type: ignore[misc]
             page.hold()
             assert room.runner.latest.seed == 1
-        assert waits(room)
+        until(lambda: waits(room))
         assert reset_by(page, room, name="try_again") == 1
         new = reset_by(page, room, name="new_start")
         assert new != 1

@@ -11,6 +11,7 @@ from websockets.exceptions import InvalidStatus
 
 from ai4u_edu.server import LOOPBACK, RoomMount, hosts_for
 from ai4u_edu.server.host_origin import ANY_ADDRESS
+from tests.server import http_client
 from tests.server.rooms import UPGRADE, Page, Room, raw_answer, served
 
 PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/main.js", "nothing")
@@ -26,7 +27,7 @@ def room() -> Iterator[Room]:
 
 @pytest.fixture(scope="module")
 def client() -> Iterator[httpx.Client]:
-    with httpx.Client() as client:
+    with http_client.Client() as client:
         yield client
 
 
@@ -36,7 +37,7 @@ def port_of(room: Room) -> str:
 
 @pytest.mark.parametrize("path", PATHS)
 def test_another_name_is_refused(room: Room, path: str) -> None:
-    answer = httpx.get(room.url + path, headers={"Host": f"evil.example:{port_of(room)}"})
+    answer = http_client.get(room.url + path, headers={"Host": f"evil.example:{port_of(room)}"})
     assert answer.status_code == 403
     assert answer.text == (
         "Host: expected one of 127.0.0.1, [::1], localhost, got "
@@ -117,7 +118,7 @@ def test_our_own_page_and_programs_open_sockets(room: Room) -> None:
 
 def test_answers_are_not_for_other_pages(room: Room) -> None:
     for path in PATHS:
-        headers = httpx.get(room.url + path).headers
+        headers = http_client.get(room.url + path).headers
         assert headers["X-Content-Type-Options"] == "nosniff"
         assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
         assert "Access-Control-Allow-Origin" not in headers

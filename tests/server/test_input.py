@@ -16,9 +16,10 @@ from ai4u_edu import (
     WASDRBMoveController,
     World,
 )
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S, Stick
 from tests.builders import small_sim
-from tests.server.rooms import Room, served
+from tests.server import http_client
+from tests.server.rooms import Clock, Room, served
 from tests.waiting import LIMIT_S, until
 
 
@@ -78,6 +79,7 @@ def test_an_agent_of_the_old_world_is_not_given_back(room: Room) -> None:
         ours = agent.brain
         room.runner.replace_sim(another("0")).result(LIMIT_S)
         assert page.end()[0] == 1012
+    http_client.get(room.url)  # the same event loop answers it after it has released the lock
     room.runner.submit(lambda: None).result(LIMIT_S)
     assert agent.brain is ours
 
@@ -108,12 +110,16 @@ def test_a_stick_is_finite(room: Room) -> None:
         assert "finite" in page.receive("error")["text"]
 
 
-def test_a_stick_rests_when_its_page_falls_silent(room: Room) -> None:
-    keyboard = room.sim.agents[0].keyboard
-    with room.page() as page:
+def test_a_stick_rests_when_its_page_falls_silent() -> None:
+    clock = Clock()
+    with served(small_sim(controller=spin), key_clock=clock) as room, room.page() as page:
+        keyboard = room.sim.agents[0].keyboard
         page.send("keys", held=[], stick={"forward": 0.5})
         until(lambda: keyboard.stick() == Stick(0.5, 0))
-        until(lambda: keyboard.stick() == Stick(0, 0))
+        clock.now += KEY_TIMEOUT_S
+        assert keyboard.stick() == Stick(0.5, 0)
+        clock.now += 0.01
+        assert keyboard.stick() == Stick(0, 0)
 
 
 # -- a page that stops reading -------------------------------------------------------------------

@@ -6,6 +6,7 @@ import threading
 import pytest
 
 from ai4u_edu.server.loop_queue import MAX_CALLS_AT_ONCE, LoopQueue
+from tests.waiting import LIMIT_S, until_async
 
 
 def test_a_hundred_calls_wake_the_loop_once(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -55,7 +56,7 @@ def test_a_call_from_the_loop_itself_is_made_at_once_but_not_before_earlier_ones
         thread.join()
         queue.call(done.append, "then")
         assert done == ["at once"]
-        await asyncio.sleep(0.01)
+        await until_async(lambda: len(done) == 3)
 
     asyncio.run(main())
     assert done == ["at once", "first", "then"]
@@ -74,7 +75,7 @@ def test_no_call_from_many_threads_is_lost() -> None:
         threads = [threading.Thread(target=add_calls, args=(who,)) for who in range(4)]
         for each in threads:
             each.start()
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(LIMIT_S):
             while len(done) < 8000:
                 await asyncio.sleep(0)
 
@@ -101,7 +102,7 @@ def test_a_call_that_fails_stops_no_other_one() -> None:
         thread = threading.Thread(target=add_calls)
         thread.start()
         thread.join()
-        await asyncio.sleep(0.01)
+        await until_async(lambda: done)
 
     asyncio.run(main())
     assert done == ["next"]

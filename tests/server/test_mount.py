@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 
-import httpx
 import pytest
 from starlette.applications import Starlette
 from starlette.routing import Mount
 from starlette.types import ASGIApp
 
 from ai4u_edu.server import RoomMount, room_app
+from tests.server import http_client
 from tests.server.rooms import NOWHERE, Page, raw_answer, served
 
 
@@ -24,11 +24,11 @@ def test_everything_works_under_a_prefix(prefix: str) -> None:
     with served(wrap=under(prefix)) as room:
         base = room.url.rstrip("/") + prefix
         for path in ("/", "/web/main.js", "/healthz", "/api/snapshot", "/api/openapi.json"):
-            assert httpx.get(base + path).status_code == 200
-        assert httpx.get(base, follow_redirects=True).url.path == prefix + "/"
+            assert http_client.get(base + path).status_code == 200
+        assert http_client.get(base, follow_redirects=True).url.path == prefix + "/"
         with Page(base + "/ws/input?agent=0") as page:
             assert page.receive("hello")["agent"] == "0"
-        assert httpx.get(room.url).status_code == 404
+        assert http_client.get(room.url).status_code == 404
         assert raw_answer(room.url + "healthz", "Host: localhost")[0] == 404
 
 
@@ -41,7 +41,7 @@ def test_two_rooms_under_one_port_know_nothing_of_each_other() -> None:
 
         with served(title="two", wrap=both) as two:
             for path, title in (("one/healthz", "one"), ("healthz", "two")):
-                assert httpx.get(two.url + path).json()["scene"] == title
+                assert http_client.get(two.url + path).json()["scene"] == title
             with Page(two.url + "one/ws/input") as page, two.page() as other:
                 assert page.receive("hello")["you"] == other.receive("hello")["you"] == 1
                 page.hold("KeyW")

@@ -7,15 +7,14 @@ from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
-import httpx
 import pytest
 from starlette.responses import PlainTextResponse
-from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from ai4u_edu.server.page import STYLES
 from ai4u_edu.server.web_files import WebFiles, web_folder
-from tests.server.rooms import Room, raw_answer, served
+from tests.server import http_client
+from tests.server.rooms import Room, open_socket, raw_answer, served
 from tests.waiting import LIMIT_S, until
 
 SVG_NAMESPACE = "http://www.w3.org/2000/svg"
@@ -29,7 +28,7 @@ def room() -> Iterator[Room]:
 
 
 def test_the_page_is_visers_with_our_script_and_style(room: Room) -> None:
-    text = httpx.get(room.url).text
+    text = http_client.get(room.url).text
     folder = f"./web-{WebFiles().version}"
     assert re.findall('rel="stylesheet" href="(.+?)"', text) == [f"{folder}/all_styles.css"]
     assert f'<script type="module" src="{folder}/main.js"></script>' in text
@@ -38,7 +37,7 @@ def test_the_page_is_visers_with_our_script_and_style(room: Room) -> None:
 
 
 def test_a_title_is_text(room: Room) -> None:
-    text = httpx.get(room.url).text
+    text = http_client.get(room.url).text
     assert "<title>&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;</title>" in text
     assert 'alert("x")' not in text
 
@@ -46,14 +45,14 @@ def test_a_title_is_text(room: Room) -> None:
 def test_the_title_follows_the_scene() -> None:
     called = ["one"]
     with served(title=lambda: called[0]) as room:
-        first = httpx.get(room.url)
+        first = http_client.get(room.url)
         assert "<title>one</title>" in first.text
-        with connect(f"{room.url.replace('http', 'ws')}ws/input") as socket:
+        with open_socket(f"{room.url}ws/input") as socket:
             called[0] = "two & more"
             until(lambda: title_in(socket) == "two & more")
-        again = httpx.get(room.url, headers={"If-None-Match": first.headers["ETag"]})
+        again = http_client.get(room.url, headers={"If-None-Match": first.headers["ETag"]})
         assert "<title>two &amp; more</title>" in again.text
-        assert httpx.get(f"{room.url}healthz").json()["scene"] == "two & more"
+        assert http_client.get(f"{room.url}healthz").json()["scene"] == "two & more"
 
 
 def title_in(socket: Connection) -> str:
@@ -62,22 +61,22 @@ def title_in(socket: Connection) -> str:
 
 
 def test_the_page_may_talk_to_nobody_but_us(room: Room) -> None:
-    policy = httpx.get(room.url).headers["Content-Security-Policy"]
+    policy = http_client.get(room.url).headers["Content-Security-Policy"]
     host = room.url.removeprefix("http://").rstrip("/")
     assert f"connect-src 'self' data: blob: ws://{host} wss://{host};" in policy
     assert "https:" not in policy
 
 
 def test_a_page_that_is_known_is_not_sent_again(room: Room) -> None:
-    tag = httpx.get(room.url).headers["ETag"]
-    again = httpx.get(room.url, headers={"If-None-Match": tag})
+    tag = http_client.get(room.url).headers["ETag"]
+    again = http_client.get(room.url, headers={"If-None-Match": tag})
     assert again.status_code == 304
     assert again.content == b""
 
 
 @pytest.mark.parametrize("name", [path.name for path in web_folder().glob("*.[jc]s*")])
 def test_each_file_is_served_as_what_it_is(room: Room, name: str) -> None:
-    answer = httpx.get(f"{room.url}web/{name}")
+    answer = http_client.get(f"{room.url}web/{name}")
     kinds = {"js": "text/javascript", "css": "text/css"}
     assert answer.status_code == 200
     assert answer.headers["Content-Type"].startswith(kinds[name.rpartition(".")[2]])
@@ -85,25 +84,27 @@ def test_each_file_is_served_as_what_it_is(room: Room, name: str) -> None:
 
 
 def test_all_styles_of_the_page_are_one_file(room: Room) -> None:
-    first = httpx.get(f"{room.url}web/all_styles.css")
+    first = http_client.get(f"{room.url}web/all_styles.css")
     assert first.headers["Content-Type"].startswith("text/css")
     assert first.text == "\n".join((web_folder() / each).read_text() for each in STYLES)
     known = {"If-None-Match": first.headers["ETag"]}
-    assert httpx.get(first.url, headers=known).status_code == 304
+    assert http_client.get(first.url, headers=known).status_code == 304
 
 
 def test_a_file_that_is_known_is_not_sent_again(room: Room) -> None:
-    first = httpx.get(f"{room.url}web/main.js")
-    again = httpx.get(f"{room.url}web/main.js", headers={"If-None-Match": first.headers["ETag"]})
+    first = http_client.get(f"{room.url}web/main.js")
+    again = http_client.get(
+        f"{room.url}web/main.js", headers={"If-None-Match": first.headers["ETag"]}
+    )
     assert (again.status_code, again.content) == (304, b"")
 
 
 @pytest.mark.parametrize("name", ["main.js", "all_styles.css"])
 def test_a_browser_keeps_what_has_the_present_version(room: Room, name: str) -> None:
-    kept = httpx.get(f"{room.url}web-{WebFiles().version}/{name}")
+    kept = http_client.get(f"{room.url}web-{WebFiles().version}/{name}")
     assert "immutable" in kept.headers["Cache-Control"]
     for path in ("web", "web-another"):
-        other = httpx.get(f"{room.url}{path}/{name}")
+        other = http_client.get(f"{room.url}{path}/{name}")
         assert other.content == kept.content
         assert other.headers["Cache-Control"] == "no-cache"
 
@@ -125,7 +126,7 @@ def test_another_file_and_another_content_are_another_version(
 
 def test_each_module_that_a_module_imports_is_preloaded() -> None:
     with served(panel=PlainTextResponse("not asked here")) as room:
-        text = httpx.get(room.url).text
+        text = http_client.get(room.url).text
     preloaded = re.findall(r'rel="modulepreload" href="./web-\w+/(.+?)"', text)
     assert {"main.js", "panel.js"} <= set(preloaded)
     for name in preloaded:

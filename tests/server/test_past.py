@@ -19,7 +19,8 @@ from ai4u_edu.recording.file import decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import Rules, ServerThread, exports, past, room_app
 from ai4u_edu.server.past import WRITERS
-from tests.server.rooms import NOWHERE, raw_request
+from tests.server import http_client
+from tests.server.rooms import NOWHERE, PATIENT, raw_request
 from tests.waiting import LIMIT_S, until
 
 TOKEN = "sesame sesame"
@@ -48,13 +49,13 @@ def _served() -> Iterator[str]:
             sim.step()
         sim.reset(seed)
     app = room_app(runner, viser_port=NOWHERE, title="Box chase", rules=Rules(token=TOKEN))
-    with ServerThread(app) as server:
+    with ServerThread(app, timeouts=PATIENT) as server:
         yield server.url
-    runner.stop()
+    runner.stop(LIMIT_S)
 
 
 def get(address: str, path: str) -> httpx.Response:
-    return httpx.get(f"{address}api/past{path}", params={"token": TOKEN}, timeout=LIMIT_S)
+    return http_client.get(f"{address}api/past{path}", params={"token": TOKEN})
 
 
 def test_they_are_listed(address: str) -> None:
@@ -189,4 +190,4 @@ def _fail(replay: Replay, path: Path) -> Path:
 
 def test_nobody_gets_them_without_the_token(address: str) -> None:
     for path in ("", "/1.episode"):
-        assert httpx.get(f"{address}api/past{path}").status_code == 401
+        assert http_client.get(f"{address}api/past{path}").status_code == 401

@@ -1,17 +1,24 @@
 """Time limits and sizes of requests."""
 
+import asyncio
 import socket
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from urllib.parse import urlsplit
 
-import httpx
 import psutil
 import pytest
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Receive, Scope, Send
 
-from ai4u_edu.server import frames, requests
-from tests.server.rooms import UPGRADE, Room, served
-from tests.waiting import LIMIT_S, until
+from ai4u_edu.server import ServerThread, Timeouts
+from tests.server import http_client
+from tests.server.rooms import PATIENT, UPGRADE, Room, served
+from tests.waiting import LIMIT_S, Deadline, until
+
+QUICK = replace(PATIENT, request=0.2)
+"""Time limits of which that of requests is over soon."""
 
 
 @pytest.fixture(scope="module")
@@ -20,15 +27,26 @@ def room() -> Iterator[Room]:
         yield room
 
 
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Time limits that are over soon."""
-    monkeypatch.setattr(requests, "REQUEST_TIMEOUT_S", 0.2)
-    monkeypatch.setattr(requests, "LINGER_S", 0.1)
+@contextmanager
+def said_to(said: bytes, timeouts: Timeouts, app: ASGIApp) -> Iterator[socket.socket]:
+    """Connect with a server and send something before the server accepts the connection.
+
+    So the server has it in the first turn of its loop, before any time limit has passed, however
+    long this thread stands still.
+    """
+    server = ServerThread(app, timeouts=timeouts)
+    with connected(server.url) as connection:
+        connection.sendall(said)
+        with server:
+            yield connection
 
 
-def connected(room: Room) -> socket.socket:
-    parts = urlsplit(room.url)
+async def fine(scope: Scope, receive: Receive, send: Send) -> None:
+    await PlainTextResponse("fine")(scope, receive, send)
+
+
+def connected(url: str) -> socket.socket:
+    parts = urlsplit(url)
     return socket.create_connection((parts.hostname or "", parts.port or 80), timeout=LIMIT_S)
 
 
@@ -41,8 +59,8 @@ def heard(connection: socket.socket) -> bytes:
     return said
 
 
-def test_a_connection_that_says_nothing_ends(room: Room, quick: None) -> None:
-    with connected(room) as connection:
+def test_a_connection_that_says_nothing_ends() -> None:
+    with said_to(b"", QUICK, fine) as connection:
         assert heard(connection) == b""
 
 
@@ -54,56 +72,63 @@ def test_a_connection_that_says_nothing_ends(room: Room, quick: None) -> None:
         b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ",
     ],
 )
-def test_half_a_head_is_answered_with_408(room: Room, quick: None, said: bytes) -> None:
-    with connected(room) as connection:
-        connection.sendall(said)
+def test_half_a_head_is_answered_with_408(said: bytes) -> None:
+    with said_to(said, QUICK, fine) as connection:
         answer = heard(connection).decode()
     assert answer.startswith("HTTP/1.1 408 Request Timeout\r\n")
     assert answer.endswith("expected the whole request within 0.2 s\n")
 
 
-def test_a_byte_now_and_then_does_not_prolong_it(room: Room, quick: None) -> None:
-    with connected(room) as connection:
-        connection.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ")
+def test_a_byte_now_and_then_does_not_prolong_it() -> None:
+    head = b"GET / HTTP/1.1\r\nHost: localhost\r\nX: "
+    with said_to(head, QUICK, fine) as connection:
+        # real time: pause between two bytes; after a longer one the limit is reached all the same
         connection.settimeout(0.02)
-        answer = b""
-        while not answer:
+        answer, deadline = b"", Deadline()
+        while not answer and deadline.left():
             connection.sendall(b"x")
             with suppress(TimeoutError):
                 answer = connection.recv(1000)
         assert answer.startswith(b"HTTP/1.1 408 ")
 
 
-def test_a_slow_body_ends_after_its_answer(room: Room, quick: None) -> None:
-    with connected(room) as connection:
-        connection.sendall(
-            b"GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nx"
-        )
+def test_a_slow_body_ends_after_its_answer() -> None:
+    said = b"GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9\r\n\r\nx"
+    with said_to(said, QUICK, fine) as connection:
         assert heard(connection).startswith(b"HTTP/1.1 200 OK\r\n")
 
 
-def test_a_connection_that_is_kept_ends_when_nothing_more_is_asked(room: Room, quick: None) -> None:
-    ask = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n"
-    with connected(room) as connection:
+ASK = b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"
+
+
+@pytest.mark.parametrize("rest", [b"", b"GE"])
+def test_a_connection_that_is_kept_ends_when_nothing_more_is_asked(rest: bytes) -> None:
+    with said_to(3 * ASK + rest, QUICK, fine) as connection:
+        answers = heard(connection)
+    assert answers.count(b"HTTP/1.1 200 OK\r\n") == 3
+    assert answers.count(b"HTTP/1.1 408 ") == bool(rest)
+
+
+def test_a_connection_is_kept_for_the_next_request(room: Room) -> None:
+    with connected(room.url) as connection:
         for _ in range(3):
-            connection.sendall(ask)
+            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")
             answer = b""
             while not answer.endswith(b"}"):
                 answer += connection.recv(65536)
             assert answer.startswith(b"HTTP/1.1 200 OK\r\n")
-        connection.sendall(ask + ask + b"GET /heal")
-        answers = heard(connection)
-    assert answers.count(b"HTTP/1.1 200 OK\r\n") == 2
-    assert answers.count(b"HTTP/1.1 408 ") == 1
 
 
-def test_a_reader_that_takes_nothing_is_given_up(
-    room: Room, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(requests, "STALL_TIMEOUT_S", 0.1)
+def test_a_reader_that_takes_nothing_is_given_up() -> None:
     ask = b"GET /api/openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n"
-    with connected(room) as connection:
+    with (
+        served(timeouts=replace(PATIENT, stall=0.1)) as room,
+        connected(room.url) as connection,
+    ):
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        connection.sendall(ask)
+        assert connection.recv(1) == b"H"  # else the server may not have its end yet
+        # real time: pause between two looks at what has to come some time
         connection.settimeout(0.05)
         unsent = ask * 100
 
@@ -129,13 +154,13 @@ def test_a_reader_that_takes_nothing_is_given_up(
     ],
 )
 def test_a_head_that_is_too_large_is_refused(room: Room, said: bytes) -> None:
-    with connected(room) as connection:
+    with connected(room.url) as connection:
         with suppress(ConnectionError):
             connection.sendall(said)
         answer = heard(connection)
     assert answer.startswith(b"HTTP/1.1 431 ")
     assert b"expected" in answer
-    assert httpx.get(room.url + "healthz").status_code == 200
+    assert http_client.get(room.url + "healthz").status_code == 200
 
 
 @pytest.mark.parametrize(
@@ -151,7 +176,7 @@ def test_a_handshake_that_is_too_large_is_refused(
     room: Room, path: bytes, lines: list[bytes]
 ) -> None:
     head = [b"GET " + path + b" HTTP/1.1", b"Host: localhost", *map(str.encode, UPGRADE), *lines]
-    with connected(room) as connection:
+    with connected(room.url) as connection:
         connection.sendall(b"\r\n".join([*head, b"", b""]))
         assert heard(connection).startswith(b"HTTP/1.1 431 ")
 
@@ -160,7 +185,7 @@ def test_a_handshake_that_is_too_large_is_refused(
     "line", [b"\x00\xff\r\n\r\n", b"GET /\r\n\r\n", b"G\xc3\xa9T / HTTP/1.1\r\n\r\n"]
 )
 def test_what_is_no_request_is_refused(room: Room, line: bytes) -> None:
-    with connected(room) as connection:
+    with connected(room.url) as connection:
         connection.sendall(line)
         assert heard(connection).startswith(b"HTTP/1.1 400 Bad Request\r\n")
 
@@ -184,7 +209,7 @@ def test_what_is_no_request_is_refused(room: Room, line: bytes) -> None:
     ],
 )
 def test_odd_paths_are_not_there(room: Room, path: str) -> None:
-    with connected(room) as connection:
+    with connected(room.url) as connection:
         connection.sendall(
             f"GET /{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode()
         )
@@ -193,25 +218,16 @@ def test_odd_paths_are_not_there(room: Room, path: str) -> None:
 
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "TRACE", "OPTIONS", "X" * 1000])
 def test_other_methods_are_not_allowed(room: Room, method: str) -> None:
-    with httpx.Client(base_url=room.url) as client:
+    with http_client.Client(base_url=room.url) as client:
         for path in ("", "healthz", "web/main.js", "api/past/1.gif"):
             assert client.request(method, path).status_code == 405
 
 
 @pytest.mark.slow
-def test_a_socket_whose_app_does_not_answer_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(frames, "HANDSHAKE_TIMEOUT_S", 0.1)
-    from ai4u_edu.server import ServerThread
+def test_a_socket_whose_app_does_not_answer_ends() -> None:
+    async def silent(scope: Scope, receive: Receive, send: Send) -> None:
+        await asyncio.Event().wait()
 
-    async def silent(scope: object, receive: object, send: object) -> None:
-        import asyncio
-
-        await asyncio.sleep(60)
-
-    with ServerThread(silent) as server:
-        parts = urlsplit(server.url)
-        place = (parts.hostname or "", parts.port or 80)
-        with socket.create_connection(place, timeout=LIMIT_S) as connection:
-            head = "\r\n".join(["GET / HTTP/1.1", "Host: localhost", *UPGRADE, "", ""])
-            connection.sendall(head.encode())
-            assert heard(connection).startswith(b"HTTP/1.1 500 ")
+    head = "\r\n".join(["GET / HTTP/1.1", "Host: localhost", *UPGRADE, "", ""])
+    with said_to(head.encode(), replace(PATIENT, handshake=0.1), silent) as connection:
+        assert heard(connection).startswith(b"HTTP/1.1 500 ")

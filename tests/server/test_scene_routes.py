@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +16,9 @@ from ai4u_edu.editing.sharing import read_shared, shared_link
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import encode_link
-from ai4u_edu.server import Rules, ServerThread, room_app, scene_routes
-from tests.server.rooms import NOWHERE, served
+from ai4u_edu.server import Rules, ServerThread, Timeouts, room_app
+from tests.server import http_client
+from tests.server.rooms import NOWHERE, PATIENT, served
 from tests.server.test_api import checker
 from tests.waiting import LIMIT_S
 
@@ -33,24 +34,35 @@ class Shared:
     url: str
 
     def get(self, path: str) -> Any:
-        return httpx.get(self.url + path).json()
+        return http_client.get(self.url + path).json()
 
     def post(self, path: str, **body: Any) -> httpx.Response:
-        return httpx.post(self.url + path, json=body, timeout=LIMIT_S)
+        return http_client.post(self.url + path, json=body)
 
 
 @pytest.fixture
-def room() -> Iterator[Shared]:
+def timeouts() -> Timeouts:
+    return PATIENT
+
+
+@pytest.fixture
+def room(timeouts: Timeouts) -> Iterator[Shared]:
     scene = Scene.load("box_chase")
     runner = Runner(scene.build(), seed=2**60)
     editor = SceneEditor(runner, scene)
-    app = room_app(runner, viser_port=NOWHERE, title=lambda: editor.title, editor=editor)
+    app = room_app(
+        runner,
+        viser_port=NOWHERE,
+        title=lambda: editor.title,
+        editor=editor,
+        timeouts=timeouts,
+    )
     runner.start()
     try:
-        with ServerThread(app) as server:
+        with ServerThread(app, timeouts=timeouts) as server:
             yield Shared(runner, editor, server.url)
     finally:
-        runner.stop()
+        runner.stop(LIMIT_S)
 
 
 def test_a_link_holds_the_present_scene_with_its_changes_and_seed(room: Shared) -> None:
@@ -152,7 +164,7 @@ def test_a_wrong_link_is_refused_with_a_sentence(
     ],
 )
 def test_another_body_is_refused(room: Shared, options: Any, status: int) -> None:
-    answer = httpx.post(room.url + "api/scene", **options)
+    answer = http_client.post(room.url + "api/scene", **options)
     assert (answer.status_code, room.editor.version) == (status, 0), answer.text
 
 
@@ -161,8 +173,8 @@ def test_a_rooms_token_is_asked_for() -> None:
     runner = Runner(scene.build(), seed=1)
     with served(rules=Rules(token="open sesame"), editor=SceneEditor(runner, scene)) as room:
         for path in ("api/scene", "api/scene/link"):
-            assert httpx.get(room.url + path).status_code == 401
-            assert httpx.post(room.url + path, json={"link": LINK}).status_code == 401
+            assert http_client.get(room.url + path).status_code == 401
+            assert http_client.post(room.url + path, json={"link": LINK}).status_code == 401
 
 
 @pytest.mark.slow
@@ -182,14 +194,12 @@ def test_the_routes_are_described(room: Shared) -> None:
 
 def test_a_room_without_an_editor_opens_nothing() -> None:
     with served() as room:
-        assert httpx.get(room.url + "api/scene").status_code == 404
-        assert "/api/scene" not in httpx.get(room.url + "api/openapi.json").json()["paths"]
+        assert http_client.get(room.url + "api/scene").status_code == 404
+        assert "/api/scene" not in http_client.get(room.url + "api/openapi.json").json()["paths"]
 
 
-def test_a_world_that_does_not_answer_is_told(
-    room: Shared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(scene_routes, "OPEN_TIMEOUT_S", 0.05)
+@pytest.mark.parametrize("timeouts", [replace(PATIENT, open_scene=0.05)])
+def test_a_world_that_does_not_answer_is_told(room: Shared) -> None:
     is_released = threading.Event()
     room.runner.submit(is_released.wait)
     try:

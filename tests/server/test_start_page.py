@@ -4,7 +4,6 @@ import io
 import re
 from collections.abc import Iterator
 
-import httpx
 import pytest
 from PIL import Image
 
@@ -13,9 +12,9 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.server import LessonView, Rules
+from tests.server import http_client
 from tests.server.rooms import Room, served
 from tests.server.test_api import checker
-from tests.waiting import LIMIT_S
 
 TOKEN = "open sesame"
 LESSON = LessonView(number="00", title="Start here", duration="45 minutes")
@@ -34,7 +33,7 @@ def room(editor: SceneEditor) -> Iterator[Room]:
 
 
 def test_all_scenes_are_listed_the_easiest_first(room: Room) -> None:
-    scenes = httpx.get(room.url + "api/scenes", timeout=LIMIT_S).json()["scenes"]
+    scenes = http_client.get(room.url + "api/scenes").json()["scenes"]
     assert sorted(each["name"] for each in scenes) == Scene.names()
     levels = [(*LEVELS, "").index(each["level"]) for each in scenes]
     assert levels == sorted(levels)
@@ -45,8 +44,8 @@ def test_all_scenes_are_listed_the_easiest_first(room: Room) -> None:
 
 
 def test_each_scene_has_a_picture(room: Room) -> None:
-    for each in httpx.get(room.url + "api/scenes", timeout=LIMIT_S).json()["scenes"]:
-        answer = httpx.get(room.url + each["picture"], timeout=LIMIT_S)
+    for each in http_client.get(room.url + "api/scenes").json()["scenes"]:
+        answer = http_client.get(room.url + each["picture"])
         assert answer.headers["Content-Type"] == "image/png"
         picture = Image.open(io.BytesIO(answer.content))
         assert max(picture.size) == 400
@@ -55,54 +54,54 @@ def test_each_scene_has_a_picture(room: Room) -> None:
 
 
 def test_browsers_keep_a_picture_until_it_is_another_one(room: Room) -> None:
-    scenes = httpx.get(room.url + "api/scenes", timeout=LIMIT_S).json()["scenes"]
+    scenes = http_client.get(room.url + "api/scenes").json()["scenes"]
     (address,) = [each["picture"] for each in scenes if each["name"] == "maze"]
-    answer = httpx.get(room.url + address)
+    answer = http_client.get(room.url + address)
     assert "immutable" in answer.headers["Cache-Control"]
     url = room.url + address.partition("?")[0]
-    assert httpx.get(url).headers["Cache-Control"] == "no-cache"
-    known = httpx.get(url, headers={"If-None-Match": answer.headers["ETag"]})
+    assert http_client.get(url).headers["Cache-Control"] == "no-cache"
+    known = http_client.get(url, headers={"If-None-Match": answer.headers["ETag"]})
     assert (known.status_code, known.content) == (304, b"")
 
 
 @pytest.mark.parametrize("name", ["box_chase", "nothing.png", "..%2fmaze.png", "my_scene.png"])
 def test_nothing_else_has_a_picture(room: Room, name: str) -> None:
-    assert httpx.get(f"{room.url}api/scenes/{name}").status_code == 404
+    assert http_client.get(f"{room.url}api/scenes/{name}").status_code == 404
 
 
 def test_lessons_are_listed(room: Room) -> None:
-    assert httpx.get(room.url + "api/lessons").json() == {"lessons": [LESSON.model_dump()]}
+    assert http_client.get(room.url + "api/lessons").json() == {"lessons": [LESSON.model_dump()]}
 
 
 def test_the_page_runs_our_files_only(room: Room) -> None:
-    answer = httpx.get(room.url + "start")
+    answer = http_client.get(room.url + "start")
     assert answer.status_code == 200
     assert "default-src 'none'; script-src 'self'" in answer.headers["Content-Security-Policy"]
     files = re.findall(r'(?:href|src)="\./(web-[^"]*)"', answer.text)
     assert files
     for file in files:
-        assert httpx.get(room.url + file).status_code == 200
+        assert http_client.get(room.url + file).status_code == 200
 
 
 def test_another_site_may_lead_a_person_to_the_page(room: Room) -> None:
     led = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate"}
-    assert httpx.get(room.url + "start", headers=led).status_code == 200
-    assert httpx.get(room.url + "api/scenes", headers=led).status_code == 403
+    assert http_client.get(room.url + "start", headers=led).status_code == 200
+    assert http_client.get(room.url + "api/scenes", headers=led).status_code == 403
 
 
 def test_the_routes_are_described(room: Room) -> None:
-    document = httpx.get(room.url + "api/openapi.json").json()
+    document = http_client.get(room.url + "api/openapi.json").json()
     assert "/api/scenes/{file}" in document["paths"]
     for path in ("/api/scenes", "/api/lessons"):
         described = document["paths"][path]["get"]["responses"]["200"]["content"]
-        answer = httpx.get(room.url + path[1:], timeout=LIMIT_S).json()
+        answer = http_client.get(room.url + path[1:]).json()
         checker(document, described["application/json"]["schema"]).validate(answer)
 
 
 def test_the_token_is_asked_for_and_leads_back_to_the_page(editor: SceneEditor) -> None:
     with (
         served(editor=editor, rules=Rules(token=TOKEN)) as room,
-        httpx.Client(base_url=room.url) as browser,
+        http_client.Client(base_url=room.url) as browser,
     ):
         paths = ("start", "api/scenes", "api/scenes/maze.png", "api/lessons")
         for path in paths:
@@ -112,12 +111,12 @@ def test_the_token_is_asked_for_and_leads_back_to_the_page(editor: SceneEditor) 
         answer = browser.get("start", params={"token": TOKEN})
         assert (answer.status_code, answer.headers["Location"]) == (303, "./start")
         for path in paths:
-            assert browser.get(path, timeout=LIMIT_S).status_code == 200
+            assert browser.get(path).status_code == 200
 
 
 def test_a_room_without_an_editor_has_no_start_page() -> None:
     with served() as room:
-        assert httpx.get(room.url + "start").status_code == 404
+        assert http_client.get(room.url + "start").status_code == 404
 
 
 def test_scenes_of_the_library_have_a_level_and_minutes() -> None:

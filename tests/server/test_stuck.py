@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 
+from tests.server import http_client
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
@@ -40,7 +40,7 @@ class Stuck(Sensor):
         if self.count > 3 and self.how != "network":
             while self.how == "loop":
                 pass
-            time.sleep(1000)
+            time.sleep(100_000)
         return [0.0]
 '''
 SCENE = """
@@ -54,9 +54,6 @@ agents:
     actuators: [{type: RBMoveActuator}]
     brains: [{type: LocalBrain, skip_frame: 0, controller: %s}]
 """
-EXIT_LIMIT_S = 10
-"""It takes 3 s at most on a machine that has time; here others may be busy too."""
-
 posix = pytest.mark.skipif(os.name != "posix", reason="sends signals as POSIX has them")
 
 
@@ -151,10 +148,10 @@ def test_what_does_not_return_is_named_and_the_first_signal_ends_it(
     tmp_path: Path, how: str, number: signal.Signals, block: str
 ) -> None:
     with playing(tmp_path, how) as (process, url):
-        until(lambda: httpx.get(url + "healthz", timeout=LIMIT_S).status_code == 503)
-        assert httpx.get(url + "healthz", timeout=LIMIT_S).json()["block"].startswith(block)
+        until(lambda: http_client.get(url + "healthz").status_code == 503)
+        assert http_client.get(url + "healthz").json()["block"].startswith(block)
         process.send_signal(number)
-        _, err = process.communicate(timeout=EXIT_LIMIT_S)
+        _, err = process.communicate(timeout=LIMIT_S)  # what is stuck would last longer
     assert process.returncode == 0
     assert f"left behind unfinished: {block.partition(' (s')[0].removesuffix(' (')}" in err
     if how != "network":  # which never took a decision

@@ -14,6 +14,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.server import Rules, hosts_for, token_for
 from ai4u_edu.server import token_auth as guard
 from ai4u_edu.server.host_origin import ANY_ADDRESS, is_loopback
+from tests.server import http_client
 from tests.server.rooms import Page, Room, served
 
 TOKEN = "open sesame; Zoë"
@@ -35,7 +36,7 @@ def room() -> Iterator[Room]:
 
 @pytest.fixture
 def browser(room: Room) -> Iterator[httpx.Client]:
-    with httpx.Client(base_url=room.url, follow_redirects=True) as browser:
+    with http_client.Client(base_url=room.url, follow_redirects=True) as browser:
         yield browser
 
 
@@ -54,7 +55,7 @@ def browser(room: Room) -> Iterator[httpx.Client]:
 def test_page_and_api_are_refused_with_a_sentence(
     room: Room, path: str, query: str, headers: dict[str, str], got: str
 ) -> None:
-    answer = httpx.get(room.url + path + query, headers=headers)
+    answer = http_client.get(room.url + path + query, headers=headers)
     assert (answer.status_code, answer.text) == (401, f"token: {WHY.format(got)}\n")
     assert answer.headers["WWW-Authenticate"] == "Bearer"
     assert "Set-Cookie" not in answer.headers
@@ -67,7 +68,7 @@ def test_page_and_api_are_refused_with_a_sentence(
 def test_a_browser_gets_a_page_with_a_box_for_the_token(
     room: Room, query: str, problem: str
 ) -> None:
-    answer = httpx.get(room.url + query, headers={"Accept": BROWSER})
+    answer = http_client.get(room.url + query, headers={"Accept": BROWSER})
     assert (answer.status_code, answer.headers["WWW-Authenticate"]) == (401, "Bearer")
     assert answer.headers["Content-Type"].startswith("text/html")
     assert answer.headers["Cache-Control"] == "no-store"
@@ -78,9 +79,9 @@ def test_a_browser_gets_a_page_with_a_box_for_the_token(
     files = re.findall(r'(?:href|src)="\./(web/[^"]*)"', answer.text)
     assert files
     for file in files:  # without the token
-        assert httpx.get(room.url + file).status_code == 200
+        assert http_client.get(room.url + file).status_code == 200
     for path in PATHS[1:]:  # nothing but a page is a page
-        answer = httpx.get(room.url + path, headers={"Accept": BROWSER})
+        answer = http_client.get(room.url + path, headers={"Accept": BROWSER})
         assert answer.headers["Content-Type"].startswith("text/plain")
 
 
@@ -121,9 +122,9 @@ def test_a_browser_gets_a_cookie_and_an_address_without_the_token(
 def test_another_worlds_cookie_opens_nothing(browser: httpx.Client) -> None:
     browser.get(QUERY)
     with served(rules=Rules(token="another token")) as other:
-        assert httpx.get(other.url, cookies=dict(browser.cookies)).status_code == 401
+        assert http_client.get(other.url, cookies=dict(browser.cookies)).status_code == 401
         (name,) = browser.cookies
-        with httpx.Client(base_url=other.url) as second:
+        with http_client.Client(base_url=other.url) as second:
             second.get("?token=another%20token")
             assert name not in second.cookies  # so that both are kept, whatever their ports
 
@@ -136,7 +137,7 @@ def test_another_worlds_cookie_opens_nothing(browser: httpx.Client) -> None:
     ],
 )
 def test_a_program_says_the_token_with_each_request(room: Room, given: dict[str, Any]) -> None:
-    answer = httpx.get(room.url + "api/snapshot", **given)
+    answer = http_client.get(room.url + "api/snapshot", **given)
     assert answer.status_code == 200
     assert "Set-Cookie" not in answer.headers
     with Page(room.url + "ws/input" + QUERY) as page:
@@ -151,12 +152,12 @@ def test_secrets_are_compared_in_constant_time(room: Room, monkeypatch: pytest.M
         return compare_digest(one, other)
 
     monkeypatch.setattr(guard, "compare_digest", compare)
-    assert httpx.get(room.url + "healthz?token=guess").status_code == 401
+    assert http_client.get(room.url + "healthz?token=guess").status_code == 401
     assert b"guess" in compared
 
 
 def test_a_foreign_page_is_refused_before_it_is_asked_for_a_token(room: Room) -> None:
-    answer = httpx.get(room.url + QUERY, headers={"Host": "evil.example"})
+    answer = http_client.get(room.url + QUERY, headers={"Host": "evil.example"})
     assert (answer.status_code, answer.text[:5]) == (403, "Host:")
     with pytest.raises(InvalidStatus, match="403"):
         Page(room.url + "ws/input" + QUERY, additional_headers={"Origin": "http://evil.example"})
@@ -164,8 +165,8 @@ def test_a_foreign_page_is_refused_before_it_is_asked_for_a_token(room: Room) ->
 
 def test_without_a_token_nothing_is_asked() -> None:
     with served() as room:
-        assert httpx.get(room.url, follow_redirects=False).status_code == 200
-        answer = httpx.get(room.url + "?token=whatever", follow_redirects=False)
+        assert http_client.get(room.url, follow_redirects=False).status_code == 200
+        answer = http_client.get(room.url + "?token=whatever", follow_redirects=False)
         assert answer.status_code == 200
         with room.page() as page:
             page.receive("hello")
@@ -198,7 +199,7 @@ def test_a_frame_that_nobody_means_is_not_even_read(room: Room) -> None:
 
 def test_whatever_an_address_says_is_answered(room: Room) -> None:
     async def ask() -> list[int]:
-        async with httpx.AsyncClient(base_url=room.url) as client:
+        async with http_client.AsyncClient(base_url=room.url) as client:
             odd = ["?token=%ff%fe", "?token=%00", "?%", "?token=a&token=b", "?token=" + "x" * 5000]
             answers = await asyncio.gather(*[client.get(each) for each in odd])
             return [answer.status_code for answer in answers]

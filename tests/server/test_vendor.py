@@ -8,14 +8,14 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
-import httpx
 import pytest
-from websockets.sync.client import connect
 
 from ai4u_edu.server import Rules
 from ai4u_edu.server.web_files import web_folder
 from ai4u_edu.wire import native
-from tests.server.rooms import Room, raw_answer, served
+from tests.server import http_client
+from tests.server.rooms import Room, open_socket, raw_answer, served
+from tests.waiting import LIMIT_S
 
 VENDOR = web_folder() / "vendor"
 TOKEN = "open sesame"
@@ -44,7 +44,7 @@ def content_of(name: str) -> bytes:
 @pytest.mark.parametrize("name", KINDS)
 @pytest.mark.parametrize("encoding", ["gzip, br", "br;q=0.5", ""])
 def test_a_file_is_the_same_packed_or_not(room: Room, name: str, encoding: str) -> None:
-    answer = httpx.get(f"{room.url}web/vendor/{name}", headers={"Accept-Encoding": encoding})
+    answer = http_client.get(f"{room.url}web/vendor/{name}", headers={"Accept-Encoding": encoding})
     assert answer.content == content_of(name)
     assert answer.headers["Content-Type"].partition(";")[0] == KINDS[name]
     is_packed = "gzip" in encoding and name in PACKED
@@ -53,11 +53,11 @@ def test_a_file_is_the_same_packed_or_not(room: Room, name: str, encoding: str) 
 
 def test_a_browser_keeps_for_good_what_has_a_version(room: Room) -> None:
     url = f"{room.url}web/vendor/msgpack.js"
-    first = httpx.get(url)
+    first = http_client.get(url)
     assert first.headers["Cache-Control"] == "no-cache"
-    again = httpx.get(url, headers={"If-None-Match": first.headers["ETag"]})
+    again = http_client.get(url, headers={"If-None-Match": first.headers["ETag"]})
     assert (again.status_code, again.content) == (304, b"")
-    assert "immutable" in httpx.get(f"{url}?v=1").headers["Cache-Control"]
+    assert "immutable" in http_client.get(f"{url}?v=1").headers["Cache-Control"]
 
 
 def test_versions_in_addresses_are_those_of_the_files() -> None:
@@ -95,31 +95,33 @@ def test_nothing_else_has_a_name(room: Room, name: str) -> None:
 
 
 def test_the_worker_may_connect_to_nobody(room: Room) -> None:
-    policy = httpx.get(f"{room.url}web/code_worker.js").headers["Content-Security-Policy"]
+    policy = http_client.get(f"{room.url}web/code_worker.js").headers["Content-Security-Policy"]
     assert policy.split("; ") == [
         "default-src 'none'",
         "script-src 'self' 'wasm-unsafe-eval'",
         "worker-src 'none'",
     ]
-    known = httpx.get(f"{room.url}web/code_worker.js").headers["ETag"]
-    again = httpx.get(f"{room.url}web/code_worker.js", headers={"If-None-Match": known})
+    known = http_client.get(f"{room.url}web/code_worker.js").headers["ETag"]
+    again = http_client.get(f"{room.url}web/code_worker.js", headers={"If-None-Match": known})
     assert (again.status_code, again.headers["Content-Security-Policy"]) == (304, policy)
 
 
 def test_the_program_package_has_a_package_of_its_own_around_it(room: Room) -> None:
-    answer = httpx.get(f"{room.url}program.zip")
+    answer = http_client.get(f"{room.url}program.zip")
     assert answer.headers["Content-Type"] == "application/zip"
     with zipfile.ZipFile(io.BytesIO(answer.content)) as archive:
         assert archive.testzip() is None
         names = archive.namelist()
         assert b"msgspec" not in archive.read("ai4u_edu/__init__.py")
     assert all(re.fullmatch(r"ai4u_edu/(program/)?\w+\.py", name) for name in names)
-    again = httpx.get(f"{room.url}program.zip", headers={"If-None-Match": answer.headers["ETag"]})
+    again = http_client.get(
+        f"{room.url}program.zip", headers={"If-None-Match": answer.headers["ETag"]}
+    )
     assert (again.status_code, again.content) == (304, b"")
 
 
 def test_a_room_with_a_token_asks_for_it_first() -> None:
-    with served(rules=Rules(token=TOKEN)) as room, httpx.Client(base_url=room.url) as browser:
+    with served(rules=Rules(token=TOKEN)) as room, http_client.Client(base_url=room.url) as browser:
         paths = ["web/vendor/msgpack.js", "web/vendor/pyodide/pyodide.mjs", "program.zip"]
         assert [browser.get(path).status_code for path in paths] == [401] * 3
         browser.get(f"?token={TOKEN}")
@@ -129,16 +131,17 @@ def test_a_room_with_a_token_asks_for_it_first() -> None:
 def test_the_page_that_has_the_token_may_drive_an_agent() -> None:
     hello = native.encode(native.Hello(native.VERSION, "", "", "realtime", (), "", "s" * 16))
     with served(rules=Rules(token=TOKEN)) as room:
-        with httpx.Client(base_url=room.url) as browser:
+        with http_client.Client(base_url=room.url) as browser:
             browser.get(f"?token={TOKEN}")
             cookie = "; ".join(f"{name}={value}" for name, value in browser.cookies.items())
         for headers, expected in (({}, native.Problem), ({"Cookie": cookie}, native.Welcome)):
-            with connect(
-                f"{room.url.replace('http', 'ws')}ws/remote",
-                subprotocols=[native.SUBPROTOCOL],  # type: ignore[list-item]  # a NewType of str
+            with open_socket(
+                f"{room.url}ws/remote",
+                subprotocols=[native.SUBPROTOCOL],
                 additional_headers=headers,
-                proxy=None,
             ) as socket:
                 socket.send(hello)
-                heard = native.decode(socket.recv(5, decode=False), native.MAX_WORLD_FRAME_BYTES)
+                heard = native.decode(
+                    socket.recv(LIMIT_S, decode=False), native.MAX_WORLD_FRAME_BYTES
+                )
                 assert isinstance(heard, expected)

@@ -5,11 +5,12 @@ from collections.abc import Iterator
 import pytest
 import viser
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.server import lock_viser_port
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
+from tests.server.rooms import open_socket
 from tests.waiting import LIMIT_S, until
 
 
@@ -22,11 +23,10 @@ def inner() -> Iterator[viser.ViserServer]:
 
 
 def directly(server: viser.ViserServer, **headers: str) -> ClientConnection:
-    return connect(
+    return open_socket(
         f"ws://127.0.0.1:{server.get_port()}",
         subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
         additional_headers=headers,
-        proxy=None,
     )
 
 

@@ -191,10 +191,11 @@ class AgentLease:
         self.release(reason)
 
     def _mark_lost(self) -> None:
-        is_waited_for = self._hello.mode == "lockstep"
-        self.session.mark_lost("the script's connection is lost", is_waited_for=is_waited_for)
+        # first, since whoever sees that the script is lost may rely on it
         if self._brain is not None:
             self._brain.on_missing = self._on_missing or "stop"  # nobody supervises the last action
+        is_waited_for = self._hello.mode == "lockstep"
+        self.session.mark_lost("the script's connection is lost", is_waited_for=is_waited_for)
 
     def _stop_timers(self) -> None:
         for timer in self._timers:

@@ -39,6 +39,8 @@ class Rules:
     on_missing: OnMissing = ""
     """Substitute for an action that is missing, if a script does not choose; empty: hold
     while its connection is there, stop when it is lost."""
+    hello_timeout: float = 10.0
+    """Seconds that a connection has to send its hello."""
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.grace) and 0 <= self.grace <= MAX_GRACE_S):

@@ -26,8 +26,6 @@ MAX_STRAY_FRAMES_PER_S = 500
 percept does not count, since the world sends percepts one by one."""
 MAX_MALFORMED_FRAMES = 5
 """Malformed frames in a row after which the connection is closed."""
-HELLO_TIMEOUT_S = 10.0
-"""Time that a connection has to send its hello."""
 CLOSE_TIMEOUT_S = 5.0
 """Time that the last frames and the close may take to be sent."""
 
@@ -44,7 +42,7 @@ class RemoteSockets:
     def __init__(
         self, runner: Runner, title: Callable[[], str], rules: Rules | None = None
     ) -> None:
-        rules = rules or Rules()
+        self._rules = rules = rules or Rules()
         self._leases = LeaseRegistry(runner, title, rules)
         self._credentials = f"Bearer {rules.token}" if rules.token else ""
         self._cookie = PageCookie(rules.token)
@@ -62,6 +60,7 @@ class RemoteSockets:
             receive,
             outbox,
             self._leases,
+            hello_timeout=self._rules.hello_timeout,
             is_authenticated=self._is_authenticated(HTTPConnection(scope)),
         )
         if frames:
@@ -94,8 +93,15 @@ class _Connection:
     """One script's frames, and its lease once it has one."""
 
     def __init__(
-        self, receive: Receive, outbox: Outbox, leases: LeaseRegistry, *, is_authenticated: bool
+        self,
+        receive: Receive,
+        outbox: Outbox,
+        leases: LeaseRegistry,
+        *,
+        hello_timeout: float,
+        is_authenticated: bool,
     ) -> None:
+        self._hello_timeout = hello_timeout
         self._is_authenticated = is_authenticated
         self._receive = receive
         self._outbox = outbox
@@ -111,7 +117,7 @@ class _Connection:
             try:
                 message = await (self._receive() if self.lease else self._receive_hello())
             except TimeoutError:
-                text = f"expected a hello within {HELLO_TIMEOUT_S:g} s"
+                text = f"expected a hello within {self._hello_timeout:g} s"
                 self._outbox.close_with_problem("malformed", text)
                 return
             if message["type"] != "websocket.receive":
@@ -152,7 +158,7 @@ class _Connection:
         self._malformed = 0
 
     async def _receive_hello(self) -> Message:
-        async with asyncio.timeout(HELLO_TIMEOUT_S):
+        async with asyncio.timeout(self._hello_timeout):
             return await self._receive()
 
     async def _handle(self, message: native.Message) -> None:

@@ -1,5 +1,6 @@
 """The keys and the stick that a person holds, shared between the server's and world's threads."""
 
+import math
 import threading
 import time
 from collections.abc import Callable, Iterable
@@ -32,7 +33,7 @@ class Keyboard:
     the keys for forward, backward, left and right, in finer steps.
 
     Args:
-        clock: returns seconds; replaced in tests.
+        clock: returns seconds.
 
     >>> now = 0.0
     >>> keyboard = Keyboard(clock=lambda: now)
@@ -44,20 +45,25 @@ class Keyboard:
     []
     """
 
+    timeout_s: float = KEY_TIMEOUT_S
+    """Time (s) without a message after which keys count as released. May be set, as for one
+    keyboard whose pages have a slow network, or for all: ``Keyboard.timeout_s = 1.0``."""
+
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock = clock
+        self.clock = clock
+        """Returns seconds; may be replaced."""
         self._lock = threading.Lock()
         self._held: frozenset[str] = frozenset()
         self._tapped: frozenset[str] = frozenset()
         self._stick = CENTERED
-        self._last_message = -KEY_TIMEOUT_S
+        self._last_message = -math.inf
 
     def hold(self, codes: Iterable[str], stick: Stick = CENTERED) -> None:
         """Set the keys that are held now, and the stick's deflection."""
         codes = frozenset(codes)
         with self._lock:
             self._tapped |= codes - self._held
-            self._held, self._stick, self._last_message = codes, stick, self._clock()
+            self._held, self._stick, self._last_message = codes, stick, self.clock()
 
     def release(self) -> None:
         """Release all keys, also those that were only tapped, and the stick."""
@@ -83,7 +89,7 @@ class Keyboard:
             return self._stick
 
     def _current(self) -> frozenset[str]:
-        if self._clock() - self._last_message > KEY_TIMEOUT_S:
+        if self.clock() - self._last_message > self.timeout_s:
             self._let_go()
         return self._held
 
