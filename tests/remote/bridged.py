@@ -17,16 +17,16 @@ import numpy as np
 
 from ai4u_edu import BasicAgent, RemoteBrain, Scene
 from ai4u_edu.remote.bridge import Bridge
-from ai4u_edu.server.scripts import Rules
 from tests.remote.faults import BAD
 from tests.remote.faulty_proxy import Faults, FaultyProxy
+from tests.remote.rooms import patient_rules
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.server.rooms import Room, served
 from tests.waiting import LIMIT_S
 
 TOKEN = "open sesame"
 EPISODE = 60
-OPTIONS: dict[str, Any] = {"token": TOKEN, "patience": 3.0}
+OPTIONS: dict[str, Any] = {"token": TOKEN, "patience": LIMIT_S}
 """Options of a bridge."""
 
 
@@ -58,8 +58,7 @@ def scene_room(scene: str = "box_chase", **rules: Any) -> Iterator[Room]:
     sim = Scene.load(scene).build()
     sim.default_time_scale = float("inf")
     sim.agents[0].max_steps_per_episode = EPISODE
-    options: dict[str, Any] = {"token": TOKEN, "grace": 60.0, "receive_timeout": 120_000}
-    with served(sim, rules=Rules(**(options | rules))) as room:
+    with served(sim, rules=patient_rules(**({"token": TOKEN} | rules))) as room:
         yield room
 
 
@@ -88,7 +87,7 @@ def bridged(url: str, **options: Any) -> Iterator[tuple[int, list[str]]]:
 
 def run(steps: int, faults: Faults = BAD, seed: int = 1) -> list[str]:
     """Lets the script take so many steps; what was wrong, in sentences."""
-    began = time.monotonic()
+    began = time.monotonic()  # real time: shown to a person
     with (
         scene_room() as room,
         FaultyProxy(room.url, faults, seed) as proxy,
@@ -105,7 +104,7 @@ def run(steps: int, faults: Faults = BAD, seed: int = 1) -> list[str]:
     if status is None or (status.decisions, status.missing, status.refused) != (steps, 0, 0):
         wrong.append(f"the brain counted {status}")
     ends = sum(each["done"] for each in found)
-    took = time.monotonic() - began
+    took = time.monotonic() - began  # real time: shown to a person
     print(f"{len(found)} steps, {ends} episode ends in {took:.0f} s; {happened}; told: {told}")
     return wrong
 

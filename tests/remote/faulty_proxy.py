@@ -118,8 +118,10 @@ class _Direction:
                 writer.transport.abort()
             raise OSError("reset")
         if proxy.happens("half-open", faults.half_open):
-            await asyncio.sleep(3600)  # nothing goes this way any more, and nobody is told
+            # real time: nothing goes this way any more, and nobody is told
+            await asyncio.sleep(3600)
         if proxy.happens("stall", faults.stall):
+            # real time: the fault; a longer one is worse, and no test expects how long it takes
             await asyncio.sleep(faults.stall_seconds)
         if proxy.happens("drop", faults.drop):
             return
@@ -129,12 +131,14 @@ class _Direction:
             task.add_done_callback(self._overtaken.discard)
             return
         if faults.latency:
+            # real time: see above
             await asyncio.sleep(proxy._chance.uniform(0.0, faults.latency))
         await self._write(frame)
         if proxy.happens("duplicate", faults.duplicate):
             await self._write(frame)
 
     async def _late(self, frame: bytes) -> None:
+        # real time: see above
         await asyncio.sleep(self._proxy._chance.uniform(0.02, 0.4))
         with suppress(OSError):
             await self._write(frame)

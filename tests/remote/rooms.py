@@ -6,7 +6,6 @@ from typing import Any, Self
 
 from gymnasium.spaces import Box
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect as open_socket
 
 from ai4u_edu import (
     Actuator,
@@ -17,12 +16,13 @@ from ai4u_edu import (
     RewardFunc,
     Sensor,
     World,
+    remote,
 )
 from ai4u_edu.server.scripts import Rules
 from ai4u_edu.wire import native
 from tests.builders import still
-from tests.server.rooms import Room, served
-from tests.waiting import LIMIT_S
+from tests.server.rooms import Room, open_socket, served
+from tests.waiting import LIMIT_MS, LIMIT_S
 
 SECRET = "a secret of the tests"
 LARGEST = 1e9
@@ -90,6 +90,17 @@ def log_of(room: Room, agent_id: str = "a") -> list[tuple[int, int, float]]:
     return log.entries
 
 
+def patient_rules(**changes: Any) -> Rules:
+    """Return rules whose time limits only a fault reaches."""
+    limits = {"grace": LIMIT_S, "receive_timeout": LIMIT_MS, "hello_timeout": LIMIT_S}
+    return Rules(**(limits | changes))
+
+
+def connect(url: str, agent: str = "", **options: Any) -> remote.Robot:
+    """Connect like :func:`ai4u_edu.remote.connect`; a busy world may take long to answer."""
+    return remote.connect(url, agent, **({"patience": LIMIT_S} | options))
+
+
 @contextmanager
 def log_room(
     agents: int = 1,
@@ -99,9 +110,13 @@ def log_room(
     time_scale: float = float("inf"),
     **rules: Any,
 ) -> Iterator[Room]:
-    """A room of such agents, as fast as it goes; its scripts may have it wait."""
+    """A room of such agents, as fast as it goes; its scripts may have it wait.
+
+    Args:
+        rules: changes of :func:`patient_rules`.
+    """
     sim = log_sim(agents, max_steps=max_steps, skip_frame=skip_frame)
-    with served(sim, rules=Rules(**({"lockstep": True} | rules))) as room:
+    with served(sim, rules=patient_rules(**({"lockstep": True} | rules))) as room:
         room.runner.scale_time(time_scale)
         yield room
 
@@ -111,13 +126,12 @@ class Script:
 
     def __init__(self, room: Room, *, subprotocol: str | None = native.SUBPROTOCOL) -> None:
         names: Any = [subprotocol] if subprotocol else None
-        url = room.url.replace("http", "ws", 1) + "ws/remote"
         self.socket = open_socket(
-            url,
+            room.url + "ws/remote",
             subprotocols=names,
-            proxy=None,
             compression=None,
-            close_timeout=1,  # of a script that reads nothing the library waits as long
+            # real time: a script that reads nothing waits in vain, and no test needs the answer
+            close_timeout=1,
         )
 
     def __enter__(self) -> Self:
@@ -143,21 +157,13 @@ class Script:
         self.say(native.Hello(**(fields | changes)))
         return self.hear()
 
-    def hear(self, timeout: float = LIMIT_S) -> native.Message:
-        return native.decode(self.socket.recv(timeout, decode=False), native.MAX_WORLD_FRAME_BYTES)
+    def hear(self) -> native.Message:
+        return native.decode(self.socket.recv(LIMIT_S, decode=False), native.MAX_WORLD_FRAME_BYTES)
 
     def percept(self) -> native.Percept:
         message = self.hear()
         assert isinstance(message, native.Percept), message
         return message
-
-    def silence(self, seconds: float = 0.15) -> bool:
-        """Return True if no message comes for a while."""
-        try:
-            self.hear(seconds)
-        except TimeoutError:
-            return True
-        return False
 
     def act(self, percept: native.Percept, number: float, **changes: int) -> None:
         fields: dict[str, Any] = {
