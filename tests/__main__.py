@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -117,6 +118,7 @@ def run_tests(
         commands["pytest alone"] = [*pytest, "-m", "alone" + without_browser, *alone]
     if options.nightly and not only:
         commands.update({name: [python, *arguments] for name, arguments in LONG_RUNS.items()})
+    shutil.rmtree(ROOT / RESULTS, ignore_errors=True)
     for name, command in commands.items():
         if "pytest" in name:
             command.append(f"--junitxml={RESULTS / name.replace(' ', '-')}.xml")

@@ -3,14 +3,14 @@
 import contextlib
 import json
 import os
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterator
 from typing import Any
 from urllib.parse import urljoin
 
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
-from tests import setup_browser
+from tests import evidence, setup_browser
 from tests.waiting import LIMIT_MS, until
 
 DISABLED = [
@@ -39,6 +39,9 @@ FLAGS = [
     "--disable-sync",
     f"--disable-features={','.join(DISABLED)}",
 ]
+
+CONSOLE_LINES = 200
+SCREENSHOT_MS = 30_000
 
 DRAW_NOTHING = """
 for (const kind of [self.WebGLRenderingContext, self.WebGL2RenderingContext]) {
@@ -78,7 +81,27 @@ def new_page(
     context.set_default_timeout(LIMIT_MS)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
+    context.on("page", lambda page: _PageWitness(page))
     return context.new_page()
+
+
+class _PageWitness:
+    """Picture and console of a page, for a test that fails while it is open."""
+
+    def __init__(self, page: Page) -> None:
+        self._page = page
+        self._console: deque[str] = deque(maxlen=CONSOLE_LINES)
+        page.on("console", lambda line: self._console.append(f"{line.type}: {line.text}"))
+        page.on("pageerror", lambda error: self._console.append(f"error: {error}"))
+        page.on("requestfailed", lambda request: self._console.append(f"failed: {request.url}"))
+        evidence.register(self)
+
+    def testify(self) -> dict[str, str | bytes]:
+        console = "\n".join([self._page.url, *self._console])
+        if self._page.is_closed():
+            return {"page.txt": f"(closed) {console}"}
+        picture = self._page.screenshot(timeout=SCREENSHOT_MS)
+        return {"page.txt": console, "page.png": picture}
 
 
 def until_on(page: Page, condition: Callable[[], object]) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from tests import evidence
 from tests.tiers import LEFT_OUT, Tier
 
 TESTS = Path(__file__).parent
@@ -50,6 +51,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--fast", action="store_true", help="no browser, no torch, nothing slow")
     group.addoption("--nightly", action="store_true", help="also the tests marked `nightly`")
     group.addoption("--seed", type=int, help="draw the order of files and of tests within them")
+    group.addoption(
+        "--results", type=Path, default=evidence.RESULTS, help="folder for files of failed tests"
+    )
 
 
 def pytest_report_header(config: pytest.Config) -> list[str]:
@@ -93,6 +97,17 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.freeze()
         gc.set_threshold(*gc.get_threshold()[:2], COLLECTIONS_BEFORE_OLDEST)
         gc.enable()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item,
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Keep files of a failed test while its fixtures are still there."""
+    report = yield
+    if report.failed:
+        evidence.keep(report, item.config.option.results)
+    return report
 
 
 # -- the report; with xdist, workers collect and the process that reports does not --------------

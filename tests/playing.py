@@ -15,10 +15,11 @@ from typing import Any
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
+from tests import evidence
 from tests.waiting import LIMIT_S, until
 
 
-@dataclass
+@dataclass(eq=False)
 class Played:
     """A running ``ai4u-edu play``."""
 
@@ -26,6 +27,17 @@ class Played:
     url: str
     told: list[str] = field(default_factory=list)
     """Every line that it wrote."""
+
+    def __post_init__(self) -> None:
+        evidence.register(self)
+
+    def testify(self) -> dict[str, str | bytes]:
+        """Return its output, and the world's present state if it still answers."""
+        files: dict[str, str | bytes] = {"play.log": "".join(self.told)}
+        with contextlib.suppress(OSError):
+            # real time: a world that does not answer soon has nothing to say
+            files["snapshot.json"] = json.dumps(self._get("api/snapshot", timeout=5), indent=1)
+        return files
 
     def snapshot(self) -> dict[str, Any]:
         """Return the answer of ``/api/snapshot``."""
@@ -44,9 +56,9 @@ class Played:
             page.send(json.dumps({"type": "command", "name": "reset", "seed": seed}))
             until(lambda: (now := self.snapshot())["episode"] != episode and not now["paused"])
 
-    def _get(self, path: str) -> dict[str, Any]:
+    def _get(self, path: str, timeout: float = LIMIT_S) -> dict[str, Any]:
         try:
-            answer = urllib.request.urlopen(f"{self.url}{path}", timeout=LIMIT_S)  # noqa: S310  # our own
+            answer = urllib.request.urlopen(f"{self.url}{path}", timeout=timeout)  # noqa: S310 - our own
         except urllib.error.HTTPError as error:
             answer = error
         with answer:
