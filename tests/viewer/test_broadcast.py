@@ -3,9 +3,11 @@
 import asyncio
 import inspect
 import re
-import time
 from collections.abc import Iterator
 from contextlib import ExitStack
+from functools import partial
+from threading import Event
+from types import SimpleNamespace
 from typing import Any
 
 import msgspec
@@ -20,6 +22,7 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
+from ai4u_edu.base.log_limit import LogLimiter, log_limited
 from ai4u_edu.viewer.backend import broadcast
 from ai4u_edu.viewer.backend.broadcast import Broadcaster, LoopEvent
 from ai4u_edu.viewer.backend.local_server import LocalServer
@@ -67,7 +70,10 @@ def client(server: viser.ViserServer) -> ClientConnection:
         max_size=None,
         max_queue=1,
         proxy=None,
-        close_timeout=0.2,  # the queue is full, so the close is not seen otherwise
+        open_timeout=LIMIT_S,
+        ping_interval=None,  # a page that does not read answers no ping
+        # real time: the queue is full, so the answer to the close is not seen; it is not waited for
+        close_timeout=0.2,
     )
 
 
@@ -95,15 +101,6 @@ def marks(messages: list[dict[str, Any]]) -> list[str]:
     return [each[1] for each in found if each]
 
 
-def said(page: Connection) -> bool:
-    """Return True if a page receives anything within 0.3 s."""
-    try:
-        page.recv(0.3)
-    except TimeoutError:
-        return False
-    return True
-
-
 def settled(server: LocalServer, pages: int) -> Broadcaster:
     """Return the server's broadcaster as soon as so many pages are up to date."""
     out: Broadcaster = server._websock_server._broadcast_buffer._ai4u_edu_broadcaster  # type: ignore[attr-defined]
@@ -112,6 +109,19 @@ def settled(server: LocalServer, pages: int) -> Broadcaster:
     buffer = out._buffer  # a message of another page's arrival may be on its way
     until(lambda: set(buffer.generator_cursors.values()) <= {buffer.message_counter - 1})
     return out
+
+
+def has_sent(server: LocalServer) -> None:
+    """Wake the sender, and wait until it has had its turn."""
+    loop = server.get_event_loop()
+    buffer = server._websock_server.get_message_buffer()
+
+    async def turn() -> None:
+        buffer.message_event.set()
+        # the loop's timers are called in their order, and the sender's pause is shorter
+        await asyncio.sleep(3 * broadcast.SEND_PERIOD_S)  # real time: by the same loop's clock
+
+    asyncio.run_coroutine_threadsafe(turn(), loop).result(LIMIT_S)
 
 
 def waiting(page: ServerConnection) -> int:
@@ -189,7 +199,7 @@ def test_what_belongs_together_comes_together(server: LocalServer) -> None:
             for number in range(300):
                 server.scene.add_frame(f"/frame {number}")
                 if number == 150:
-                    time.sleep(0.1)
+                    has_sent(server)
         names = [
             message.get("name")
             for message in told(frame_with(page, "/frame 0"))
@@ -247,11 +257,12 @@ def test_one_page_s_own_things_come_in_their_order_and_all(server: LocalServer) 
         page.send(CAMERA)
         until(server.get_clients)
         (own,) = server.get_clients().values()
+        seen: list[str] = []
         for number in range(300):
             own.gui.add_markdown(f"<{number}>")
-            if number % 50 == 0:
-                time.sleep(0.02)
-        seen: list[str] = []
+            # some come one by one, and others while the sender is at work
+            while number % 50 == 0 and str(number) not in seen:
+                seen += marks(told(page.recv(LIMIT_S)))
         while "299" not in seen:
             seen += marks(told(page.recv(LIMIT_S)))
     assert list(dict.fromkeys(seen)) == [str(number) for number in range(300)]
@@ -263,8 +274,13 @@ class Unpackable:
 
 @pytest.mark.parametrize("value", [10**20, -(2**70), Unpackable(), [[{"a": 2**64}]]])
 def test_a_message_that_can_not_be_packed_is_left_out(
-    server: LocalServer, value: object, caplog: pytest.LogCaptureFixture
+    server: LocalServer,
+    value: object,
+    caplog: pytest.LogCaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    limiter = LogLimiter(clock=lambda: 0.0)
+    monkeypatch.setattr(broadcast, "log_limited", partial(log_limited, limiter=limiter))
     with client(server) as page:
         settled(server, 1)
         server.gui.add_markdown("<before>")
@@ -281,7 +297,7 @@ def test_a_message_that_can_not_be_packed_is_left_out(
             frame_with(page, "<last>")
             frame_with(late, "<last>")
     lines = [each for each in caplog.records if each.name == broadcast.__name__]
-    assert len(lines) <= 1, "they are limited, over all of these tests"
+    assert len(lines) == 1, "they are limited"
     assert not any(each.exc_info for each in caplog.records)
 
 
@@ -301,7 +317,10 @@ def test_a_page_keeps_what_can_be_packed_of_its_own(server: LocalServer) -> None
 def test_nothing_that_goes_wrong_while_sending_ends_it(
     server: LocalServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    has_failed = Event()
+
     def fail(*_: object) -> None:
+        has_failed.set()
         raise RuntimeError("no memory")
 
     with client(server) as page, client(server) as other:
@@ -310,6 +329,7 @@ def test_nothing_that_goes_wrong_while_sending_ends_it(
             patched.setattr(broadcast, "_encode", fail)
             server.gui.add_markdown("<first>")
             server.flush()
+            assert has_failed.wait(LIMIT_S)
         server.gui.add_markdown("<last>")
         frame_with(page, "<last>")
         frame_with(other, "<last>")
@@ -325,7 +345,28 @@ def test_the_event_is_set_in_its_own_thread_only() -> None:
         await asyncio.to_thread(event.set)
         assert not waits.done()
         event.set()
-        await asyncio.wait_for(waits, 1)
+        await asyncio.wait_for(waits, LIMIT_S)
+
+    asyncio.run(main())
+
+
+@pytest.mark.parametrize("turns", range(5))
+def test_a_sender_that_is_woken_and_cancelled_at_once_ends(turns: int) -> None:
+    async def main() -> None:
+        buffer: Any = SimpleNamespace(
+            message_event=asyncio.Event(), flush_event=asyncio.Event(),
+            message_counter=0, generator_cursors={}, atomic_counter=1,
+        )  # fmt: skip
+        buffer.message_event.set()
+        sending = asyncio.create_task(Broadcaster(buffer)._send())
+        await asyncio.sleep(0)
+        buffer.flush_event.set()
+        for _ in range(turns):  # of the loop, until the event has woken it
+            await asyncio.sleep(0)
+        sending.cancel()
+        for _ in range(10):
+            await asyncio.sleep(0)
+        assert sending.cancelled()
 
     asyncio.run(main())
 

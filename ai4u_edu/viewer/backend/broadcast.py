@@ -118,8 +118,10 @@ class Broadcaster:
                 await buffer.message_event.wait()
             rest = sent_at + SEND_PERIOD_S - time.monotonic()
             if rest > 0:  # not after a usual pause: a timer would wake this thread once more
+                # not wait_for, which in Python 3.11 loses a cancellation that comes with the event
                 with suppress(TimeoutError):
-                    await asyncio.wait_for(buffer.flush_event.wait(), rest)
+                    async with asyncio.timeout(rest):
+                        await buffer.flush_event.wait()
             buffer.flush_event.clear()
             buffer.message_event.clear()
 
