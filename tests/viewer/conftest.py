@@ -8,18 +8,21 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from tests.editing.harness import EditorHarness
 from tests.viewer.worlds import busy_sim
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture
-def runner() -> Runner:
-    return Runner(busy_sim(), seed=1)
+def runner() -> Iterator[Runner]:
+    runner = Runner(busy_sim(), seed=1)
+    yield runner
+    runner.stop(LIMIT_S)  # if a test has started it
 
 
 @pytest.fixture
 def viewer(runner: Runner) -> Iterator[Viewer]:
     viewer = Viewer(runner)
     yield viewer
-    viewer.stop()
+    viewer.stop(LIMIT_S)
 
 
 @pytest.fixture
@@ -28,4 +31,4 @@ def harness() -> Iterator[EditorHarness]:
     harness.runner.pause()
     harness.runner.start()
     yield harness
-    harness.runner.stop()
+    harness.runner.stop(LIMIT_S)

@@ -16,7 +16,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 P = TypeVar("P")
 
@@ -81,6 +81,8 @@ def page(viewer: Viewer, agent: str = "", *, dark: bool = False) -> Iterator[Pag
         subprotocols=[protocol],
         max_size=None,
         compression=None,
+        open_timeout=LIMIT_S,
+        ping_interval=None,  # a page on a busy machine may be silent for long
     ) as connection:
         here = Page(connection)
         here.report_camera()

@@ -32,7 +32,6 @@ def tab(viewer: Viewer, runner: Runner) -> "Iterator[Page]":
         tab.goto(f"http://127.0.0.1:{viewer.port}")
         tab.wait_for_function(READY)
         yield tab
-    runner.stop()
 
 
 def colours(tab: "Page") -> np.ndarray:
@@ -46,14 +45,15 @@ def share(pixels: np.ndarray, colour: tuple[int, int, int]) -> float:
 
 
 def test_the_page_shows_the_arena(tab: "Page") -> None:
+    from tests.chromium import until_on
+
     errors: list[str] = []
     tab.on("pageerror", lambda error: errors.append(str(error)))
-    for _ in range(40):
-        tab.wait_for_timeout(500)
+
+    def is_drawn() -> bool:
         pixels = colours(tab)
-        if share(pixels, FLOOR) > 0.1 and share(pixels, VOID) > 0.1:
-            break
-    assert share(pixels, FLOOR) > 0.1
-    assert share(pixels, VOID) > 0.1
-    assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > 100
+        many = len(np.unique(pixels.reshape(-1, 3), axis=0)) > 100
+        return many and share(pixels, FLOOR) > 0.1 and share(pixels, VOID) > 0.1
+
+    until_on(tab, is_drawn)
     assert errors == []

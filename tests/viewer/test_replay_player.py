@@ -1,12 +1,16 @@
 """The player of recorded episodes, which all pages share."""
 
 from collections.abc import Iterator
+from concurrent.futures import Future
+from threading import Event, Semaphore
 
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Archive, Recorder
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.replay import replay_player
 from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE, ReplayPlayer
 from tests.waiting import LIMIT_S, until
 
@@ -27,7 +31,7 @@ def runner() -> Iterator[Runner]:
     runner.paused = True
     runner.start()
     yield runner
-    runner.stop()
+    runner.stop(LIMIT_S)
 
 
 @pytest.fixture
@@ -99,24 +103,51 @@ def test_what_is_under_way_is_taken_anew_when_it_has_gone_on(
     until(lambda: runner.latest.past == "episode 2, step 11 of 12")
 
 
-def test_it_plays_to_the_end_and_stops(runner: Runner, player: ReplayPlayer) -> None:
+def test_it_plays_each_decision_to_the_end_and_stops(
+    runner: Runner, player: ReplayPlayer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[str] = []
+    show_past = runner.show_past
+
+    def note_and_show(past: Snapshot | None, *, goes_on: bool = False) -> "Future[None]":
+        shown.append("" if past is None else past.past)
+        return show_past(past, goes_on=goes_on)
+
+    monkeypatch.setattr(runner, "show_past", note_and_show)
     opened(player, 1)
     player.speed = 20.0
     player.play()
-    seen: list[str] = []
-
-    def ended() -> bool:
-        if not seen or seen[-1] != runner.latest.past:
-            seen.append(runner.latest.past)
-        return not player.is_playing and player.step == 20
-
-    until(ended)
-    assert seen[-1] == "episode 1, the end"
-    assert len(seen) > 5
+    until(lambda: not player.is_playing and player.step == 20)
+    steps = [f"episode 1, step {step} of 20" for step in range(1, 21)]
+    assert shown == [*steps, "episode 1, the end"]
+    assert runner.latest.past == "episode 1, the end"
     player.play()
     until(lambda: player.step < 20)
     player.play(on=False)
     assert not player.is_playing
+
+
+def test_playback_goes_on_when_the_world_is_slow_to_show_a_frame(
+    runner: Runner, player: ReplayPlayer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waits, goes_on, wait = Semaphore(0), Event(), replay_player.wait
+
+    def note_and_wait(futures: list[Future[None]], timeout: float) -> object:
+        waits.release()
+        return wait(futures, timeout)
+
+    monkeypatch.setattr(replay_player, "FRAME_POLL_S", 0.01)
+    monkeypatch.setattr(replay_player, "wait", note_and_wait)
+    opened(player, 1)
+    runner.submit(lambda: goes_on.wait(LIMIT_S))
+    player.speed = 20.0
+    player.play()
+    for _ in range(3):
+        assert waits.acquire(timeout=LIMIT_S)
+    assert player.is_playing
+    goes_on.set()
+    until(lambda: player.step == 20 and not player.is_playing)
+    assert runner.latest.past == "episode 1, the end"
 
 
 def test_if_somebody_has_the_world_go_on_it_stops_playing(

@@ -23,7 +23,8 @@ class Watched:
 
     def __init__(self, viewer: Viewer, here: Page) -> None:
         (client,) = viewer.server.get_clients().values()
-        self.page, self.client, self.view = here, client, View(client)
+        self.now = 100.0
+        self.page, self.client, self.view = here, client, View(client, clock=lambda: self.now)
 
     @property
     def camera(self) -> CameraHandle:
@@ -133,11 +134,7 @@ def test_another_arena_is_shown_whole_whoever_moved_the_camera(
     assert watched.camera.position == pytest.approx(place(whole(other)))
 
 
-def test_a_followed_agent_comes_to_the_middle_smoothly(
-    watched: Watched, runner: Runner, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    now = 100.0
-    monkeypatch.setattr("ai4u_edu.viewer.scene.view.time.monotonic", lambda: now)
+def test_a_followed_agent_comes_to_the_middle_smoothly(watched: Watched, runner: Runner) -> None:
     view = watched.view
     view.update(runner.latest, "0")
     view.choose(Mode.FOLLOW)
@@ -148,14 +145,14 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(
     )
     ways = []
     for _ in range(60):
-        now += 1 / 60
+        watched.now += 1 / 60
         view.update(with_robot_at(runner.latest, 2.0, -1.0), "0")
         ways.append(float(watched.camera.look_at[0]))
     assert np.diff([0.0, *ways]).min() >= 0.0
     assert ways[0] < 0.25
     assert ways[-1] == pytest.approx(2.0, abs=0.02)
     before = watched.sent()
-    now += 1.0
+    watched.now += 1.0
     view.update(with_robot_at(runner.latest, ways[-1], -1.0), "0")
     view.update(with_robot_at(runner.latest, ways[-1], -1.0), "0")
     assert watched.sent() - before <= 4  # it has arrived: nothing more is sent

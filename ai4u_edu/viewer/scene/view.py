@@ -3,6 +3,7 @@
 import math
 import time
 from collections import deque
+from collections.abc import Callable
 from enum import StrEnum
 
 import numpy as np
@@ -54,10 +55,12 @@ class View:
 
     Args:
         client: the page.
+        clock: seconds; to be replaced in tests.
     """
 
-    def __init__(self, client: ClientHandle) -> None:
+    def __init__(self, client: ClientHandle, clock: Callable[[], float] = time.monotonic) -> None:
         self._client = client
+        self._clock = clock
         self.mode = Mode.ARENA
         self._bounds: Bounds | None = None
         self._aspect = 0.0
@@ -159,7 +162,7 @@ class View:
         camera, distance = self._client.camera, wanted.distance
         self._known.append(camera.position)
         self.frame, self._has_arrived, self._is_moved_by_user = wanted, False, False
-        self._moved_at = time.monotonic()
+        self._moved_at = self._clock()
         self._leave_eye()
         with self._client.atomic():
             camera.up_direction = up
@@ -170,7 +173,7 @@ class View:
             camera.min_orbit_distance, camera.max_orbit_distance = distance / 12, distance * 4
 
     def _follow(self, body: BodyState, aspect: float) -> None:
-        camera, now, up = self._client.camera, time.monotonic(), self._up(body)
+        camera, now, up = self._client.camera, self._clock(), self._up(body)
         # distance and side are the user's choice
         offset: Array = camera.position - camera.look_at
         goal = frame_point(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
