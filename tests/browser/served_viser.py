@@ -1,11 +1,13 @@
 """A room with a viser, and pages that look at it."""
 
-from collections.abc import Callable
+import contextlib
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 import viser
 from playwright.sync_api import Browser, Locator, Page
 
+from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.chromium import close_page, quick_page
 from tests.server.rooms import Room
@@ -93,16 +95,59 @@ class ServedViser:
         return place, place.replace("http", "ws", 1)
 
 
-CALM = """() => new Promise((done) => {
-    let calm = 0, last = performance.now();
-    const frame = (now) => {
-        calm = now - last < 50 ? calm + 1 : 0;
-        last = now;
-        if (calm < 10) requestAnimationFrame(frame);
-        else done();
-    };
-    requestAnimationFrame(frame);
+FRAMES = """(count) => new Promise((done) => {
+    const frame = () => (count -= 1) < 0 ? done() : requestAnimationFrame(frame);
+    frame();
 })"""
+
+
+def frames(page: Page, count: int = 2) -> None:
+    """Wait until a page has drawn some frames, however long that takes."""
+    page.evaluate(FRAMES, count)
+
+
+RECORD_TEXTS = """(selector) => {
+    const seen = ((window.seenTexts ??= {})[selector] = []);
+    const look = () => {
+        for (const { textContent } of document.querySelectorAll(selector)) {
+            if (!seen.includes(textContent)) seen.push(textContent);
+        }
+    };
+    new MutationObserver(look).observe(document.body,
+        { childList: true, subtree: true, characterData: true });
+}"""
+
+
+def record_texts(page: Page, selector: str) -> Callable[[], list[str]]:
+    """Record what elements say from now on; return a function that returns it.
+
+    A text that is there for some seconds only would be gone before a busy test looks.
+    """
+    page.evaluate(RECORD_TEXTS, selector)
+    return lambda: list(page.evaluate("(selector) => seenTexts[selector]", selector))
+
+
+@contextlib.contextmanager
+def recorded_holds(room: Room) -> Iterator[list[list[str]]]:
+    """Record the keys of each message that holds or releases some, in their order.
+
+    A page sends its messages in order. So a message that came after others shows that the others
+    were handled, and what they asked for.
+    """
+    keyboard = room.sim.agents[0].keyboard
+    holds: list[list[str]] = []
+    hold = keyboard.hold
+
+    def record(codes: Iterable[str], stick: Stick = CENTERED) -> None:
+        codes = list(codes)
+        hold(codes, stick)
+        holds.append(sorted(codes))
+
+    keyboard.hold = record  # type: ignore[method-assign]
+    try:
+        yield holds
+    finally:
+        keyboard.hold = hold  # type: ignore[method-assign]
 
 
 def connected(page: Page) -> None:
@@ -112,9 +157,9 @@ def connected(page: Page) -> None:
 
 
 def ready(page: Page) -> None:
-    """Waits until a page is connected, shows its keys, and has done its first, heavy drawing."""
+    """Waits until a page is connected, shows its keys, and has drawn itself with them."""
     connected(page)
-    page.evaluate(CALM)
+    frames(page)
 
 
 def hide_panel(page: Page) -> None:

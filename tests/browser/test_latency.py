@@ -25,7 +25,7 @@ def test_from_a_key_to_the_tick_that_obeys(
     def note(agent: BasicAgent) -> None:
         ahead = agent.last_action["move"][0]
         if ahead and not before[0]:
-            obeyed.append(time.time())
+            obeyed.append(time.time())  # real time: it is measured, and nothing depends on it
         before[0] = ahead
 
     agent.begin_of_apply_action.connect(note)
@@ -43,6 +43,7 @@ def test_from_a_key_to_the_tick_that_obeys(
         until(lambda number=number: len(obeyed) == number)  # type: ignore[misc]
         page.keyboard.up("KeyW")
         until(lambda: before[0] == 0)
+        # real time: presses are to come at different times of a tick, whichever these are
         page.wait_for_timeout(20 + 7 * number % 40)
     pressed = page.evaluate("window.pressed")
     waits = [1000 * end - begin for begin, end in zip(pressed, obeyed, strict=True)]

@@ -8,8 +8,16 @@ from playwright.sync_api import CDPSession, Locator, Page, expect
 from ai4u_edu import DiscreteActuator, DiscreteArrowController, LocalBrain
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from tests.browser.served_viser import ServedViser, centre, connected, driver_status, hide_panel
+from tests.browser.served_viser import (
+    ServedViser,
+    centre,
+    connected,
+    driver_status,
+    frames,
+    hide_panel,
+)
 from tests.builders import small_sim, still
+from tests.chromium import until_on
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
@@ -111,12 +119,27 @@ def test_all_is_in_reach_and_nothing_in_the_way(site: ServedViser) -> None:
     hide_panel(page)
     for width, height in SIZES.values():
         page.set_viewport_size({"width": width, "height": height})
-        page.wait_for_timeout(500)
-        check_places(page, width, height)
+        frames(page)
+        problems: list[str] = []
+
+        def is_well_laid_out() -> bool:
+            problems[:] = misplaced(page, width, height)  # noqa: B023
+            return not problems  # noqa: B023
+
+        try:
+            until_on(page, is_well_laid_out)  # viser moves its canvas in its own time
+        except AssertionError:
+            pytest.fail(f"{width} x {height}: {problems}")
 
 
-def check_places(page: Page, width: int, height: int) -> None:
-    """Check that stick and keys are large, apart, and free, and that the world is."""
+def misplaced(page: Page, width: int, height: int) -> list[str]:
+    """Return what is wrong: stick and keys are to be large, apart and free, and the world free."""
+    problems: list[str] = []
+
+    def check(name: str, is_right: object) -> None:
+        if not is_right:
+            problems.append(name)
+
     things = [
         stick_of(page),
         *page.locator(".ai4u-keycap").all(),
@@ -126,27 +149,32 @@ def check_places(page: Page, width: int, height: int) -> None:
     for thing in things:
         box = thing.bounding_box()
         assert box is not None
-        assert min(box["width"], box["height"]) >= min(FINGER, 40)
+        check(
+            f"{thing}: smaller than a finger", min(box["width"], box["height"]) >= min(FINGER, 40)
+        )
         left, top = box["x"], box["y"]
         right, bottom = left + box["width"], top + box["height"]
-        assert 0 <= left < right <= width
-        assert 0.47 * height <= top < bottom <= height, "in the lower half"
+        check(f"{thing}: beyond the sides", 0 <= left < right <= width)
+        check(f"{thing}: not in the lower half", 0.47 * height <= top < bottom <= height)
         boxes.append((left, top, right, bottom))
         hit = "([x, y]) => document.elementFromPoint(x, y).closest('section.ai4u-dock') !== null"
-        assert page.evaluate(hit, [(left + right) / 2, (top + bottom) / 2]), "nothing lies over it"
+        middle = [(left + right) / 2, (top + bottom) / 2]
+        check(f"{thing}: something lies over it", page.evaluate(hit, middle))
     for one, other in itertools.combinations(boxes, 2):
         apart = one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
-        assert apart, f"{one} and {other} lie over each other"
+        check(f"{one} and {other} lie over each other", apart)
     scene = page.locator("#root canvas").first.bounding_box()
     assert scene is not None
-    assert all(right <= scene["x"] + scene["width"] for _, _, right, _ in boxes), "beside the panel"
+    edge = scene["x"] + scene["width"]
+    check("keys over the panel", all(right <= edge for _, _, right, _ in boxes))
     free = """([x, y]) => {
         const part = document.elementFromPoint(x, y);
         return part.tagName === "CANVAS" || !!part.closest(".mantine-Notification-root");
     }"""
     for across, down in itertools.product((0.1, 0.3, 0.5, 0.7, 0.9), (0.15, 0.3, 0.45)):
         x = scene["x"] + across * scene["width"]
-        assert page.evaluate(free, [x, down * height])
+        check(f"the world is covered at {across}, {down}", page.evaluate(free, [x, down * height]))
+    return problems
 
 
 class TestOneThingAtATime:
