@@ -7,9 +7,10 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.code_editor import WithEditor
-from tests.browser.served_viser import ready
+from tests.browser.code_page import WORLD_WAITS, set_limits
+from tests.browser.served_viser import ready, record_texts
 from tests.browser.test_play import MIDDLE, agent
-from tests.chromium import new_page
+from tests.chromium import new_page, until_on
 from tests.code_sheet import programs_in_docs
 from tests.playing import Played, played
 from tests.waiting import until
@@ -31,7 +32,6 @@ MISTAKES = [
     (f'{BODY}return {{"move": [1, 0]}}', None, "4"),
     (f'{BODY}return {{"move": ["fast", 0, 0, 0]}}', None, "number"),
     (f"{BODY}cosine = 1\n    return cosin", 3, "did you mean 'cosine'?"),
-    (f"{BODY}while True:\n        pass", 2, "did not answer for 1 s"),
     (f"{BODY}import numpy\n    return {{}}", 2, "numpy is not there"),
 ]
 """Programs, the lines of their mistakes (None: some line or none), and words of their sentences."""
@@ -52,17 +52,30 @@ class CodeTab(WithEditor):
 
 @pytest.fixture(scope="module")
 def server() -> Iterator[Played]:
-    with played("box_chase", "--seed", MIDDLE) as server:
+    with played("box_chase", "--seed", MIDDLE, *WORLD_WAITS) as server:
         yield server
 
 
 @pytest.fixture(scope="module")
-def opened(server: Played, chromium: Browser) -> Iterator[CodeTab]:
+def asked(chromium: Browser) -> list[bytes]:
+    """Return the requests for more time that the page has sent to the world."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def opened(server: Played, chromium: Browser, asked: list[bytes]) -> Iterator[CodeTab]:
     page = new_page(chromium)
     problems: list[str] = []
     page.on("pageerror", lambda error: problems.append(str(error)))
+
+    def note(frame: str | bytes) -> None:
+        if isinstance(frame, bytes) and b"order" in frame and b"wait" in frame:
+            asked.append(frame)
+
+    page.on("websocket", lambda socket: socket.on("framesent", note))
     page.goto(server.url)
     ready(page)
+    set_limits(page)
     yield CodeTab(page)
     page.context.close()
     assert problems == []
@@ -84,10 +97,11 @@ def test_seven_lines_reach_the_box(server: Played, tab: CodeTab) -> None:
         tab.page.keyboard.press("Enter")
         if line.strip().startswith("return"):
             tab.page.keyboard.press("Shift+Tab")
-    tab.page.keyboard.press("ControlOrMeta+Enter")
     driver = tab.page.locator(".ai4u-row .ai4u-driver")
-    expect(driver).to_contain_text("Your program drives")
+    drivers = record_texts(tab.page, ".ai4u-row .ai4u-driver")
+    tab.page.keyboard.press("ControlOrMeta+Enter")
     expect(tab.state).to_contain_text("Goal reached at decision")
+    assert any("Your program drives" in text for text in drivers())
     assert agent(server)["reward_terms"]["touch"] == 100
     expect(tab.page.get_by_role("log")).to_contain_text("cosine 0.9")
     expect(driver).not_to_contain_text("Your program")
@@ -105,6 +119,16 @@ def test_a_mistake_is_a_sentence_at_its_line(
         marked = tab.page.locator(".ai4u-code-mistake-line")
         expect(marked).to_have_text(program.splitlines()[line - 1])
     expect(tab.page.get_by_role("button", name="Stop", exact=True)).to_be_disabled()
+
+
+def test_an_endless_loop_is_ended_at_its_line(tab: CodeTab) -> None:
+    set_limits(tab.page, programS=1)
+    tab.write(f"{BODY}while True:\n        pass")
+    tab.press("Run")
+    expect(tab.mistake).to_contain_text("Line 2: ")
+    expect(tab.mistake).to_contain_text("did not answer for 1 s")
+    expect(tab.page.locator(".ai4u-code-mistake-line")).to_have_text("    while True:")
+    set_limits(tab.page)
 
 
 def test_a_class_of_the_docs_drives(server: Played, tab: CodeTab) -> None:
@@ -165,20 +189,22 @@ def step_back_to(moment: Locator, number: int) -> None:
         expect(words).not_to_have_text(said)
 
 
-def test_step_makes_one_decision_and_run_goes_on(server: Played, tab: CodeTab) -> None:
-    tab.write(
-        "count = 0\n" + BODY + "global count\n    count += 1\n    print(count)\n    return {}"
-    )
+def test_step_makes_one_decision_and_run_goes_on(
+    server: Played, tab: CodeTab, asked: list[bytes]
+) -> None:
+    counts = "global count\n    count += 1\n    if count <= 3: print(count)\n    return {}"
+    tab.write(f"count = 0\n{BODY}{counts}")
     tab.press("Step")
     expect(tab.state).to_contain_text("Waits for the next step")
     log = tab.page.get_by_role("log").locator("span")
     expect(log).to_have_text(["1"])
     ticks = server.snapshot()["tick"]
-    tab.page.wait_for_timeout(2500)  # longer than a world waits for a script that is silent
+    before = len(asked)
+    until_on(tab.page, lambda: len(asked) >= before + 3)
     assert server.snapshot()["tick"] == ticks
     tab.press("Step")
     expect(log).to_have_text(["1", "2"])
     until(lambda: server.snapshot()["tick"] > ticks)
     tab.press("Run")
-    expect(log.first).to_have_text("3")
+    expect(log).to_have_text(["3"])
     tab.press("Stop")

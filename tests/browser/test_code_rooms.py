@@ -9,7 +9,15 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from ai4u_edu.server.web_files import web_folder
-from tests.browser.code_page import ROOM, code_page, decide, load, run
+from tests.browser.code_page import (
+    ROOM,
+    WORLD_WAITS,
+    code_page,
+    decide,
+    load,
+    run,
+    set_limits,
+)
 from tests.chromium import new_page
 from tests.classroom.served_class import served_class
 from tests.playing import played
@@ -18,6 +26,8 @@ from tests.server.rooms import served
 pytestmark = pytest.mark.browser
 
 TOKEN = "open sesame"
+CALL_MS = 10_000
+"""Time after which the page ends a program: the lines that run until then have been reported."""
 PROGRAM = """
 def decide(percept):
     for key in percept:
@@ -73,10 +83,14 @@ def page(chromium: Browser) -> Iterator[Page]:
 
 def driven(page: Page) -> list[dict[str, Any]]:
     """Let the program drive the agent of the page's room, and return its decisions."""
+    set_limits(page)
     found: list[dict[str, Any]] = json.loads(page.evaluate(DRIVE, PROGRAM))
-    assert [each["step"] for each in found] == list(range(len(found)))
     assert len(found) > 5
     return found
+
+
+def steps(decisions: list[dict[str, Any]]) -> list[int]:
+    return [each["step"] for each in decisions]
 
 
 def test_readings_have_the_types_that_they_have_outside(page: Page) -> None:
@@ -100,11 +114,6 @@ def test_what_python_imports_at_its_start_is_compiled(page: Page) -> None:
 @pytest.mark.parametrize(
     ("body", "line", "kind"),
     [
-        # the engine's own tests end them each time
-        *(
-            pytest.param(body, 2, "endless", marks=pytest.mark.nightly)
-            for body in ("while True: pass", "10**10**8", "sum(range(10**12))")
-        ),
         ("import js", 2, "import"),
         ("import numpy", 2, "numpy"),
         ("return percept['raeding']", 2, "wrong-key"),
@@ -124,9 +133,37 @@ def test_a_huge_print_is_cut(page: Page) -> None:
     assert 1000 < len(answer["printed"]) < 5000
 
 
+@pytest.mark.nightly  # the engine's own tests end programs each time
+@pytest.mark.parametrize(
+    ("body", "limits"),
+    [
+        ("while True: pass", {"programS": 1}),
+        ("10**10**8", {"callMs": CALL_MS}),
+        ("sum(range(10**12))", {"callMs": CALL_MS}),
+    ],
+)
+def test_a_program_that_does_not_come_back_is_ended_at_its_line(
+    page: Page, body: str, limits: dict[str, float]
+) -> None:
+    set_limits(page, **limits)
+    answer = run(page, body)
+    set_limits(page)
+    assert (answer["ok"], answer["line"], answer["kind"]) == (False, 2, "endless")
+
+
+def test_the_time_of_a_decision_is_limited_as_the_page_says(page: Page) -> None:
+    slow = "import time; end = time.monotonic() + 0.2\n    while time.monotonic() < end: pass"
+    set_limits(page, programS=0.1)
+    assert run(page, f"{slow}\n    return {{}}")["kind"] == "endless"
+    set_limits(page)
+    assert run(page, f"{slow}\n    return {{}}")["ok"]
+
+
 @pytest.mark.nightly
 def test_loading_may_be_endless_too(page: Page) -> None:
+    set_limits(page, callMs=CALL_MS)
     answer = load(page, "y = 0\nx = 10**10**8\n")
+    set_limits(page)
     assert (answer["kind"], answer["line"]) == ("endless", 2)
     assert page.evaluate("(room) => engine.load('def decide(percept): return {}', room)", ROOM)[
         "ok"
@@ -136,10 +173,12 @@ def test_loading_may_be_endless_too(page: Page) -> None:
 @pytest.mark.nightly
 @pytest.mark.slow
 def test_behind_a_token(chromium: Browser) -> None:
-    with played("box_chase", "--token", TOKEN) as game:
+    with played("box_chase", "--token", TOKEN, *WORLD_WAITS) as game:
         page = new_page(chromium)
         page.goto(game.url.rstrip("/"))  # which has the token
-        assert driven(page)[0]["values"] == {"move": [1.0, 0.25, 0, 0]}
+        decisions = driven(page)
+        assert decisions[0]["values"] == {"move": [1.0, 0.25, 0, 0]}
+        assert steps(decisions) == list(range(len(decisions)))
         page.context.close()
 
 
@@ -153,7 +192,10 @@ def test_in_a_class(chromium: Browser, tmp_path_factory: pytest.TempPathFactory)
         ]
         page.context.add_cookies(cookies)  # type: ignore[arg-type]  # a TypedDict of playwright
         page.goto(f"{school.url}{ada.room.lstrip('/')}healthz")
-        assert driven(page)[0]["values"] == {"move": [1.0, 0.25, 0, 0]}
+        decisions = driven(page)
+        assert decisions[0]["values"] == {"move": [1.0, 0.25, 0, 0]}
+        # a room of a class goes on without a page that is silent for two seconds
+        assert steps(decisions) == sorted({*steps(decisions)})
         page.context.close()
         name = "web/vendor/pyodide/pyodide.asm.wasm"
         answer = ada.get(f"{name}?v=1")

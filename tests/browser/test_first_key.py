@@ -5,6 +5,7 @@ from functools import partial
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.browser.sent_frames import SentFrames
 from tests.browser.served_viser import ServedViser, driver_status, ready
 from tests.chromium import new_page
 from tests.playing import Played, played
@@ -58,6 +59,7 @@ def test_a_key_starts_and_drives_and_r_repeats_the_start(site: ServedViser) -> N
 @pytest.mark.parametrize("key", ["Enter", "KeyQ"])
 def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> None:
     page = site.page()
+    expect(banner(page)).to_have_text("Press a key to start")
     page.keyboard.press(key)
     until(lambda: tick(site) > 0)
     expect(driver_status(page)).to_have_text("You drive")
@@ -66,15 +68,18 @@ def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> No
 def test_keys_of_the_browser_and_of_the_help_do_not_start(
     site: ServedViser, subtests: pytest.Subtests
 ) -> None:
-    page = site.page()
+    sent: list[SentFrames] = []
+    page = site.page(prepare=lambda page: sent.append(SentFrames(page)))
+    expect(banner(page)).to_have_text("Press a key to start")
     for key in ("?", "Escape", "Tab", "Shift", "F9", "Control+KeyB"):
         with subtests.test(key):
             page.keyboard.press(key)
             page.keyboard.press("Escape")
-            page.wait_for_timeout(100)
-            assert waits(site)
+            assert sent[0].take() == []
+    assert waits(site)
     page.evaluate("document.activeElement.blur()")
     page.keyboard.press("KeyQ")
+    assert len(sent[0].take()) == 1
     until(lambda: not waits(site))
 
 
