@@ -13,7 +13,7 @@ from tests.browser.code_tab import CodePage
 from tests.browser.fake_code import serve_fakes
 from tests.browser.plain_page import CLASS_ROOM, WITHOUT_VISER
 from tests.browser.wall_data import MARKUP
-from tests.chromium import new_page
+from tests.chromium import new_page, until_on
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.classroom.test_programs import of_room
 from tests.waiting import until
@@ -150,6 +150,7 @@ def test_without_network_it_stays_here_and_is_saved_later(
     serve_fakes(desk.page)
     desk.is_told("Kept in the class.")
     assert kept(school, ben) == PROGRAM
+    desk.page.evaluate("window.setTimeout = () => 0")  # no timer of this page saves it
     desk.write("# the end")
     desk.page.reload()  # saved while the page is closed
     until(lambda: kept(school, ben) == "# the end")
@@ -223,10 +224,14 @@ def test_a_teachers_program_is_offered_and_replaces_nothing(
 
 def test_without_a_class_nothing_is_sent(chromium: Browser) -> None:
     tab = CodePage(chromium)
+    tab.page.clock.install()
     sent: list[str] = []
     tab.page.on("request", lambda request: sent.append(request.url))
     tab.write(PROGRAM)
     tab.press("Run")
-    tab.page.wait_for_timeout(2500)  # longer than the pause after which a class gets it
+    expect(tab.state).to_contain_text("The program gets the robot")
+    tab.page.clock.fast_forward("01:00:00")  # longer than any pause after which a class gets it
+    tab.page.evaluate("fetch('web/code_run.js')")  # requests are told in their order
+    until_on(tab.page, lambda: sent[-1:] and sent[-1].endswith("code_run.js"))
     assert [each for each in sent if not each.endswith(".js")] == []
-    tab.close()
+    tab.page.context.close()  # with its clock

@@ -1,6 +1,7 @@
 """A script in another process: how it stands with it is seen, and a person takes its agent over."""
 
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -13,8 +14,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.served_viser import connected, driver_status
 from tests.chromium import new_page
 from tests.playing import Played, played
-from tests.server.rooms import free_port
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser
 
@@ -38,7 +38,7 @@ SCRIPT = """
 import sys
 from ai4u_edu.remote import connect
 
-for percept in (robot := connect(sys.argv[1])):
+for percept in (robot := connect(sys.argv[1], patience=float(sys.argv[2]))):
     robot.act(move=[0, 0.25, 0, 0])
 """
 
@@ -47,9 +47,12 @@ for percept in (robot := connect(sys.argv[1])):
 def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     (tmp_path / "bare.yaml").write_text(SCENE)
-    brain = f"ai4u://127.0.0.1:{free_port()}"
-    with played(str(tmp_path / "bare.yaml"), "--brain", brain) as server:
-        yield server
+    scene = str(tmp_path / "bare.yaml")
+    with socket.socket(type=socket.SOCK_DGRAM) as silent:  # no script answers there
+        silent.bind(("127.0.0.1", 0))
+        brain = f"ai4u://127.0.0.1:{silent.getsockname()[1]}"
+        with played(scene, "--brain", brain, "--grace", str(LIMIT_S)) as server:
+            yield server
 
 
 @pytest.fixture
@@ -64,7 +67,8 @@ def page(chromium: Browser, server: Played) -> Iterator[Page]:
 
 @pytest.fixture
 def script(server: Played) -> Iterator["subprocess.Popen[bytes]"]:
-    script = subprocess.Popen([sys.executable, "-c", SCRIPT, server.url], stderr=subprocess.DEVNULL)
+    command = [sys.executable, "-c", SCRIPT, server.url, str(LIMIT_S)]
+    script = subprocess.Popen(command, stderr=subprocess.DEVNULL)
     yield script
     script.kill()
     script.wait()

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -12,10 +13,10 @@ from ai4u_edu import Scene
 from ai4u_edu.remote import connect
 from ai4u_edu.server import Rules
 from ai4u_edu.wire import native
-from tests.browser.code_page import code_page
+from tests.browser.code_page import code_page, set_limits
 from tests.chromium import new_page
 from tests.server.rooms import Room, served
-from tests.waiting import LIMIT_S
+from tests.waiting import LIMIT_MS, LIMIT_S
 
 pytestmark = pytest.mark.browser
 
@@ -44,12 +45,17 @@ DRIVE = """
     }
 """
 
+PATIENT_RULES = Rules(grace=LIMIT_S, receive_timeout=LIMIT_MS)
+
 
 @contextmanager
 def chase(**options: Any) -> Iterator[Room]:
-    """Serve the scene box_chase, fifty times as fast."""
+    """Serve the scene box_chase, fifty times as fast.
+
+    It waits for programs, however late they are.
+    """
     sim = Scene.load("box_chase").build(seed=1)
-    with served(sim, **options) as room:
+    with served(sim, **({"rules": PATIENT_RULES} | options)) as room:
         room.runner.scale_time(50).result(LIMIT_S)
         yield room
 
@@ -107,7 +113,7 @@ def camel(name: str) -> str:
 def test_in_lockstep_the_page_gets_the_bits_that_a_script_gets(page: Page) -> None:
     seen = json.loads(page.evaluate(DRIVE, [SEED, actions()]))
     expected = []
-    with chase() as other, connect(other.url, mode="lockstep") as robot:
+    with chase() as other, connect(other.url, mode="lockstep", patience=LIMIT_S) as robot:
         expected.append(plain(robot.reset(SEED)))
         for move in actions():
             robot.act(move=move)
@@ -149,6 +155,7 @@ def test_a_dropped_connection_is_taken_up_again(page: Page) -> None:
 
 
 def test_a_world_that_is_gone_is_told(chromium: Browser) -> None:
+    # real time: the world is gone for good, and the page tries again for as long
     with chase(rules=Rules(grace=0.5)) as room:
         page = code_page(chromium, room.url)
         page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
@@ -169,7 +176,7 @@ def told(page: Page, expression: str) -> dict[str, str]:
 
 
 def test_an_agent_that_a_script_drives_is_not_given_to_the_page(page: Page, room: Room) -> None:
-    with connect(room.url):
+    with connect(room.url, patience=LIMIT_S):
         error = told(page, "RemoteClient.connect()")
     assert error["code"] == "agent_taken"
     assert "is driven by another script" in error["message"]
@@ -201,13 +208,14 @@ def test_closing_gives_the_agent_back_at_once(page: Page, room: Room) -> None:
         page.evaluate("client.close()")
         assert page.evaluate("waiting") in ("closed", {}) or page.evaluate("waiting")["seq"]
         assert told(page, "client.sense()")["code"] == "closed"
-    connect(room.url).close()
+    connect(room.url, patience=LIMIT_S).close()
 
 
 def test_a_page_with_the_token_needs_no_other(chromium: Browser) -> None:
-    with chase(rules=Rules(token="open sesame")) as room:
+    with chase(rules=replace(PATIENT_RULES, token="open sesame")) as room:
         page = new_page(chromium)
         page.goto(f"{room.url}?token=open+sesame")
+        set_limits(page)
         page.evaluate(
             "import('./web/remote_client.js').then((each) => Object.assign(window, each))"
         )

@@ -1,6 +1,7 @@
 """A scene is shared by a link: copied on one page, and opened on another."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
@@ -64,8 +65,18 @@ def test_where_nothing_may_be_copied_the_link_is_shown(server: Played, page: Pag
     assert box.evaluate("box => box.selectionEnd - box.selectionStart") == len(box.input_value())
 
 
-def test_a_link_is_opened_after_a_question(server: Played, page: Page) -> None:
-    """The last one, since the others share the scene that it replaces."""
+def test_a_link_is_opened_after_a_question(
+    chromium: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    with played("box_chase", "--seed", "1") as server:  # of its own, since it replaces the scene
+        page = new_page(chromium)
+        WITHOUT_VISER.serve(page, server.url)
+        opens_a_link(page, server)
+        page.context.close()
+
+
+def opens_a_link(page: Page, server: Played) -> None:
     page.goto(f"{server.url}#{LINK}")
     question = page.get_by_role("dialog", name="Open the shared scene “Maze”?")
     expect(question).to_be_visible()

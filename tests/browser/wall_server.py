@@ -44,6 +44,8 @@ class WallServer:
         """Message that a page gets when it connects, and after :meth:`send`."""
         self.moves = True
         """Poses go on with time."""
+        self.connections = 0
+        """Number of sockets that have got the class's state so far."""
         self._sockets: set[WebSocket] = set()
         self._loop: asyncio.AbstractEventLoop | None = None
 
@@ -70,7 +72,8 @@ class WallServer:
 
     def push(self, message: dict[str, Any]) -> None:
         """Send a message to all pages."""
-        assert self._loop is not None
+        if self._loop is None:  # no page has connected yet
+            return
         asyncio.run_coroutine_threadsafe(self._broadcast(message), self._loop).result(LIMIT_S)
 
     def drop(self) -> None:
@@ -81,7 +84,8 @@ class WallServer:
 
     async def _broadcast(self, message: dict[str, Any]) -> None:
         for socket in list(self._sockets):
-            await socket.send_text(json.dumps(message))
+            with contextlib.suppress(WebSocketDisconnect, RuntimeError):  # the page has left
+                await socket.send_text(json.dumps(message))
 
     async def _page(self, request: Request) -> Response:
         self.paths.append(str(request.url))
@@ -107,11 +111,12 @@ class WallServer:
     async def _socket(self, socket: WebSocket) -> None:
         self._loop = asyncio.get_running_loop()
         await socket.accept()
+        self._sockets.add(socket)  # before the state is read, so that no change of it is missed
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             await socket.send_text(json.dumps(self.state))
+            self.connections += 1
             for number in range(1, self.count + 1):
                 await socket.send_text(json.dumps(drawing_message(number)))
-            self._sockets.add(socket)
             step = 0
             while socket in self._sockets:
                 await socket.send_text(json.dumps(poses_message(self.count, step / POSES_PER_S)))
