@@ -32,7 +32,7 @@ class AI4UScript:
         port: its UDP port.
         dialogue: with the script.
         host: where it listens.
-        patience: seconds for which a script may be silent.
+        patience: seconds for which a script may be silent; see :attr:`patience`.
         is_over: set by another thread to stop waiting for replies.
 
     Raises:
@@ -53,7 +53,8 @@ class AI4UScript:
         self.ignored = 0
         """Datagrams that were no answer."""
         self.is_over = is_over or threading.Event()
-        self._patience = patience
+        self.patience = patience
+        """Seconds for which a script may be silent; counts from the next request on."""
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
             self._socket.connect((host, port))  # so that nobody else is heard
@@ -80,7 +81,7 @@ class AI4UScript:
         dialogue = self.dialogue
         is_connecting = dialogue.phase is Phase.CONNECTING
         self._drain()
-        until = time.monotonic() + (CONNECT_INTERVAL_S if is_connecting else self._patience)
+        until = time.monotonic() + (CONNECT_INTERVAL_S if is_connecting else self.patience)
         try:
             self._socket.send(dialogue.request(state))
             while (left := until - time.monotonic()) > 0:
@@ -93,7 +94,7 @@ class AI4UScript:
                     pass
                 if self.is_over.is_set():
                     return None
-            error: OSError = TimeoutError(f"no answer for {self._patience:g} s")
+            error: OSError = TimeoutError(f"no answer for {self.patience:g} s")
         except OSError as failed:
             error = failed
         dialogue.begin()

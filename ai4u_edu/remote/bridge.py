@@ -36,8 +36,9 @@ REPEAT_BACKOFF_S = 1e-4
 """Growth of the pause with each request to a script that asks for time."""
 MAX_REPEAT_INTERVAL_S = 0.004
 """Longest pause between two requests to a script that asks for time."""
-KEEPALIVE_INTERVAL_S = 0.25
-"""Interval at which the world is asked for time on behalf of the script."""
+KEEPALIVE_INTERVAL_S = 0.1
+"""Interval at which the world is asked for time on behalf of the script; shorter than the shortest
+``receive_timeout`` of a world (0.2 s)."""
 
 _ORDERS = {ReplyKind.PAUSE: "pause", ReplyKind.RESUME: "resume", ReplyKind.STOP: "stop"}
 

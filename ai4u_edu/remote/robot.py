@@ -68,8 +68,9 @@ class Robot(RobotBase):
     def close(self) -> None:
         """Give the agent back to the brain that it had before. It may be called twice."""
         self._connection.run(self._dialogue.end())
-        for place in [place for place, robot in _robots.items() if robot is self]:
-            del _robots[place]
+        # several threads may close robots of theirs at once
+        for place in [place for place, robot in list(_robots.items()) if robot is self]:
+            _robots.pop(place, None)
 
     def __iter__(self) -> Iterator[RemotePercept]:
         """Yield every percept that needs an action, until the episode is over."""

@@ -1,5 +1,6 @@
 """Worlds for scripts on other machines, and a script that speaks frame by frame."""
 
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Self
@@ -94,6 +95,15 @@ def patient_rules(**changes: Any) -> Rules:
     """Return rules whose time limits only a fault reaches."""
     limits = {"grace": LIMIT_S, "receive_timeout": LIMIT_MS, "hello_timeout": LIMIT_S}
     return Rules(**(limits | changes))
+
+
+@contextmanager
+def unused_address() -> Iterator[str]:
+    """Yield a host and a TCP port at which nobody listens, and nobody can begin to."""
+    with socket.socket() as bound:
+        bound.bind(("127.0.0.1", 0))
+        host, port = bound.getsockname()
+        yield f"{host}:{port}"
 
 
 def connect(url: str, agent: str = "", **options: Any) -> remote.Robot:

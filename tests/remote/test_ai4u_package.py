@@ -8,9 +8,11 @@ import base64
 import contextlib
 import json
 import math
+import secrets
 import socket
 import subprocess
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -33,17 +35,36 @@ from ai4u_edu import (
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.ai4u import encode_request
 from tests.remote import ai4u_venv
+from tests.waiting import LIMIT_MS, LIMIT_S
 from tests.wire.test_ai4u import EVERY_KIND
 
 SCRIPTS = Path(__file__).with_name("ai4u_scripts")
 
 
+PORTS = range(20_000, 32_000)
+"""UDP ports that no system gives to another socket by itself while a script starts."""
+PATIENT_SCRIPT = """
+import runpy
+import sys
+
+# AI4U's threads tell each other what they wait for after they have asked for it. No thread takes
+# the other's place in between: only one that waits itself lets go.
+sys.setswitchinterval(600)
+sys.argv = sys.argv[1:]
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
 def free_port() -> int:
     """A UDP port that nobody listens at."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
-        udp.bind(("127.0.0.1", 0))
-        port: int = udp.getsockname()[1]
-        return port
+    while True:
+        port = secrets.choice(PORTS)  # tests in other processes may have seeded alike
+        with (
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp,
+            contextlib.suppress(OSError),
+        ):
+            udp.bind(("127.0.0.1", port))
+            return port
 
 
 def run_script(
@@ -53,18 +74,26 @@ def run_script(
     once_it_listens: Callable[[], object] | None = None,
     trains: bool = False,
 ) -> Any:
-    """Runs a script to its end; gives what it found."""
+    """Runs a script to its end; gives what it found.
+
+    Args:
+        name: of its file.
+        args: its arguments.
+        given: its input.
+        once_it_listens: called when it has noted its agents: before, a request would end it.
+        trains: see :func:`tests.remote.ai4u_venv.find`.
+    """
     python = ai4u_venv.find(trains=trains)
     if python is None:
         pytest.skip("AI4U's package is not here; python -m tests.remote.ai4u_venv gets it")
-    command = [str(python), "-u", str(SCRIPTS / name), *map(str, args)]
+    command = [str(python), "-u", "-c", PATIENT_SCRIPT, str(SCRIPTS / name), *map(str, args)]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as script:
         assert script.stdout is not None
         try:
             if once_it_listens is not None:
-                while b"ai4u2godot started" not in script.stdout.readline():
-                    assert script.poll() is None
+                while b"ai4u2godot started" not in (line := script.stdout.readline()):
+                    assert line, script.communicate()[1].decode()[-2000:]
                 once_it_listens()
             told, errors = script.communicate(given)
         finally:
@@ -98,7 +127,7 @@ def running(sim: ControlRequestor) -> Iterator[Runner]:
     try:
         yield runner
     finally:
-        runner.stop()
+        runner.stop(LIMIT_S)
     assert runner.error == ""
 
 
@@ -109,16 +138,30 @@ def remote_scene(name: str = "box_chase", **fields: Any) -> tuple[ControlRequest
     for field, value in fields.items():
         setattr(agent, field, value)
     port = free_port()
-    agent.use_brain(RemoteBrain(port=port, receive_timeout=10_000))
+    agent.use_brain(RemoteBrain(port=port, receive_timeout=LIMIT_MS))
     return sim, port, Record(agent)
+
+
+def run_in(sim: ControlRequestor, name: str, *args: object, **options: Any) -> Any:
+    """Run a script, and a world once the script listens; return what the script found."""
+    with contextlib.ExitStack() as world:
+        enter = partial(world.enter_context, running(sim))
+        return run_script(name, *args, once_it_listens=enter, **options)
 
 
 def test_a_thousand_steps_with_episodes_that_end(capsys: pytest.CaptureFixture[str]) -> None:
     sim, port, record = remote_scene(max_steps_per_episode=150)
-    agent = sim.agents[0]
-    with running(sim):
-        found = run_script("steps.py", port, 1000)
-        status = agent.brain.status() if isinstance(agent.brain, RemoteBrain) else None
+    brain = sim.agents[0].brain
+    assert isinstance(brain, RemoteBrain)
+    ignored: list[int] = []
+    """Datagrams that were no answer, at each step; a slow script answers two greetings."""
+
+    def note(agent: BasicAgent) -> None:
+        if agent.steps:
+            ignored.append(brain.status().ignored)
+
+    sim.agents[0].end_of_update_state.connect(note)
+    found = run_in(sim, "steps.py", port, 1000)
     log = found["log"]
     assert [(each["steps"], each["reward"], each["done"]) for each in log] == record.steps[:1000]
     for each, percept in zip(log, record.percepts, strict=False):
@@ -126,8 +169,9 @@ def test_a_thousand_steps_with_episodes_that_end(capsys: pytest.CaptureFixture[s
             seen = np.array(each["obs"][name], np.float32)
             assert seen.tobytes() == percept[name].tobytes()
     assert found["spaces"] == {"vision": [120], "orientation": [2], "last_action": [4]}
-    assert status is not None
-    assert (status.decisions, status.ignored, status.refused) == (1000, 0, 0)
+    status = brain.status()
+    assert (status.decisions, status.refused) == (1000, 0)
+    assert ignored[0] == ignored[-1]
     ends = sum(each["done"] for each in log)
     cuts = sum(each["truncated"] for each in log)
     assert ends >= 6
@@ -139,8 +183,7 @@ def test_a_thousand_steps_with_episodes_that_end(capsys: pytest.CaptureFixture[s
 
 def test_pause_resume_and_stop() -> None:
     sim, port, record = remote_scene()
-    with running(sim):
-        seen = run_script("pausing.py", port)
+    seen = run_in(sim, "pausing.py", port)
     assert seen == [
         [1, False, False],
         [1, True, False],
@@ -185,16 +228,9 @@ def test_two_agents_with_their_ids(ports: int) -> None:
     for agent, port in zip(
         sim.agents, listening if ports == 2 else [listening[0]] * 2, strict=True
     ):
-        agent.use_brain(RemoteBrain(port=port, receive_timeout=10_000))
+        agent.use_brain(RemoteBrain(port=port, receive_timeout=LIMIT_MS))
         records.append(Record(agent))
-    with contextlib.ExitStack() as world:
-        found = run_script(
-            "two_agents.py",
-            *listening,
-            20,
-            # what comes before AI4U has noted both ids would end its server
-            once_it_listens=lambda: world.enter_context(running(sim)),
-        )
+    found = run_in(sim, "two_agents.py", *listening, 20)
     assert found["ids"] == ["0", "1"]
     for agent_id, record in zip(found["ids"], records, strict=True):
         mine = [
@@ -208,8 +244,7 @@ def test_two_agents_with_their_ids(ports: int) -> None:
 @pytest.mark.nightly
 def test_their_training_script_learns(capsys: pytest.CaptureFixture[str]) -> None:
     sim, port, record = remote_scene(max_steps_per_episode=120)
-    with running(sim):
-        found = run_script("train.py", port, 500, trains=True)
+    found = run_in(sim, "train.py", port, 500, trains=True)
     log = [(reward, done) for reward, done in found["log"]]
     # stable-baselines3 keeps rewards as float32
     recorded = [(float(np.float32(reward)), done) for _, reward, done in record.steps[:500]]

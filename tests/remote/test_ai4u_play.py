@@ -10,11 +10,13 @@ from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.training.assigned import with_drivers
 from tests.playing import played
 from tests.remote.test_ai4u_package import free_port, run_script
+from tests.waiting import LIMIT_MS
 
 
 def test_a_served_scene_is_driven_by_a_script() -> None:
     port = free_port()
-    with played("box_chase", "--seed", "1", "--brain", f"ai4u://127.0.0.1:{port}") as server:
+    address = f"ai4u://127.0.0.1:{port}?receive_timeout={LIMIT_MS}"
+    with played("box_chase", "--seed", "1", "--brain", address) as server:
         (agent,) = server.snapshot()["agents"]
         assert agent["brain"] == f"RemoteBrain(127.0.0.1:{port})"
         assert agent["steps"] == 0  # nobody drives yet

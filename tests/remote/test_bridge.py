@@ -1,6 +1,7 @@
 """AI4U scripts at worlds elsewhere, through the bridge."""
 
 import contextlib
+import itertools
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -11,11 +12,12 @@ from ai4u_edu import ControlRequestor, RemoteBrain, Scene
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import describe_agent
-from ai4u_edu.remote import LostError, RefusedError, connect
-from ai4u_edu.remote.bridge import Bridge
+from ai4u_edu.remote import LostError, RefusedError
+from ai4u_edu.remote.bridge import KEEPALIVE_INTERVAL_S, Bridge
+from ai4u_edu.server.scripts.settings import MIN_RECEIVE_TIMEOUT_MS
 from tests.remote.bridged import OPTIONS, TOKEN, bridged, run, scene_room
 from tests.remote.faulty_proxy import Faults, FaultyProxy
-from tests.remote.rooms import log_of, log_room
+from tests.remote.rooms import connect, log_of, log_room, patient_rules, unused_address
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
 from tests.server.rooms import served
@@ -61,7 +63,7 @@ def offered(sim: ControlRequestor) -> AI4UCodec:
 
 @pytest.mark.parametrize("scene", ["box_chase", "sample_scene", "forage", "grid_world", "platform"])
 def test_a_script_is_told_of_an_agent_what_it_is_told_beside_the_world(scene: str) -> None:
-    with served(Scene.load(scene).build()) as room:
+    with served(Scene.load(scene).build(), rules=patient_rules()) as room:
         agent = room.sim.agents[0].id
         bridge = Bridge(room.url, agent, port=free_port())
         assert bridge._codec.metadata == offered(Scene.load(scene).build()).metadata
@@ -92,26 +94,27 @@ def begin(script: UDPScript) -> dict[str, Any]:
 
 def heard(script: UDPScript, expected: str) -> dict[str, Any]:
     """Return the next request. If a script's answer takes long, a bridge repeats its first."""
-    request = script.hear(LIMIT_S)
+    request = script.hear()
     while expected != "wait_command" and "wait_command" in request:
-        request = script.hear(LIMIT_S)
+        request = script.hear()
     assert expected in request, request
     return request
 
 
 def test_a_script_that_asks_for_time_gets_it() -> None:
-    with log_room(receive_timeout=300) as room, by_hand(room.url) as (script, _):
+    assert 1000 * KEEPALIVE_INTERVAL_S < MIN_RECEIVE_TIMEOUT_MS  # often enough for any world
+    with log_room() as room, by_hand(room.url) as (script, _):
         state = begin(script)
-        waits = threading.Event()
-        threading.Timer(1.2, waits.set).start()
-        while not waits.is_set():
+        brain = room.sim.agents[0].brain
+        assert isinstance(brain, RemoteBrain)
+        asked_at = set()  # when the world heard that its script wants time
+        while len(asked_at - {0.0}) < 3:
             script.say(WAIT)
             again = script.hear()
             assert again["place"].tolist() == state["place"].tolist()
+            asked_at.add(brain._link.time_asked_at)  # type: ignore[union-attr]
         script.say("log;1;7")
         assert script.hear()["steps"] == 1
-        brain = room.sim.agents[0].brain
-        assert isinstance(brain, RemoteBrain)
         assert (brain.status().missing, brain.status().decisions) == (0, 1)
         assert log_of(room)[-1] == (state["place"][0], 0, 7.0)
 
@@ -153,7 +156,7 @@ def test_the_agent_is_the_scripts_only_while_there_is_one() -> None:
 
 
 def test_a_farewell_that_was_lost_keeps_the_bridge_out_of_nothing() -> None:
-    with log_room(grace=60.0) as room:
+    with log_room() as room:
         bridge = Bridge(room.url, port=free_port())
         first, _ = bridge._connect()
         second, robot = bridge._connect()  # the world thinks that the first one is still there
@@ -166,17 +169,18 @@ def test_a_farewell_that_was_lost_keeps_the_bridge_out_of_nothing() -> None:
 
 def test_a_lost_connection_is_a_delay_and_no_more() -> None:
     with (
-        log_room(grace=10.0, receive_timeout=10_000) as room,
+        log_room() as room,
         FaultyProxy(room.url, Faults(reset=0.1), seed=3) as proxy,
         by_hand(proxy.url) as (script, _),
     ):
         begin(script)
         before = len(log_of(room))
-        for number in range(1, 31):
+        for number in itertools.count(1):
             script.say(f"log;1;{number}")
-            assert script.hear(LIMIT_S)["steps"] == number
-        assert [number for _, _, number in log_of(room)[before:]] == list(range(1, 31))
-        assert proxy.happened["reset"] >= 3
+            assert script.hear()["steps"] == number
+            if number >= 30 and proxy.happened["reset"] >= 3:
+                break
+        assert [sent for _, _, sent in log_of(room)[before:]] == list(range(1, number + 1))
 
 
 # -- what goes wrong -------------------------------------------------------------------------------
@@ -191,36 +195,51 @@ def test_a_script_that_is_not_there_yet() -> None:
 
 
 def test_a_script_that_falls_silent() -> None:
-    with log_room() as room, by_hand(room.url, patience=0.3) as (script, told):
+    with log_room() as room, udp_script() as script:
+        own = room.sim.agents[0].brain
+        told: list[str] = []
+        bridge = Bridge(room.url, port=script.port, patience=LIMIT_S, tell=told.append)
+        thread = threading.Thread(target=bridge.run, daemon=True)
+        thread.start()
         begin(script)
+        bridge._script.patience = 0.3  # from the next request on, which gets no answer
+        script.say(WAIT)
         until(lambda: any("gone" in each for each in told))
         assert told[-1] == (
             f"the AI4U script at 127.0.0.1:{script.port} is gone (no answer for 0.3 s); start it "
             "again"
         )
+        until(lambda: room.sim.agents[0].brain is own)
+        bridge.stop()
+        thread.join(LIMIT_S)
+        assert not thread.is_alive()
 
 
 def test_whoever_ends_the_bridge_waits_for_no_script() -> None:
     with log_room() as room, udp_script() as script:
-        bridge = Bridge(room.url, port=script.port, patience=600.0)
+        bridge = Bridge(room.url, port=script.port, patience=2 * LIMIT_S)
         thread = threading.Thread(target=bridge.run, daemon=True)
         thread.start()
         begin(script)  # and it does not answer what it is told
         bridge.stop()
-        assert "__stop__" in script.hear(LIMIT_S)
+        assert "__stop__" in script.hear()
         thread.join(LIMIT_S)
         assert not thread.is_alive()
 
 
 def test_no_world_is_there() -> None:
-    with pytest.raises(LostError, match="is it running, and is the address right"):
-        Bridge(f"ws://127.0.0.1:{free_port()}", port=free_port())
+    with (
+        unused_address() as address,
+        pytest.raises(LostError, match="is it running, and is the address right"),
+    ):
+        Bridge(f"ws://{address}", port=free_port())
 
 
 def test_a_world_that_ends() -> None:
     with udp_script() as script:
+        # real time: for as long the bridge tries to reach a world that has ended
         with log_room(grace=0.3) as room:
-            bridge = Bridge(room.url, port=script.port)
+            bridge = Bridge(room.url, port=script.port, patience=LIMIT_S)
             told: list[str] = []
 
             def drive() -> None:
@@ -233,7 +252,7 @@ def test_a_world_that_ends() -> None:
             thread.start()
             begin(script)
         script.say("log;1;1")
-        assert "__stop__" in script.hear(LIMIT_S)
+        assert "__stop__" in script.hear()
         script.say("halt")
         thread.join(LIMIT_S)
         assert len(told) == 1
@@ -260,7 +279,7 @@ def test_a_bad_token() -> None:
 
 def test_a_bridge_can_be_stopped_while_it_waits_for_a_world_that_stands_still() -> None:
     with log_room() as room, udp_script() as script:
-        bridge = Bridge(room.url, port=script.port, tell=lambda _: None)
+        bridge = Bridge(room.url, port=script.port, patience=LIMIT_S, tell=lambda _: None)
         thread = threading.Thread(target=bridge.run, daemon=True)
         thread.start()
         begin(script)

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.cli.main import app
 from tests.remote.bridged import TOKEN, scene_room
-from tests.remote.rooms import log_room
+from tests.remote.rooms import log_room, unused_address
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.waiting import LIMIT_S, until
 
@@ -44,7 +44,8 @@ def test_what_is_wrong_is_said_in_a_sentence() -> None:
         assert refused(room.url, "--agent", "red") == (
             "no agent has the id 'red'; known are 'a', 'b'"
         )
-    nobody = refused(f"ws://127.0.0.1:{free_port()}")
+    with unused_address() as address:
+        nobody = refused(f"ws://{address}")
     assert nobody.startswith("expected a world, got ")
     assert nobody.endswith("; is it running, and is the address right?")
     assert refused("gopher://teacher") == (

@@ -19,6 +19,7 @@ env = gym.make(
         "server_port": port,
         "waittime": 0.0,
         "buffer_size": 81920,
+        "timeout": 0,  # it waits for the world for as long as it takes
     },
 )
 obs, info = env.reset()

@@ -31,7 +31,12 @@ env = gym.make(
     "AI4UEnv-v0",
     disable_env_checker=True,
     controller_class=BasicGymController,
-    config={"server_IP": "127.0.0.1", "server_port": int(sys.argv[1]), "waittime": 0.0},
+    config={
+        "server_IP": "127.0.0.1",
+        "server_port": int(sys.argv[1]),
+        "waittime": 0.0,
+        "timeout": 0,  # it waits for the world for as long as it takes
+    },
 )
 model = SAC(MultiInputPolicy, env, learning_starts=100, seed=1)
 log = Log()

@@ -8,7 +8,11 @@ import AI4UEnv  # noqa: F401 - registers the environment
 import gymnasium as gym
 from ai4u.controllers import BasicGymController
 
-config = {"server_IP": "127.0.0.1", "port_generator": iter(map(int, sys.argv[1:3]))}
+config = {
+    "server_IP": "127.0.0.1",
+    "port_generator": iter(map(int, sys.argv[1:3])),
+    "timeout": 0,  # it waits for the world for as long as it takes
+}
 envs = [
     gym.make(
         "AI4UEnv-v0",
