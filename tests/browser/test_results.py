@@ -29,12 +29,12 @@ def win(site: ServedViser, page: Page, decisions: int) -> str:
     before = agent.episode
 
     def pay(agent: BasicAgent) -> None:
-        if agent.episode > before and agent.steps == paid_at:
+        if agent.episode == before + 1 and agent.steps == paid_at:
             agent.add_reward(100, request_done=True, name="goal")
 
-    page.keyboard.press("KeyR")
-    banner = page.locator(".ai4u-banner[data-kind=goal]")
-    expect(banner).to_have_count(0)
+    old = "document.querySelector('.ai4u-banner')?.toggleAttribute('data-old', true)"
+    page.evaluate(old)
+    banner = page.locator(".ai4u-banner[data-kind=goal]:not([data-old])")
     agent.end_of_step.connect(pay)  # in the world's thread, which alone knows the moment
     page.keyboard.press("KeyR")
     text = str(banner.locator("strong").text_content())
