@@ -21,7 +21,8 @@ from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 MEMORY = "class.json"
 """File with the id of the last assignment, and a hash of the scene that the class gave."""
 OPEN_TIMEOUT_S = 30.0
-"""Time that the world has to open a scene; a block that does not return may keep it from that."""
+"""Usual time that the world has to open a scene; a block that does not return may keep it from
+that."""
 REMEMBER_DELAY_S = 1.5
 """Time after which an assignment is remembered: the scene is on disk by then. A process that is
 killed before opens it again."""
@@ -39,6 +40,7 @@ class AssignedScenes:
         editor: of the world; None if it can't open scenes.
         folder: of the room, which exists; left out, nothing is remembered beyond this process.
         clock: seconds.
+        open_timeout: time (s) that the world has to open a scene.
     """
 
     def __init__(
@@ -47,9 +49,10 @@ class AssignedScenes:
         editor: SceneEditor | None,
         folder: Path | None,
         clock: Callable[[], float],
+        open_timeout: float = OPEN_TIMEOUT_S,
     ) -> None:
         self._runner, self._editor, self._folder = runner, editor, folder
-        self._clock = clock
+        self._clock, self._open_timeout = clock, open_timeout
         memory = _read(folder / MEMORY) if folder is not None else {}
         self._last = str(memory.get("assignment", ""))
         self._given = str(memory.get("given", ""))
@@ -85,9 +88,9 @@ class AssignedScenes:
             raise SetupError("this world can't open another scene; it was shown without one")
         scene = editor.read(source, "scene") if "\n" in source else _named(source)
         self._save_own(editor)
-        _result(editor.open(scene))
+        self._result(editor.open(scene))
         if seed is not None:
-            _result(self._runner.reset(seed))
+            self._result(self._runner.reset(seed))
         self._given = _fingerprint(scene.description)
         self._remember_at = self._clock() + REMEMBER_DELAY_S
 
@@ -100,6 +103,19 @@ class AssignedScenes:
         """Write what is to be remembered."""
         if self._remember_at is not None:
             self._remember()
+
+    def _result(self, future: "Future[Any]") -> None:
+        try:
+            future.result(self._open_timeout)
+        except TimeoutError:
+            future.cancel()
+            raise SetupError(
+                "the world does not answer: some block does not return; restart the world"
+            ) from None
+        except AI4UError:
+            raise
+        except Exception as error:  # a block's own
+            raise SetupError(f"{type(error).__name__}: {error}") from error
 
     def _save_own(self, editor: SceneEditor) -> None:
         """Save the present scene if it is neither the class's nor the library's.
@@ -159,20 +175,6 @@ def _named(name: str) -> Scene:
     if scene is None:
         raise SceneError(f"the library has no scene {name[:60]!r}; choose another one")
     return scene
-
-
-def _result(future: "Future[Any]") -> None:
-    try:
-        future.result(OPEN_TIMEOUT_S)
-    except TimeoutError:
-        future.cancel()
-        raise SetupError(
-            "the world does not answer: some block does not return; restart the world"
-        ) from None
-    except AI4UError:
-        raise
-    except Exception as error:  # a block's own
-        raise SetupError(f"{type(error).__name__}: {error}") from error
 
 
 def _is_in_library(description: SceneDescription) -> bool:

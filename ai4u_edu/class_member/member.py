@@ -14,7 +14,11 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.class_link.client import LinkClient
 from ai4u_edu.class_link.outbox import Outbox
-from ai4u_edu.class_member.assigned_scenes import AssignedScenes, scene_name_of
+from ai4u_edu.class_member.assigned_scenes import (
+    OPEN_TIMEOUT_S,
+    AssignedScenes,
+    scene_name_of,
+)
 from ai4u_edu.class_member.class_view import ClassView
 from ai4u_edu.class_member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.class_member.holds import Holds
@@ -75,6 +79,7 @@ class ClassMember:
         show_ghosts: shows the ghosts of episodes in the page, each with a name.
         page: as :attr:`ClassLinkSettings.page`, where ``link`` is a function.
         clock: seconds; to be replaced in tests.
+        open_timeout: time (s) that the world has to open a scene that the class gives.
     """
 
     def __init__(
@@ -88,6 +93,7 @@ class ClassMember:
         show_ghosts: ShowGhosts = lambda _drives: None,
         page: str = "",
         clock: Callable[[], float] = time.monotonic,
+        open_timeout: float = OPEN_TIMEOUT_S,
     ) -> None:
         self.view = ClassView(clock)
         """State of the class for pages."""
@@ -97,9 +103,16 @@ class ClassMember:
         self._inbox: deque[tuple[Assignment | Race, float]] = deque()
         self._watch = EpisodeWatch(runner, self._scene)
         self._holds = Holds(runner, clock)
-        self._scenes = AssignedScenes(runner, editor, folder, clock)
+        self._scenes = AssignedScenes(runner, editor, folder, clock, open_timeout)
         self._race = RaceRun(
-            runner, self._scenes, self._watch, self._holds, self.view, show_ghosts, clock
+            runner,
+            self._scenes,
+            self._watch,
+            self._holds,
+            self.view,
+            show_ghosts,
+            clock,
+            open_timeout,
         )
         self._room_state, self._thumbnail = RoomState(clock), Thumbnail()
         self._attention_lock = threading.Lock()

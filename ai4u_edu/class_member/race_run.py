@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, shorten
-from ai4u_edu.class_member.assigned_scenes import AssignedScenes
+from ai4u_edu.class_member.assigned_scenes import OPEN_TIMEOUT_S, AssignedScenes
 from ai4u_edu.class_member.class_view import ClassView
 from ai4u_edu.class_member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.class_member.holds import Holds
@@ -20,7 +20,6 @@ from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 ShowGhosts = Callable[[Sequence[tuple[Episode, str]]], object]
 """Shows the ghosts of episodes under their drivers' names, in place of those before."""
-PREPARE_TIMEOUT_S = 10.0
 
 
 class RaceRun:
@@ -36,6 +35,7 @@ class RaceRun:
         view: what pages show.
         show_ghosts: shows the best drives so far.
         clock: seconds.
+        open_timeout: time (s) that the world has to open the race's scene.
     """
 
     def __init__(
@@ -47,9 +47,11 @@ class RaceRun:
         view: ClassView,
         show_ghosts: ShowGhosts,
         clock: Callable[[], float],
+        open_timeout: float = OPEN_TIMEOUT_S,
     ) -> None:
         self._runner, self._scenes, self._watch, self._holds = runner, scenes, watch, holds
         self._view, self._show_ghosts, self._clock = view, show_ghosts, clock
+        self._open_timeout = open_timeout
         self._race: Race | None = None
         """The race that runs here; None for none."""
         self._track: list[Any] = []
@@ -131,7 +133,7 @@ class RaceRun:
         self._was_locked = self._runner.latest.is_seed_locked
         try:
             self._scenes.open(race.scene, race.seed)
-            self._track = self._runner.submit(self._lock).result(PREPARE_TIMEOUT_S)
+            self._track = self._runner.submit(self._lock).result(self._open_timeout)
         except (AI4UError, TimeoutError) as error:
             self._holds.for_race(-math.inf)
             return Applied(race.id, shorten(f"the race: {error}", MAX_TEXT_CHARS))

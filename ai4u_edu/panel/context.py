@@ -10,10 +10,13 @@ import msgspec
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.editing import SceneEditor
+from ai4u_edu.panel.upload import UPLOAD_IDLE_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 
+FRAME_TIMEOUT_S = 10.0
+"""Usual time that the replay of an episode has for its next decision."""
 MAX_CACHED = 200
 """Most texts that a cache holds; it is emptied then."""
 
@@ -50,11 +53,15 @@ class PanelContext:
         runner: runs the world.
         viewer: draws it.
         editor: changes it; None if it can only be watched and driven.
+        frame_timeout: time (s) that the replay of an episode has for its next decision.
+        upload_timeout: time (s) without a new part after which an unfinished file is dropped.
     """
 
     runner: Runner
     viewer: Viewer
     editor: SceneEditor | None = None
+    frame_timeout: float = FRAME_TIMEOUT_S
+    upload_timeout: float = UPLOAD_IDLE_S
     cache: PartCache = field(default_factory=PartCache)
     slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
     """Held by a page whose command does slow work in another thread."""

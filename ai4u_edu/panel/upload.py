@@ -7,13 +7,18 @@ from ai4u_edu.recording.file import MAX_FILE_BYTES
 
 MAX_PART_BYTES = 2**19
 UPLOAD_IDLE_S = 30.0
-"""Time (s) without a new part after which an unfinished file is dropped."""
+"""Usual time (s) without a new part after which an unfinished file is dropped."""
 
 
 class Upload:
-    """The parts that a page has sent so far. Belongs to the server's event loop."""
+    """The parts that a page has sent so far. Belongs to the server's event loop.
 
-    def __init__(self) -> None:
+    Args:
+        idle_timeout: time (s) without a new part after which an unfinished file is dropped.
+    """
+
+    def __init__(self, idle_timeout: float = UPLOAD_IDLE_S) -> None:
+        self._idle_timeout = idle_timeout
         self._data = bytearray()
         self._timer: asyncio.TimerHandle | None = None
 
@@ -28,7 +33,7 @@ class Upload:
             raise SetupError(f"expected a file of at most {MAX_FILE_BYTES // 2**20} MB")
         self._data += part
         self._stop_timer()
-        self._timer = asyncio.get_running_loop().call_later(UPLOAD_IDLE_S, self.drop)
+        self._timer = asyncio.get_running_loop().call_later(self._idle_timeout, self.drop)
 
     def take(self, size: int) -> bytes:
         """Return the file.

@@ -13,7 +13,7 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -46,8 +46,20 @@ class Tally:
         self.done[name] = self.done.get(name, 0) + more
 
 
-def hammer(seconds: float, scene: str, seed: int, ends_within: float = ENDS_WITHIN_S) -> Tally:
-    """Hammer a served scene, and judge how it stands afterwards."""
+def hammer(
+    seconds: float,
+    scene: str,
+    seed: int,
+    ends_within: float = ENDS_WITHIN_S,
+    at_least: Mapping[str, int] | None = None,
+) -> Tally:
+    """Hammer a served scene, and judge how it stands afterwards.
+
+    Args:
+        seconds: how long; longer if not enough was done by then.
+        at_least: counts of the tally that are enough.
+    """
+    enough = at_least or {}
     tally = Tally()
     with (
         TemporaryDirectory() as saved,
@@ -70,6 +82,9 @@ def hammer(seconds: float, scene: str, seed: int, ends_within: float = ENDS_WITH
         for thread in threads:
             thread.start()
         over.wait(seconds)
+        until(
+            lambda: tally.wrong or all(tally.done.get(each, 0) >= enough[each] for each in enough)
+        )
         over.set()
         for thread in threads[:6]:  # the pages; a script waits as long as the world is paused
             thread.join(LIMIT_S)
@@ -90,7 +105,7 @@ def use_panel(server: Played, rng: random.Random, tally: Tally, over: threading.
     """Send a panel's commands; leave and come back now and then."""
     while not over.is_set():
         with Panel(server.url) as panel:
-            over.wait(0.3)
+            over.wait(0.3)  # real time: its first answers have come, mostly; it needs none
             for _ in range(rng.randint(20, 200)):
                 if over.is_set() or not panel.is_open:
                     break
@@ -127,6 +142,7 @@ def drive_by_script(
     while not over.is_set():
         mode = rng.choice(("realtime", "lockstep"))
         try:
+            # real time: a script that is refused comes again, and so does one that is too slow
             with connect(server.url, agent="0", mode=mode, patience=2.0) as robot:  # type: ignore[arg-type]  # one of two
                 if rng.random() < 0.5:
                     robot.reset()
@@ -142,7 +158,7 @@ def drive_by_script(
                         tally.count("resets of a script")
         except RemoteError:
             tally.count("refusals to a script")
-            over.wait(0.2)
+            over.wait(0.2)  # real time: pause of a script that comes again
 
 
 def ends_at_once(process: Any, within: float = ENDS_WITHIN_S) -> list[str]:
@@ -170,10 +186,13 @@ def _goes_on(server: Played) -> list[str]:
 
         try:
             until(has_moved)
-        except TimeoutError:
+        except AssertionError:
             return [f"the world stands still: {_summary(server)}, before at {before}"]
-    is_well = server.health()["status"] == "ok" or _has_blocks_error(server)
-    return [] if is_well else [f"it is not well: {_summary(server)}"]
+    try:
+        until(lambda: server.health()["status"] == "ok" or _has_blocks_error(server))
+    except AssertionError:
+        return [f"it is not well: {_summary(server)}"]
+    return []
 
 
 def _has_blocks_error(server: Played) -> bool:
@@ -212,7 +231,7 @@ def _guarded(
             work(server, rng, tally, over)
         except GONE as error:
             tally.count(f"{work.__name__}: {error}")
-            over.wait(0.1)
+            over.wait(0.1)  # real time: pause of a page that comes again
         except Exception as error:
             tally.wrong.append(f"{work.__name__}: {error!r}")
             return

@@ -12,7 +12,7 @@ import msgspec
 import viser
 import zstandard
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 from websockets.typing import Origin, Subprotocol
 
 from tests.attacks.arguments import (
@@ -24,6 +24,7 @@ from tests.attacks.arguments import (
     show_message,
     spoilt,
 )
+from tests.server.rooms import open_socket
 from tests.waiting import LIMIT_S
 
 POINT = (0.0, 0.0, 0.0)
@@ -189,11 +190,10 @@ def unpacked(frame: bytes) -> list[Message]:
 
 
 def _opened(url: str, path: str, **options: Any) -> ClientConnection:
-    return connect(
-        url.replace("http", "ws", 1) + path,
+    return open_socket(
+        url + path,
         origin=Origin(url.rstrip("/")),
         max_size=None,
         compression=None,
-        proxy=None,
         **options,
     )

@@ -8,8 +8,9 @@ import httpx
 import pytest
 
 from tests.attacks.programs import program
+from tests.server import http_client
 from tests.server.rooms import Page
-from tests.waiting import LIMIT_S
+from tests.waiting import until
 
 COUNT = 45
 EPISODES = 4
@@ -26,9 +27,7 @@ def test_a_page_drives_on_and_the_server_ends_at_once(tmp_path: Path) -> None:
         page.receive("hello")
 
         async def attack() -> tuple[int, str]:
-            async with httpx.AsyncClient(
-                base_url=server.url, timeout=LIMIT_S, limits=MANY
-            ) as client:
+            async with http_client.AsyncClient(base_url=server.url, limits=MANY) as client:
                 wanted = [
                     f"api/past/{1 + number % EPISODES}.{ENDINGS[number % len(ENDINGS)]}"
                     for number in range(COUNT)
@@ -57,13 +56,12 @@ MANY = httpx.Limits(max_connections=COUNT)
 
 
 def _drive(url: str, page: Page) -> None:
-    before = httpx.get(url + "api/snapshot").json()["tick"]
-    held: list[str] = []
-    while held != ["KeyW"]:
-        page.hold("KeyW")
-        held = page.receive("state")["held"]
+    before = http_client.get(url + "api/snapshot").json()["tick"]
+    page.send("let_go")
+    page.receive("state", held=[])
+    page.hold("KeyW")
+    page.receive("state", held=["KeyW"])
     for _ in range(5):
-        assert httpx.get(url + "healthz").json()["status"] == "ok"
-    assert httpx.get(url).status_code == 200
-    while httpx.get(url + "api/snapshot").json()["tick"] <= before:
-        pass
+        assert http_client.get(url + "healthz").json()["status"] == "ok"
+    assert http_client.get(url).status_code == 200
+    until(lambda: http_client.get(url + "api/snapshot").json()["tick"] > before)

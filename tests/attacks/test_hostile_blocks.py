@@ -32,7 +32,7 @@ def runner(hook: str) -> Iterator[Runner]:
     runner.start()
     yield runner
     Misdeed.is_armed = False
-    runner.stop()
+    runner.stop(LIMIT_S)
 
 
 @pytest.mark.parametrize(
@@ -105,6 +105,7 @@ def test_a_replay_and_a_download_end_with_a_sentence(
     playing = threading.Thread(target=play)
     playing.start()
     playing.join(LIMIT_S)
+    assert not playing.is_alive()
     assert "Hostile" in str(told)
 
     def make(*_: object) -> bytes:
@@ -115,6 +116,6 @@ def test_a_replay_and_a_download_end_with_a_sentence(
         files = Exports(make)
         for _ in range(2):  # the first one takes nothing from the second one
             with pytest.raises((AI4UError, ZeroDivisionError)):
-                await asyncio.wait_for(files.get(episode, "gif"), 10)
+                await asyncio.wait_for(files.get(episode, "gif"), LIMIT_S)
 
     asyncio.run(download())

@@ -141,7 +141,7 @@ def test_junk_and_floods_end_their_connection_alone(
     room: Room, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     monkeypatch.setattr(page_receiver, "MAX_MISTAKES", 5)
-    monkeypatch.setattr(input_socket, "MAX_MESSAGES_PER_S", 200)
+    monkeypatch.setattr(input_socket, "MAX_MESSAGES_PER_S", 2)  # a busy machine sends few
     with opened(room) as other:
         for message in ("junk", '{"type": "take"}', '{"type": "let_go"}', b"\xff"):
             with opened(room) as page:

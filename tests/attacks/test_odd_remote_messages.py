@@ -26,7 +26,7 @@ from ai4u_edu.wire.validation import WireError
 from tests.fuzz.messages import KINDS, example
 from tests.remote.rooms import SECRET, Script, log_of, log_room
 from tests.server.rooms import Room
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 MAX_SENTENCE_CHARS = 1000
 
@@ -291,7 +291,7 @@ def test_a_world_refuses_an_odd_hello_and_hears_the_next_one(
 WELCOME = native.Welcome(
     version=native.VERSION,
     session="7",
-    grace=3.0,
+    grace=LIMIT_S,
     agent="a",
     mode="lockstep",
     title="A room",
@@ -320,7 +320,7 @@ class World:
     """The other end of a dialogue: says the frames that it is given, one at each question."""
 
     def __init__(self) -> None:
-        self.dialogue = Dialogue("a", patience=2.0)  # none of it is waited for
+        self.dialogue = Dialogue("a", patience=LIMIT_S)  # none of it is waited for
         self.frames: list[bytes] = []
 
     def run(self, flow: Any) -> Any:

@@ -21,9 +21,11 @@ from ai4u_edu.wire.class_link import (
     decode_from_room,
     encode_from_room,
 )
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 M = TypeVar("M")
+ASKED_PER_POLL = 2
+"""How often a member asks its link whether it is connected."""
 
 
 class FakeLink:
@@ -33,8 +35,19 @@ class FakeLink:
         self.receive = receive
         self.sent: list[FromRoom] = []
         self.results: list[Result] = []
-        self.is_connected = True
+        self._is_connected = True
+        self.asked = 0
+        """How often the member has asked whether there is a link: a few times in each poll."""
         self.is_stopped = False
+
+    @property
+    def is_connected(self) -> bool:
+        self.asked += 1
+        return self._is_connected
+
+    @is_connected.setter
+    def is_connected(self, is_connected: bool) -> None:
+        self._is_connected = is_connected
 
     def start(self) -> None:
         pass
@@ -70,6 +83,11 @@ class Joined:
         for message in messages:
             self.link.receive(message)
 
+    def poll(self) -> None:
+        """Wait until the member has polled once from its beginning to its end."""
+        polls, asked = 2, self.link.asked
+        until(lambda: self.link.asked > asked + polls * ASKED_PER_POLL)
+
     def next(self, kind: type[M], condition: Callable[[M], bool] = lambda _: True) -> M:
         """Wait for a message of a kind that meets a condition; return the first one."""
         found: list[M] = []
@@ -87,7 +105,7 @@ class Joined:
             State, lambda state: all(getattr(state, name) == wanted[name] for name in wanted)
         )
 
-    def result(self, number: int = 0) -> EpisodeResult:
+    def episode_result(self, number: int = 0) -> EpisodeResult:
         until(lambda: len(self.link.of(EpisodeResult)) > number)
         return self.link.of(EpisodeResult)[number]
 
@@ -129,6 +147,7 @@ def joined(
         folder,
         show_ghosts=ghosts.append,
         clock=clock,
+        open_timeout=LIMIT_S,
     )
     assert isinstance(member.link, FakeLink)
     runner.start()
@@ -137,5 +156,5 @@ def joined(
         yield Joined(runner, editor, member, member.link, clock, ghosts)
     finally:
         member.stop()
-        runner.stop()
+        runner.stop(LIMIT_S)
     assert member.link.is_stopped

@@ -172,4 +172,4 @@ def test_a_world_without_an_editor_says_that_it_opens_no_scene() -> None:
     assert "can't open another scene" in link.of(Applied)[0].problem
     until(lambda: runner.recorder is not None)
     member.stop()
-    runner.stop()
+    runner.stop(LIMIT_S)

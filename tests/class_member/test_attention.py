@@ -28,6 +28,7 @@ def stands_still(room: Joined) -> bool:
 def test_pause_and_blank_hold_until_the_teacher_ends_them() -> None:
     with joined() as room:
         for kind in ("pause", "blank"):
+            room.link.sent.clear()
             room.tell(Attention(kind, "Look here", 0.0))
             until(lambda: is_held(room))
             assert stands_still(room)
@@ -59,6 +60,7 @@ def test_it_holds_without_a_link_and_ends_at_its_time() -> None:
         until(lambda: is_held(room))
         room.link.is_connected = False
         room.clock.now += 59
+        room.poll()
         assert stands_still(room)
         room.editor.open(Scene.load("maze")).result(LIMIT_S)  # another world is held too
         assert stands_still(room)
@@ -92,6 +94,7 @@ def test_a_class_that_never_comes_back_does_not_hold_a_world_for_ever() -> None:
         until(lambda: is_held(room))
         room.link.is_connected = False
         room.clock.now += MAX_UNLINKED_HOLD_S
+        room.poll()
         assert stands_still(room)
         room.clock.now += 1
         until(lambda: not is_held(room))

@@ -68,7 +68,7 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         until(lambda: room.runner.latest.tick > 0)  # without a key: all start at once
 
         drive_to_the_box(room)
-        result = room.result()
+        result = room.episode_result()
         assert (result.outcome, result.race, result.seed) == ("goal", "r1", 11)
         episode = decode(Episode, result.episode, "race")
         assert Replay(episode).verdict.exact
@@ -78,11 +78,11 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         # another try: the same start again, also with a key that draws another one
         room.runner.new_start()
         until(lambda: room.runner.latest.seed == 11 and len(room.link.of(EpisodeResult)) > 1)
-        assert room.result(1).race == "r1"
-        assert own_best(room) == round(min(result.seconds, room.result(1).seconds), 2)
+        assert room.episode_result(1).race == "r1"
+        assert own_best(room) == round(min(result.seconds, room.episode_result(1).seconds), 2)
 
         row = RaceRow("Red Fox", "#d55e00", "goal", 1.5, "x")
-        best = (result.episode, room.result(1).episode)
+        best = (result.episode, room.episode_result(1).episode)
         room.tell(race("running", board=(row,), ghosts=best))
         until(lambda: room.ghosts)
         ghosts = [(encode(ghost), name) for ghost, name in room.ghosts[-1]]
@@ -91,7 +91,7 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         room.tell(race("over", board=(row,)))
         until(lambda: not room.runner.latest.is_seed_locked)
         until(lambda: not room.ghosts[-1])
-        assert own_best(room) == round(min(result.seconds, room.result(1).seconds), 2)
+        assert own_best(room) == round(min(result.seconds, room.episode_result(1).seconds), 2)
         room.tell(Race("", "over", 0.0, "", 0, ()))
         until(lambda: (room.member.view.event("student", 0) or {})["race"] is None)
 
@@ -105,7 +105,7 @@ def test_what_counts_in_a_race_is_an_untouched_episode_of_its_scene_and_seed() -
             room.clock.now += MIN_RESULT_INTERVAL_S
             agent = room.runner.sim.agents[0]
             room.runner.submit(lambda: agent.add_reward(0.0, request_done=True)).result(LIMIT_S)
-            return room.result(count)
+            return room.episode_result(count)
 
         assert fall().race == "r1"
         assert own_best(room) is None  # it did not reach the goal
@@ -141,7 +141,7 @@ def test_a_race_that_can_not_be_opened_is_answered() -> None:
 def test_a_ghost_that_can_not_be_read_stops_nothing() -> None:
     with joined() as room:
         room.tell(race("running", ghosts=(b"no episode",)))
-        until(lambda: room.runner.latest.seed == 11)
+        until(lambda: room.runner.latest.seed == 11 and room.runner.latest.is_seed_locked)
         room.tell(Race("", "over", 0.0, "", 0, ()))
         until(lambda: not room.runner.latest.is_seed_locked)
         assert not any(room.ghosts)

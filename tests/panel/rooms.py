@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import Any, Self
+from unittest.mock import patch
 
 import viser
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
@@ -17,12 +17,14 @@ from ai4u_edu import Scene
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.panel import PanelSockets
 from ai4u_edu.recording import Recorder
+from ai4u_edu.runtime import tick_monitor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.viewer_client import ViewerClient
 from tests.load.clients import CAMERA
-from tests.waiting import Deadline, until
+from tests.server.rooms import PATIENT, open_socket
+from tests.waiting import LIMIT_S, Deadline, until
 
 Message = dict[str, Any]
 
@@ -53,17 +55,25 @@ def panel_room(scene: str = "box_chase", *, can_edit: bool = True) -> Iterator[P
         runner,
         viser_port=viewer.port,
         title=lambda: editor.title,
-        panel=PanelSockets(runner, viewer, editor if can_edit else None),
+        panel=PanelSockets(
+            runner,
+            viewer,
+            editor if can_edit else None,
+            frame_timeout=LIMIT_S,
+            upload_timeout=LIMIT_S,
+        ),
+        timeouts=PATIENT,
     )
     runner.paused = True
-    runner.start()
-    viewer.start()
-    try:
-        with ServerThread(app) as server:
-            yield PanelRoom(runner, viewer, editor, server.url)
-    finally:
-        viewer.stop()
-        runner.stop()
+    with patch.object(tick_monitor, "STALL_S", LIMIT_S):  # else a page is told of it
+        runner.start()
+        viewer.start()
+        try:
+            with ServerThread(app, timeouts=PATIENT) as server:
+                yield PanelRoom(runner, viewer, editor, server.url)
+        finally:
+            viewer.stop()
+            runner.stop(LIMIT_S)
 
 
 class PanelPage:
@@ -71,7 +81,7 @@ class PanelPage:
 
     def __init__(self, url: str, **options: Any) -> None:
         options.setdefault("max_size", None)
-        self.socket = connect(url.replace("http", "ws", 1), proxy=None, **options)
+        self.socket = open_socket(url, **options)
         self.parts: dict[str, Message] = {}
         self.others: list[Message] = []
         self._id = 0
@@ -144,9 +154,9 @@ class PanelPage:
 @contextmanager
 def picture(room: PanelRoom, page_id: str) -> Iterator[ViewerClient]:
     """Open viser's socket of a page through the proxy, as its picture does."""
-    address = room.url.replace("http", "ws", 1) + f"?page={page_id}"
+    address = f"{room.url}?page={page_id}"
     protocol = Subprotocol(f"viser-v{viser.__version__}")
-    with connect(address, subprotocols=[protocol], max_size=None, proxy=None) as connection:
+    with open_socket(address, subprotocols=[protocol], max_size=None) as connection:
         connection.send(CAMERA)
         until(lambda: room.viewer.viewer_clients.find(page_id))
         client = room.viewer.viewer_clients.find(page_id)

@@ -1,7 +1,7 @@
 """The things in the world and the scene itself, changed through the panel's socket."""
 
+import math
 import re
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from uuid import uuid4
@@ -144,7 +144,7 @@ def test_a_scene_is_saved_and_replaced(page: PanelPage, room: PanelRoom, tmp_pat
 
 def test_an_unsaved_scene_is_restored(page: PanelPage, room: PanelRoom, tmp_path: Path) -> None:
     text = Scene.load("maze").dumps()
-    left = Unsaved(tmp_path / "x.unsaved", text, None, time.time(), "maze")
+    left = Unsaved(tmp_path / "x.unsaved", text, None, 1e9, "maze")
     room.editor.recovery.unsaved = left
     assert page.part("world", lambda m: m["unsaved"])["unsaved"]["name"] == "maze"
     assert page.done("restore")["text"] == "Restored Maze."
@@ -155,7 +155,7 @@ def test_an_unsaved_scene_is_restored(page: PanelPage, room: PanelRoom, tmp_path
 def test_nudges_of_one_thing_are_undone_together(
     page: PanelPage, room: PanelRoom, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.editing.history.MERGE_S", 60.0)
+    monkeypatch.setattr("ai4u_edu.editing.history.MERGE_S", math.inf)
     before = room.runner.latest.bodies
     for _ in range(3):
         page.done("nudge", name="box", dx=0.25, dy=0)

@@ -271,6 +271,8 @@ def raw_answer(url: str, *lines: str) -> tuple[int, str]:
     with raw_request(url, *lines) as connection:
         answer = b""
         while b"\r\n\r\n" not in answer:
-            answer += connection.recv(65536)
+            part = connection.recv(65536)
+            assert part, f"the connection was closed after {answer!r}"
+            answer += part
         head, _, body = answer.partition(b"\r\n\r\n")
         return int(head.split()[1]), body.decode(errors="replace")

@@ -1,6 +1,7 @@
 """Taking an agent over from a network or a script, and giving it back."""
 
 import contextlib
+import math
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -266,6 +267,7 @@ def test_a_brain_is_made_that_fits_the_body(actuator: Actuator, actions: set[str
     if actions:
         agent.use_brain(override.brain)
         codes = next(iter(found.values()))
+        agent.keyboard.timeout_s = math.inf
         agent.keyboard.hold(codes[:1])
         sim.step()
         assert any(next(iter(agent.last_action.values())))

@@ -1,5 +1,6 @@
 """The keys on the screen, in every scene: each does something, and all that can be done has one."""
 
+import math
 from functools import cache
 
 import pytest
@@ -32,6 +33,7 @@ def driven(scene: str, agent_id: str) -> tuple[ControlRequestor, BasicAgent]:
     sim = Scene.load(scene).build()
     sim.reset(1)
     agent = sim.agent(agent_id)
+    agent.keyboard.timeout_s = math.inf
     brain = HumanOverride(Runner(sim, seed=1), agent).brain
     if brain is not agent.brain:
         agent.use_brain(brain)

@@ -1,5 +1,6 @@
 """Messages to the page about the end of an episode are true."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -82,6 +83,7 @@ def test_who_is_caught_has_lost_while_the_others_play_on() -> None:
 def test_a_runner_that_is_caught_did_not_fall() -> None:
     sim = sim_of("tag")
     chaser, runner = sim.agent("chaser"), sim.agent("runner_1")
+    chaser.keyboard.timeout_s = math.inf
     x, y = chaser.body.position
     sim.world["runner 1"].move_to(x + 1.0, y)
     for _ in range(60):

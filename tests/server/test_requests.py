@@ -115,7 +115,9 @@ def test_a_connection_is_kept_for_the_next_request(room: Room) -> None:
             connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")
             answer = b""
             while not answer.endswith(b"}"):
-                answer += connection.recv(65536)
+                part = connection.recv(65536)
+                assert part, answer
+                answer += part
             assert answer.startswith(b"HTTP/1.1 200 OK\r\n")
 
 

@@ -28,8 +28,6 @@ NOT_COMPARED = ("recording:", "ai4u://", "Keyboard: ")
 """Beginnings of the names and titles of drivers that are no policies."""
 CHECKPOINT = re.compile(r"checkpoint-(\d+)\.onnx$")
 """A network of a training's check, with the number of decisions that it learned from."""
-FRAME_TIMEOUT_S = 10.0
-"""Time that the replay of an episode has for its next decision."""
 MAX_POINTS = 300
 """Most points of the curve of distances."""
 
@@ -60,7 +58,7 @@ async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
             _policy(editor, agent_id, name) if name else policy(agent_id)
             for name in (command.first, command.second)
         )
-        return compare(first, second, _states(frame_cache, agent_id))
+        return compare(first, second, _states(frame_cache, agent_id, page.context.frame_timeout))
 
     return Answer(more=_plain(await page.in_thread(compared)))
 
@@ -72,7 +70,7 @@ def _policy(editor: SceneEditor, agent_id: str, driver: str) -> Policy:
     return Policy(brain)
 
 
-def _states(frame_cache: FrameCache, agent_id: str) -> list[AgentState]:
+def _states(frame_cache: FrameCache, agent_id: str, timeout: float) -> list[AgentState]:
     """Return the states of an agent at the decisions of an episode.
 
     Raises:
@@ -87,7 +85,7 @@ def _states(frame_cache: FrameCache, agent_id: str) -> list[AgentState]:
     for step in range(len(frame_cache.record)):
         if step > frame_cache.last:
             break  # from there on it can't be replayed exactly
-        snapshot = frame_cache.snapshot(step, timeout=FRAME_TIMEOUT_S)
+        snapshot = frame_cache.snapshot(step, timeout=timeout)
         if snapshot is None:
             raise SetupError(frame_cache.problem or "the episode takes too long to replay")
         found.append(next(agent for agent in snapshot.agents if agent.id == agent_id))
