@@ -20,6 +20,8 @@ from ai4u_edu.lessons.exercise import EXERCISES, find
 from tests.lessons.verdicts import PAGE, beginning, is_as_wanted
 from tests.lessons.workbook import SLOW, handed_in, tried
 
+pytestmark = pytest.mark.needs("lessons", "train")
+
 ALL = exercise_ids()
 IDS = [each for each in ALL if not is_ticket(each)]
 """Exercises with code to write; all choices of the others are tried in test_exit_tickets.py."""

@@ -21,6 +21,8 @@ from tests.panel.rooms import PanelPage
 from tests.server.rooms import raw_answer
 from tests.waiting import LIMIT_S, until
 
+pytestmark = pytest.mark.needs("lessons")
+
 
 @pytest.fixture(autouse=True)
 def ended() -> Iterator[None]:

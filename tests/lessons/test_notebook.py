@@ -8,6 +8,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import Lesson, is_ticket, lessons
 from ai4u_edu.lessons.notebook import cells_of, dumps
 
+pytestmark = pytest.mark.needs("dev")
+
 EACH = pytest.mark.parametrize("lesson", lessons(), ids=[each.number for each in lessons()])
 
 

@@ -12,6 +12,8 @@ from ai4u_edu.base.colors import PALETTE, rgb
 from ai4u_edu.lessons import bars, plot, plots
 from ai4u_edu.lessons.student_errors import mistake_in
 
+pytestmark = pytest.mark.needs("lessons")
+
 
 @pytest.fixture
 def drawn(monkeypatch: pytest.MonkeyPatch) -> list[bytes]:

@@ -13,6 +13,8 @@ from ai4u_edu.lessons.course import lesson, lessons
 from tests.lessons.kernel import executed
 from tests.lessons.workbook import solution_of
 
+pytestmark = pytest.mark.needs("lessons", "train")
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 ALL = [each.number for each in lessons()]
 IN_KERNEL = ["00"]

@@ -22,6 +22,8 @@ from tests.class_link.tiny_class import TinyClass
 from tests.lessons.class_with_a_seat import class_with_a_seat
 from tests.waiting import until
 
+pytestmark = pytest.mark.needs("train")
+
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:

@@ -38,6 +38,8 @@ from tests.remote import ai4u_venv
 from tests.waiting import LIMIT_MS, LIMIT_S
 from tests.wire.test_ai4u import EVERY_KIND
 
+pytestmark = pytest.mark.slow
+
 SCRIPTS = Path(__file__).with_name("ai4u_scripts")
 
 

@@ -12,6 +12,8 @@ from tests.playing import played
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.waiting import LIMIT_MS
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_served_scene_is_driven_by_a_script() -> None:
     port = free_port()

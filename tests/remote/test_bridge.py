@@ -23,6 +23,8 @@ from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
 from tests.server.rooms import served
 from tests.waiting import LIMIT_S, until
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_unmodified_client_sees_what_the_world_recorded_whatever_the_network_does() -> None:
     faults = Faults(

@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 
+import pytest
 from typer.testing import CliRunner
 
 from ai4u_edu.base.errors import AI4UError
@@ -12,6 +13,8 @@ from tests.remote.bridged import TOKEN, scene_room
 from tests.remote.rooms import log_room, unused_address
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.waiting import LIMIT_S, until
+
+pytestmark = pytest.mark.slow
 
 TAKE_IT = "take the whole address that its terminal shows, as in connect('http://teacher:8080/"
 

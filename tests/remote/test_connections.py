@@ -18,6 +18,8 @@ from ai4u_edu.remote.steps import ConnectionLostError
 from tests.remote.bare_servers import Client, Kind, client, loss_of, raw_server, serving
 from tests.waiting import LIMIT_S, until
 
+pytestmark = pytest.mark.slow
+
 KINDS = pytest.mark.parametrize("kind", ["sync", "async"])
 
 

@@ -5,6 +5,8 @@ import pytest
 from tests.remote.faults import run
 from tests.remote.faulty_proxy import Faults
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(
     "faults",

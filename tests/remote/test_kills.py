@@ -1,6 +1,10 @@
 """A short slice of ``python -m tests.remote.kills``."""
 
+import pytest
+
 from tests.remote.kills import run
+
+pytestmark = pytest.mark.slow
 
 
 def test_a_killed_script_leaves_nothing_behind() -> None:

@@ -1,5 +1,7 @@
 """A script that comes from elsewhere, with the world's token and without."""
 
+from typing import Any
+
 import httpx
 import pytest
 
@@ -11,6 +13,14 @@ from tests.remote.second_host import (
     script,
     second_host,
 )
+from tests.waiting import LIMIT_S
+
+
+def get(url: str, **options: Any) -> httpx.Response:
+    return httpx.get(url, timeout=LIMIT_S, **options)
+
+
+pytestmark = pytest.mark.slow
 
 
 def test_from_another_address_with_the_token_and_without() -> None:
@@ -19,12 +29,12 @@ def test_from_another_address_with_the_token_and_without() -> None:
         assert script(f"{there}?token={token}").startswith("drove to step ")
         assert script(there) == REFUSED
         assert script(f"{there}?token=guess") == REFUSED.replace("got none", "got another one")
-        refused = httpx.get(there + "api/snapshot")
+        refused = get(there + "api/snapshot")
         assert refused.status_code == 401
         assert refused.text.startswith("token: expected this world's token, got none; open the")
-        assert httpx.get(there + "api/snapshot", params={"token": token}).status_code == 200
+        assert get(there + "api/snapshot", params={"token": token}).status_code == 200
         assert any("Other machines can reach it." in line for line in server.told)
-        foreign = httpx.get(there, headers={"Host": "evil.example"}, params={"token": token})
+        foreign = get(there, headers={"Host": "evil.example"}, params={"token": token})
         assert foreign.status_code == 403
 
 
