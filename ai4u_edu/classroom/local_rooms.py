@@ -5,7 +5,7 @@ import multiprocessing
 import secrets
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
@@ -28,9 +28,8 @@ from ai4u_edu.classroom.room_process import (
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
 from ai4u_edu.server.token_auth import is_same_secret
 
-START_TIMEOUT_S = 60.0
-END_TIMEOUT_S = 5.0
-POLL_S = 0.02
+KILL_TIMEOUT_S = 60.0
+"""Time in which the system removes a process that was killed; a busy machine takes seconds."""
 FIRST_BACKOFF_S = 1.0
 MAX_BACKOFF_S = 30.0
 LONG_LIFE_S = 60.0
@@ -72,6 +71,7 @@ class LocalRooms:
         blocks: Python files with the teacher's blocks, which every room loads.
         limits: of each process.
         are_shared: True if several students may be in a room.
+        clock: returns seconds; to be replaced in tests.
     """
 
     def __init__(
@@ -81,8 +81,9 @@ class LocalRooms:
         limits: RoomLimits | None = None,
         *,
         are_shared: bool = False,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._are_shared = are_shared
+        self._are_shared, self._clock = are_shared, clock
         self._limits = limits or RoomLimits()
         self._watching: asyncio.Task[None] | None = None
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
@@ -104,15 +105,15 @@ class LocalRooms:
             RoomError: it does not start, or ended early several times and waits.
         """
         slot = self._slots.setdefault(room, _Slot())
-        slot.used_at = time.monotonic()
+        slot.used_at = self._clock()
         if self._watching is None:
             self._watching = asyncio.create_task(self._watch())
         async with slot.lock:  # two pages that come at once wait for one process
             if slot.running is not None and slot.running.process.is_alive():
                 return slot.running.address
             if slot.running is not None:
-                _note_end(slot, slot.running)
-            if time.monotonic() < slot.retry_at:
+                self._note_end(slot, slot.running)
+            if self._clock() < slot.retry_at:
                 raise RoomError(slot.reason or "Your world ended. It starts again in a moment.")
             slot.running = await asyncio.to_thread(self._start, room, scene)
             slot.reason = ""
@@ -127,7 +128,7 @@ class LocalRooms:
             yield
         finally:
             slot.users -= 1
-            slot.used_at = time.monotonic()
+            slot.used_at = self._clock()
 
     def room_of(self, secret: str) -> str:
         """Return the room whose secret this is, also while it starts; empty if it is no room's."""
@@ -153,7 +154,7 @@ class LocalRooms:
         async with slot.lock:
             running, slot.running = slot.running, None
             if running is not None:
-                await asyncio.to_thread(_end, running)
+                await asyncio.to_thread(self._end, running)
 
     def close(self) -> None:
         """End all processes, when the class's event loop has ended."""
@@ -161,7 +162,7 @@ class LocalRooms:
         for each in running:  # all of them save at the same time
             each.connection.close()
         for each in running:
-            _end(each)
+            self._end(each)
 
     async def _watch(self) -> None:
         """End processes that nobody uses, and those that break a limit, until the loop ends."""
@@ -180,7 +181,7 @@ class LocalRooms:
     async def _check(
         self, room: str, slot: _Slot, running: _Running, client: httpx.AsyncClient
     ) -> None:
-        idle_s = time.monotonic() - slot.used_at
+        idle_s = self._clock() - slot.used_at
         if slot.users == 0 and 0 < self._limits.sleep_after_s < idle_s:
             await self.end(room)
             return
@@ -210,34 +211,33 @@ class LocalRooms:
             theirs.close()
         answer: object = None
         try:
-            if ours.poll(START_TIMEOUT_S):
+            if ours.poll(self._limits.start_timeout_s):
                 answer = ours.recv()
         except EOFError:  # it has ended
             pass
         if isinstance(answer, RoomReady):
             address = RoomAddress(HOST, answer.port, token, answer.viser_port)
-            watch = RoomWatch(process.pid, self._limits)
-            return _Running(process, ours, address, time.monotonic(), watch)
+            watch = RoomWatch(process.pid, self._limits, self._clock)
+            return _Running(process, ours, address, self._clock(), watch)
         ours.close()
         process.kill()
         reason = answer.reason if isinstance(answer, RoomFailed) else "its process did not start"
         raise RoomError(f"Your world can't be opened: {shorten(reason, 300)}")
 
+    def _note_end(self, slot: _Slot, ended: _Running) -> None:
+        """Note that a process ended by itself; the more often early, the longer the next waits."""
+        now = self._clock()
+        if now - ended.since > LONG_LIFE_S:
+            slot.backoff_s = 0.0
+        else:
+            slot.backoff_s = min(MAX_BACKOFF_S, 2 * slot.backoff_s or FIRST_BACKOFF_S)
+        slot.retry_at = now + slot.backoff_s * (slot.backoff_s > FIRST_BACKOFF_S)
+        ended.connection.close()
+        slot.running = None
 
-def _note_end(slot: _Slot, ended: _Running) -> None:
-    """Note that a process ended by itself; the more often early, the longer the next one waits."""
-    if time.monotonic() - ended.since > LONG_LIFE_S:
-        slot.backoff_s = 0.0
-    else:
-        slot.backoff_s = min(MAX_BACKOFF_S, 2 * slot.backoff_s or FIRST_BACKOFF_S)
-    slot.retry_at = time.monotonic() + slot.backoff_s * (slot.backoff_s > FIRST_BACKOFF_S)
-    ended.connection.close()
-    slot.running = None
-
-
-def _end(running: _Running) -> None:
-    running.connection.close()
-    running.process.join(END_TIMEOUT_S)
-    if running.process.is_alive():
-        running.process.kill()
-        running.process.join(END_TIMEOUT_S)
+    def _end(self, running: _Running) -> None:
+        running.connection.close()
+        running.process.join(self._limits.end_timeout_s)
+        if running.process.is_alive():
+            running.process.kill()
+            running.process.join(KILL_TIMEOUT_S)

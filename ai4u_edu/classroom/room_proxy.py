@@ -38,6 +38,10 @@ _OURS = {
     *(ROLE_HEADER, SEAT_HEADER, SCRIPT_KEY_HEADER.lower()),
 }
 _WEBSOCKET = "sec-websocket-"
+OPEN_TIMEOUT_S = 10.0
+"""Time in which a room has to accept a page's socket."""
+ANSWER_TIMEOUT_S = 30.0
+"""Time for a room's answer to a request, or for its next part."""
 NORMAL = 1000
 NOT_ALLOWED = 1008
 """Code of a close: this seat may not enter."""
@@ -80,7 +84,7 @@ class RoomProxy:
         self._page_cookies = frozenset(page_cookies)
         self._links: dict[int, set[_Link]] = {}
         self._client = httpx.AsyncClient(
-            limits=httpx.Limits(max_connections=None), timeout=30, trust_env=False
+            limits=httpx.Limits(max_connections=None), timeout=ANSWER_TIMEOUT_S, trust_env=False
         )
 
     def end(self, seat: int, reason: str) -> None:
@@ -149,7 +153,7 @@ class RoomProxy:
             await self.websocket(room, seat, scope, receive, send)
             return
         page, key = WebSocket(scope, receive, send), self._script_key(seat)
-        connecting = connect_viser(scope, room.viser_port, room.token, key)
+        connecting = connect_viser(scope, room.viser_port, room.token, key, OPEN_TIMEOUT_S)
         await self._serve(page, seat, connecting, pass_up)
 
     async def _connect(self, room: RoomAddress, seat: int, page: WebSocket) -> ClientConnection:
@@ -166,6 +170,7 @@ class RoomProxy:
             user_agent_header=None,
             compression=None,
             max_size=None,
+            open_timeout=OPEN_TIMEOUT_S,
             max_queue=1,  # what a slow page does not take waits in the room
             ping_interval=None,
             proxy=None,

@@ -3,6 +3,7 @@
 import os
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -35,6 +36,10 @@ class RoomLimits:
     """Interval between two checks."""
     ask_s: float = 8.0
     """Interval between two requests for a sign of life, while the room is in use."""
+    start_timeout_s: float = 60.0
+    """Time in which the process has to serve its room."""
+    end_timeout_s: float = 5.0
+    """Time in which the process saves what was made, and ends; then it is killed."""
 
 
 class RoomWatch:
@@ -43,11 +48,14 @@ class RoomWatch:
     Args:
         pid: of the process.
         limits: to hold it to.
+        clock: returns seconds; to be replaced in tests.
     """
 
-    def __init__(self, pid: int, limits: RoomLimits) -> None:
-        self._process, self._limits = psutil.Process(pid), limits
-        self._asked_at = 0.0
+    def __init__(
+        self, pid: int, limits: RoomLimits, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._process, self._limits, self._clock = psutil.Process(pid), limits, clock
+        self._asked_at = -limits.ask_s
         self._unanswered_since: float | None = None
         self._is_busy = False
         with suppress(psutil.Error):
@@ -71,7 +79,7 @@ class RoomWatch:
                 "scene; make that smaller."
             )
         since = self._unanswered_since
-        if since is not None and time.monotonic() - since > self._limits.answer_timeout_s:
+        if since is not None and self._clock() - since > self._limits.answer_timeout_s:
             return "Your world did not answer any more. It starts again with its last scene."
         if (share > BUSY_SHARE) != self._is_busy:
             self._is_busy = not self._is_busy
@@ -80,7 +88,7 @@ class RoomWatch:
 
     async def ask(self, client: httpx.AsyncClient, url: str, address: RoomAddress) -> None:
         """Ask the process for a sign of life, if that is due."""
-        now = time.monotonic()
+        now = self._clock()
         if now - self._asked_at < self._limits.ask_s:
             return
         self._asked_at = now
@@ -96,11 +104,19 @@ class RoomWatch:
         with suppress(psutil.Error, OSError):
             if sys.platform == "win32":
                 self._process.nice(_windows_class(niceness))
-            elif sys.platform == "linux":  # each thread has a priority of its own
-                for thread in self._process.threads():
-                    os.setpriority(os.PRIO_PROCESS, thread.id, niceness)
+            elif sys.platform == "linux":
+                self._set_niceness_of_threads(niceness)
             else:
                 self._process.nice(niceness)
+
+    def _set_niceness_of_threads(self, niceness: int) -> None:
+        """Set it for each thread, since each has its own; a new one takes its maker's."""
+        done: set[int] = set()
+        while found := {each.id for each in self._process.threads()} - done:
+            for thread in found:
+                with suppress(ProcessLookupError):  # it has ended
+                    os.setpriority(os.PRIO_PROCESS, thread, niceness)
+            done |= found
 
 
 def _windows_class(niceness: int) -> int:

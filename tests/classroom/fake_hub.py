@@ -2,12 +2,11 @@
 
 import contextlib
 import json
-import os
 import re
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -17,7 +16,9 @@ from urllib.parse import parse_qs
 import httpx
 
 from ai4u_edu.classroom.hub.sign_in import COOKIE
-from tests.server.rooms import free_port
+from tests.classroom.reserved_port import reserved_port
+from tests.classroom.served_class import MODULE, environment
+from tests.server import http_client
 from tests.waiting import LIMIT_S
 
 NAME = "ai4u-class"
@@ -68,7 +69,7 @@ class HubClass:
     def client(self, token: str = "") -> httpx.Client:
         """Return a browser; with a token, one that has signed in."""
         cookies = {COOKIE: token} if token else None
-        return httpx.Client(base_url=self.url, cookies=cookies, timeout=LIMIT_S, trust_env=False)
+        return http_client.Client(base_url=self.url, cookies=cookies, trust_env=False)
 
     def state(self, token: str) -> dict[str, Any]:
         """Return what the teacher's page shows."""
@@ -81,7 +82,7 @@ class HubClass:
     def seat(self, token: str) -> httpx.Response:
         """Ask for a seat, as a notebook does."""
         headers = {"Authorization": f"token {token}"}
-        return httpx.post(f"{self.url}api/hub-seat", headers=headers, trust_env=False)
+        return http_client.post(f"{self.url}api/hub-seat", headers=headers, trust_env=False)
 
     def variables(self, token: str, name: str) -> dict[str, str]:
         """Return the variables that the hub sets for a student's server."""
@@ -145,7 +146,14 @@ def fake_hub() -> Iterator[FakeHub]:
 @contextlib.contextmanager
 def hub_class(folder: Path, hub: FakeHub, *options: str) -> Iterator[HubClass]:
     """Serve a class as a service of a hub, until the end."""
-    hub.class_url = f"http://127.0.0.1:{free_port()}"
+    with reserved_port() as port:
+        hub.class_url = f"http://127.0.0.1:{port}"
+        with _hub_class(folder, hub, options) as school:
+            yield school
+
+
+@contextlib.contextmanager
+def _hub_class(folder: Path, hub: FakeHub, options: Sequence[str]) -> Iterator[HubClass]:
     variables = {
         "JUPYTERHUB_API_TOKEN": SECRET,
         "JUPYTERHUB_API_URL": hub.api_url,
@@ -156,13 +164,13 @@ def hub_class(folder: Path, hub: FakeHub, *options: str) -> Iterator[HubClass]:
         "JUPYTERHUB_SERVICE_URL": hub.class_url,
         "JUPYTERHUB_OAUTH_CALLBACK_URL": f"{PREFIX}oauth_callback",
     }
-    command = [sys.executable, "-m", "ai4u_edu", "class", "--hub", "--folder", str(folder)]
+    command = [sys.executable, "-m", MODULE, "--hub", "--folder", str(folder)]
     with subprocess.Popen(
         [*command, *options],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        env={**os.environ, **variables},
+        env=environment() | variables,
     ) as process:
         assert process.stdout is not None
         told = []

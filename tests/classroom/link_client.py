@@ -7,7 +7,6 @@ from typing import Any, Self, TypeVar
 
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from ai4u_edu.wire.class_link import (
@@ -18,6 +17,7 @@ from ai4u_edu.wire.class_link import (
     ExerciseResult,
     FromClass,
     FromRoom,
+    HandedIn,
     Hello,
     Problem,
     State,
@@ -26,6 +26,7 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.classroom.fake_hub import HubClass
 from tests.classroom.served_class import ServedClass, Student
+from tests.server.rooms import open_socket
 from tests.waiting import LIMIT_S
 
 M = TypeVar("M")
@@ -44,9 +45,10 @@ class RawLink:
     ) -> None:
         if isinstance(secret, Student):
             secret = secret.client.cookies["ai4u_edu_seat"]
-        address = served.url.replace("http", "ws", 1).rstrip("/") + PATH
-        self.socket: ClientConnection = connect(
-            address, subprotocols=[Subprotocol(SUBPROTOCOL)], max_size=MAX_FRAME_BYTES, proxy=None
+        self.socket = open_socket(
+            served.url.rstrip("/") + PATH,
+            subprotocols=[Subprotocol(SUBPROTOCOL)],
+            max_size=MAX_FRAME_BYTES,
         )
         self.received: list[FromClass] = []
         self.send(hello or Hello(VERSION, secret, "room"))
@@ -83,13 +85,18 @@ class RawLink:
             self.received.append(decode_from_class(frame))
 
 
+def wait_for_verdicts(served: ServedClass, student: Student) -> None:
+    """Wait until all networks of a student were checked."""
+    with RawLink(served, student) as link:
+        link.next(HandedIn, lambda told: all(each.verdict != "open" for each in told.networks))
+
+
 class TeacherSocket:
     """The socket of the teacher's page, or of the projector page."""
 
     def __init__(self, served: ServedClass, page: str = "teacher") -> None:
         headers = {"Authorization": f"Bearer {served.token}"}
-        address = served.url.replace("http", "ws", 1) + f"{page}/socket"
-        self.socket = connect(address, additional_headers=headers, proxy=None)
+        self.socket = open_socket(f"{served.url}{page}/socket", additional_headers=headers)
         self._waiting: list[dict[str, Any]] = []
 
     def __enter__(self) -> Self:

@@ -1,11 +1,12 @@
 """A class in a process of its own, and its students and teacher over HTTP."""
 
 import contextlib
+import os
 import re
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
@@ -14,9 +15,12 @@ from urllib.parse import parse_qs, urlsplit
 
 import httpx
 
+from tests.classroom.patient_class import OPTION
+from tests.server import http_client
 from tests.waiting import LIMIT_S
 
 CODE = "BCDFG"
+MODULE = "tests.classroom.patient_class"
 _requests = count(1)
 
 
@@ -36,7 +40,7 @@ class ServedClass:
 
     def student(self) -> "Student":
         """Return a browser that has not joined."""
-        self.clients.append(httpx.Client(base_url=self.url, timeout=LIMIT_S))
+        self.clients.append(http_client.Client(base_url=self.url))
         return Student(self.clients[-1])
 
     def joined(self, **wanted: Any) -> "Student":
@@ -48,7 +52,7 @@ class ServedClass:
 
     def state(self) -> dict[str, Any]:
         """Return what the teacher's page shows."""
-        answer = httpx.get(f"{self.url}teacher/state", headers=self._auth())
+        answer = http_client.get(f"{self.url}teacher/state", headers=self._auth())
         assert answer.status_code == 200, answer.text
         found: dict[str, Any] = answer.json()
         return found
@@ -56,11 +60,11 @@ class ServedClass:
     def command(self, do: str, **rest: Any) -> httpx.Response:
         """Send a teacher's command."""
         body = {"do": do, **rest}
-        return httpx.post(f"{self.url}teacher/command", json=body, headers=self._auth())
+        return http_client.post(f"{self.url}teacher/command", json=body, headers=self._auth())
 
     def export(self) -> bytes:
         """Return the ZIP file with the work of the class."""
-        answer = httpx.get(f"{self.url}teacher/export", headers=self._auth(), timeout=LIMIT_S)
+        answer = http_client.get(f"{self.url}teacher/export", headers=self._auth())
         assert answer.status_code == 200, answer.text
         return answer.content
 
@@ -101,14 +105,35 @@ class Student:
         return str(self.client.base_url).rstrip("/") + self.room
 
 
+def environment() -> dict[str, str]:
+    """Return the variables of a process that imports the tests."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+
+
 @contextlib.contextmanager
-def served_class(folder: Path, *options: str) -> Iterator[ServedClass]:
-    """Serve a class until the end, with the code that tests use."""
-    command = [sys.executable, "-m", "ai4u_edu", "class", "--folder", str(folder), "--no-open"]
+def served_class(
+    folder: Path, *options: str, replaced: Mapping[str, float] | None = None
+) -> Iterator[ServedClass]:
+    """Serve a class until the end, with the code that tests use.
+
+    Args:
+        folder: of the class.
+        options: more of the command's.
+        replaced: numbers for constants in its process, such as ``{"ai4u_edu.module.NAME": 1}``.
+    """
+    command = [sys.executable, "-m", MODULE]
+    for name, number in (replaced or {}).items():
+        command += [OPTION, f"{name}={number}"]
+    command += ["--folder", str(folder), "--no-open"]
     command += ["--host", "127.0.0.1", "--port", "0", "--code", CODE, *options]
     told: list[str] = []
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        bufsize=1,
+        env=environment(),
     ) as process:
         assert process.stdout is not None
         address = ""

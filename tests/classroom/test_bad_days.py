@@ -14,9 +14,11 @@ import httpx
 import psutil
 import pytest
 
+from ai4u_edu.server.wrong_counts import MAX_WRONG
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
+from tests.server import http_client
 from tests.server.rooms import Page
-from tests.waiting import LIMIT_S, until
+from tests.waiting import LIMIT_S, until, until_async
 
 pytestmark = pytest.mark.slow
 MARKUP = "<img src=x onerror=alert(1)>"
@@ -143,32 +145,29 @@ def test_a_name_with_markup_is_refused_as_text(served: ServedClass) -> None:
 @pytest.mark.nightly
 def test_a_flood_of_wrong_codes_lets_the_class_join_meanwhile(tmp_path: Path) -> None:
     with served_class(tmp_path) as served:
+        guessed = 0
+        has_joined = False
 
-        async def guess(client: httpx.AsyncClient, until_s: float) -> int:
-            count = 0
-            while time.monotonic() < until_s:
+        async def guess(client: httpx.AsyncClient) -> None:
+            nonlocal guessed
+            while not has_joined:
                 body = {"code": "XXXXX", "name": "no", "request": "guess" * 4}
                 answer = await client.post("api/join", json=body)
-                assert answer.status_code in (403, 429)
-                count += 1
-            return count
+                assert answer.status_code == 403
+                guessed += 1
 
-        async def flood() -> tuple[int, bool]:
+        async def flood() -> None:
+            nonlocal has_joined
             limits = httpx.Limits(max_connections=60)
-            async with httpx.AsyncClient(
-                base_url=served.url, timeout=LIMIT_S, limits=limits
-            ) as client:
-                end = time.monotonic() + 5
-                guesses = [asyncio.create_task(guess(client, end)) for _ in range(40)]
-                await asyncio.sleep(1)
+            async with http_client.AsyncClient(base_url=served.url, limits=limits) as client:
+                guesses = [asyncio.create_task(guess(client)) for _ in range(40)]
+                await until_async(lambda: guessed > MAX_WRONG)
                 answer = await asyncio.to_thread(lambda: served.student().join())
-                is_joined_meanwhile = time.monotonic() < end
                 assert answer.status_code == 200
-                return sum(await asyncio.gather(*guesses)), is_joined_meanwhile
+                has_joined = True
+                await asyncio.gather(*guesses)
 
-        guesses, is_joined_meanwhile = asyncio.run(flood())
-        assert is_joined_meanwhile
-        assert guesses < 300  # 60, and 20 a second
+        asyncio.run(flood())
 
 
 def test_thirty_join_at_once_and_everybody_gets_one_seat(served: ServedClass) -> None:
@@ -186,9 +185,7 @@ def test_thirty_join_at_once_and_everybody_gets_one_seat(served: ServedClass) ->
     async def all_join() -> list[str]:
         async with contextlib.AsyncExitStack() as stack:
             clients = [
-                await stack.enter_async_context(
-                    httpx.AsyncClient(base_url=served.url, timeout=LIMIT_S)
-                )
+                await stack.enter_async_context(http_client.AsyncClient(base_url=served.url))
                 for _ in range(30)
             ]
             return await asyncio.gather(*(join(*each[::-1]) for each in enumerate(clients)))
@@ -208,7 +205,7 @@ def test_a_class_that_slept_with_the_laptop_goes_on(served: ServedClass) -> None
         page.receive("hello")
         for each in everything:
             each.suspend()
-        time.sleep(3)  # the lid is closed
+        time.sleep(3)  # real time: the lid is closed; it may also be closed for longer
         for each in everything:
             each.resume()
         with page.holding("KeyW"):

@@ -6,19 +6,19 @@ import pytest
 from starlette.applications import Starlette
 from starlette.routing import WebSocketRoute
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, echo
 from ai4u_edu.server import ServerThread
+from tests.server.rooms import PATIENT, open_socket
 from tests.waiting import LIMIT_S
 
 
 @pytest.fixture
 def socket() -> Iterator[Connection]:
     with (
-        ServerThread(Starlette(routes=[WebSocketRoute("/", echo)])) as server,
-        connect(server.url.replace("http", "ws")) as socket,
+        ServerThread(Starlette(routes=[WebSocketRoute("/", echo)]), timeouts=PATIENT) as server,
+        open_socket(server.url) as socket,
     ):
         yield socket
 

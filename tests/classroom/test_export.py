@@ -2,7 +2,6 @@
 
 import csv
 import io
-import time
 import zipfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -15,14 +14,12 @@ from ai4u_edu.recording import Episode
 from ai4u_edu.recording.file import decode
 from ai4u_edu.room.my_work import open_my_work
 from ai4u_edu.wire.class_link import Ack, Race, Work
-from tests.classroom.link_client import RawLink, TeacherSocket, check, state
+from tests.classroom.link_client import RawLink, TeacherSocket, check, state, wait_for_verdicts
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.classroom.test_race import SEED, driven, result
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow
-POLL_S = 0.5
-"""Interval of questions for a verdict; a page asks less often."""
 TITLE = "<script>alert(1)</script>"
 NETWORK = zoo.network_of("box_chase").read_bytes()
 
@@ -46,7 +43,7 @@ def work(served: ServedClass, ada: Student) -> None:
         link.send(result(race.id, driven(1.0)))
         link.next(Ack)
         wall.next("class", lambda e: e["race"] and e["race"]["board"])
-    hand_in(ada)
+    hand_in(served, ada)
     file = served.folder / "rooms" / ada.room.split("/")[2] / "scene.yaml"
     assert ada.get("healthz").status_code == 200
     # the room has begun, and opens the race's scene; it would open it over the next one
@@ -54,21 +51,15 @@ def work(served: ServedClass, ada: Student) -> None:
     assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
 
 
-def hand_in(student: Student) -> None:
+def hand_in(served: ServedClass, student: Student) -> None:
     """Hand a network in, and wait until it has played against itself."""
     place = {"scene": "box_chase", "part": "", "file": "secret name.onnx"}
     octets = {"Content-Type": "application/octet-stream"}
     put = student.client.put("api/network", params=place, content=NETWORK, headers=octets)
     assert put.status_code == 200, put.text
-    verdicts = ["open"]
-
-    def is_checked() -> bool:
-        time.sleep(POLL_S)
-        verdicts[:] = [e["verdict"] for e in student.client.get("api/network").json()["networks"]]
-        return verdicts != ["open"]
-
-    until(is_checked)
-    assert verdicts == ["right"]
+    wait_for_verdicts(served, student)
+    (told,) = student.client.get("api/network").json()["networks"]
+    assert told["verdict"] == "right"
 
 
 def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) -> None:

@@ -26,6 +26,8 @@ from tests.classroom.fake_hub import (
     hub_class,
 )
 from tests.classroom.link_client import RawLink, check, state
+from tests.classroom.reserved_port import reserved_port
+from tests.server import http_client
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow
@@ -116,7 +118,7 @@ def test_only_the_hubs_teachers_get_the_teachers_pages(school: HubClass, path: s
 def test_a_program_with_a_teachers_token_has_a_seat_and_no_commands(school: HubClass) -> None:
     """Servers of teachers run code, too, which has the server's token."""
     headers = {"Authorization": f"token {ALAN}"}
-    answer = httpx.get(f"{school.url}teacher/state", headers=headers, trust_env=False)
+    answer = http_client.get(f"{school.url}teacher/state", headers=headers, trust_env=False)
     assert answer.status_code == 401
 
 
@@ -150,8 +152,8 @@ def test_a_notebook_is_told_why_it_can_not_join(hub: FakeHub, school: HubClass) 
     token = hub.add("lin", scopes=(READ,))
     with pytest.raises(NotJoinedError, match="access:services!service=ai4u-class"):
         join_at_hub(variables=school.variables(token, "lin"))
-    with pytest.raises(UnreachableError):
-        join_at_hub(variables={**unknown, "JUPYTERHUB_API_URL": "http://127.0.0.1:9/hub/api"})
+    with reserved_port() as port, pytest.raises(UnreachableError):
+        join_at_hub(variables={**unknown, "JUPYTERHUB_API_URL": f"http://127.0.0.1:{port}/hub/api"})
 
 
 @pytest.mark.parametrize("token", ["", "made up", "Bearer x", "token\n", "é"])

@@ -7,9 +7,11 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.class_link import NotJoinedError, SeatFile, UnreachableError, join
-from ai4u_edu.class_link.joining import class_address, is_seat_valid
+from ai4u_edu.class_link.joining import ANSWER_TIMEOUT_S, class_address, is_seat_valid
+from ai4u_edu.classroom.code_limit import MAX_WAIT_S
+from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import CODE, ServedClass, served_class
-from tests.server.rooms import free_port, served
+from tests.server.rooms import served
 
 
 @pytest.fixture(scope="module")
@@ -83,11 +85,12 @@ def test_mistakes_are_sentences(there: ServedClass) -> None:
 
 
 def test_an_address_without_a_class_is_told_from_one_without_a_server(tmp_path: Path) -> None:
-    nowhere = f"http://127.0.0.1:{free_port()}"
-    with pytest.raises(UnreachableError, match=r"can't be reached \(.+Is the address right"):
-        join(nowhere, CODE)
-    with pytest.raises(UnreachableError):
-        SeatFile(tmp_path / "class.json").take(nowhere, CODE)
+    with reserved_port() as port:
+        nowhere = f"http://127.0.0.1:{port}"
+        with pytest.raises(UnreachableError, match=r"can't be reached \(.+Is the address right"):
+            join(nowhere, CODE)
+        with pytest.raises(UnreachableError):
+            SeatFile(tmp_path / "class.json").take(nowhere, CODE)
     with served() as room, pytest.raises(NotJoinedError, match=r"There is no class at .*404"):
         join(room.url, CODE)
 
@@ -108,3 +111,7 @@ def test_an_unreachable_class_leaves_a_program_its_seat(
 def test_an_address_may_be_copied_from_the_page() -> None:
     assert class_address(" http://teacher:8080/r/a1b2 ") == "http://teacher:8080/"
     assert class_address("https://hub/services/class/?code=KVBTM") == "https://hub/services/class/"
+
+
+def test_a_program_waits_longer_for_an_answer_than_the_class_lets_its_code_wait() -> None:
+    assert ANSWER_TIMEOUT_S > MAX_WAIT_S

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 import pytest
-from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.typing import Origin
 
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
@@ -24,6 +24,7 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.classroom.link_client import RawLink, TeacherSocket, check, state
 from tests.classroom.served_class import ServedClass, served_class
+from tests.server.rooms import open_socket
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow
@@ -173,9 +174,8 @@ def test_whoever_is_sent_out_loses_the_link_at_once(served: ServedClass) -> None
 
 
 def test_no_page_of_another_site_gets_a_link(served: ServedClass) -> None:
-    address = served.url.replace("http", "ws", 1) + "link"
-    with pytest.raises(Exception, match="403"):
-        connect(address, origin="http://evil.example", proxy=None)  # type: ignore[arg-type]
+    with pytest.raises(InvalidStatus, match="403"):
+        open_socket(f"{served.url}link", origin=Origin("http://evil.example"))
 
 
 def test_a_flood_is_throttled_and_loses_nothing(served: ServedClass) -> None:

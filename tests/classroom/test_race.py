@@ -1,18 +1,22 @@
 """A race in a real class: results are replayed, a forged one is refused, and ghosts go round."""
 
+import asyncio
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any, Literal
 
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.classroom.episode_check import Claim, find_fault
+from ai4u_edu.classroom.commands import MAX_COUNTDOWN_S
+from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck, find_fault
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.file import decode, encode
 from ai4u_edu.wire.class_link import Ack, EpisodeResult, Race
 from tests.classroom.link_client import RawLink, TeacherSocket, key
 from tests.classroom.served_class import ServedClass, served_class
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow
 SEED = 11
@@ -96,6 +100,44 @@ def test_a_claim_that_is_wrong_is_told(fast: Episode, changes: dict[str, Any], f
     assert fault in find_fault(claim(fast, **changes))
 
 
+ENDLESS = """
+from gymnasium.spaces import Box
+from ai4u_edu import Sensor
+from ai4u_edu.classroom import episode_check
+
+class Luck(Sensor):
+    def space(self):
+        return Box(0, 1, (1,))
+
+    def read(self, body, view):
+        return 0.5
+
+find_fault = episode_check.find_fault
+
+def endless(claim):
+    while claim.seed == 0:
+        pass
+    return find_fault(claim)
+
+episode_check.find_fault = endless
+"""
+
+
+def test_a_check_that_never_ends_is_refused_and_the_next_one_runs(
+    fast: Episode, tmp_path: Path
+) -> None:
+    blocks = tmp_path / "blocks.py"
+    blocks.write_text(ENDLESS)
+    check = EpisodeCheck([blocks], max_cpu_s=0.1)
+    try:
+        fault = asyncio.run(check.find_fault(claim(fast, seed=0)))
+        assert fault == "it could not be replayed in 0.1 s of processor time"
+        check.max_cpu_s = LIMIT_S
+        assert asyncio.run(check.find_fault(claim(fast))) == ""
+    finally:
+        check.close()
+
+
 def test_an_episode_that_is_not_whole_is_refused(fast: Episode) -> None:
     plain = encode(fast)
     data = bytearray(plain)
@@ -113,12 +155,15 @@ def test_another_success_does_not_help(fast: Episode) -> None:
 def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Episode) -> None:
     ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
     with RawLink(served, ada) as one, RawLink(served, ben) as two, TeacherSocket(served) as wall:
-        body = {"scene": "box_chase", "seed": SEED, "countdown": 0.2}
-        assert served.command("race", **body).status_code == 200
-        race = one.next(Race, lambda message: message.id != "")
-        assert (race.phase, race.scene, race.seed) == ("countdown", "box_chase", SEED)
-        assert 0 < race.starts_in_s <= 0.2
-        assert one.next(Race).phase == two.next(Race, lambda m: m.phase == "running").phase
+        body = {"scene": "box_chase", "seed": SEED}
+        assert served.command("race", **body, countdown=MAX_COUNTDOWN_S).status_code == 200
+        first = one.next(Race, lambda message: message.id != "")
+        assert (first.phase, first.scene, first.seed) == ("countdown", "box_chase", SEED)
+        assert 0 < first.starts_in_s <= MAX_COUNTDOWN_S
+        # another one, whose countdown may be over before a link is told of it
+        assert served.command("race", **body, countdown=0.2).status_code == 200
+        race = one.next(Race, lambda message: message.phase == "running")
+        assert race.id == two.next(Race, lambda m: m.phase == "running").id != first.id
 
         sent = result(race.id, slow)
         one.send(sent)

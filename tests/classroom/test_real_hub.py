@@ -17,7 +17,7 @@ from playwright.sync_api import Browser, Page
 
 from tests.chromium import browser
 from tests.lessons.hub import WORD, hub, new_ports, shows, student
-from tests.waiting import Deadline
+from tests.waiting import LIMIT_MS, Deadline
 
 pytestmark = [
     pytest.mark.browser,
@@ -84,6 +84,7 @@ class Teacher:
 
     def __init__(self, chromium: Browser, url: str) -> None:
         context = chromium.new_context(viewport={"width": 1366, "height": 900})
+        context.set_default_timeout(LIMIT_MS)
         self.page = context.new_page()
         self.page.goto(url)
         sign_in(self.page, "teacher")

@@ -3,8 +3,10 @@
 import asyncio
 import os
 import signal
+import subprocess
 import sys
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import httpx
@@ -14,8 +16,10 @@ import pytest
 from ai4u_edu.classroom import LocalRooms
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
-from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits
-from tests.waiting import until_async
+from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits, RoomWatch
+from tests.server import http_client
+from tests.server.rooms import Clock
+from tests.waiting import LIMIT_S, until_async
 
 pytestmark = pytest.mark.slow
 
@@ -23,7 +27,7 @@ pytestmark = pytest.mark.slow
 async def _snapshot(address: RoomAddress, room: str) -> dict[str, object]:
     headers = {"Authorization": f"Bearer {address.token}"}
     url = f"http://{address.host}:{address.port}/r/{room}/api/snapshot"
-    async with httpx.AsyncClient(trust_env=False) as client:
+    async with http_client.AsyncClient(trust_env=False) as client:
         found: dict[str, object] = (await client.get(url, headers=headers)).json()
         return found
 
@@ -36,39 +40,119 @@ def _pid_of(address: RoomAddress) -> int:
     raise AssertionError("no process serves the room")
 
 
+@contextmanager
+def local_rooms(folder: Path, clock: Clock, **limits: float) -> Iterator[LocalRooms]:
+    """Runs rooms that are checked all the time."""
+    patient = {"check_s": 0.02, "start_timeout_s": LIMIT_S, "end_timeout_s": LIMIT_S}
+    with closing(LocalRooms(folder, limits=RoomLimits(**(patient | limits)), clock=clock)) as rooms:
+        yield rooms
+
+
 def test_a_room_that_nobody_uses_ends_and_wakes_with_its_start(tmp_path: Path) -> None:
-    limits = RoomLimits(sleep_after_s=0.3, check_s=0.1)
+    clock = Clock(1000.0)
 
     async def sleep_and_wake() -> tuple[object, object]:
         with rooms.in_use("a"):  # it may sleep at once otherwise, before its answer
             before = await _snapshot(await rooms.enter("a", "box_chase"), "a")
-            await asyncio.sleep(0.8)
-            assert rooms.is_running("a")
+            await rooms.enter("b", "box_chase")
+            clock.now += 301
+            await until_async(lambda: not rooms.is_running("b"))
+            assert rooms.is_running("a")  # which was checked with the other one
+        clock.now += 299
+        await rooms.enter("b", "box_chase")
+        assert rooms.is_running("a")
+        clock.now += 2
         await until_async(lambda: not rooms.is_running("a"))
+        assert rooms.is_running("b")
         with rooms.in_use("a"):
             after = await _snapshot(await rooms.enter("a", "box_chase"), "a")
         return before["seed"], after["seed"]
 
-    with closing(LocalRooms(tmp_path, limits=limits)) as rooms:
+    with local_rooms(tmp_path, clock, sleep_after_s=300.0) as rooms:
         before, after = asyncio.run(sleep_and_wake())
     assert before == after
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGSTOP")
 def test_a_room_that_does_not_answer_begins_anew(tmp_path: Path) -> None:
-    limits = RoomLimits(answer_timeout_s=0.5, check_s=0.1, ask_s=0.1)
+    clock = Clock(1000.0)
 
     async def stop_one() -> None:
         first, other = await asyncio.gather(*(rooms.enter(each, "box_chase") for each in "ab"))
-        with rooms.in_use("a"), rooms.in_use("b"):
+        with rooms.in_use("a"):
             os.kill(_pid_of(first), signal.SIGSTOP)
-            await until_async(lambda: not rooms.is_running("a"))
+
+            def has_ended() -> bool:
+                clock.now += 1
+                return not rooms.is_running("a")
+
+            await until_async(has_ended)
             assert rooms.is_running("b")
             assert await rooms.enter("b", "box_chase") == other
             assert await rooms.enter("a", "box_chase") != first
 
-    with closing(LocalRooms(tmp_path, limits=limits)) as rooms:
+    with local_rooms(tmp_path, clock, answer_timeout_s=20.0, sleep_after_s=0.0) as rooms:
         asyncio.run(stop_one())
+
+
+@pytest.fixture
+def idle_pid() -> Iterator[int]:
+    """Id of a process that waits until the end of the test."""
+    wait = [sys.executable, "-c", "input()"]
+    with subprocess.Popen(wait, stdin=subprocess.PIPE) as process:
+        yield process.pid
+        process.kill()
+
+
+@pytest.mark.parametrize("status", [200, 503])
+def test_an_answer_of_any_status_is_a_sign_of_life(idle_pid: int, status: int) -> None:
+    asked: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(request.headers["Authorization"])
+        if len(asked) in (2, 3):
+            raise httpx.ReadTimeout("it is busy")
+        return httpx.Response(status)
+
+    clock = Clock(1000.0)
+    limits = RoomLimits(answer_timeout_s=20.0, ask_s=8.0, max_memory_mb=1e9)
+    watch = RoomWatch(idle_pid, limits, clock)
+
+    async def ask() -> str:
+        async with httpx.AsyncClient(transport=httpx.MockTransport(answer)) as client:
+            await watch.ask(client, "http://room/healthz", RoomAddress("room", 1, "secret"))
+            return watch.broken_limit()
+
+    told = []
+    for _ in range(5):
+        told.append(asyncio.run(ask()))
+        clock.now += 8
+    assert told == [""] * 5
+    assert asked == ["Bearer secret"] * 5
+    asyncio.run(ask())
+    assert len(asked) == 6
+    clock.now += 7.9
+    asyncio.run(ask())
+    assert len(asked) == 6, "it is not asked more often"
+
+
+def test_a_room_without_an_answer_breaks_its_limit(idle_pid: int) -> None:
+    def nothing(_: httpx.Request) -> httpx.Response:
+        raise httpx.ReadTimeout("it is stopped")
+
+    clock = Clock(1000.0)
+    watch = RoomWatch(idle_pid, RoomLimits(max_memory_mb=1e9), clock)
+
+    async def ask() -> str:
+        async with httpx.AsyncClient(transport=httpx.MockTransport(nothing)) as client:
+            await watch.ask(client, "http://room/healthz", RoomAddress("room", 1, "secret"))
+            return watch.broken_limit()
+
+    assert asyncio.run(ask()) == ""
+    clock.now += 20
+    assert asyncio.run(ask()) == ""
+    clock.now += 0.1
+    assert "did not answer any more" in asyncio.run(ask())
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="priorities of threads are Linux's")
@@ -78,19 +162,20 @@ def test_all_threads_of_a_room_let_the_class_go_first(tmp_path: Path) -> None:
         return {os.getpriority(os.PRIO_PROCESS, each.id) for each in process.threads()}
 
     own = os.getpriority(os.PRIO_PROCESS, 0)
-    with closing(LocalRooms(tmp_path)) as rooms:
+    with local_rooms(tmp_path, Clock(1000.0), check_s=LIMIT_S) as rooms:
         assert asyncio.run(priorities()) == {max(own, NICENESS)}
 
 
 def test_a_room_with_too_much_memory_is_ended_and_told_why(tmp_path: Path) -> None:
-    limits = RoomLimits(max_memory_mb=5, check_s=0.05)
-
     async def twice() -> None:
         for _ in range(2):
             await rooms.enter("a", "box_chase")
             await until_async(lambda: not rooms.is_running("a"))
         with pytest.raises(RoomError, match=r"more than the 5 MB that it may"):
             await rooms.enter("a", "box_chase")
+        clock.now += 2
+        await rooms.enter("a", "box_chase")
 
-    with closing(LocalRooms(tmp_path, limits=limits)) as rooms:
+    clock = Clock(1000.0)
+    with local_rooms(tmp_path, clock, max_memory_mb=5.0) as rooms:
         asyncio.run(twice())

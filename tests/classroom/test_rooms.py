@@ -12,14 +12,15 @@ import httpx
 import psutil
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 
 from ai4u_edu.remote import RemoteError
 from ai4u_edu.remote import connect as connect_script
 from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.load.clients import CAMERA, VISER
-from tests.server.rooms import Page
+from tests.server import http_client
+from tests.server.rooms import Page, open_socket
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
@@ -51,8 +52,7 @@ def test_nobody_enters_the_room_of_another(served: ServedClass) -> None:
         to_page = other.client.get(ada.room, headers={"Accept": "text/html"})
         assert (to_page.status_code, to_page.headers["Location"]) == (303, "/")
         for path in ("", "ws/input", "ws/panel"):
-            address = (ada.address + path).replace("http", "ws", 1)
-            with connect(address, additional_headers=other.cookies, proxy=None) as socket:
+            with open_socket(ada.address + path, additional_headers=other.cookies) as socket:
                 with pytest.raises(ConnectionClosed) as closed:
                     socket.recv(LIMIT_S)
                 assert closed.value.rcvd is not None
@@ -72,7 +72,7 @@ def test_the_room_can_not_be_entered_beside_the_class(served: ServedClass) -> No
     assert ports
     for port in ports:
         try:
-            answer = httpx.get(f"http://127.0.0.1:{port}/r/{room}/api/snapshot", timeout=LIMIT_S)
+            answer = http_client.get(f"http://127.0.0.1:{port}/r/{room}/api/snapshot")
         except httpx.HTTPError:
             continue
         assert answer.status_code != 200
@@ -119,7 +119,8 @@ def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClas
             connect_script(wrong)
     for other in (ben, ada):  # no key for the pages of others, and none for anything else
         assert other.client.get(f"{ada.room}?token={key}").status_code != 401
-    stranger = httpx.get(f"{ada.address}api/snapshot", headers={"Authorization": f"Bearer {key}"})
+    headers = {"Authorization": f"Bearer {key}"}
+    stranger = http_client.get(f"{ada.address}api/snapshot", headers=headers)
     assert stranger.status_code == 403
 
 
@@ -145,20 +146,18 @@ def _script_address(student: Student) -> str:
 
 def _picture(student: Student, query: str = "") -> ClientConnection:
     """Open the socket of a page's picture."""
-    return connect(
-        student.address.replace("http", "ws", 1) + query,
+    return open_socket(
+        student.address + query,
         subprotocols=[VISER],
         additional_headers=student.cookies,
         max_size=None,
-        proxy=None,
     )
 
 
 def _python_lines(student: Student) -> str:
     """Return the Python code that the page shows, as its panel gets it."""
     page = "?page=" + "a" * 16
-    path, cookies = student.address.replace("http", "ws", 1), student.cookies
-    panel = connect(path + "ws/panel" + page, additional_headers=cookies, proxy=None)
+    panel = open_socket(student.address + "ws/panel" + page, additional_headers=student.cookies)
     with _picture(student, page) as drawn, panel as told:
         drawn.send(CAMERA)
         told.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
@@ -170,17 +169,18 @@ def _python_lines(student: Student) -> str:
 
 def test_the_teachers_page_needs_its_secret(served: ServedClass) -> None:
     for path in ("teacher", "teacher/state"):
-        assert httpx.get(served.url + path).status_code == 401
-        assert httpx.get(f"{served.url}{path}?token=wrong-wrong").status_code == 401
-    assert httpx.post(f"{served.url}teacher/command", json={"do": "close"}).status_code == 401
+        assert http_client.get(served.url + path).status_code == 401
+        assert http_client.get(f"{served.url}{path}?token=wrong-wrong").status_code == 401
+    command = f"{served.url}teacher/command"
+    assert http_client.post(command, json={"do": "close"}).status_code == 401
     assert served.state()["open"]
 
 
 def test_other_sites_can_not_join_or_command(served: ServedClass) -> None:
     evil = {"Origin": "http://evil.example"}
     for path in ("api/join", "teacher/command", "teacher/state"):
-        assert httpx.post(served.url + path, headers=evil, json={}).status_code == 403
-    assert httpx.get(served.url, headers={"Host": "evil.example"}).status_code == 403
+        assert http_client.post(served.url + path, headers=evil, json={}).status_code == 403
+    assert http_client.get(served.url, headers={"Host": "evil.example"}).status_code == 403
 
 
 def test_a_wrong_code_is_said_and_many_do_not_lock_the_class_out(served: ServedClass) -> None:
@@ -234,7 +234,8 @@ def test_what_was_made_is_there_after_the_class_was_killed(tmp_path: Path) -> No
     with served_class(tmp_path) as served:
         ada = served.joined()
         assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200
-        until((tmp_path / "rooms" / ada.room.split("/")[2] / "scene.yaml").exists)
+        file = tmp_path / "rooms" / ada.room.split("/")[2] / "scene.yaml"
+        until(lambda: file.exists() and "title: Maze" in file.read_text())
         rooms = _room_processes(served)
         token = dict(ada.client.cookies)
         os.kill(served.process.pid, signal.SIGKILL)

@@ -3,7 +3,6 @@
 import asyncio
 import os
 import signal
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -23,17 +22,17 @@ from ai4u_edu.jobs.inline import InlineEngine
 from ai4u_edu.room.my_work import open_my_work
 from ai4u_edu.tournament.verify import verify
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, Network, Problem
-from tests.classroom.link_client import RawLink, key
+from tests.classroom.link_client import RawLink, TeacherSocket, key, wait_for_verdicts
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
+from tests.server import http_client
 from tests.tournament.bad_networks import BAD, INPUTS, few_outputs
 from tests.training.networks import network
-from tests.waiting import LIMIT_S, until
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.needs("train", "tournament")
 
 OCTETS = {"Content-Type": "application/octet-stream"}
-POLL_S = 0.3
 
 
 def hand_in(student: Student, data: bytes, **changes: str) -> httpx.Response:
@@ -41,33 +40,20 @@ def hand_in(student: Student, data: bytes, **changes: str) -> httpx.Response:
     return student.client.put("api/network", params=place, content=data, headers=OCTETS)
 
 
-def verdicts(student: Student) -> list[tuple[str, str]]:
+def verdicts(served: ServedClass, student: Student) -> list[tuple[str, str]]:
     """Return file and verdict of a student's networks, when all were checked."""
-    found: list[dict[str, str]] = []
-
-    def are_checked() -> bool:
-        time.sleep(POLL_S)
-        answer = student.client.get("api/network")
-        if answer.status_code == 429:  # a page asks less often
-            return False
-        found[:] = answer.json()["networks"]
-        return all(each["verdict"] != "open" for each in found)
-
-    until(are_checked)
+    wait_for_verdicts(served, student)
+    answer = student.client.get("api/network")
+    assert answer.status_code == 200, answer.text
+    found = answer.json()["networks"]
     return [(each["file"], each["reason"] or each["verdict"]) for each in found]
 
 
 def tournament(served: ServedClass, fits: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
     """Return the tournament on the teacher's page, as soon as it fits."""
-    found: dict[str, Any] = {}
-
-    def does_fit() -> bool:
-        time.sleep(POLL_S)
-        found.clear()
-        found.update(served.state()["tournament"] or {})
-        return bool(found and fits(found))
-
-    until(does_fit)
+    with TeacherSocket(served) as wall:
+        event = wall.next("class", lambda each: each["tournament"] and fits(each["tournament"]))
+    found: dict[str, Any] = event["tournament"]
     return found
 
 
@@ -103,9 +89,9 @@ def test_networks_are_handed_in_checked_played_exported_and_forgotten(
             link.next(Ack)
         the_gateway_refuses_what_it_need_not_open(served, eve, good)
         assert hand_in(eve, bad.read_bytes(), file="bad.onnx").status_code == 200
-        ((file, reason),) = verdicts(eve)
+        ((file, reason),) = verdicts(served, eve)
         assert (file, BAD[few_outputs] in reason) == ("bad.onnx", True)
-        assert verdicts(ada) == [("_b_ada.onnx", "right")]
+        assert verdicts(served, ada) == [("_b_ada.onnx", "right")]
 
         answer = served.command("start tournament")
         assert (answer.status_code, "no tournament" in answer.text) == (400, True)
@@ -139,7 +125,7 @@ def the_gateway_refuses_what_it_need_not_open(
     assert evil.status_code == 403
     assert hand_in(served.student(), good).status_code == 403
     assert eve.client.get("teacher/tournament/1").status_code == 401
-    assert verdicts(eve) == []
+    assert verdicts(served, eve) == []
 
 
 def played_by_two(done: dict[str, Any]) -> None:
@@ -176,14 +162,13 @@ def test_a_tournament_goes_on_after_the_class_was_killed(tmp_path: Path, good: b
         for each in (ada, ben):
             assert hand_in(each, good).status_code == 200
         for each in (ada, ben):
-            assert verdicts(each) == [("policy.onnx", "right")]
+            assert verdicts(served, each) == [("policy.onnx", "right")]
         served.command("tournament", scene="sumo")
         assert served.command("start tournament", seeds=20, own_player=True).status_code == 200
         tournament(served, lambda found: found["results"] and found["results"]["games"] >= 4)
         children = psutil.Process(served.process.pid).children(recursive=True)
         os.kill(served.process.pid, signal.SIGKILL)
-        psutil.wait_procs(children, 20)
-        assert [each for each in children if each.is_running()] == []
+        assert psutil.wait_procs(children, LIMIT_S)[1] == []
     with served_class(folder) as served:
         found = tournament(served, lambda found: found["results"] and found["results"]["games"] > 6)
         assert found["phase"] == "running"
@@ -204,7 +189,7 @@ def test_a_tournament_goes_on_after_the_class_was_killed(tmp_path: Path, good: b
         assert name == "tournaments/1 Sumo/tournament.json"
         children = psutil.Process(served.process.pid).children(recursive=True)
         assert served.command("forget").status_code == 200
-        assert psutil.wait_procs(children, 20)[1] == []
+        assert psutil.wait_procs(children, LIMIT_S)[1] == []
         assert [each.name for each in folder.iterdir() if each.is_dir()] == []
         assert "Fatal" not in "".join(served.told)
 
@@ -212,11 +197,12 @@ def test_a_tournament_goes_on_after_the_class_was_killed(tmp_path: Path, good: b
 def games_can_be_watched(served: ServedClass, number: int) -> None:
     auth = {"Authorization": f"Bearer {served.token}"}
     for path in ("teacher/tournament", f"teacher/tournament/{number}"):
-        page = httpx.get(served.url + path, headers=auth, timeout=LIMIT_S)
+        page = http_client.get(served.url + path, headers=auth)
         assert page.status_code == 200, page.text
         assert "sandbox allow-scripts" in page.headers["content-security-policy"]
         assert "Sumo" in page.text
-    assert httpx.get(f"{served.url}teacher/tournament/999", headers=auth).status_code == 404
+    absent = f"{served.url}teacher/tournament/999"
+    assert http_client.get(absent, headers=auth).status_code == 404
 
 
 @pytest.mark.slow
@@ -230,12 +216,12 @@ def test_networks_that_are_slow_or_strange_are_refused_and_the_class_goes_on(
             make(tmp_path / f"{make.__name__}.onnx")
             data = (tmp_path / f"{make.__name__}.onnx").read_bytes()
             assert hand_in(student, data, file=f"{make.__name__}.onnx").status_code == 200
-            (found,) = verdicts(student)
+            (found,) = verdicts(served, student)
             assert (found[0], told in found[1]) == (f"{make.__name__}.onnx", True), found
             assert str(tmp_path) not in found[1]
         student = served.joined()
         assert hand_in(student, good).status_code == 200
-        assert verdicts(student) == [("policy.onnx", "right")]
+        assert verdicts(served, student) == [("policy.onnx", "right")]
 
 
 def elsewhere(path: Path) -> None:

@@ -1,0 +1,61 @@
+"""``ai4u-edu class`` with time limits that no busy machine reaches.
+
+``python -m tests.classroom.patient_class [--replace MODULE.NAME=NUMBER ...] [OPTION ...]``
+
+A class that is served runs in a process of its own, and a test can't give its parts other limits.
+Processes of rooms import this module, too, so that it loads nothing before it is run.
+"""
+
+import sys
+from importlib import import_module
+
+OPTION = "--replace"
+
+
+def main() -> None:
+    """Replace the limits, and run the command."""
+    arguments = sys.argv[1:]
+    be_patient()
+    while arguments and arguments[0] == OPTION:
+        path, number = arguments[1].split("=")
+        module, _, name = path.rpartition(".")
+        replace(module, name, float(number))
+        arguments = arguments[2:]
+    sys.argv = ["ai4u-edu", "class", *arguments]
+    import_module("ai4u_edu.cli.main").main()
+
+
+def be_patient() -> None:
+    """Let no part of a class give up while a test waits for it."""
+    import dataclasses
+    import functools
+
+    from ai4u_edu.classroom import gateway, room_watch
+    from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS
+    from tests.waiting import LIMIT_S
+
+    connections = ("request", "linger", "stall", "handshake", "ping", "close")
+    limits = dict.fromkeys(connections, LIMIT_S)
+    gateway.SERVER_LIMITS["timeouts"] = dataclasses.replace(DEFAULT_TIMEOUTS, **limits)
+    of_rooms = ("answer_timeout_s", "start_timeout_s", "end_timeout_s")
+    patient = functools.partial(room_watch.RoomLimits, **dict.fromkeys(of_rooms, LIMIT_S))
+    room_watch.RoomLimits = patient  # type: ignore[assignment, misc]  # it makes them, too
+    for module, names in (
+        ("ai4u_edu.classroom.hub.api", ["TIMEOUT_S"]),
+        ("ai4u_edu.classroom.link_endpoint", ["HELLO_TIMEOUT_S"]),
+        ("ai4u_edu.classroom.room_proxy", ["OPEN_TIMEOUT_S", "ANSWER_TIMEOUT_S"]),
+        ("ai4u_edu.classroom.tournament.played", ["END_TIMEOUT_S"]),
+    ):
+        for name in names:
+            replace(module, name, LIMIT_S)
+
+
+def replace(module: str, name: str, number: float) -> None:
+    """Give a constant of a module another value."""
+    loaded = import_module(module)
+    assert hasattr(loaded, name), f"{module} has no {name}"
+    setattr(loaded, name, number)
+
+
+if __name__ == "__main__":
+    main()
