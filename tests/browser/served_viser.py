@@ -162,6 +162,13 @@ def ready(page: Page) -> None:
     frames(page)
 
 
+def viser_heard(site: ServedViser, page: Page) -> None:
+    """Wait until viser's server has handled all that the page's viser sent before."""
+    text = site.name.value + "."
+    page.get_by_role("textbox").first.fill(text)
+    until(lambda: site.name.value == text)
+
+
 def hide_panel(page: Page) -> None:
     """Hide viser's own panel, as on pages that have ours."""
     page.evaluate("document.documentElement.dataset.ai4uPanel = 'folded'")

@@ -15,6 +15,7 @@ from tests.browser.served_viser import (
     driver_status,
     frames,
     recorded_holds,
+    viser_heard,
 )
 from tests.waiting import LIMIT_S, until
 
@@ -176,13 +177,6 @@ def test_visers_camera_does_not_move(site: ServedViser) -> None:
     frames(page, 5)
     viser_heard(site, page)
     assert site.camera() == before
-
-
-def viser_heard(site: ServedViser, page: Page) -> None:
-    """Wait until viser's server has handled all that the page's viser sent before."""
-    text = site.name.value + "."
-    page.get_by_role("textbox").first.fill(text)
-    until(lambda: site.name.value == text)
 
 
 @pytest.mark.nightly

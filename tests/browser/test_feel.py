@@ -19,7 +19,16 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Stick
-from tests.browser.served_viser import SPEED, ServedViser, connected, driver_status, ready
+from tests.browser.served_viser import (
+    SPEED,
+    ServedViser,
+    connected,
+    driver_status,
+    frames,
+    ready,
+    recorded_holds,
+    viser_heard,
+)
 from tests.builders import small_sim
 from tests.chromium import new_page
 from tests.playing import Played, played
@@ -210,16 +219,20 @@ def test_help_opens_on_a_question_mark_and_takes_the_keys(site: ServedViser) -> 
     expect(dialog).to_be_visible()
     until(lambda: site.room.held == [])
     page.keyboard.up("KeyW")
-    page.keyboard.press("KeyD")
-    page.keyboard.press("KeyQ")
-    page.wait_for_timeout(300)
-    assert site.room.held == []
+    with recorded_holds(site.room) as holds:
+        for code in ("KeyA", "KeyQ"):
+            page.keyboard.down(code)
+            frames(page, 5)  # viser moves its camera with each frame while a key is held
+            page.keyboard.up(code)
+        expect(dialog).to_contain_text("To change one, click it and press another key.")
+        page.keyboard.press("Escape")
+        expect(dialog).to_be_hidden()
+        page.keyboard.down("KeyD")
+        until(lambda: site.room.held == ["KeyD"])
+        assert not any("KeyA" in codes for codes in holds)
+    page.keyboard.up("KeyD")
+    viser_heard(site, page)
     assert site.camera() == camera
-    expect(dialog).to_contain_text("To change one, click it and press another key.")
-    page.keyboard.press("Escape")
-    expect(dialog).to_be_hidden()
-    page.keyboard.down("KeyD")
-    until(lambda: site.room.held == ["KeyD"])
 
 
 def test_the_focus_stays_in_the_help_and_comes_back(site: ServedViser) -> None:
@@ -310,9 +323,9 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     page = site.page(query, has_viser=True, prepare=dress, wait=False)
     connected(page)
     page.get_by_text("dimmed").wait_for(state="attached")
+    expect(page.locator("html")).to_have_attribute(SCHEME, scheme)
     is_dark = max(page.evaluate(LIGHTNESS, ".ai4u-keycap")) < 80
     assert is_dark == (scheme == "dark"), "as its address says"
-    expect(page.locator("html")).to_have_attribute(SCHEME, scheme)
     other = site.page()
     other.keyboard.down("KeyW")
     expect(driver_status(page)).to_have_text("Page 2 drives")
@@ -556,7 +569,11 @@ def test_the_whole_page_comes_from_here(zoo: Played, site: ServedViser) -> None:
     page.keyboard.press("?")
     page.keyboard.press("Escape")
     page.keyboard.press("KeyW")
-    page.wait_for_timeout(500)
+    expect(driver_status(page)).to_contain_text("You drive")
+    page.keyboard.press("KeyR")
+    page.get_by_role("tab", name="Past").click()
+    card = page.locator(".ai4u-tabpanel:visible article")
+    card.first.wait_for()  # all parts of the page are there and work
     here = zoo.url.split("//")[1].rstrip("/")
     elsewhere = [url for url in asked if url.split("//")[-1].split("/")[0] != here]
     assert [url for url in elsewhere if not url.startswith(("blob:", "data:"))] == []
