@@ -1,7 +1,7 @@
 """Commands for training; heavy imports happen when a command runs."""
 
 import json
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -76,8 +76,9 @@ def train(
         )
         typer.echo(_summary(result))
         if page and not result.interrupted:
-            typer.echo("the trained policy drives in the page; Ctrl-C ends it")
-            page.wait()
+            with suppress(KeyboardInterrupt):  # as soon as it is announced
+                typer.echo("the trained policy drives in the page; Ctrl-C ends it")
+                page.wait()
 
 
 def _page(port: int) -> "Watch":

@@ -18,6 +18,8 @@ from ai4u_edu.jobs.call import Answer, call, use_one_thread
 from ai4u_edu.jobs.job import Job
 
 POLL_S = 0.1
+START_TIMEOUT_S = 300.0
+"""Time in which the process starts; it is no part of a job's."""
 END_TIMEOUT_S = 2.0
 
 
@@ -34,7 +36,7 @@ class IsolatedJobs:
 
     Args:
         max_cpu_s: processor time of one job.
-        max_wall_s: time of one job, for one that waits.
+        max_wall_s: wall time of one job, for one that waits.
         folder: for temporary files of jobs; deleted with the process.
     """
 
@@ -70,12 +72,13 @@ class IsolatedJobs:
             begin_cpu_s, end_at = _cpu_s(running.usage), time.monotonic() + self._max_wall_s
             running.connection.send(job)
             while not running.connection.poll(POLL_S):
-                used_s = _cpu_s(running.usage) - begin_cpu_s
-                if used_s > self._max_cpu_s or time.monotonic() > end_at:
+                if _cpu_s(running.usage) - begin_cpu_s > self._max_cpu_s:
                     self.close()
-                    return Answer(
-                        error=f"it took more than {self._max_cpu_s:g} s of processor time"
-                    )
+                    limit = f"{self._max_cpu_s:g} s of processor time"
+                    return Answer(error=f"it took more than {limit}")
+                if time.monotonic() > end_at:
+                    self.close()
+                    return Answer(error=f"it took more than {self._max_wall_s:g} s")
             answer: Answer = running.connection.recv()
         except (EOFError, OSError, psutil.Error):
             self.close()
@@ -91,25 +94,34 @@ class IsolatedJobs:
         )
         process.start()
         theirs.close()
-        return _Running(process, ours, psutil.Process(process.pid))
+        try:
+            if ours.poll(START_TIMEOUT_S):
+                ours.recv()
+                return _Running(process, ours, psutil.Process(process.pid))
+        except EOFError:
+            pass
+        ours.close()
+        process.kill()
+        raise OSError("the process for jobs did not start")
 
 
 def serve_jobs(jobs: Connection, folder: Path) -> None:
     """Run jobs until the other end is closed; the main function of the process.
 
     Args:
-        jobs: gives each job, and gets its answer.
+        jobs: gets None first; gives each job, and gets its answer.
         folder: for temporary files.
     """
     tempfile.tempdir = str(folder.absolute())
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
     use_one_thread()
     lower_priority()
-    while True:
-        try:
+    try:
+        jobs.send(None)
+        while True:
             jobs.send(call(jobs.recv()))
-        except (EOFError, OSError):
-            return
+    except (EOFError, OSError):
+        return
 
 
 def _cpu_s(process: psutil.Process) -> float:

@@ -19,7 +19,7 @@ from ai4u_edu.jobs.call import Answer, call, use_one_thread
 from ai4u_edu.jobs.job import Job
 
 END_TIMEOUT_S = 2.0
-"""Time in which a process whose pipe has closed is expected to end by itself."""
+"""Time in which a process that has closed its pipe ends by itself, and can tell how it ended."""
 KILL_TIMEOUT_S = 60.0
 """Time in which the system removes a process that was killed; a busy machine takes seconds."""
 
@@ -54,7 +54,7 @@ class ProcessEngine:
         answer = worker.answer()
         if answer is None:
             self._workers.remove(worker)
-            answer = Answer(error=f"its process died ({worker.end()})")
+            answer = Answer(error=f"its process died ({worker.end(END_TIMEOUT_S)})")
         return worker.job, answer
 
     def close(self) -> None:
@@ -98,12 +98,16 @@ class _Worker:
         self.is_busy = False
         return answer
 
-    def end(self) -> str:
-        """End the process, and return how it ended in words."""
+    def end(self, timeout_s: float = 0.0) -> str:
+        """End the process, and return how it ended in words.
+
+        Args:
+            timeout_s: time (s) for it to end by itself; then it is killed.
+        """
         self.pipe.close()
         if self._process.pid is None:  # Ctrl-C came before its start
             return "not started"
-        self._process.join(0.0 if self._process.is_alive() else END_TIMEOUT_S)
+        self._process.join(timeout_s)
         code = self._process.exitcode
         self._process.kill()
         self._process.join(KILL_TIMEOUT_S)

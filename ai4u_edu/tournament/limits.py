@@ -66,8 +66,11 @@ class CpuMeter:
 
     def _watch(self) -> None:
         while not self._ended.wait(CHECK_INTERVAL_S):
+            # in this order: if this thread stands still in between, the difference is too small,
+            # and not that between the end of a decision and the beginning of another one
+            now = time.process_time()
             began = self._began
-            if began is not None and time.process_time() - began > DECISION_CPU_S:
+            if began is not None and now - began > DECISION_CPU_S:
                 self._has_stopped = True
                 self._stop()
 

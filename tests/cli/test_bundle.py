@@ -11,15 +11,16 @@ import pytest
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli import bundle
+from tests.waiting import LIMIT_S
 
 THIS = f"{sys.platform} {sys.version_info[0]}.{sys.version_info[1]}"
-PLAY = """
+PLAY = f"""
 import subprocess, sys, urllib.request
 command = [*sys.argv[1:], "play", "--port", "0", "--no-open", "--no-wait-for-key"]
-pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+pipes = dict(stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 with subprocess.Popen(command, text=True, **pipes) as process:
     url = next(word for line in process.stdout for word in line.split() if word.startswith("http"))
-    page = urllib.request.urlopen(url, timeout=LIMIT_S).read()
+    page = urllib.request.urlopen(url, timeout={LIMIT_S}).read()
     process.terminate()
 print("page", b"<html" in page.lower())
 """

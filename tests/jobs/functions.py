@@ -7,23 +7,37 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError
+from tests.waiting import until
 
 
 def square(number: float) -> float:
     return number * number
 
 
-def square_on_machine(number: int) -> tuple[int, str]:
-    """Return the square, and the id of Ray's node that computed it."""
+def square_on_machine(number: int, begins: str) -> tuple[int, str]:
+    """Return the square, and the id of Ray's node that computed it, once a file is there."""
     import ray
 
-    time.sleep(3)  # longer than Ray needs to end the processes of a node
+    until(Path(begins).exists)
     return number * number, ray.get_runtime_context().get_node_id()
 
 
 def pid(number: int) -> int:
-    time.sleep(0.2)
     return os.getpid()
+
+
+def meet(folder: str, number: int, count: int) -> int:
+    """Return the id of this process when as many jobs run beside this one."""
+    (Path(folder) / str(number)).touch()
+    until(lambda: len([*Path(folder).iterdir()]) >= count)
+    return os.getpid()
+
+
+def rest_from(number: int, limit: int) -> int:
+    """Return the number if it is below a limit; else do not end."""
+    if number >= limit:
+        rest(3600)
+    return number
 
 
 def nested(number: int) -> dict[Any, Any]:
@@ -75,4 +89,8 @@ def threads() -> dict[str, str]:
 
 
 def rest(seconds: float) -> None:
-    time.sleep(seconds)
+    time.sleep(seconds)  # real time: the test ends it earlier
+
+
+def end(code: int) -> None:
+    os._exit(code)

@@ -9,15 +9,15 @@ import os
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import IO
 
 import psutil
 
+from tests.waiting import until
+
 START_TIMEOUT_S, END_TIMEOUT_S = 300.0, 30.0
-POLL_S = 0.01
 START_TRIES = 5
 """Attempts to start Ray: a node gives up if its agents take 15 s, as on a busy machine."""
 
@@ -74,6 +74,7 @@ def _end(process: "subprocess.Popen[str]") -> None:
 
 def _line(process: "subprocess.Popen[str]") -> str:
     """Return the next line of a process; kill it if none comes in time."""
+    # real time: only a fault lasts so long; Ray's own calls may block for ever
     timer = threading.Timer(START_TIMEOUT_S, process.kill)
     timer.start()
     try:
@@ -97,21 +98,28 @@ def main() -> None:
     print(json.dumps({"address": cluster.address, "mortal": mortal.node_id}), flush=True)
     if sys.stdin.readline():
         raylet = psutil.Process(mortal.all_processes["raylet"][0].process.pid)
-        while not _runs_job(raylet):
-            time.sleep(POLL_S)
+        until(lambda: _holds_job(raylet))
         cluster.remove_node(mortal, allow_graceful=False)
         print("killed", flush=True)
         sys.stdin.read()
     cluster.shutdown()
 
 
-def _runs_job(raylet: psutil.Process) -> bool:
-    """Return True if a process of a machine runs a job, whose name is the process's title then."""
+def _holds_job(raylet: psutil.Process) -> bool:
+    """Stop a process of a machine that runs a job, so that the job does not end before it."""
     for each in raylet.children():
         with contextlib.suppress(psutil.Error):
-            if "ray::_call" in " ".join(each.cmdline()):
-                return True
+            if _runs_job(each):
+                each.suspend()
+                if _runs_job(each):
+                    return True
+                each.resume()
     return False
+
+
+def _runs_job(process: psutil.Process) -> bool:
+    """Return True if a process runs a job, whose name is its title then."""
+    return "ray::_call" in " ".join(process.cmdline())
 
 
 if __name__ == "__main__":

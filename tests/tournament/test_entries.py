@@ -12,11 +12,13 @@ from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.file import decode
+from ai4u_edu.tournament import python_controller
 from ai4u_edu.tournament.entry import parse_entry, with_names
 from ai4u_edu.tournament.game import game
 from ai4u_edu.tournament.sides import sides_of
 from tests.tournament.bad_networks import BAD, INPUTS
 from tests.training.networks import network
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.needs("train", "tournament")
 
@@ -159,7 +161,6 @@ def test_a_recording_plays_its_actions_again(tmp_path: Path) -> None:
 
 # -- programs -------------------------------------------------------------------------------------
 
-NIGHTLY = pytest.mark.nightly
 SILENT = """
 import os, time
 def decide(percept):
@@ -167,6 +168,13 @@ def decide(percept):
     time.sleep(600)
 """
 STAND = "def decide(percept):\n    return {'move': [0, 0, 0, 0]}\n"
+
+
+@pytest.fixture(autouse=True)
+def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let no process be ended before it had the time to answer or to end by itself."""
+    monkeypatch.setattr(python_controller, "SILENCE_LIMIT_S", LIMIT_S)
+    monkeypatch.setattr(python_controller, "END_TIMEOUT_S", LIMIT_S)
 
 
 @pytest.mark.slow
@@ -180,15 +188,26 @@ STAND = "def decide(percept):\n    return {'move': [0, 0, 0, 0]}\n"
             "def decide(percept):\n    import os\n    os._exit(3)\n",
             "the program's process ended (exit status 3)",
         ),
-        pytest.param(SILENT, "the program's process has closed its output", marks=NIGHTLY),
     ],
-    ids=["wrong numbers", "error", "endless", "exit", "silent"],
+    ids=["wrong numbers", "error", "endless", "exit"],
 )
 def test_a_program_that_fails_loses(source: str, told: str, tmp_path: Path) -> None:
     bad, good = programs(tmp_path, source, STAND)
     result = played(good, bad, trust_python=True)
     assert result["forfeit"] == 1
     assert told in result["reason"]
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+def test_a_program_that_closes_its_output_and_goes_on_loses(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(python_controller, "END_TIMEOUT_S", 0.1)
+    bad, good = programs(tmp_path, SILENT, STAND)
+    result = played(good, bad, trust_python=True)
+    assert result["forfeit"] == 1
+    assert "the program's process has closed its output" in result["reason"]
 
 
 MEMORY = "def decide(percept):\n    x = bytearray(3 * 2**30)\n    return {'move': [0, 0, 0, 0]}\n"

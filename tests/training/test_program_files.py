@@ -14,6 +14,7 @@ from ai4u_edu.training import program_files
 from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
 from ai4u_edu.training.program_files import ProgramController
+from tests.waiting import LIMIT_S
 
 AHEAD = "def decide(percept):\n    return {'move': [percept['orientation'].max(), 0, 0, 0]}\n"
 COUNTER = """
@@ -29,6 +30,12 @@ class Counter(Controller):
         self.count += 1
         return {"move": [self.step * self.count, 0, 0, 0]}
 """
+
+
+@pytest.fixture(autouse=True)
+def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let no program be ended because the machine is busy."""
+    monkeypatch.setattr(program_files, "CALL_LIMIT_S", LIMIT_S)
 
 
 def built(tmp_path: Path, source: str, entry: str = "decide") -> ControlRequestor:
@@ -128,14 +135,18 @@ def test_each_agent_has_a_program_of_its_own(tmp_path: Path) -> None:
         ("return {'mov': [1, 0, 0, 0]}", r"mine\.py, line 2: the agent has no actuator 'mov'; "),
         ("return {'move': [1]}", r"mine\.py, line 2: action 'move': expected 4 numbers, got 1"),
         ("percept['visoin']", r"mine\.py, line 2: no reading is called 'visoin'; did you mean"),
-        ("while True:\n        pass", r"mine\.py, line 2: Your code did not answer for 0\.2 s"),
     ],
 )
-def test_mistakes_in_decisions(
-    tmp_path: Path, body: str, message: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(program_files, "CALL_LIMIT_S", 0.2)
+def test_mistakes_in_decisions(tmp_path: Path, body: str, message: str) -> None:
     sim = built(tmp_path, f"def decide(percept):\n    {body}\n")
+    with pytest.raises(BlockError, match=message):
+        sim.step()
+
+
+def test_a_decision_that_never_ends_is_ended(tmp_path: Path) -> None:
+    sim = built(tmp_path, "def decide(percept):\n    while True:\n        pass\n")
+    controller(sim).program.trace.limit_s = 0.2
+    message = r"mine\.py, line [23]: Your code did not answer for 0\.2 s"
     with pytest.raises(BlockError, match=message):
         sim.step()
 

@@ -19,12 +19,14 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.run import Run
 from ai4u_edu.training.watch import Watch
+from tests.server import http_client
 from tests.training.small import copied_training, small_settings
-from tests.waiting import LIMIT_S, until
+from tests.waiting import until
 
 pytestmark = pytest.mark.needs("train")
 
 TOTAL = 5000
+TURN = [0.0, 1.0, 0.0, 0.0]
 TRAIN = "train box_chase --algo ppo --steps 128 --watch"
 
 
@@ -57,7 +59,7 @@ def address_in(stream: IO[str]) -> str:
 
 
 def get(address: str, path: str) -> Any:
-    return httpx.get(address + path, timeout=LIMIT_S).json()
+    return http_client.get(address + path).json()
 
 
 def only_turn(model: Any) -> None:
@@ -79,9 +81,9 @@ def test_the_progress_is_told_and_the_latest_policy_drives_then_the_best(tmp_pat
         def progress() -> Any:
             return get(address, "api/training")["training"]
 
-        def is_turning() -> bool:
-            agent = get(address, "api/snapshot")["agents"][0]
-            return bool(agent["action"].get("move") == [0.0, 1.0, 0.0, 0.0])
+        def move() -> Any:
+            # none in the first picture of an episode
+            return get(address, "api/snapshot")["agents"][0]["action"].get("move")
 
         told = progress()
         assert told["decisions"] == watch.model.num_timesteps > 0
@@ -92,15 +94,15 @@ def test_the_progress_is_told_and_the_latest_policy_drives_then_the_best(tmp_pat
         first = get(address, "api/snapshot")["episode"]  # of 20 decisions
         until(lambda: get(address, "api/snapshot")["episode"] > first + 1)
         assert get(address, "api/snapshot")["agents"][0]["brain"] == "LocalBrain(ScriptController)"
-        assert not is_turning()
+        assert move() != TURN
         run.note([*checks, checks[-1].model_copy(update={"success": 1.0})])
         only_turn(watch.model)
         watch.write_weights()
-        until(is_turning)
+        until(lambda: move() == TURN)
         until(lambda: len(progress()["curve"]) == len(checks) + 1)
         assert progress()["curve"][-1]["success"] == 1.0
         watch.finish()  # the model that was kept does something else
-        until(lambda: not is_turning())
+        until(lambda: move() not in (None, TURN))
         until(lambda: progress()["is_over"])
 
 
@@ -126,7 +128,7 @@ def train_command(folder: Path) -> subprocess.Popen[str]:
 def is_served(address: str) -> bool:
     """Return True while somebody answers at an address."""
     try:
-        httpx.get(address + "healthz", timeout=LIMIT_S)
+        http_client.get(address + "healthz")
     except httpx.TransportError:
         return False
     return True
