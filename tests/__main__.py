@@ -148,7 +148,7 @@ def get_ai4u(trains: bool) -> list[str]:
 
 def run_quietly(name: str, command: list[str]) -> list[str]:
     """Run one check, and print its output at its end; return its name if it failed."""
-    start = time.monotonic()
+    start = time.monotonic()  # real time: for the report alone
     done = subprocess.run(
         command,
         cwd=ROOT,
@@ -166,7 +166,7 @@ def run_quietly(name: str, command: list[str]) -> list[str]:
 def run_in_turn(name: str, command: list[str]) -> list[str]:
     """Run one check, its output as it comes; return its name if it failed."""
     print(f"\n--- {name}", flush=True)
-    start = time.monotonic()
+    start = time.monotonic()  # real time: for the report alone
     code = subprocess.call(command, cwd=ROOT)
     if name == "pytest alone" and code == NO_TESTS_COLLECTED:
         code = 0
@@ -176,6 +176,7 @@ def run_in_turn(name: str, command: list[str]) -> list[str]:
 
 def outcome(name: str, code: int, start: float) -> str:
     """Return the line that ends a check."""
+    # real time: for the report alone
     return f"--- {name}: {'FAILED' if code else 'ok'} in {time.monotonic() - start:.1f} s"
 
 

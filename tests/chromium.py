@@ -106,6 +106,7 @@ class _PageWitness:
 
 def until_on(page: Page, condition: Callable[[], object]) -> None:
     """Wait for a condition to become true while Playwright handles a page's events."""
+    # real time: between two looks at the condition
     until(condition, lambda seconds: page.wait_for_timeout(1000 * seconds))
 
 

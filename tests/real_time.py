@@ -82,6 +82,7 @@ def _findings(node: ast.expr | ast.keyword) -> Iterator[str]:
             below = MIN_LIMIT_S * (1000 if name == "receive_timeout" else 1)
             if _is_number(limit, below=below) and not _is_number(limit, below=1e-9):
                 yield f"{name}={ast.unparse(limit)}"
+        # real time: what is looked for
         case ast.Constant(value=str(text)) if "setTimeout(" in text:
             yield "setTimeout in a script"
 
