@@ -13,12 +13,12 @@ from gymnasium.spaces import Box
 
 from ai4u_edu import BasicAgent, MinDistReward, RayCastingSensor, Sensor, WASDRBMoveController
 from ai4u_edu.base.version import __version__
-from ai4u_edu.remote import connect
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.server.api import SnapshotView, finite
 from tests.builders import small_sim
 from tests.json_schema import validator_of
+from tests.remote.rooms import connect, patient_rules
 from tests.server import http_client
 from tests.server.rooms import Room, served
 from tests.waiting import LIMIT_S, until
@@ -151,13 +151,15 @@ class Slow(Sensor):
         self.may_answer = threading.Event()
         self.may_answer.set()
         self.is_asked = threading.Event()
+        """Set once it is asked while it may not answer."""
 
     def space(self) -> Box:
         return Box(0.0, 1.0, (1,))
 
     def read(self, body: Any, view: Any) -> list[float]:
-        self.is_asked.set()
-        self.may_answer.wait()
+        if not self.may_answer.is_set():
+            self.is_asked.set()
+            self.may_answer.wait()
         return [0.0]
 
 
@@ -167,7 +169,6 @@ def test_health_tells_which_block_does_not_return() -> None:
     with served(small_sim([sensor]), stall_s=0.0) as room:
         try:
             sensor.may_answer.clear()
-            sensor.is_asked.clear()
             assert sensor.is_asked.wait(LIMIT_S)
             answer = http_client.get(room.url + "healthz")
             document = http_client.get(room.url + "api/openapi.json").json()
@@ -184,12 +185,11 @@ def test_health_tells_which_block_does_not_return() -> None:
 
 def test_a_block_that_sleeps_keeps_nobody_but_the_world_waiting() -> None:
     sensor = Slow()
-    with served(small_sim([sensor])) as room:
+    with served(small_sim([sensor]), rules=patient_rules()) as room:
         room.runner.scale_time(math.inf).result(LIMIT_S)
         with connect(room.url, mode="lockstep") as robot:
             robot.sense()
             sensor.may_answer.clear()
-            sensor.is_asked.clear()
             robot.act(move=[0, 0, 0, 0])
             try:
                 assert sensor.is_asked.wait(LIMIT_S)  # the script's answer has the world tick

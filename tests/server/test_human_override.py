@@ -26,13 +26,14 @@ from ai4u_edu import (
     WASDRBMoveController,
 )
 from ai4u_edu.blocks import trained_brain
-from ai4u_edu.remote import LostError, RemoteError, connect
+from ai4u_edu.remote import LostError, RemoteError
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import has_stick
 from ai4u_edu.server.human_override import HumanOverride
 from ai4u_edu.server.key_labels import usable_keys
 from ai4u_edu.snapshot.agent_words import driver_title
 from tests.builders import small_sim, still
+from tests.remote.rooms import connect, patient_rules
 from tests.server.rooms import Room, free_port, served
 from tests.waiting import LIMIT_S, until
 
@@ -163,7 +164,7 @@ def test_where_a_script_is_waited_for_a_person_may_drive() -> None:
 @pytest.mark.parametrize("mode", ["realtime", "lockstep"])
 def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) -> None:
     steps: list[int] = []
-    with served(small_sim(controller=still)) as room:
+    with served(small_sim(controller=still), rules=patient_rules()) as room:
         agent = room.sim.agents[0]
 
         def drive() -> None:
@@ -203,7 +204,11 @@ def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) 
 
 def test_a_script_that_leaves_meanwhile_takes_nobody_along() -> None:
     sim = small_sim(controller=still)
-    with served(sim) as room, connect(room.url) as robot, room.page() as page:
+    with (
+        served(sim, rules=patient_rules()) as room,
+        connect(room.url) as robot,
+        room.page() as page,
+    ):
         page.hold("KeyW")
         page.receive("hello", others="", instead="A script elsewhere")
         robot.close()

@@ -13,6 +13,7 @@ import pytest
 from ai4u_edu.server import Rules
 from ai4u_edu.server.web_files import web_folder
 from ai4u_edu.wire import native
+from tests.remote.rooms import patient_rules
 from tests.server import http_client
 from tests.server.rooms import Room, open_socket, raw_answer, served
 from tests.waiting import LIMIT_S
@@ -130,7 +131,7 @@ def test_a_room_with_a_token_asks_for_it_first() -> None:
 
 def test_the_page_that_has_the_token_may_drive_an_agent() -> None:
     hello = native.encode(native.Hello(native.VERSION, "", "", "realtime", (), "", "s" * 16))
-    with served(rules=Rules(token=TOKEN)) as room:
+    with served(rules=patient_rules(token=TOKEN)) as room:
         with http_client.Client(base_url=room.url) as browser:
             browser.get(f"?token={TOKEN}")
             cookie = "; ".join(f"{name}={value}" for name, value in browser.cookies.items())
