@@ -1,6 +1,7 @@
 """Each beginner's mistake has a sentence and a line."""
 
 import json
+import time
 from typing import Any
 
 import pytest
@@ -176,6 +177,13 @@ def test_at_load(source: str, line: int, kind: str, text: str) -> None:
     assert text in found.text
     if kind:
         assert (found.line, found.kind) == (line, kind)
+
+
+def test_the_wall_clock_ends_a_loop_that_never_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    # real time: only the limit ends this loop, whenever the machine comes to it
+    monkeypatch.setattr("ai4u_edu.program.tracing.time", time)
+    found = mistake("def decide(percept):\n    while True:\n        pass\n")
+    assert (found.line, found.kind) == (2, "endless")
 
 
 def test_a_mistake_in_a_helper_is_at_its_line() -> None:

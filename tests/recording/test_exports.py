@@ -19,7 +19,6 @@ from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
 from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.recording.recorded_drives import Take, take
-from tests.waiting import until
 
 pytestmark = pytest.mark.needs("video")
 
@@ -138,7 +137,7 @@ def test_the_page_asks_for_nothing(replay: Replay, tmp_path: Path) -> None:
 
 @pytest.mark.browser
 def test_the_page_plays_without_a_server(tmp_path: Path) -> None:
-    from tests.chromium import browser
+    from tests.chromium import browser, new_page
 
     taken = take("tag", decisions=60)
     path = write_html(Replay(taken.episode), tmp_path / "tag.html")
@@ -146,11 +145,13 @@ def test_the_page_plays_without_a_server(tmp_path: Path) -> None:
     asked: list[str] = []
     errors: list[str] = []
     with browser() as chromium:
-        page = chromium.new_page()
+        page = new_page(chromium)
+        page.clock.install(time=0)
         page.on("request", lambda request: asked.append(request.url))
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.on("console", lambda message: errors.append(message.text))
         page.goto(path.as_uri())
+        page.clock.pause_at(24 * 3600)
         assert page.title() == "Tag"
         pixels = "() => document.getElementById('world').toDataURL()"
         first = page.evaluate(pixels)
@@ -164,10 +165,15 @@ def test_the_page_plays_without_a_server(tmp_path: Path) -> None:
         page.locator("#agent").select_option(label="runner_2")
         assert "pursuer" in (page.locator("#readings").text_content() or "")
         page.locator("#play").click()
-        until(lambda: (page.locator("#clock").text_content() or "") > "2.70 s")
+        assert page.locator("#play").text_content() == "Pause"
+        page.clock.run_for(500)
+        played = page.locator("#clock").text_content() or ""
+        assert 2.7 < float(played.removesuffix(" s")) <= 3.0
         page.keyboard.press("Tab")
         page.locator("#play").click()
         assert page.locator("#play").text_content() == "Play"
+        page.clock.run_for(500)
+        assert page.locator("#clock").text_content() == played
         page.goto(hostile.as_uri())
         assert page.locator("h1").text_content() == HOSTILE
         assert page.title() == HOSTILE

@@ -61,7 +61,7 @@ def test_every_step_is_as_it_was_seen_live(name: str, decisions: int) -> None:
     assert frame_cache.snapshot(len(record), timeout=None) is not None
     assert (frame_cache.last, frame_cache.ended, frame_cache.problem) == (len(record), True, "")
     for step, decision in enumerate(record):
-        past = frame_cache.snapshot(step)
+        past = frame_cache.snapshot(step, timeout=None)
         assert past is not None
         then, after = seen[decision.begin], seen[decision.end]
         who = "" if len(episode.agents) == 1 else f" of agent {record.id}"
@@ -79,7 +79,7 @@ def test_every_step_is_as_it_was_seen_live(name: str, decisions: int) -> None:
             ended = seen.get(int(theirs.end[now]))
             if ended is not None and theirs.end[now] > theirs.begin[now]:
                 assert paid(past.agents[other]) == paid(ended.agents[other])
-    end, last = frame_cache.snapshot(len(record)), seen[episode.ticks]
+    end, last = frame_cache.snapshot(len(record), timeout=None), seen[episode.ticks]
     assert end is not None
     assert end.past == f"episode 3, the end{who}"
     assert end.bodies == last.bodies
@@ -121,7 +121,7 @@ def test_who_waits_after_a_restart_is_shown_with_nothing_done() -> None:
     assert frame_cache.snapshot(frame_cache.last, timeout=None) is not None
     actions = []
     for step in range(frame_cache.last):
-        picture = frame_cache.snapshot(step)
+        picture = frame_cache.snapshot(step, timeout=None)
         assert picture is not None
         actions.append(picture.agents[1].action)
     assert actions[0] == {"move": (1.0, 0.0, 0.0, 0.0)}
@@ -159,8 +159,7 @@ def test_what_is_not_ready_is_made_and_can_be_asked_for_again() -> None:
 def test_it_ends_where_the_world_was_changed_by_hand() -> None:
     episode = replace(take("box_chase", decisions=30).episode, changed=60)
     frame_cache = FrameCache(episode).start()
-    while frame_cache.snapshot(11, timeout=None) is None:
-        pass
+    assert frame_cache.snapshot(11, timeout=None) is not None
     assert (frame_cache.last, frame_cache.ended) == (11, False)
     assert frame_cache.problem == "the world was changed by hand there"
     frame_cache.stop()
