@@ -33,7 +33,8 @@ class FakePanel:
     _socket: WebSocketRoute | None = None
 
     def reset(self) -> None:
-        """Forget what came, and take the parts of the file again."""
+        """Forget what came, and take the parts of the file again; the page is to be left."""
+        self._socket = None  # what the page before says now is no message of the next one
         self.parts = deepcopy(PARTS)
         self.received.clear()
         self.replies.clear()
@@ -74,20 +75,20 @@ class FakePanel:
     def _connect(self, socket: WebSocketRoute) -> None:
         self._socket = socket
         self.urls.append(socket.url)
-        socket.on_message(self._receive)
+        socket.on_message(lambda text: self._receive(socket, text))
         for part in self.parts.values():
             socket.send(json.dumps(part))
 
-    def _receive(self, text: str | bytes) -> None:
+    def _receive(self, socket: WebSocketRoute, text: str | bytes) -> None:
+        if socket is not self._socket:
+            return
         message = json.loads(text)
         self.received.append(message)
-        if self._socket is None:
-            return
         if message["type"] == "show":  # the real one sends the form of what is chosen now
             for name in message["tabs"]:
-                self._socket.send(json.dumps(self.parts[name]))
+                socket.send(json.dumps(self.parts[name]))
             return
         reply = self.replies.get(message["command"])
         answer = {"type": "done", "id": message["id"], "text": "", "items": []}
         answer |= {} if reply is None else reply(message)
-        self._socket.send(json.dumps(answer))
+        socket.send(json.dumps(answer))

@@ -51,7 +51,8 @@ class PanelPage:
     def reset(self) -> None:
         """Load the page again with the parts of the file and nothing remembered."""
         self.panel.reset()
-        self.page.evaluate("localStorage.clear()")
+        # the page may be about to store something
+        self.page.evaluate("Storage.prototype.setItem = () => {}; localStorage.clear()")
         self.page.goto(self.url)
         self.wait()
 
