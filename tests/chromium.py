@@ -81,8 +81,12 @@ def new_page(
     context.set_default_timeout(LIMIT_MS)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
-    context.on("page", lambda page: _PageWitness(page))
+    context.on("page", _watch)
     return context.new_page()
+
+
+def _watch(page: Page) -> None:
+    _PageWitness(page)  # its page's handlers keep it
 
 
 class _PageWitness:

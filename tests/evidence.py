@@ -64,6 +64,18 @@ class Messages:
         return {f"{self._name}.txt": "\n".join(self._last)}
 
 
+class KeptFile:
+    """File of a server or another program, such as its log."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        register(self)
+
+    def testify(self) -> dict[str, str | bytes]:
+        """Return what the file holds."""
+        return {self.path.name: self.path.read_bytes()} if self.path.exists() else {}
+
+
 def _short(message: object) -> str:
     if isinstance(message, dict):
         with contextlib.suppress(TypeError, ValueError):

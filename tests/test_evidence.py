@@ -82,8 +82,8 @@ def test_of_a_served_process_its_output_is_kept(tmp_path: Path) -> None:
 
 def test_of_a_client_its_last_messages_are_kept(tmp_path: Path) -> None:
     files = failed(tmp_path, WITH_MESSAGES)
-    assert b'> {"type": "nonsense"}' in files["input-socket.txt"]
-    assert b'< {"type": "error"' in files["input-socket.txt"]
+    assert b'> {"type": "nonsense"}' in files["socket.txt"]
+    assert b'< {"type": "error"' in files["socket.txt"]
 
 
 def test_of_an_error_in_a_fixture_its_log_is_kept(tmp_path: Path) -> None:

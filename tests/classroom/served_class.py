@@ -15,6 +15,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import httpx
 
+from tests import evidence
 from tests.classroom.patient_class import OPTION
 from tests.server import http_client
 from tests.waiting import LIMIT_S
@@ -24,7 +25,7 @@ MODULE = "tests.classroom.patient_class"
 _requests = count(1)
 
 
-@dataclass
+@dataclass(eq=False)
 class ServedClass:
     """A running ``ai4u-edu class``."""
 
@@ -37,6 +38,13 @@ class ServedClass:
     told: list[str] = field(default_factory=list)
     clients: list[httpx.Client] = field(default_factory=list)
     """Clients of the students, which are closed at the end."""
+
+    def __post_init__(self) -> None:
+        evidence.register(self)
+
+    def testify(self) -> dict[str, str | bytes]:
+        """Return the class's output."""
+        return {"class.log": "".join(self.told)}
 
     def student(self) -> "Student":
         """Return a browser that has not joined."""

@@ -22,6 +22,7 @@ import psutil
 from playwright.sync_api import Browser, Page
 
 from tests.chromium import DRAW_NOTHING, browser
+from tests.evidence import KeptFile
 from tests.server.rooms import free_port
 from tests.waiting import LIMIT_S, Deadline
 
@@ -83,7 +84,8 @@ def hub(
     )
     config.write_text(CONFIG.read_text(encoding="utf-8") + own + more, encoding="utf-8")
     url = f"http://127.0.0.1:{port}/hub/"
-    with (folder / "log").open("a") as log:
+    kept = KeptFile(folder / "log")
+    with kept.path.open("a") as log:
         process = subprocess.Popen(
             [sys.executable, "-m", "jupyterhub", "-f", str(config)],
             cwd=folder,
@@ -92,7 +94,7 @@ def hub(
             env=_env(),
         )
         try:
-            _wait_for(url + "login", process, folder / "log")
+            _wait_for(url + "login", process, kept.path)
             yield url, psutil.Process(process.pid)
         finally:
             process.terminate()

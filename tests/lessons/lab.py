@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ai4u_edu.lessons.handout import lab_config
+from tests.evidence import KeptFile
 from tests.server.rooms import free_port
 from tests.waiting import LIMIT_S, Deadline
 
@@ -41,11 +42,12 @@ def lab(
         "JUPYTER_RUNTIME_DIR": str(home),
     }
     home.mkdir()
-    with (home / "log").open("w") as log:
+    kept = KeptFile(home / "log")
+    with kept.path.open("w") as log:
         process = subprocess.Popen(command, stdout=log, stderr=log, env=env)
         try:
             url = f"http://localhost:{port}{base}"
-            wait_for(url + "api", process, home / "log")
+            wait_for(url + "api", process, kept.path)
             yield url
         finally:
             process.terminate()

@@ -156,11 +156,29 @@ def open_socket(url: str, **options: Any) -> ClientConnection:
     """
     return connect(
         url.replace("http", "ws", 1),
+        create_connection=_NotedConnection,
         open_timeout=LIMIT_S,
         ping_interval=None,
         proxy=None,
         **options,
     )
+
+
+class _NotedConnection(ClientConnection):
+    """Connection whose last messages are kept if a test fails."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self._messages = Messages("socket")
+
+    def send(self, message: Any, text: bool | None = None) -> None:
+        self._messages.sent(message)
+        super().send(message, text)
+
+    def recv(self, timeout: float | None = None, decode: bool | None = None) -> Any:
+        message = super().recv(timeout, decode)
+        self._messages.received(message)
+        return message
 
 
 class Page:
@@ -169,7 +187,6 @@ class Page:
     def __init__(self, url: str, **options: Any) -> None:
         self.socket = open_socket(url, **options)
         self.last: dict[str, dict[str, Any]] = {}
-        self.messages = Messages("input-socket")
 
     def __enter__(self) -> Self:
         return self
@@ -178,9 +195,7 @@ class Page:
         self.socket.close()
 
     def send(self, kind: str, **rest: Any) -> None:
-        message = json.dumps({"type": kind, **rest})
-        self.messages.sent(message)
-        self.socket.send(message)
+        self.socket.send(json.dumps({"type": kind, **rest}))
 
     def hold(self, *codes: str) -> None:
         self.send("keys", held=list(codes))
@@ -209,7 +224,6 @@ class Page:
         deadline = Deadline()
         while True:
             frame = json.loads(self.socket.recv(deadline.left()))
-            self.messages.received(frame)
             self.last[frame["type"]] = frame
             if frame["type"] == kind and wanted.items() <= frame.items():
                 return dict(frame)
