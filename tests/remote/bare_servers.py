@@ -18,8 +18,6 @@ from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Receiv
 from ai4u_edu.remote.sync_connection import SyncConnection
 from tests.waiting import LIMIT_S
 
-"""Timeout of what happens at once if all is well."""
-
 Kind = Literal["sync", "async"]
 T = TypeVar("T")
 
@@ -82,7 +80,8 @@ def client(kind: Kind, url: str) -> Iterator[Client]:
 @contextmanager
 def serving(handler: Callable[[ServerConnection], None], **options: Any) -> Iterator[str]:
     """A server of websockets' own; its address."""
-    options = {"compression": None, "close_timeout": 0.5} | options
+    limits = {"open_timeout": LIMIT_S, "close_timeout": LIMIT_S, "ping_interval": None}
+    options = {"compression": None} | limits | options
     with serve(handler, "127.0.0.1", 0, **options) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
@@ -98,12 +97,12 @@ def raw_server(kind: Kind) -> Iterator[tuple[Client, socket.socket]]:
     """A client, and the server's socket, which does nothing by itself after the handshake."""
     accepted: queue.Queue[socket.socket] = queue.Queue()
     with socket.create_server(("127.0.0.1", 0)) as listener:
+        listener.settimeout(LIMIT_S)
         thread = threading.Thread(target=lambda: accepted.put(_accept(listener)))
         thread.start()
         try:
             url = f"ws://127.0.0.1:{listener.getsockname()[1]}"
             with client(kind, url) as near, accepted.get(timeout=LIMIT_S) as far:
-                far.settimeout(LIMIT_S)
                 yield near, far
         finally:
             thread.join()
@@ -111,6 +110,7 @@ def raw_server(kind: Kind) -> Iterator[tuple[Client, socket.socket]]:
 
 def _accept(listener: socket.socket) -> socket.socket:
     far, _ = listener.accept()
+    far.settimeout(LIMIT_S)
     protocol = ServerProtocol(subprotocols=None)
     while not (events := protocol.events_received()):
         protocol.receive_data(far.recv(2**12))

@@ -22,7 +22,7 @@ SCRIPT = """
 import sys
 from ai4u_edu.remote import RemoteError, connect
 try:
-    with connect(sys.argv[1], patience=10) as robot:
+    with connect(sys.argv[1], patience=float(sys.argv[2])) as robot:
         robot.reset()
         for _ in range(5):
             robot.act(move=[0, 1, 0, 0])
@@ -76,7 +76,7 @@ def open_world() -> Iterator[tuple[Played, str, str]]:
 
 def script(url: str, *prefix: str) -> str:
     """Run a script that drives the world at an address, and return its output."""
-    done = run(*prefix, sys.executable, "-c", SCRIPT, url)
+    done = run(*prefix, sys.executable, "-c", SCRIPT, url, str(LIMIT_S))
     return done.strip()
 
 

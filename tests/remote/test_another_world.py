@@ -1,14 +1,16 @@
 """Remote scripts when their world is replaced, or goes back in time."""
 
-import threading
+from concurrent.futures import ThreadPoolExecutor
+from threading import Event
 
 import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.recording import Recorder, Replay
-from ai4u_edu.remote import LostError, RemoteError, Robot, connect
+from ai4u_edu.remote import LostError, RefusedError, Robot
+from tests.remote.rooms import connect, patient_rules
 from tests.server.rooms import served
-from tests.waiting import LIMIT_S, until
+from tests.waiting import LIMIT_S
 
 AHEAD = [0.1, 0.0, 0.0, 0.0]
 
@@ -19,7 +21,7 @@ def drive(robot: Robot, decisions: int) -> None:
 
 
 def test_a_script_is_told_and_gets_the_agent_of_the_same_id_in_the_other_world() -> None:
-    with served(Scene.load("box_chase").build()) as room:
+    with served(Scene.load("box_chase").build(), rules=patient_rules()) as room:
         robot = connect(room.url)
         robot.act(move=AHEAD)
         other = Scene.load("box_chase").build()
@@ -36,7 +38,7 @@ def test_a_script_is_told_and_gets_the_agent_of_the_same_id_in_the_other_world()
 def test_a_script_keeps_its_agent_when_the_world_goes_back_in_time() -> None:
     sim = Scene.load("box_chase").build()
     recorder = Recorder(sim)
-    with served(sim) as room:
+    with served(sim, rules=patient_rules()) as room:
         room.runner.recorder = recorder
         with connect(room.url, mode="lockstep") as robot:
             first = robot.reset(seed=6)
@@ -53,7 +55,9 @@ def test_a_script_keeps_its_agent_when_the_world_goes_back_in_time() -> None:
 
 def test_a_script_is_told_the_title_of_the_scene_that_is_there() -> None:
     title = "Box chase"
-    with served(Scene.load("box_chase").build(), title=lambda: title) as room:
+    with served(
+        Scene.load("box_chase").build(), title=lambda: title, rules=patient_rules()
+    ) as room:
         with connect(room.url) as robot:
             assert robot.welcome.title == "Box chase"
         title = "Maze"
@@ -62,20 +66,23 @@ def test_a_script_is_told_the_title_of_the_scene_that_is_there() -> None:
 
 
 def test_a_script_whose_world_is_replaced_while_it_asks_for_an_agent_is_told() -> None:
-    with served(Scene.load("box_chase").build()) as room:
-        may_go, told = threading.Event(), []
+    may_go, has_agent = Event(), Event()
 
-        def drive_there() -> None:
-            try:
-                connect(room.url)
-            except RemoteError as error:
-                told.append(str(error))
+    def title() -> str:
+        """Note that an agent of the first world was found for the script."""
+        has_agent.set()
+        return "Box chase"
 
+    scene = Scene.load("box_chase")
+    with (
+        served(scene.build(), title=title, rules=patient_rules()) as room,
+        ThreadPoolExecutor() as pool,
+    ):
         room.runner.submit(lambda: may_go.wait(LIMIT_S))
-        room.runner.replace_sim(Scene.load("box_chase").build())
-        script = threading.Thread(target=drive_there)
-        script.start()
-        until(lambda: len(room.runner._queue) == 2)  # the other world, then the script's wish
+        room.runner.replace_sim(scene.build())
+        has_agent.clear()
+        script = pool.submit(connect, room.url)
+        assert has_agent.wait(LIMIT_S)
         may_go.set()
-        script.join(LIMIT_S)
-        assert "another world has taken its place" in told[0]
+        with pytest.raises(RefusedError, match="another world has taken its place"):
+            script.result(LIMIT_S)

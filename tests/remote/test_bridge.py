@@ -21,7 +21,7 @@ from tests.remote.rooms import connect, log_of, log_room, patient_rules, unused_
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
 from tests.server.rooms import served
-from tests.waiting import LIMIT_S, until
+from tests.waiting import LIMIT_S, Deadline, until
 
 pytestmark = pytest.mark.slow
 
@@ -110,7 +110,9 @@ def test_a_script_that_asks_for_time_gets_it() -> None:
         brain = room.sim.agents[0].brain
         assert isinstance(brain, RemoteBrain)
         asked_at = set()  # when the world heard that its script wants time
+        deadline = Deadline()
         while len(asked_at - {0.0}) < 3:
+            deadline.left()
             script.say(WAIT)
             again = script.hear()
             assert again["place"].tolist() == state["place"].tolist()
@@ -177,7 +179,9 @@ def test_a_lost_connection_is_a_delay_and_no_more() -> None:
     ):
         begin(script)
         before = len(log_of(room))
+        deadline = Deadline()
         for number in itertools.count(1):
+            deadline.left()
             script.say(f"log;1;{number}")
             assert script.hear()["steps"] == number
             if number >= 30 and proxy.happened["reset"] >= 3:

@@ -3,6 +3,7 @@
 import signal
 import socket
 import struct
+import sys
 import threading
 from collections.abc import Callable
 from http import HTTPStatus
@@ -11,11 +12,14 @@ import psutil
 import pytest
 from websockets.frames import Frame, Opcode
 from websockets.http11 import Request, Response
+from websockets.protocol import State
+from websockets.server import ServerProtocol
 from websockets.sync.server import ServerConnection
 
 from ai4u_edu.remote.connection_options import OPTIONS
 from ai4u_edu.remote.steps import ConnectionLostError
 from tests.remote.bare_servers import Client, Kind, client, loss_of, raw_server, serving
+from tests.remote.rooms import unused_address
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
@@ -71,18 +75,21 @@ def test_after_a_timeout_the_next_frame_is_received(kind: Kind) -> None:
 
 @KINDS
 def test_an_interrupted_script_may_go_on(kind: Kind) -> None:
-    def interrupt(*_: object) -> None:
-        raise KeyboardInterrupt
-
     script = threading.main_thread().ident
     assert script is not None
+
+    def interrupt_what_waits() -> None:
+        until(lambda: sys._current_frames()[script].f_code.co_name in ("get_next_frame", "select"))
+        signal.pthread_kill(script, signal.SIGINT)
+
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         with serving(echo) as url, client(kind, url) as near:
-            later = threading.Timer(0.05, signal.pthread_kill, (script, signal.SIGINT))
+            later = threading.Thread(target=interrupt_what_waits)
             later.start()
             with pytest.raises(KeyboardInterrupt):
                 near.receive()
+            later.join()
             near.send(b"still there")
             assert near.receive() == b"still there"
     finally:
@@ -127,15 +134,27 @@ def test_a_ping_is_answered_while_the_script_computes() -> None:
 @KINDS
 def test_a_server_that_answers_pings_stays(kind: Kind, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(OPTIONS, "ping_interval", 0.02)
-    monkeypatch.setitem(OPTIONS, "ping_timeout", 1.0)
-    with serving(echo) as url, client(kind, url) as near:
-        assert near.receive(0.3) is None  # many pings long
-        near.send(b"still there")
+    with raw_server(kind) as (near, far):
+
+        def answer_ten_pings() -> None:
+            protocol = ServerProtocol(state=State.OPEN)
+            answered = 0
+            while answered < 10:
+                protocol.receive_data(far.recv(2**12))
+                far.sendall(b"".join(protocol.data_to_send()))
+                frames = (each for each in protocol.events_received() if isinstance(each, Frame))
+                answered += sum(each.opcode is Opcode.PING for each in frames)
+            far.sendall(frame(Opcode.BINARY, b"still there"))
+
+        answering = threading.Thread(target=answer_ten_pings)
+        answering.start()
         assert near.receive() == b"still there"
+        answering.join()
 
 
 @KINDS
 def test_a_server_that_answers_no_ping_is_lost(kind: Kind, monkeypatch: pytest.MonkeyPatch) -> None:
+    # real time: both are to pass
     monkeypatch.setitem(OPTIONS, "ping_interval", 0.04)
     monkeypatch.setitem(OPTIONS, "ping_timeout", 0.1)
     with raw_server(kind) as (near, _):
@@ -230,12 +249,11 @@ def test_a_server_that_does_not_answer_the_handshake(kind: Kind) -> None:
 
 @KINDS
 def test_a_port_at_which_nobody_listens(kind: Kind) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        port = listener.getsockname()[1]
-    near = Client(kind, f"ws://127.0.0.1:{port}")
-    with pytest.raises(ConnectionLostError) as found:
-        near.open()
-    near.end()
+    with unused_address() as address:
+        near = Client(kind, f"ws://{address}")
+        with pytest.raises(ConnectionLostError) as found:
+            near.open()
+        near.end()
     assert found.value.is_permanent
 
 
@@ -277,4 +295,4 @@ def test_no_thread_and_no_descriptor_is_left(use: Callable[[str], None]) -> None
         before = resources()
         for _ in range(3):
             use(url)
-        until(lambda: resources() <= before)
+        until(lambda: all(now <= then for now, then in zip(resources(), before, strict=True)))

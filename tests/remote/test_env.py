@@ -13,19 +13,21 @@ from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.remote import RefusedError, RemoteEnv
 from ai4u_edu.scenes import Scene
-from ai4u_edu.server.scripts import Rules
+from tests.remote.rooms import patient_rules
 from tests.server.rooms import Room, served
+from tests.waiting import LIMIT_S
 
 
 def scene_room(name: str) -> Any:
     sim = Scene.load(name).build()
     sim.default_time_scale = float("inf")
-    return served(sim)
+    return served(sim, rules=patient_rules())
 
 
 def remote_env(room: Room, **options: Any) -> gymnasium.Env[Any, Any]:
     agent = room.sim.agents[0].id
-    return gymnasium.make("ai4u_edu/Remote-v0", url=room.url, agent=agent, **options)
+    limits = {"patience": LIMIT_S}
+    return gymnasium.make("ai4u_edu/Remote-v0", url=room.url, agent=agent, **(limits | options))
 
 
 @pytest.mark.parametrize("observation", ["dict", "flat"])
@@ -96,7 +98,7 @@ def test_one_of_several_resets_alone_and_the_world_only_if_it_may() -> None:
     sim = Scene.load("sumo").build()
     sim.default_time_scale = float("inf")
     for may in (False, True):
-        with served(sim, rules=Rules(seeded_resets=may, lockstep=True)) as room:
+        with served(sim, rules=patient_rules(seeded_resets=may, lockstep=True)) as room:
             env = remote_env(room)
             env.reset()
             if may:

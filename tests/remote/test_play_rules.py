@@ -34,9 +34,9 @@ def rules_of(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Rules:
 def test_a_room_has_the_rules_that_it_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
     rules = rules_of(monkeypatch)
     assert rules == Rules(token=rules.token)
-    wanted = "--lockstep --on-missing coast --grace 0.5 --receive-timeout 60000 --seeded-resets"
+    wanted = "--lockstep --on-missing coast --grace 45.5 --receive-timeout 60000 --seeded-resets"
     assert rules_of(monkeypatch, *wanted.split()) == Rules(
-        lockstep=True, on_missing="coast", grace=0.5, receive_timeout=60_000, seeded_resets=True
+        lockstep=True, on_missing="coast", grace=45.5, receive_timeout=60_000, seeded_resets=True
     )
     assert rules_of(monkeypatch, "--no-lockstep").lockstep is False
 

@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,20 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.base.errors import ActionError, ParameterError
-from ai4u_edu.remote import LostError, RefusedError, RemoteError, connect
+from ai4u_edu.remote import LostError, RefusedError, RemoteError
+from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.server.scripts import sockets
 from ai4u_edu.wire import native
-from tests.remote.rooms import Script, log_of, log_room, log_sim
-from tests.server.rooms import UPGRADE, Room, free_port, raw_answer, served
+from tests.remote.rooms import (
+    Script,
+    connect,
+    log_of,
+    log_room,
+    log_sim,
+    patient_rules,
+    unused_address,
+)
+from tests.server.rooms import UPGRADE, Room, raw_answer, served
 
 
 def refused(room: Room, code: str, **hello: object) -> str:
@@ -29,7 +39,7 @@ def refused(room: Room, code: str, **hello: object) -> str:
 
 
 def test_each_refusal_says_what_to_do() -> None:
-    with log_room(2, token="sesame") as room:
+    with log_room(2, token="sesame", grace=60.0) as room:
         said = {"token": "sesame"}
         assert refused(room, "version", **said, version=7) == (
             "expected version 1, got 7; install the ai4u-edu that the world has "
@@ -58,7 +68,7 @@ def test_each_refusal_says_what_to_do() -> None:
         with Script(room) as first:
             first.hello(**said)
             assert refused(room, "agent_taken", **said, secret="another long secret") == (
-                "agent 'a' is driven by another script; free are 'b'; a seat is free 3 s after "
+                "agent 'a' is driven by another script; free are 'b'; a seat is free 60 s after "
                 "its script has ended"
             )
 
@@ -144,7 +154,8 @@ def test_a_frame_that_is_too_large_ends_the_connection() -> None:
         )
 
 
-def test_a_flood_ends_the_connection() -> None:
+def test_a_flood_ends_the_connection(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sockets, "RateLimit", partial(RateLimit, clock=lambda: 0.0))
     with log_room() as room, Script(room) as script:
         script.hello()
         percept = script.percept()
@@ -159,9 +170,9 @@ def test_a_flood_ends_the_connection() -> None:
         )
 
 
-def test_a_connection_that_says_nothing_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sockets, "HELLO_TIMEOUT_S", 0.1)
-    with log_room() as room, Script(room) as script:
+def test_a_connection_that_says_nothing_is_ended() -> None:
+    # real time: it is to pass
+    with log_room(hello_timeout=0.1) as room, Script(room) as script:
         assert script.end() == (native.PROBLEMS["malformed"], "expected a hello within 0.1 s")
 
 
@@ -180,12 +191,15 @@ def test_the_client_raises_what_the_world_says() -> None:
             connect(room.url, agent="red")
         assert refusal.value.code == "unknown_agent"
     with (
-        served(log_sim(), allowed_hosts=["elsewhere"]) as room,
+        served(log_sim(), allowed_hosts=["elsewhere"], rules=patient_rules()) as room,
         pytest.raises(LostError, match="expected a world, got answer 403 Host: expected"),
     ):
-        connect(room.url, patience=1)
-    with pytest.raises(LostError, match="is it running, and is the address right"):
-        connect(f"http://127.0.0.1:{free_port()}", patience=1)
+        connect(room.url)
+    with (
+        unused_address() as address,
+        pytest.raises(LostError, match="is it running, and is the address right"),
+    ):
+        connect(f"http://{address}")
 
 
 def test_among_several_agents_lockstep_has_to_be_allowed() -> None:
@@ -230,8 +244,8 @@ def test_a_single_agent_is_driven_in_lockstep_unless_the_world_forbids_it() -> N
 def test_a_wrong_argument_is_refused_before_anybody_is_asked(
     arguments: dict[str, Any], complaint: str
 ) -> None:
-    with pytest.raises(RemoteError) as caught:
-        connect(f"http://127.0.0.1:{free_port()}", **arguments)
+    with unused_address() as address, pytest.raises(RemoteError) as caught:
+        connect(f"http://{address}", **arguments)
     assert str(caught.value).startswith(complaint)
 
 

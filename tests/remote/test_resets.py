@@ -13,10 +13,10 @@ import pytest
 from ai4u_edu import BasicAgent
 from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
-from ai4u_edu.remote import Robot, connect
+from ai4u_edu.remote import Robot
 from ai4u_edu.wire import native
 from tests.remote.faulty_proxy import Faults, FaultyProxy
-from tests.remote.rooms import Script, log_room
+from tests.remote.rooms import Script, connect, log_room
 from tests.server.rooms import Room
 from tests.waiting import LIMIT_S, until
 
@@ -74,9 +74,9 @@ def test_each_of_several_agents_begins_one_episode() -> None:
 @pytest.mark.parametrize("faults", [LATE, LOSSY])
 def test_over_a_bad_network_a_reset_begins_one_episode(faults: Faults) -> None:
     with (
-        log_room(time_scale=8.0, skip_frame=4, grace=30.0) as room,
+        log_room(time_scale=8.0, skip_frame=4) as room,
         FaultyProxy(room.url, faults) as proxy,
-        connect(proxy.url, patience=30) as robot,
+        connect(proxy.url) as robot,
     ):
         for _ in range(2):
             reset_once(robot, room.sim.agents[0])
@@ -99,7 +99,7 @@ def heard(room: Room) -> bool:
 
 @pytest.mark.parametrize("is_lost", [False, True])
 def test_a_reset_in_the_middle_of_a_decision_is_not_answered_with_its_end(is_lost: bool) -> None:
-    with log_room(skip_frame=1, time_scale=1.0, grace=30.0) as room, ExitStack() as scripts:
+    with log_room(skip_frame=1, time_scale=1.0) as room, ExitStack() as scripts:
         script = scripts.enter_context(Script(room))
         welcome, before = begin_in_realtime(room, script)
         script.say(native.Reset(before.seq, None))
@@ -121,7 +121,7 @@ def test_a_reset_in_the_middle_of_a_decision_is_not_answered_with_its_end(is_los
 
 
 def test_a_session_that_is_taken_up_again_begins_one_episode() -> None:
-    with log_room(time_scale=8.0, skip_frame=4, grace=30.0) as room:
+    with log_room(time_scale=8.0, skip_frame=4) as room:
         first = connect(room.url)
         first.sense()
         with connect(room.url, "a", session=first.session) as robot:
@@ -161,7 +161,7 @@ def test_an_ai4u_script_is_not_told_of_the_episode_that_it_has_ended() -> None:
     assert told.get(timeout=LIMIT_S) is before
     desk.put(after)  # the end of the decision in which it asks
     asks_for_reset.set()
-    assert desk.exchange(after, 5) == Reply(Reset(), before)
+    assert desk.exchange(after, LIMIT_S) == Reply(Reset(), before)
     assert not desk._has_work()  # there is nothing to tell it until the episode has begun
     desk.put(anew)
     assert told.get(timeout=LIMIT_S) is anew

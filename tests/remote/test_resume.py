@@ -1,19 +1,21 @@
 """Connections that are lost, and sessions that go on over other ones."""
 
 import threading
-import time
 from contextlib import suppress
+from functools import partial
 from socket import SHUT_RDWR
 
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.remote import LostError, RefusedError, Robot, connect
+from ai4u_edu.remote import LostError, RefusedError, Robot
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import ConnectionLostError, Flow, Open, Receive, Send, Step
+from ai4u_edu.server.rate_limit import RateLimit
+from ai4u_edu.server.scripts import sockets
 from ai4u_edu.server.scripts.sockets import MAX_STRAY_FRAMES_PER_S
 from ai4u_edu.wire import native
-from tests.remote.rooms import SECRET, Script, log_of, log_room
+from tests.remote.rooms import SECRET, Script, connect, log_of, log_room
 from tests.waiting import LIMIT_S, until
 
 
@@ -23,7 +25,7 @@ def cut(robot: Robot) -> None:
 
 
 def test_a_session_goes_on_where_it_was() -> None:
-    with log_room(grace=5.0, receive_timeout=5000) as room:
+    with log_room() as room:
         with Script(room) as script:
             welcome = script.hello()
             assert isinstance(welcome, native.Welcome)
@@ -40,7 +42,7 @@ def test_a_session_goes_on_where_it_was() -> None:
 
 
 def test_the_secret_alone_is_enough_and_nothing_else_is() -> None:
-    with log_room(grace=5.0) as room, Script(room) as first:
+    with log_room() as room, Script(room) as first:
         welcome = first.hello()
         assert isinstance(welcome, native.Welcome)
         with Script(room) as thief:
@@ -59,7 +61,7 @@ def test_the_secret_alone_is_enough_and_nothing_else_is() -> None:
 
 def test_a_lost_connection_is_taken_up_again_unnoticed() -> None:
     with (
-        log_room(grace=5.0, receive_timeout=5000) as room,
+        log_room() as room,
         connect(room.url, mode="lockstep") as robot,
     ):
         robot.reset()
@@ -73,6 +75,7 @@ def test_a_lost_connection_is_taken_up_again_unnoticed() -> None:
 
 
 def test_a_script_that_comes_too_late_finds_its_seat_free() -> None:
+    # real time: it is to pass, and does not begin before the connection is lost
     with log_room(grace=0.2) as room:
         robot = connect(room.url, mode="lockstep")
         before = room.sim.agents[0].brains[0]
@@ -89,7 +92,7 @@ def test_a_script_that_comes_too_late_finds_its_seat_free() -> None:
 
 
 def test_another_process_may_go_on_with_a_session() -> None:
-    with log_room(grace=5.0, receive_timeout=5000) as room:
+    with log_room() as room:
         first = connect(room.url, mode="lockstep")
         percept = first.sense()
         with connect(room.url, "a", mode="lockstep", session=first.session) as second:
@@ -105,38 +108,51 @@ def test_another_process_may_go_on_with_a_session() -> None:
                 go_on()
 
 
-def test_in_realtime_a_lost_script_stops_its_agent_and_in_time_frees_it() -> None:
-    with log_room(time_scale=1.0, grace=1.0) as room:
+def test_in_realtime_a_lost_script_stops_its_agent() -> None:
+    with log_room(time_scale=1.0) as room:
         agent = room.sim.agents[0]
         robot = connect(room.url)
         robot.act(log=[5])
         robot.sense()
         until(lambda: agent.last_action.get("log") == (5.0,))
-        lost = time.monotonic()
         cut(robot)
         until(lambda: agent.last_action.get("log") == (0.0,))
-        stopped = time.monotonic() - lost
-        assert agent.brain.status().state == "lost"  # type: ignore[attr-defined]  # RemoteBrain
-        until(lambda: agent.brain is agent.brains[0])
-        print(f"stopped after {stopped:.2f} s, free after {time.monotonic() - lost:.2f} s")
+        until(lambda: agent.brain.status().state == "lost")  # type: ignore[attr-defined]  # RemoteBrain
+        robot.close()
+
+
+def test_in_realtime_a_lost_script_frees_its_agent_after_the_grace_time() -> None:
+    # real time: it is to pass, and does not begin before the connection is lost
+    with log_room(time_scale=1.0, grace=0.2) as room:
+        before = room.sim.agents[0].brain
+        robot = connect(room.url)
+        robot.sense()
+        cut(robot)
+        until(lambda: room.sim.agents[0].brain is before)
         robot.close()
 
 
 FLOODED = f"expected at most {MAX_STRAY_FRAMES_PER_S} frames a second that answer nothing"
 
 
-def flood(
-    script: Script, late: native.Percept, times: int = 3 * MAX_STRAY_FRAMES_PER_S
-) -> tuple[int, str]:
-    """Answers one percept again and again; how the connection ends."""
+@pytest.fixture
+def _slow_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let rate limits count by a clock that stands still: no script on a busy machine is too slow
+    to reach them."""
+    monkeypatch.setattr(sockets, "RateLimit", partial(RateLimit, clock=lambda: 0.0))
+
+
+def flood(script: Script, late: native.Percept) -> tuple[int, str]:
+    """Answer one percept again and again; return how the connection ends."""
     with suppress(ConnectionClosed):
-        for _ in range(times):
+        for _ in range(2 * MAX_STRAY_FRAMES_PER_S):
             script.act(late, 99)
     return script.end()
 
 
+@pytest.mark.usefixtures("_slow_counts")
 def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
-    with log_room(2, grace=5.0, receive_timeout=5000) as room:
+    with log_room(2) as room:
         with Script(room) as script:
             welcome = script.hello()
             assert isinstance(welcome, native.Welcome)
@@ -157,6 +173,7 @@ def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
         assert [number for _, _, number in log_of(room)] == [1.0, 2.0]
 
 
+@pytest.mark.usefixtures("_slow_counts")
 def test_who_answers_as_fast_as_it_can_is_no_flood() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
@@ -166,7 +183,9 @@ def test_who_answers_as_fast_as_it_can_is_no_flood() -> None:
         assert len(log_of(room)) == 2 * MAX_STRAY_FRAMES_PER_S
 
 
+@pytest.mark.usefixtures("_slow_counts")
 def test_a_flooding_scripts_seat_is_free_after_the_grace_time() -> None:
+    # real time: it is to pass, and does not begin before the connection is closed
     with log_room(grace=0.2) as room:
         with Script(room) as script:
             script.hello()
@@ -179,6 +198,7 @@ def test_a_flooding_scripts_seat_is_free_after_the_grace_time() -> None:
 
 
 def test_nothing_is_left_behind() -> None:
+    # real time: it is to pass, and does not begin before a connection is lost
     with log_room(grace=0.1) as room:
         connect(room.url).close()
         agent = room.sim.agents[0]
@@ -194,9 +214,9 @@ def test_nothing_is_left_behind() -> None:
 
 
 def test_a_connection_lost_before_the_first_percept_is_taken_up_with_one_hello_only() -> None:
-    dialogue = Dialogue("a")
+    dialogue = Dialogue("a", patience=LIMIT_S)
     hellos: list[bytes] = []
-    with log_room(grace=5.0) as room, Script(room) as script:
+    with log_room() as room, Script(room) as script:
         welcome = native.encode(script.hello())
 
         def greeted(flow: Flow[object], first: Step) -> Step:
@@ -232,7 +252,7 @@ def test_a_connection_lost_before_the_first_percept_is_taken_up_with_one_hello_o
 def test_a_script_or_its_room_says_what_is_done_when_its_action_is_missing(
     chosen: native.OnMissing, of_the_room: native.OnMissing, late: object, lost: object
 ) -> None:
-    with log_room(time_scale=8.0, grace=60.0, on_missing=of_the_room) as room:
+    with log_room(time_scale=8.0, on_missing=of_the_room) as room:
         agent = room.sim.agents[0]
         robot = connect(room.url, on_missing=chosen)
         robot.act(log=[5])

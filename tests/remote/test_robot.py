@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from ai4u_edu.base.errors import ActionError, NameNotFoundError
-from ai4u_edu.remote import AsyncRobot, LostError, RemoteError, Robot, connect
+from ai4u_edu.remote import AsyncRobot, LostError, RemoteError, Robot
 from ai4u_edu.wire.native import Output
-from tests.remote.rooms import log_of, log_room
+from tests.remote.rooms import connect, log_of, log_room
 from tests.waiting import LIMIT_S, until
 
 
@@ -102,8 +102,8 @@ def test_a_robot_that_is_closed_gives_the_seat_back() -> None:
         with connect(room.url) as robot:
             robot.sense()
             assert room.sim.agents[0].brain.title() == "RemoteBrain(a script)"
-        until(lambda: room.sim.agents[0].brain is before)
-        assert room.sim.agents[0].brains == [before]
+        until(lambda: room.sim.agents[0].brains == [before])
+        assert room.sim.agents[0].brain is before
         robot.close()
         with pytest.raises(LostError, match="the robot was closed"):
             robot.act(log=[1])
@@ -138,7 +138,7 @@ def test_another_brain_takes_the_place_and_the_script_is_told() -> None:
 
 def test_the_asynchronous_robot_has_the_same_verbs() -> None:
     async def drive(url: str, agent: str) -> list[int]:
-        async with AsyncRobot(url, agent, mode="lockstep") as robot:
+        async with AsyncRobot(url, agent, mode="lockstep", patience=LIMIT_S) as robot:
             await robot.reset()
             steps = []
             async for percept in robot:
