@@ -11,13 +11,13 @@ import viser
 
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, room_app
-from ai4u_edu.server.scripts import Rules
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.wire import native
 from tests.load.clients import CAMERA
 from tests.load.world import crowd
-from tests.server.rooms import UPGRADE, raw_request
-from tests.waiting import until
+from tests.remote.rooms import patient_rules
+from tests.server.rooms import PATIENT, UPGRADE, raw_request
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.alone
 
@@ -43,7 +43,7 @@ def opened(url: str, subprotocol: str, first: bytes) -> socket.socket:
     lines = (*UPGRADE, "Host: localhost", f"Sec-WebSocket-Protocol: {subprotocol}")
     connection = raw_request(url, *lines)
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-    assert connection.recv(12) == b"HTTP/1.1 101"
+    assert connection.recv(12, socket.MSG_WAITALL) == b"HTTP/1.1 101"
     connection.sendall(masked(first))
     return connection
 
@@ -53,21 +53,25 @@ def test_a_hundred_clients_that_never_read_stop_no_other() -> None:
     before = process.num_fds(), process.num_threads()
     runner = Runner(crowd(BRAINS), seed=1)
     viewer = Viewer(runner)
-    app = room_app(runner, viser_port=viewer.port, title="Load", rules=Rules(grace=0.1))
+    # real time: the seats are to be free once the grace time has passed after the end of a script
+    rules = patient_rules(grace=0.1)
+    app = room_app(runner, viser_port=viewer.port, title="Load", rules=rules, timeouts=PATIENT)
+    met: set[int] = set()  # viser itself closes pages that answer no ping for a while
+    viewer.server.on_client_connect(lambda client: met.add(client.client_id))
     runner.start()
     viewer.start()
     connections: list[socket.socket] = []
     try:
-        with ServerThread(app) as server:
+        with ServerThread(app, timeouts=PATIENT) as server:
             scripts = server.url + "ws/remote", native.SUBPROTOCOL
             connections += [opened(*scripts, hello(number)) for number in range(BRAINS)]
             pages = server.url, f"viser-v{viser.__version__}", CAMERA
             connections += [opened(*pages) for _ in range(VIEWERS)]
             until(lambda: all(agent.remote for agent in runner.latest.agents))
-            until(lambda: len(viewer.server.get_clients()) == VIEWERS)
+            until(lambda: len(met) == VIEWERS)
             tick = runner.latest.tick
             until(lambda: runner.latest.tick > tick + 30)
-            with urlopen(server.url + "api/snapshot") as answer:  # noqa: S310 - our own server
+            with urlopen(server.url + "api/snapshot", timeout=LIMIT_S) as answer:  # noqa: S310 - our own
                 assert len(json.load(answer)["agents"]) == BRAINS
             for connection in connections:
                 connection.close()
@@ -78,6 +82,6 @@ def test_a_hundred_clients_that_never_read_stop_no_other() -> None:
     finally:
         for connection in connections:
             connection.close()
-        viewer.stop()
-        runner.stop()
+        viewer.stop(LIMIT_S)
+        runner.stop(LIMIT_S)
     until(lambda: process.num_fds() <= before[0] + 8 and process.num_threads() <= before[1] + 40)
