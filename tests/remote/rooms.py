@@ -93,7 +93,7 @@ def log_of(room: Room, agent_id: str = "a") -> list[tuple[int, int, float]]:
 
 def patient_rules(**changes: Any) -> Rules:
     """Return rules whose time limits only a fault reaches."""
-    limits = {"grace": LIMIT_S, "receive_timeout": LIMIT_MS, "hello_timeout": LIMIT_S}
+    limits = {"grace": LIMIT_S, "receive_timeout": int(LIMIT_MS), "hello_timeout": LIMIT_S}
     return Rules(**(limits | changes))
 
 

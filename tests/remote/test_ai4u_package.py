@@ -140,7 +140,7 @@ def remote_scene(name: str = "box_chase", **fields: Any) -> tuple[ControlRequest
     for field, value in fields.items():
         setattr(agent, field, value)
     port = free_port()
-    agent.use_brain(RemoteBrain(port=port, receive_timeout=LIMIT_MS))
+    agent.use_brain(RemoteBrain(port=port, receive_timeout=int(LIMIT_MS)))
     return sim, port, Record(agent)
 
 
@@ -230,7 +230,7 @@ def test_two_agents_with_their_ids(ports: int) -> None:
     for agent, port in zip(
         sim.agents, listening if ports == 2 else [listening[0]] * 2, strict=True
     ):
-        agent.use_brain(RemoteBrain(port=port, receive_timeout=LIMIT_MS))
+        agent.use_brain(RemoteBrain(port=port, receive_timeout=int(LIMIT_MS)))
         records.append(Record(agent))
     found = run_in(sim, "two_agents.py", *listening, 20)
     assert found["ids"] == ["0", "1"]

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow
 
 def test_a_served_scene_is_driven_by_a_script() -> None:
     port = free_port()
-    address = f"ai4u://127.0.0.1:{port}?receive_timeout={LIMIT_MS}"
+    address = f"ai4u://127.0.0.1:{port}?receive_timeout={int(LIMIT_MS)}"
     with played("box_chase", "--seed", "1", "--brain", address) as server:
         (agent,) = server.snapshot()["agents"]
         assert agent["brain"] == f"RemoteBrain(127.0.0.1:{port})"

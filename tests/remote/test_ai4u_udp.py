@@ -63,7 +63,7 @@ def remote_brain(script: UDPScript, **given: Any) -> RemoteBrain:
 def silent(script: UDPScript, sim: ControlRequestor, brain: RemoteBrain) -> None:
     """Let time pass until a script that says nothing is given up."""
     script.clock.advance(RECEIVE_TIMEOUT_S)
-    until(lambda: script.tick(sim) or brain.status().state == "lost")
+    until(lambda: brain.status().state == "lost", lambda _: script.tick(sim))
 
 
 # -- a session -------------------------------------------------------------------------------------
@@ -430,7 +430,7 @@ def test_a_script_that_is_killed_and_one_that_comes_after_it(script: UDPScript) 
     script.meet(sim)
     script.say(AHEAD)
     script.close()
-    until(lambda: script.tick(sim) or brain.status().state == "lost")
+    until(lambda: brain.status().state == "lost", lambda _: script.tick(sim))
     assert "is gone (Connection refused); start it again" in brain.status().reason
     with udp_script(script.port) as another:
         another.clock = script.clock
@@ -541,7 +541,7 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
     ):
         assert expected in script.next(sim)
         script.say(reply)
-    until(lambda: sim.tick() or sim.episode > 1)
+    until(lambda: sim.episode > 1, lambda _: sim.tick())
     assert script.hear()["steps"] == 0  # as soon as it is sensed, and not with the next tick
     before = (sim.world.ticks, agent.steps, brain.status().missing)
     for _ in range(10):
@@ -551,7 +551,7 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
     assert brain.status().state == "late"
     assert agent.last_action == {"move": (0.0, 0.0, 0.0, 0.0)}
     script.say(AHEAD)  # late: it counts for the next decision
-    until(lambda: sim.tick() or brain.status().decisions)
+    until(lambda: brain.status().decisions, lambda _: sim.tick())
     assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
     assert brain.status().decisions == 1
     state = script.hear()

@@ -109,7 +109,7 @@ def test_a_script_that_asks_for_time_gets_it() -> None:
         state = begin(script)
         brain = room.sim.agents[0].brain
         assert isinstance(brain, RemoteBrain)
-        asked_at = set()  # when the world heard that its script wants time
+        asked_at: set[float] = set()  # when the world heard that its script wants time
         deadline = Deadline()
         while len(asked_at - {0.0}) < 3:
             deadline.left()

@@ -122,7 +122,7 @@ def test_a_silent_script_in_lockstep_is_given_up_and_the_world_goes_on(silence: 
         assert status.state == "late"
         assert "given up, the world goes on until it answers" in status.reason
         if silence == "idle":
-            brain.receive_timeout = LIMIT_MS
+            brain.receive_timeout = int(LIMIT_MS)
             silent.act(percept, 7)  # too late; but it is there again, and is waited for
             percept = silent.percept()
             silent.act(percept, 8)

@@ -39,7 +39,8 @@ def answered(flow: Flow[Any], *messages: native.Message | None) -> tuple[Any, li
         flow: of the dialogue.
         messages: what is received, one after another; None for a timeout.
     """
-    heard, steps, received = iter(messages), [], None
+    heard, received = iter(messages), None
+    steps: list[Step] = []
     while True:
         try:
             step = flow.send(received)
