@@ -12,12 +12,13 @@ from tests.browser.keys import body, carry, take, where, whole
 from tests.browser.whole import (
     button,
     card,
-    notice,
     open_tab,
     press,
+    recorded_notices,
     unfold,
     whole_page,
 )
+from tests.chromium import until_on
 from tests.playing import Played, played
 from tests.waiting import until
 
@@ -132,8 +133,8 @@ def test_a_wall_is_added_dragged_and_put_back(page: Page, server: Played) -> Non
     carry(page, here, (here[0], -3), HALF)
     until(lambda: where(server, "wall")[1] < -2)  # while it is held
     page.mouse.up()
-    there = where(server, "wall")
     expect(button(page, "Undo move wall")).to_be_enabled()
+    there = where(server, "wall")
     page.keyboard.press("Control+KeyZ")
     until(lambda: where(server, "wall") == here)
     page.keyboard.press("Control+KeyY")
@@ -147,12 +148,14 @@ def test_a_scene_is_saved_downloaded_and_opened_again(
     press(page, "Target")
     until(lambda: body(server, "target"))
     press(page, "Save")
+    notices = recorded_notices(page)
     for name, told in (("../out", "expected a name of letters"), ("Mine", "")):
         page.get_by_label("Name", exact=True).fill(name)
         press(page, "Save")
         if told:
             page.locator("dialog[open]").get_by_text(told).wait_for()
-    notice(page, "Mine")
+    until_on(page, lambda: any("Mine" in text for text in notices()))
+    expect(page.locator("dialog[open]")).to_have_count(0)
     with page.expect_download() as download:
         press(page, "Download")
     file = tmp_path / download.value.suggested_filename
@@ -169,5 +172,5 @@ def test_a_scene_is_saved_downloaded_and_opened_again(
     with page.expect_file_chooser() as chooser:
         press(page, "Open a file")
     chooser.value.set_files(str(wrong))
-    notice(page, "wrong.yaml, line")
+    until_on(page, lambda: any("wrong.yaml, line" in text for text in notices()))
     assert body(server, "target")

@@ -7,7 +7,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.base.colors import rgb
 from tests.browser.keys import carry, take, where, whole
-from tests.browser.whole import press, share, until_drawn, whole_page
+from tests.browser.whole import press, share, until_drawn, until_settled, whole_page
 from tests.playing import Played, played
 from tests.waiting import until
 
@@ -51,12 +51,13 @@ def test_arrows_and_colours_lie_on_the_floor_until_they_are_cancelled(page: Page
 
 def test_the_stand_in_is_dragged_and_the_robot_stays(server: Played, page: Page) -> None:
     before = where(server, "robot")
+    seen = until_settled(page)
     page.get_by_role("switch", name="Try another place").click()
     x, y = page.get_by_label("x (m)"), page.get_by_label("y (m)")
     x.fill("1")
     y.fill("-3")
     expect(page.get_by_text("There it would do:")).to_be_visible()
-    page.wait_for_timeout(1500)  # until it is drawn there
+    until_drawn(page, lambda picture: bool((picture != seen).any()))
     take(page, (1.0, -3.0), HALF)
     carry(page, (1.0, -3.0), (3.0, -3.5), HALF)
     page.mouse.up()

@@ -13,6 +13,7 @@ from ai4u_edu.snapshot.theme import SPOT_LIT
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.framing import frame_arena
 from tests.browser.keys import where
+from tests.browser.served_viser import record_texts
 from tests.browser.whole import (
     Picture,
     button,
@@ -22,6 +23,7 @@ from tests.browser.whole import (
     until_drawn,
     whole_page,
 )
+from tests.chromium import until_on
 from tests.playing import Played, played
 from tests.waiting import until
 
@@ -46,8 +48,12 @@ def test_each_page_looks_at_its_own_agent_and_at_others(chromium: Browser) -> No
         expect(button(first, "Drive this one")).to_be_visible()
         press(second, "Pause")
         until(lambda: server.snapshot()["paused"])
-        second.mouse.click(*on_screen(second, server, "orange_striker"))
-        expect(chosen(second)).to_contain_text("orange striker")
+
+        def is_chosen_by_click() -> bool:
+            second.mouse.click(*on_screen(second, server, "orange_striker"))
+            return "orange striker" in chosen(second).inner_text()
+
+        until_on(second, is_chosen_by_click)  # not before viser has the camera over the arena
         expect(chosen(first)).to_contain_text("blue keeper")
 
 
@@ -88,9 +94,10 @@ def test_a_key_drives_and_the_readings_change(server: Played, page: Page) -> Non
     expect(sensors.filter(has_text="RayCastingSensor").locator("img").first).to_be_visible()
     expect(last).to_contain_text("forward")
     before = way.inner_text()
+    readings = record_texts(page, "article.ai4u-sensor")
     page.keyboard.down("KeyW")
     until(lambda: where(server, "robot")[0] > 0.3)
-    expect(last).to_contain_text("1.00")
+    until_on(page, lambda: any("ActionSensor" in text and "1.00" in text for text in readings()))
     page.keyboard.up("KeyW")
     expect(way).not_to_have_text(before)
     expect(page.locator(".ai4u-facts")).not_to_contain_text("0.0 s")
@@ -120,8 +127,10 @@ def test_the_time_stands_still_goes_on_by_ticks_and_as_fast_as_wanted(
     seed.fill("77")
     seed.press("Enter")
     until(lambda: server.snapshot()["seed"] == 77)
+    episode = server.snapshot()["episode"]
     page.keyboard.press("KeyR")  # the keys drive again, and the start stays the same
-    until(lambda: server.snapshot()["seed"] == 77)
+    until(lambda: server.snapshot()["episode"] > episode)
+    assert server.snapshot()["seed"] == 77
 
 
 def test_the_camera_is_where_it_is_wanted(page: Page) -> None:
@@ -159,7 +168,7 @@ def test_light_and_dark(page: Page, server: Played, chromium: Browser) -> None:
         "part => Math.max(...getComputedStyle(part).backgroundColor.match(/\\d+/g).slice(0, 3))"
     )
     expect(dark).to_have_attribute("aria-checked", "false")
-    assert surface.evaluate(lightness) > 200
+    until(lambda: surface.evaluate(lightness) > 200)
     dark.click()
     expect(page.locator("html")).to_have_attribute("data-mantine-color-scheme", "dark")
     until(lambda: surface.evaluate(lightness) < 80)

@@ -16,9 +16,9 @@ from tests.browser.whole import (
     card,
     open_tab,
     press,
-    scene_picture,
     unfold,
     until_drawn,
+    until_settled,
     whole_page,
 )
 from tests.playing import Played, played
@@ -94,11 +94,11 @@ def test_a_ghost_of_an_episode_drives_beside_the_robot(server: Played, page: Pag
     assert where(server, "robot")[0] == 0
     press(page, "Pause")
     until(lambda: server.snapshot()["paused"])
-    page.wait_for_timeout(1000)
-    before = scene_picture(page)
+    before = until_settled(page)
     press(page, "Remove ghost")
     expect(button(page, "Remove ghost")).to_have_count(0)
-    after = until_drawn(page, lambda picture: bool((changed(before, picture)).any()))
+    until_drawn(page, lambda picture: bool((changed(before, picture)).any()))
+    after = until_settled(page)
     rows, columns = np.nonzero(changed(before, after))
     assert 10 < np.ptp(columns) < 150  # a robot, the word above it, and nothing else
     assert 10 < np.ptp(rows) < 150

@@ -10,11 +10,14 @@ import numpy.typing as npt
 from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.browser.served_viser import connected
-from tests.chromium import new_page
+from tests.browser.served_viser import connected, frames, record_texts
+from tests.chromium import new_page, until_on
 from tests.playing import Played
 
+FOREMOST = "dialog[open], body:not(:has(dialog[open])) .ai4u-panel"
+"""Selector of the window, or of the panel if there is none."""
 Picture = npt.NDArray[np.uint8]
+# real time: it only says how often viser draws; tests wait for what is drawn
 DRAW_SELDOM = """
 const frame = requestAnimationFrame.bind(self);
 const waiting = new Map();
@@ -65,10 +68,8 @@ def press(page: Page, name: str) -> None:
 
 
 def button(page: Page, name: str) -> Locator:
-    """Return a visible button of the panel or of its window."""
-    window = page.locator("dialog[open]")
-    place = window if window.count() else page.locator(".ai4u-panel")
-    return place.get_by_role("button", name=name, exact=True)
+    """Return a visible button of the panel, or of its window while one is open."""
+    return page.locator(FOREMOST).get_by_role("button", name=name, exact=True)
 
 
 def open_tab(page: Page, name: str) -> Locator:
@@ -100,9 +101,9 @@ def unfold(page: Page, title: str) -> Locator:
     return found
 
 
-def notice(page: Page, text: str) -> None:
-    """Wait until the panel says something."""
-    page.locator(".ai4u-panel").get_by_text(text).first.wait_for()
+def recorded_notices(page: Page) -> Callable[[], list[str]]:
+    """Return a function that returns the results and errors that the panel says from now on."""
+    return record_texts(page, ".ai4u-notice")
 
 
 def scene_picture(page: Page) -> Picture:
@@ -118,9 +119,25 @@ def share(picture: Picture, colour: tuple[int, int, int], slack: int = 25) -> fl
 
 
 def until_drawn(page: Page, condition: Callable[[Picture], bool]) -> Picture:
-    """Wait until the picture of the world meets a condition."""
-    for _ in range(100):
-        if condition(picture := scene_picture(page)):
-            return picture
-        page.wait_for_timeout(200)
-    raise AssertionError("the picture of the world stays as it was")
+    """Wait until the picture of the world meets a condition; return it."""
+    pictures: list[Picture] = []
+
+    def is_met() -> bool:
+        pictures[:] = [scene_picture(page)]
+        return condition(pictures[0])
+
+    until_on(page, is_met)
+    return pictures[0]
+
+
+def until_settled(page: Page) -> Picture:
+    """Wait until the picture of the world is the same for some frames; return it."""
+    before = scene_picture(page)
+
+    def is_same(picture: Picture) -> bool:
+        nonlocal before
+        frames(page, 4)
+        is_settled, before = bool((picture == before).all()), picture
+        return is_settled
+
+    return until_drawn(page, is_same)
