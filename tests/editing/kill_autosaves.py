@@ -28,7 +28,7 @@ number = 0
 while True:
     number += 1
     fields = {"goal": f"{number} " * 100, "title": str(number)}
-    saver.note(EditState(scene.description.model_copy(update=fields)))
+    saver.schedule(EditState(scene.description.model_copy(update=fields)))
     time.sleep(0.0005)
 """
 
@@ -40,16 +40,19 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for number in range(times):
+            before = set(folder.glob("*.unsaved"))
             with subprocess.Popen(
                 [sys.executable, "-c", saver, name], stdout=subprocess.PIPE, text=True
             ) as process:
                 assert process.stdout is not None
                 process.stdout.readline()
+                while process.poll() is None and set(folder.glob("*.unsaved")) <= before:
+                    time.sleep(0.001)  # real time: until the next look for its file
+                # real time: any moment after the first write is right
                 time.sleep(rng.uniform(0.0, 0.15))
+                if process.poll() is not None:
+                    wrong.append(f"kill {number}: it had ended by itself")
                 process.kill()
-            files = list(folder.glob("*.unsaved"))
-            if not files:
-                continue
             unsaved = latest(folder)
             if unsaved is None:
                 wrong.append(f"kill {number}: what is there can't be read")

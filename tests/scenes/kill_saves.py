@@ -51,6 +51,7 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
         Scene.load("box_chase").save(file)
         texts["before"] = file.read_text(encoding="utf-8")
         for number in range(times):
+            before = file.stat().st_mtime_ns
             process = subprocess.Popen(
                 [sys.executable, "-c", saver, *sources, str(file)],
                 stdout=subprocess.PIPE,
@@ -59,7 +60,12 @@ def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
             with process:
                 assert process.stdout is not None
                 process.stdout.readline()
+                while process.poll() is None and file.stat().st_mtime_ns == before:
+                    time.sleep(0.001)  # real time: until the next look for its first save
+                # real time: any moment after the first save is right
                 time.sleep(rng.uniform(0.0, 0.15))
+                if process.poll() is not None:
+                    wrong.append(f"kill {number}: it had ended by itself")
                 process.kill()
             saved = file.read_text(encoding="utf-8")
             name = next((name for name, text in texts.items() if text == saved), "")
