@@ -22,6 +22,7 @@ from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.texts import unpack_texts
 from tests.builders import small_sim
 from tests.server.rooms import served
+from tests.waiting import LIMIT_S
 
 
 class Signs(Sensor):
@@ -88,7 +89,7 @@ def test_a_composite_takes_none() -> None:
 
 def test_our_own_protocol_carries_them() -> None:
     sim = small_sim([Signs()])
-    with served(sim) as room, connect(room.url, mode="lockstep") as robot:
+    with served(sim) as room, connect(room.url, mode="lockstep", patience=LIMIT_S) as robot:
         percept = robot.sense()
         assert percept["signs"] == ("to the left", "", "stop")
         assert percept["id"] == "0"

@@ -16,7 +16,7 @@ from playwright.sync_api import expect
 from ai4u_edu import Scene
 from ai4u_edu.blocks.docs import built_in_blocks
 from ai4u_edu.cli.main import app
-from tests.chromium import browser
+from tests.chromium import browser, new_page
 from tests.docs_site.staging import DOCS, ROOT, Staging, name_in_site
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
@@ -120,7 +120,7 @@ def test_the_search_finds_words(site: Path) -> None:
 @pytest.mark.browser
 def test_the_search_works_from_the_disk_and_asks_no_host(site: Path) -> None:
     asked: list[str] = []
-    with browser() as chromium, chromium.new_page() as page:
+    with browser() as chromium, new_page(chromium) as page:
         page.on("request", lambda request: asked.append(request.url))
         page.goto((site / "index.html").as_uri())
         page.get_by_role("textbox", name="Search").or_(
@@ -138,7 +138,7 @@ def test_the_search_works_from_the_disk_and_asks_no_host(site: Path) -> None:
 def test_pages_are_accessible(site: Path, scheme: Literal["light", "dark"]) -> None:
     names = ["index", "scenes", "scenes/maze", "blocks/RayCastingSensor", "cli"]
     found = []
-    with browser() as chromium, chromium.new_page(color_scheme=scheme) as page:
+    with browser() as chromium, new_page(chromium, color_scheme=scheme) as page:
         for name in names:
             page.goto((site / f"{name}.html").as_uri())
             result = Axe().run(page)

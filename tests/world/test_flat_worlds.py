@@ -15,10 +15,15 @@ Handler = Callable[[pymunk.Arbiter, pymunk.Space, Any], None]
 
 
 class Calls:
-    """Counts of vertical steps and of collision callbacks."""
+    """Counts of vertical steps and of collision callbacks, in the test's own thread."""
 
     steps = 0
     handlers = 0
+
+
+def is_own_thread() -> bool:
+    """Return False in a thread that another test left behind with its world."""
+    return threading.current_thread() is threading.main_thread()
 
 
 @pytest.fixture
@@ -27,14 +32,14 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> Calls:
     step, guard = Height.step, Contacts._guard
 
     def counting_step(self: Height, dt: float) -> None:
-        counted.steps += threading.current_thread() is threading.main_thread()
+        counted.steps += is_own_thread()
         step(self, dt)
 
     def counting_guard(self: Contacts, handle: Callable[[pymunk.Arbiter], None]) -> Handler:
         inner = guard(self, handle)
 
         def counting(arbiter: pymunk.Arbiter, space: pymunk.Space, data: Any) -> None:
-            counted.handlers += 1
+            counted.handlers += is_own_thread()
             inner(arbiter, space, data)
 
         return counting

@@ -1,6 +1,7 @@
 """Rays make no more queries than necessary."""
 
 import math
+import threading
 from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -13,9 +14,14 @@ from ai4u_edu.world.native import segments as _segments
 
 
 class Queries:
-    """Counts of queries, by kind."""
+    """Counts of queries in the test's own thread, by kind."""
 
     first = every = point = 0
+
+
+def is_own_thread() -> bool:
+    """Return False in a thread that another test left behind with its world."""
+    return threading.current_thread() is threading.main_thread()
 
 
 @pytest.fixture
@@ -24,15 +30,15 @@ def queries(monkeypatch: pytest.MonkeyPatch) -> Queries:
     every, point = pymunk.Space.segment_query, pymunk.Space.point_query
 
     def counting_first(*args: Any) -> Any:
-        counted.first += 1
+        counted.first += is_own_thread()
         return real.cpSpaceSegmentQueryFirst(*args)
 
     def counting_every(*args: Any) -> Any:
-        counted.every += 1
+        counted.every += is_own_thread()
         return every(*args)
 
     def counting_point(*args: Any) -> Any:
-        counted.point += 1
+        counted.point += is_own_thread()
         return point(*args)
 
     real = vars(_segments)["lib"]
