@@ -22,6 +22,7 @@ from tests.fuzz.messages import KINDS, example
 from tests.fuzz.requests import loop
 from tests.fuzz.target import MANY, Target
 from tests.remote.rooms import LARGEST, Log, log_sim
+from tests.waiting import LIMIT_S
 
 FRAMES = 20
 """Frames of a conversation, on average."""
@@ -128,7 +129,7 @@ async def _talk(rng: random.Random) -> None:
     talk = Talk(rng)
     world = asyncio.create_task(_go_on(runner))
     try:
-        await asyncio.wait_for(app(talk.scope(), talk.receive, talk.send), 20)
+        await asyncio.wait_for(app(talk.scope(), talk.receive, talk.send), LIMIT_S)
         for _ in range(20):  # the seat becomes free, and the agent goes back to its own brain
             await asyncio.sleep(0)
     finally:

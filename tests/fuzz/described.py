@@ -28,7 +28,7 @@ def hold_against_description(examples: int) -> str:
         @given(case=operation.as_strategy())
         @settings(
             max_examples=examples,
-            deadline=1000,
+            deadline=None,
             derandomize=True,
             suppress_health_check=list(HealthCheck),
             database=None,

@@ -1,5 +1,6 @@
 import threading
 from collections import Counter
+from collections.abc import Iterator
 from threading import Semaphore
 from typing import Any
 
@@ -172,9 +173,21 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
     assert capsys.readouterr().err.count("OSError: no clients") == 1
 
 
+@pytest.fixture
+def moving() -> Iterator[Viewer]:
+    """A viewer of a world in which a body moves."""
+    sim = busy_sim(controller=lambda _percept: {"move": [0.5, 0.3, 0.0, 0.0]})
+    runner = Runner(sim, seed=1)
+    viewer = Viewer(runner)
+    yield viewer
+    viewer.stop(LIMIT_S)
+    runner.stop(LIMIT_S)
+
+
 def test_while_nobody_watches_nothing_is_sent(
-    viewer: Viewer, runner: Runner, monkeypatch: pytest.MonkeyPatch
+    moving: Viewer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    viewer, runner = moving, moving.runner
     turns, refresh = Semaphore(0), viewer.viewer_clients.refresh
 
     def refreshed() -> None:
