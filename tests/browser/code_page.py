@@ -60,7 +60,7 @@ SET_LIMITS = """async (limits) => {
 }"""
 WORLD_WAITS = (
     *("--grace", str(LIMIT_S)),
-    *("--receive-timeout", str(LIMIT_MS)),
+    *("--receive-timeout", str(round(LIMIT_MS))),
     *("--on-missing", "stop"),
 )
 """Options of ``ai4u-edu play`` for a world that waits for programs, however late they are.

@@ -1,24 +1,30 @@
 """A mouse over the picture of the world."""
 
+import itertools
 from typing import Any
 
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 from ai4u_edu.viewer.scene.framing import frame_arena
+from tests.browser.served_viser import frames
 from tests.playing import Played
+from tests.waiting import until
 
 Place = tuple[float, float]
+CANVAS = "canvas[data-engine]"
 
 
 def whole(page: Page) -> None:
-    """Has the camera over the whole arena, whatever it was at."""
-    page.get_by_role("button", name="Arena", exact=True).click()
-    page.wait_for_timeout(700)
+    """Bring the camera over the whole arena, where it is from the beginning."""
+    arena = page.get_by_role("button", name="Arena", exact=True)
+    arena.click()
+    expect(arena).to_have_attribute("aria-pressed", "true")
+    frames(page)
 
 
 def spot(page: Page, place: Place, half: float) -> Place:
     """Return where a place (metres) is on the screen, if the arena reaches from -half to half."""
-    box = page.locator("canvas[data-engine]").bounding_box()
+    box = page.locator(CANVAS).bounding_box()
     assert box is not None
     seen = frame_arena(((-half, -half), (half, half)), box["width"] / box["height"])
     scale = box["height"] / seen.height
@@ -27,9 +33,18 @@ def spot(page: Page, place: Place, half: float) -> Place:
 
 
 def take(page: Page, at: Place, half: float) -> None:
-    """Puts the mouse on a place and its button down."""
-    page.mouse.move(*spot(page, at, half))
-    page.wait_for_timeout(300)
+    """Put the mouse on a place, and its button down as soon as there is a thing to click."""
+    canvas = page.locator(CANVAS)
+    x, y = spot(page, at, half)
+    offsets = itertools.cycle((1, 0))  # viser looks for a thing only when the mouse has moved
+
+    def is_on_thing() -> bool:
+        offset = next(offsets)
+        page.mouse.move(x + offset, y)
+        frames(page)
+        return not offset and canvas.evaluate("each => each.style.cursor") == "pointer"
+
+    until(is_on_thing)
     page.mouse.down()
 
 
@@ -39,8 +54,7 @@ def carry(page: Page, at: Place, to: Place, half: float, steps: int = 8) -> None
         share = step / steps
         place = tuple(a + share * (b - a) for a, b in zip(at, to, strict=True))
         page.mouse.move(*spot(page, (place[0], place[1]), half))
-        page.wait_for_timeout(60)
-    page.wait_for_timeout(150)
+        frames(page)
 
 
 def drag(page: Page, at: Place, to: Place, half: float) -> None:

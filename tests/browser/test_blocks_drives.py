@@ -8,6 +8,8 @@ from playwright.sync_api import Browser, Locator, Page, expect
 
 from tests.browser.blocks_keys import choose, focused, go, set_number
 from tests.browser.code_editor import WithEditor
+from tests.browser.code_page import WORLD_WAITS, set_limits
+from tests.browser.sent_frames import SentFrames
 from tests.browser.served_viser import ready
 from tests.browser.test_play import MIDDLE
 from tests.chromium import new_page
@@ -15,7 +17,6 @@ from tests.playing import Played, played
 
 pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
-TEST_MS = 300_000
 PROGRAM = (
     "def decide(percept):\n"
     "    forward = turn = 0\n"
@@ -66,16 +67,19 @@ def page(chromium: Browser) -> Iterator[Page]:
 def opened(page: Page, server: Played) -> BlocksTab:
     page.goto(server.url)
     ready(page)
+    set_limits(page)
     return BlocksTab(page)
 
 
 def test_one_block_is_the_first_step(page: Page) -> None:
-    with played("maze", "--seed", "4") as server:
+    with played("maze", "--seed", "4", *WORLD_WAITS) as server:
+        sent = SentFrames(page)
         tab = opened(page, server)
         before = server.snapshot()["agents"][0]["pose"]
         choose(page, "Actions", "forward")
         expect(tab.editor).to_contain_text("forward = 1")
-        assert server.snapshot()["agents"][0]["pose"] == before  # no key drove
+        assert sent.take() == []  # no key drove
+        assert server.snapshot()["agents"][0]["pose"] == before
         tab.keys("Control+Enter")
         expect(page.locator(".ai4u-blocks-ran")).to_have_count(2)
         status = page.locator(".ai4u-steps-status")
@@ -83,7 +87,7 @@ def test_one_block_is_the_first_step(page: Page) -> None:
 
 
 def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:
-    with played("box_chase", "--seed", MIDDLE) as server:
+    with played("box_chase", "--seed", MIDDLE, *WORLD_WAITS) as server:
         tab = opened(page, server)
         choose(page, "Control", "if, Empty, has 2 branches")
         choose(page, "Numbers", "0, <")
@@ -103,4 +107,4 @@ def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:
         assert tab.text == PROGRAM
         go(page, "Shift+Tab", "Test")
         tab.keys("Enter")
-        expect(tab.state).to_contain_text("10 of 10 reached the goal", timeout=TEST_MS)
+        expect(tab.state).to_contain_text("10 of 10 reached the goal")

@@ -113,6 +113,7 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     assert others == {"vendor/blockly.js"}
 
 
+# real time: none; setTimeout without a delay is a turn of the event loop
 HOLD_FRAMES = """() => {
   const held = [];
   const draw = window.requestAnimationFrame;

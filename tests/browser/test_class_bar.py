@@ -231,6 +231,7 @@ def test_a_race_counts_down_and_shows_the_own_best_first(school: RoomOfClass) ->
     view.set_race(race, school.clock() + 2.0, None)
     countdown = page.locator(".ai4u-countdown")
     for text in ("2", "1", "Go!"):
+        expect(countdown).to_be_visible()
         expect(countdown).to_have_text(text)
         page.clock.run_for(1000)
     expect(countdown).to_be_hidden()

@@ -5,6 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.code_page import set_limits
 from tests.browser.test_class_programs import teachers_page
 from tests.browser.test_code_drives import CodeTab
 from tests.chromium import DRAW_NOTHING, new_page
@@ -28,6 +29,7 @@ def tab_of(chromium: Browser, student: Student) -> CodeTab:
     page.context.add_cookies(cookies)  # type: ignore[arg-type]  # a TypedDict of playwright
     page.goto(student.address)
     page.get_by_role("tab", name="Code").wait_for()
+    set_limits(page)
     tab = CodeTab(page)
     expect(tab.editor).to_contain_text("def decide")
     return tab

@@ -1,21 +1,29 @@
 """The page finds its room under any path, comes back after a loss, and talks to nobody else."""
 
-import time
 from collections.abc import Iterator
 
 import pytest
 import viser
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Page, expect
 from starlette.applications import Starlette
 
 from ai4u_edu import ControlRequestor
+from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
+from tests.browser.kept_port import kept_port
 from tests.browser.panel_page import panel_room
-from tests.browser.served_viser import PLAIN, ServedViser, connected, driver_status, ready
-from tests.chromium import new_page
-from tests.server.rooms import Room, free_port, served
-from tests.waiting import until
+from tests.browser.served_viser import (
+    PLAIN,
+    ServedViser,
+    connected,
+    driver_status,
+    ready,
+    recorded_holds,
+)
+from tests.chromium import new_page, until_on
+from tests.server.rooms import PATIENT, Clock, Room, served
+from tests.waiting import LIMIT_S, until
 from tests.wifi import Wifi
 
 SENT = """performance.getEntriesByType("resource")
@@ -49,47 +57,62 @@ def test_a_room_under_a_path(
 def test_a_page_comes_back_after_the_server_did(
     chromium: Browser, inner: viser.ViserServer, sim: ControlRequestor
 ) -> None:
+    for agent in sim.agents:
+        agent.keyboard = Keyboard(clock=Clock())  # keys are released, and not forgotten
     runner = Runner(sim)
     runner.start()
     room = Room(runner, "")
-    port = free_port()
-    app = room_app(runner, viser_port=inner.get_port(), title="A room")
+    app = room_app(runner, viser_port=inner.get_port(), title="A room", timeouts=PATIENT)
     page = new_page(chromium)
-    with ServerThread(app, port=port) as server:
-        page.goto(server.url)
-        ready(page)
-        page.keyboard.down("KeyW")
-        until(lambda: room.held == ["KeyW"])
-    expect(driver_status(page)).to_have_text("Connecting …")
-    until(lambda: room.held == [])
-    with ServerThread(app, port=port):
-        expect(driver_status(page)).to_have_text("Press a key to drive")
-        time.sleep(0.3)
-        assert room.held == [], "a key that was lost has to be pressed anew"
-        page.keyboard.up("KeyW")
-        page.keyboard.down("KeyW")
-        until(lambda: room.held == ["KeyW"])
-        page.context.close()
-    runner.stop()
+    with kept_port() as port:
+        with ServerThread(app, port=port, timeouts=PATIENT) as server:
+            page.goto(server.url)
+            ready(page)
+            page.keyboard.down("KeyW")
+            until(lambda: room.held == ["KeyW"])
+        expect(driver_status(page)).to_have_text("Connecting …")
+        until(lambda: room.held == [])
+        with ServerThread(app, port=port, timeouts=PATIENT), recorded_holds(room) as holds:
+            expect(driver_status(page)).to_have_text("Press a key to drive")
+            page.keyboard.down("KeyA")
+            until(lambda: "KeyA" in room.held)
+            assert holds[0] == ["KeyA"], "a key that was lost has to be pressed anew"
+            page.keyboard.up("KeyW")
+            page.keyboard.down("KeyW")
+            until(lambda: room.held == ["KeyA", "KeyW"])
+            page.context.close()
+    runner.stop(LIMIT_S)
 
 
 @pytest.mark.parametrize("with_connections", [True, False])
 def test_a_page_notices_that_its_network_is_gone_and_comes_back(
-    site: ServedViser, with_connections: bool
+    chromium: Browser, sim: ControlRequestor, with_connections: bool
 ) -> None:
     """Nothing is closed: as without Wi-Fi."""
-    with Wifi(site.room.url) as wifi:
-        page = new_page(site.chromium)
-        site.pages.append(page)
+    key_clock = Clock()
+    with served(sim, key_clock=key_clock) as room, Wifi(room.url) as wifi:
+        page = new_page(chromium)
+        keepalives: list[str | bytes] = []
+
+        def note(frame: str | bytes) -> None:
+            if "keepalive" in str(frame):
+                keepalives.append(frame)
+
+        page.on("websocket", lambda socket: socket.on("framereceived", note))
         PLAIN.serve(page, wifi.url)
         page.clock.install()
         page.goto(wifi.url)
         connected(page)
         page.keyboard.down("KeyW")
-        until(lambda: site.room.held == ["KeyW"])
-        page.wait_for_timeout(100)  # for the first keepalive
+        until(lambda: room.held == ["KeyW"])
+        until_on(page, lambda: keepalives)  # only then the page misses them
         wifi.go()
-        until(lambda: site.room.held == [])
+
+        def is_forgotten() -> bool:
+            key_clock.now += 1
+            return room.held == []
+
+        until(is_forgotten)
         page.clock.fast_forward(9000)
         expect(driver_status(page)).to_have_text("Connecting …")
         page.clock.fast_forward(4000)
@@ -101,7 +124,8 @@ def test_a_page_notices_that_its_network_is_gone_and_comes_back(
         expect(lost).to_be_hidden()
         page.keyboard.up("KeyW")
         page.keyboard.down("KeyW")
-        until(lambda: site.room.held == ["KeyW"])
+        until(lambda: room.held == ["KeyW"])
+        page.context.close()
 
 
 @pytest.fixture
@@ -117,10 +141,15 @@ def test_a_link_cannot_send_the_page_to_another_viser(
     site: ServedViser, other: viser.ViserServer, guarded: bool
 ) -> None:
     page = new_page(site.chromium, bypass_csp=not guarded)
-    page.goto(f"{site.room.url}?websocket=ws://127.0.0.1:{other.get_port()}")
+    said: list[str] = []
+    session = page.context.new_cdp_session(page)
+    session.on("Log.entryAdded", lambda event: said.append(event["entry"]["text"]))
+    session.send("Log.enable")  # viser connects in a worker, whose errors are told there alone
+    address = f"ws://127.0.0.1:{other.get_port()}"
+    page.goto(f"{site.room.url}?websocket={address}")
     ready(page)
     if guarded:
-        page.wait_for_timeout(1000)
+        until_on(page, lambda: any(address in text and "has been blocked" in text for text in said))
         assert other.get_clients() == {}
     else:
         until(other.get_clients)
@@ -150,13 +179,19 @@ def test_a_foreign_page_neither_drives_nor_reads(
     page.context.close()
 
 
+def panel_is_there(page: Page) -> None:
+    """Wait until a page has all of its files; the last ones are those of the panel."""
+    connected(page)
+    expect(page.get_by_role("tab", name="Past")).to_be_attached()
+
+
 def test_a_page_that_is_loaded_again_asks_for_none_of_our_files(chromium: Browser) -> None:
     with panel_room() as room:
         page = new_page(chromium)
         page.goto(room.url)
-        connected(page)
+        panel_is_there(page)
         assert min(sizes := page.evaluate(SENT)) > 0
         page.reload()
-        connected(page)
+        panel_is_there(page)
         assert page.evaluate(SENT) == [0] * len(sizes)
         page.context.close()

@@ -45,7 +45,7 @@ DRIVE = """
     }
 """
 
-PATIENT_RULES = Rules(grace=LIMIT_S, receive_timeout=LIMIT_MS)
+PATIENT_RULES = Rules(grace=LIMIT_S, receive_timeout=round(LIMIT_MS))
 
 
 @contextmanager
