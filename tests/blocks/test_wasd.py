@@ -6,6 +6,7 @@ import pytest
 
 from ai4u_edu import Command, Keyboard, WASDRBMoveController
 from ai4u_edu.base.errors import ParameterError
+from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
 from tests.builders import small_sim
 
 
@@ -69,6 +70,7 @@ class Clock:
 def test_silence_lets_the_keys_go() -> None:
     clock = Clock()
     keyboard = Keyboard(clock)
+    keyboard.timeout_s = KEY_TIMEOUT_S
     keyboard.hold(["KeyW"])
     clock.now = 0.29
     assert keyboard.read() == {"KeyW"}
