@@ -45,11 +45,13 @@ def test_pause_lets_keys_go_and_resume_goes_on(runner: Runner) -> None:
 
 
 def test_commands_run_between_two_decisions_in_the_runners_thread() -> None:
+    sim = Scene.load("box_chase").build()
+
     def look() -> tuple[bool, str]:
-        return runner.sim.between_decisions(), threading.current_thread().name
+        return sim.between_decisions(), threading.current_thread().name
 
     # by a clock of its own no decision takes so long that a command runs in the middle of it
-    with running(Runner(Scene.load("box_chase").build(), seed=1, clock=ManualClock())) as runner:
+    with running(Runner(sim, seed=1, clock=ManualClock())) as runner:
         for _ in range(10):
             assert runner.submit(look).result(LIMIT_S) == (True, "runner")
 

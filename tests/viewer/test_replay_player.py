@@ -1,7 +1,7 @@
 """The player of recorded episodes, which all pages share."""
 
 from collections.abc import Iterator
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from threading import Event, Semaphore
 
 import pytest
@@ -130,7 +130,7 @@ def test_it_plays_each_decision_to_the_end_and_stops(
 def test_playback_goes_on_when_the_world_is_slow_to_show_a_frame(
     runner: Runner, player: ReplayPlayer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    waits, goes_on, wait = Semaphore(0), Event(), replay_player.wait
+    waits, goes_on = Semaphore(0), Event()
 
     def note_and_wait(futures: list[Future[None]], timeout: float) -> object:
         waits.release()
