@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+import httpx
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
@@ -46,6 +47,11 @@ class Played:
     def health(self) -> dict[str, Any]:
         """Return the answer of ``/healthz``, whatever its status."""
         return self._get("healthz")
+
+    def open(self, scene: str) -> None:
+        """Open a scene of the library in place of the present one, whatever was changed there."""
+        answer = httpx.post(f"{self.url}api/scene", json={"name": scene}, timeout=LIMIT_S)
+        answer.raise_for_status()
 
     def restart(self, seed: int) -> None:
         """Begin a new episode of the scene, and let the world run."""

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import httpx
 import pytest
 from playwright.sync_api import Browser, Page
 
@@ -18,7 +17,6 @@ from tests.browser.code_page import WORLD_WAITS, code_page
 from tests.playing import Played, played
 from tests.program.solutions import entry_of, solution
 from tests.program.test_same_everywhere import for_page
-from tests.waiting import LIMIT_S
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 
@@ -72,8 +70,7 @@ def page(chromium: Browser, server: Played) -> Iterator[Page]:
 @pytest.mark.parametrize("name", [CHEAP, *REST])
 def test_the_episodes_are_the_same(name: str, page: Page, server: Played, tmp_path: Path) -> None:
     if name != CHEAP:
-        answer = httpx.post(f"{server.url}api/scene", json={"name": name}, timeout=LIMIT_S)
-        assert answer.status_code == 200, answer.text
+        server.open(name)
     source = solution(name)
     file = tmp_path / "program.py"
     file.write_text(source)

@@ -42,6 +42,7 @@ def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
 
 @pytest.fixture
 def server(shared: Played) -> Played:
+    shared.open("box_chase_ai4u")  # another test may have changed it
     shared.restart(MIDDLE)
     return shared
 

@@ -108,13 +108,15 @@ def test_a_notebook_reports_its_checks_and_shows_its_world(
         assert solved["00.1"]["tries"] == 2
 
         notebook.run('show("box_chase")')
-        shown = teacher.next(
-            "class",
-            lambda e: any(r["scene"] == "Box chase" and r["kind"] == "remote" for r in e["rooms"]),
-        )
-        room = next(each for each in shown["rooms"] if each["scene"] == "Box chase")
-        seat = next(each for each in shown["seats"] if each["name"] == name)
-        assert room["seats"] == [seat["number"]]
+
+        def own_rooms(event: dict[str, Any]) -> list[dict[str, Any]]:
+            seats = [[seat["number"]] for seat in event["seats"] if seat["name"] == name]
+            rooms = [room for room in event["rooms"] if room["seats"] in seats]
+            return [
+                room for room in rooms if (room["scene"], room["kind"]) == ("Box chase", "remote")
+            ]
+
+        (room,) = own_rooms(teacher.next("class", own_rooms))
         drawing = teacher.next("drawing", lambda e: e["room"] == room["id"])
         assert {each["name"] for each in drawing["bodies"]} == {"robot", "box"}
 
