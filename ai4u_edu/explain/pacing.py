@@ -28,8 +28,10 @@ class Pacing:
     Args:
         share: returns the share that it may take now, 0..1.
         stopping: ends the work.
-        next_tick_at: returns when a world ticks next (s, of ``time.monotonic``); infinity if it
-            does not tick by the clock.
+        next_tick_at: returns when a world ticks next (s, of the clock); infinity if it does not
+            tick by the clock.
+        clock: seconds.
+        thread_time: processor time (s) of the calling thread.
     """
 
     def __init__(
@@ -37,10 +39,14 @@ class Pacing:
         share: Callable[[], float],
         stopping: threading.Event,
         next_tick_at: Callable[[], float] = lambda: math.inf,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        thread_time: Callable[[], float] = time.thread_time,
     ) -> None:
         self._share, self._stopping = share, stopping
         self._next_tick_at = next_tick_at
-        self._began = time.thread_time()
+        self._clock, self._thread_time = clock, thread_time
+        self._began = thread_time()
         self._work_s = MIN_WORK_S
         """Length of the next piece of work, from those before it."""
 
@@ -50,17 +56,17 @@ class Pacing:
         Raises:
             StoppedError: the work is to end.
         """
-        took = time.thread_time() - self._began
+        took = self._thread_time() - self._began
         if took < MIN_WORK_S and not self._stopping.is_set():
             return
         self._work_s = max(took, 0.9 * self._work_s)
         self._wait(max(took / self._share() - took, 0.0))
         for _ in range(MAX_TICKS_WAITED):
-            left = self._next_tick_at() - time.monotonic()
+            left = self._next_tick_at() - self._clock()
             if left > self._work_s + MIN_WORK_S or left < -TICK_S:
                 break
             self._wait(max(left, 0.0) + TICK_S)
-        self._began = time.thread_time()
+        self._began = self._thread_time()
 
     def _wait(self, seconds: float) -> None:
         if self._stopping.wait(seconds):

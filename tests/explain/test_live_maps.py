@@ -1,5 +1,6 @@
 """Maps over the floor of a running world, place by place, and poses that are tried."""
 
+import math
 import threading
 from dataclasses import replace
 from typing import Any
@@ -160,6 +161,8 @@ def test_another_driver_begins_anew_and_one_with_a_state_is_refused() -> None:
 
 
 def test_its_thread_ends_when_nobody_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live_maps, "INTEREST_S", math.inf)
+    before = set(threading.enumerate())
     world = Watched(turns_to_box)
     maps = world.maps()
     choice = MapChoice(has_field=True, has_values=True)
@@ -167,7 +170,8 @@ def test_its_thread_ends_when_nobody_looks(monkeypatch: pytest.MonkeyPatch) -> N
     assert field_request.kind == "field"
 
     def threads() -> list[threading.Thread]:
-        return [each for each in threading.enumerate() if each.name == "maps"]
+        running = set(threading.enumerate()) - before
+        return [each for each in running if each.name == "maps"]
 
     def is_complete() -> bool:
         found = [maps.ask(each) for each in choice.requests("0")]
@@ -175,9 +179,9 @@ def test_its_thread_ends_when_nobody_looks(monkeypatch: pytest.MonkeyPatch) -> N
 
     until(is_complete)
     assert len(threads()) == 1
-    monkeypatch.setattr(live_maps, "INTEREST_S", 0.0)
+    monkeypatch.setattr(live_maps, "INTEREST_S", -1.0)
     until(lambda: not threads())
-    monkeypatch.undo()
+    monkeypatch.setattr(live_maps, "INTEREST_S", math.inf)
     until(lambda: maps.ask(field_request) and threads())
     maps.stop()
     until(lambda: not threads())

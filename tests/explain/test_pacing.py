@@ -1,12 +1,16 @@
 """Work in a thread: a share of the processor, between ticks."""
 
+import itertools
+import math
 import threading
+from collections.abc import Callable
 
 import pytest
 
 from ai4u_edu.explain.pacing import Pacing, StoppedError
 
-PACING = "ai4u_edu.explain.pacing"
+WORK_S = 0.003
+"""Processor time that each piece of work takes in these tests."""
 
 
 class Waits(threading.Event):
@@ -21,21 +25,31 @@ class Waits(threading.Event):
         return self.is_set()
 
 
-@pytest.fixture(autouse=True)
-def _every_millisecond_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    processor_s = iter(range(100))
-    monkeypatch.setattr(f"{PACING}.time.thread_time", lambda: 0.003 * next(processor_s))
-    monkeypatch.setattr(f"{PACING}.time.monotonic", lambda: 10.0)
+def paced(
+    share: float,
+    waits: Waits,
+    next_tick_at: Callable[[], float] = lambda: math.inf,
+    work_s: float = WORK_S,
+) -> Pacing:
+    """Return a pacing at the time 10 s, each piece of whose work takes a time."""
+    pieces = itertools.count()
+    return Pacing(
+        lambda: share,
+        waits,
+        next_tick_at,
+        clock=lambda: 10.0,
+        thread_time=lambda: work_s * next(pieces),
+    )
 
 
 def test_it_rests_for_the_rest_of_its_share() -> None:
     waits = Waits()
-    paced = Pacing(lambda: 0.25, waits)
-    paced.rest()
+    pacing = paced(0.25, waits)
+    pacing.rest()
     assert waits.seconds == pytest.approx([0.009])  # 3 ms of work, a quarter of 12 ms
     waits.set()
     with pytest.raises(StoppedError):
-        paced.rest()
+        pacing.rest()
 
 
 @pytest.mark.parametrize(
@@ -50,13 +64,12 @@ def test_it_rests_for_the_rest_of_its_share() -> None:
 )
 def test_it_works_between_two_ticks(ticks_at: tuple[float, ...], waited: list[float]) -> None:
     waits, ticks = Waits(), iter(ticks_at)
-    Pacing(lambda: 1.0, waits, lambda: next(ticks)).rest()
+    paced(1.0, waits, lambda: next(ticks)).rest()
     assert waits.seconds[0] == 0.0
     assert waits.seconds[1:] == pytest.approx(waited)
 
 
-def test_little_work_needs_no_rest(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_little_work_needs_no_rest() -> None:
     waits = Waits()
-    monkeypatch.setattr(f"{PACING}.time.thread_time", lambda: 0.0)
-    Pacing(lambda: 0.25, waits).rest()
+    paced(0.25, waits, work_s=0.0).rest()
     assert waits.seconds == []
