@@ -104,19 +104,15 @@ class RoomWatch:
         with suppress(psutil.Error, OSError):
             if sys.platform == "win32":
                 self._process.nice(_windows_class(niceness))
-            elif sys.platform == "linux":
-                self._set_niceness_of_threads(niceness)
+            elif sys.platform == "linux":  # each thread has its own; a new one takes its maker's
+                done: set[int] = set()
+                while found := {each.id for each in self._process.threads()} - done:
+                    for thread in found:
+                        with suppress(ProcessLookupError):  # it has ended
+                            os.setpriority(os.PRIO_PROCESS, thread, niceness)
+                    done |= found
             else:
                 self._process.nice(niceness)
-
-    def _set_niceness_of_threads(self, niceness: int) -> None:
-        """Set it for each thread, since each has its own; a new one takes its maker's."""
-        done: set[int] = set()
-        while found := {each.id for each in self._process.threads()} - done:
-            for thread in found:
-                with suppress(ProcessLookupError):  # it has ended
-                    os.setpriority(os.PRIO_PROCESS, thread, niceness)
-            done |= found
 
 
 def _windows_class(niceness: int) -> int:
