@@ -1,4 +1,4 @@
-"""When a world ticks, when its commands run, and how often it is drawn, by a clock."""
+"""Times by a clock at which a world ticks, runs its commands and is drawn."""
 
 import time
 from concurrent.futures import Future
