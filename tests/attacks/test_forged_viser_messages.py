@@ -30,7 +30,7 @@ class Room(NamedTuple):
     viewer: Viewer
     harness: EditorHarness
     began: float
-    """When it did (s, of time.monotonic)."""
+    """Time (s, of time.monotonic) at which it did."""
 
 
 @pytest.fixture

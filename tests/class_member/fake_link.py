@@ -25,7 +25,7 @@ from tests.waiting import LIMIT_S, until
 
 M = TypeVar("M")
 ASKED_PER_POLL = 2
-"""How often a member asks its link whether it is connected."""
+"""Number of times that a member asks its link in a poll if it is connected."""
 
 
 class FakeLink:
