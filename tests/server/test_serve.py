@@ -260,11 +260,12 @@ def test_an_answer_that_is_read_to_its_end_while_stopping_leaves_no_error(
 
     app = Starlette(routes=[Route("/", large), Route("/wait", wait)])
     timeouts = replace(PATIENT, abort=LIMIT_S, shutdown=3 * LIMIT_S)
-    with ThreadPoolExecutor(3) as pool:
+    with ThreadPoolExecutor(2) as pool, ExitStack() as stack:
         room = ServerThread(app, timeouts=timeouts).start()
         parts: Any = urlsplit(room.url)
         answer = pool.submit(http_client.get, room.url)
-        pool.submit(_suppressed_get, f"{room.url}wait")  # keeps the server until the end
+        # keeps the server until the end
+        stack.enter_context(raw_request(f"{room.url}wait", "Host: localhost"))
         assert asked.acquire(timeout=LIMIT_S)
         assert asked.acquire(timeout=LIMIT_S)
         stopping = pool.submit(room.stop)
