@@ -46,7 +46,7 @@ def judge(exercise: Exercise, *things: Any) -> Verdict:
         return Verdict(False, UNFINISHED, "unfinished")
     if any(thing is None for thing in things):
         return Verdict(False, NONE_GIVEN, "no-return")
-    with TimeLimit(exercise.call_limit_s) as limit:
+    with TimeLimit(exercise.call_limit_s, exercise.total_limit_s) as limit:
         try:
             found = exercise.judge(*things)
         except NotYet as reason:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from ai4u_edu.class_link import LinkClient, Outbox, Seat
+from ai4u_edu.class_link import LinkClient, LinkTimeouts, Outbox, Seat
 from ai4u_edu.class_link.dialogue import PresentState
 from ai4u_edu.wire.class_link import (
     Applied,
@@ -54,13 +54,22 @@ class ClassConnection:
     Args:
         seat: of the notebook.
         folder: of the seat's files; made if needed.
+        timeouts: of the link; default: those for a school's network.
+        clock: seconds, for the time to wait for the class's check.
     """
 
-    def __init__(self, seat: Seat, folder: Path) -> None:
+    def __init__(
+        self,
+        seat: Seat,
+        folder: Path,
+        *,
+        timeouts: LinkTimeouts | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self.seat, self.folder = seat, folder
-        self.client = LinkClient(
-            seat.url, seat.token, "notebook", self._receive, Outbox(folder / OUTBOX)
-        )
+        self._clock = clock
+        outbox = Outbox(folder / OUTBOX)
+        self.client = LinkClient(seat.url, seat.token, "notebook", self._receive, outbox, timeouts)
         self._assignment = ""
         """Id of the latest assignment; the class sends it again after each reconnect."""
         self._lock = Lock()
@@ -93,11 +102,11 @@ class ClassConnection:
             self._problem = ""
         self.client.renew()  # another notebook of this seat may have taken its place
         self.client.send_result(network)
-        end_at = time.monotonic() + timeout_s
+        end_at = self._clock() + timeout_s
         with self._changed:
             while True:
                 answer = self._answer(network.key)
-                left_s = end_at - time.monotonic()
+                left_s = end_at - self._clock()
                 is_lost = not answer.is_stored and not self.client.is_connected
                 is_lost = is_lost and bool(self.client.problem)
                 if answer.is_checked or answer.refusal or is_lost or left_s <= 0:

@@ -18,7 +18,7 @@ from typing import Any, TypeVar, cast
 
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
-from ai4u_edu.lessons.time_limit import CALL_LIMIT_S
+from ai4u_edu.lessons.time_limit import CALL_LIMIT_S, TOTAL_LIMIT_S
 
 T = TypeVar("T")
 
@@ -61,7 +61,9 @@ class Exercise:
     hints: Mapping[str, str] = field(default_factory=dict)
     """Hints by name of the diagnosis; the first one is for students who have not begun."""
     call_limit_s: float = CALL_LIMIT_S
-    """Longest time that one call of the student's function may take."""
+    """Longest time (s) that one call of the student's function may take."""
+    total_limit_s: float = TOTAL_LIMIT_S
+    """Longest time (s) that all calls of a check may take together."""
 
 
 EXERCISES: dict[str, Exercise] = {}

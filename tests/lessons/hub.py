@@ -8,12 +8,11 @@ docs/jupyterhub_config.py; each student logs in with a browser, runs the first t
 import argparse
 import contextlib
 import os
+import socket
 import subprocess
 import sys
 import tempfile
 import time
-import urllib.error
-import urllib.request
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,10 +20,10 @@ from pathlib import Path
 import psutil
 from playwright.sync_api import Browser, Page
 
-from tests.chromium import DRAW_NOTHING, browser
+from tests.chromium import browser, new_page
 from tests.evidence import KeptFile
-from tests.server.rooms import free_port
-from tests.waiting import LIMIT_S, Deadline
+from tests.lessons.lab import wait_for
+from tests.waiting import LIMIT_S
 
 CONFIG = Path(__file__).parents[2] / "docs" / "jupyterhub_config.py"
 OWN = """
@@ -56,8 +55,13 @@ Ports = tuple[int, int, int, int]
 
 
 def new_ports() -> Ports:
-    """Return free ports."""
-    return free_port(), free_port(), free_port(), free_port()
+    """Return free ports, each another one."""
+    with contextlib.ExitStack() as stack:
+        probes = [stack.enter_context(socket.socket()) for _ in range(4)]
+        for probe in probes:
+            probe.bind(("127.0.0.1", 0))
+        first, second, third, fourth = (int(probe.getsockname()[1]) for probe in probes)
+    return first, second, third, fourth
 
 
 @contextlib.contextmanager
@@ -94,7 +98,7 @@ def hub(
             env=_env(),
         )
         try:
-            _wait_for(url + "login", process, kept.path)
+            wait_for(url + "login", process, kept.path)
             yield url, psutil.Process(process.pid)
         finally:
             process.terminate()
@@ -106,21 +110,11 @@ def _env() -> dict[str, str]:
     return {**own, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{own['PATH']}"}
 
 
-def _wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:
-    deadline = Deadline()
-    while deadline.left() and process.poll() is None:
-        with contextlib.suppress(urllib.error.URLError, ConnectionError):
-            urllib.request.urlopen(url, timeout=LIMIT_S)  # noqa: S310 - our own
-            return
-        time.sleep(0.3)
-    raise RuntimeError(f"JupyterHub did not come up: {log.read_text()}")
-
-
 def report(root: psutil.Process, seconds: float, title: str) -> None:
     """Print memory and cores of each kind of process below the hub's."""
     processes = {each: _kind(each) for each in [root, *root.children(recursive=True)]}
     before = {each: _cpu(each) for each in processes}
-    time.sleep(seconds)
+    time.sleep(seconds)  # real time: it is measured
     memory, cores = defaultdict(list), defaultdict(list)
     for each, kind in processes.items():
         with contextlib.suppress(psutil.Error):
@@ -145,9 +139,7 @@ def _cpu(process: psutil.Process) -> float:
 
 def student(chromium: Browser, url: str, name: str) -> Page:
     """Log in; gives the page with lesson 00 and a running kernel."""
-    context = chromium.new_context(viewport={"width": 1366, "height": 768})
-    context.add_init_script(DRAW_NOTHING)
-    page = context.new_page()
+    page = new_page(chromium, 1366, 768)
     page.goto(url + "login")
     page.fill("input[name=username]", name)
     page.fill("input[name=password]", WORD)

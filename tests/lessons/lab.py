@@ -1,10 +1,10 @@
 """A real Jupyter server, with jupyter-server-proxy or without."""
 
 import contextlib
+import json
 import os
 import subprocess
 import sys
-import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from pathlib import Path
 from ai4u_edu.lessons.handout import lab_config
 from tests.evidence import KeptFile
 from tests.server.rooms import free_port
-from tests.waiting import LIMIT_S, Deadline
+from tests.waiting import LIMIT_S, until
 
 
 @contextlib.contextmanager
@@ -28,8 +28,8 @@ def lab(
         python: whose JupyterLab.
         base: the path under which it is, as behind a hub.
     """
-    port = free_port()
-    command = [str(python), "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
+    command = [str(python), "-m", "jupyterlab", "--no-browser", "--allow-root"]
+    command += [f"--port={free_port()}"]
     command += [f"--ServerApp.root_dir={folder}", "--IdentityProvider.token=", *options]
     command += [f"--ServerApp.base_url={base}", "--LabApp.news_url=None"]
     home = folder / ".jupyter-home"
@@ -46,7 +46,7 @@ def lab(
     with kept.path.open("w") as log:
         process = subprocess.Popen(command, stdout=log, stderr=log, env=env)
         try:
-            url = f"http://localhost:{port}{base}"
+            url = f"http://localhost:{port_of(process, home, kept.path)}{base}"
             wait_for(url + "api", process, kept.path)
             yield url
         finally:
@@ -55,13 +55,33 @@ def lab(
 
 
 def wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:
-    """Waits until a server answers."""
-    deadline = Deadline()
-    while deadline.left() and process.poll() is None:
+    """Wait until a server answers.
+
+    Raises:
+        RuntimeError: its process has ended.
+    """
+
+    def answers() -> bool:
         try:
             with urllib.request.urlopen(url, timeout=LIMIT_S):  # noqa: S310 - our own
-                return
+                return True
         except (urllib.error.URLError, ConnectionError):
-            pass
-        time.sleep(0.2)
-    raise RuntimeError(f"JupyterLab did not come up: {log.read_text()}")
+            return False
+
+    until(lambda: answers() or process.poll() is not None)
+    if process.poll() is not None:
+        raise RuntimeError(f"the server did not come up: {log.read_text()}")
+
+
+def port_of(process: subprocess.Popen[bytes], home: Path, log: Path) -> int:
+    """Return the port of a Jupyter server, which takes another one if its own is taken."""
+
+    def known() -> dict[str, int]:
+        with contextlib.suppress(OSError, ValueError):  # not there, or not written yet
+            return dict(json.loads((home / f"jpserver-{process.pid}.json").read_text()))
+        return {}
+
+    until(lambda: known() or process.poll() is not None)
+    if process.poll() is not None:
+        raise RuntimeError(f"JupyterLab did not come up: {log.read_text()}")
+    return known()["port"]

@@ -11,12 +11,13 @@ import pytest
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons import cell_source as written_module
-from ai4u_edu.lessons import check, hint, progress, solution
+from ai4u_edu.lessons import check, hint, progress, progress_file, solution
 from ai4u_edu.lessons.checking import UNFINISHED, judge
 from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.progress_file import FILE, ProgressFile
 from tests.lessons.workbook import run
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture(autouse=True)
@@ -203,7 +204,9 @@ def test_the_code_that_was_checked_is_kept(monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_kernels_that_write_at_once_lose_no_entry(folder: Path) -> None:
     code = (
-        "import sys; from ai4u_edu.lessons.progress_file import ProgressFile as File\n"
+        "import sys; from ai4u_edu.lessons import progress_file\n"
+        f"progress_file.LOCK_TIMEOUT_S = {LIMIT_S}\n"
+        "File = progress_file.ProgressFile\n"
         "for number in range(25):\n"
         "    name = f'0{sys.argv[1]}.{number}'\n"
         "    File().note(name, passed=True, text='', diagnosis='', picture=b'')\n"
@@ -216,7 +219,10 @@ def test_kernels_that_write_at_once_lose_no_entry(folder: Path) -> None:
     assert not progress.trouble
 
 
-def test_two_notebooks_that_check_at_once_both_keep_their_result(folder: Path) -> None:
+def test_two_notebooks_that_check_at_once_both_keep_their_result(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(progress_file, "LOCK_TIMEOUT_S", LIMIT_S)
     started = threading.Barrier(8)
 
     def note(number: int) -> None:

@@ -26,9 +26,9 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.class_link.messages import drawing
 from tests.class_link.tiny_class import TinyClass
-from tests.lessons.class_with_a_seat import class_with_a_seat
+from tests.lessons.class_with_a_seat import class_with_a_seat, connected
 from tests.lessons.test_checking import go, stay
-from tests.server.rooms import free_port
+from tests.server.rooms import NOWHERE
 from tests.waiting import until
 
 WITHOUT_A_CLASS = """
@@ -94,8 +94,11 @@ def test_checks_and_hints_are_reported(
     assert "can't be reached" not in capsys.readouterr().out
     leave_class()
     check("00.1", go)
-    assert len(there.results) == 4
     assert "You have left the class. Nothing is sent any more." in capsys.readouterr().out
+    join_class(there.url, "BCDFG")
+    hint("00.1")
+    until(lambda: len(there.results) > 4)
+    assert [each[1] for each in _events(there)[4:]] == ["hint"]
 
 
 def test_what_a_class_that_is_away_missed_is_delivered_later_once(
@@ -124,9 +127,7 @@ def test_what_a_class_that_is_away_missed_is_delivered_later_once(
 def test_the_notebook_that_checks_gets_the_seat_back_from_another_one(there: TinyClass) -> None:
     there.start()
     join_class(there.url, "BCDFG")
-    connection = current_connection()
-    assert connection is not None
-    until(lambda: connection.client.is_connected)
+    connection = connected()
     there.send(Problem("over", "Another program has taken this place."))
     until(lambda: connection.client.is_over)
     check("00.1", go)
@@ -135,7 +136,7 @@ def test_the_notebook_that_checks_gets_the_seat_back_from_another_one(there: Tin
 
 
 def test_not_joined_is_a_sentence(capsys: pytest.CaptureFixture[str]) -> None:
-    join_class(f"http://127.0.0.1:{free_port()}", "BCDFG")
+    join_class(f"http://127.0.0.1:{NOWHERE}", "BCDFG")
     told = capsys.readouterr().out
     assert told.startswith("Not joined. The class at http://127.0.0.1:")
     assert "Your checks work without a class, too." in told
@@ -174,11 +175,9 @@ def test_the_shown_world_appears_and_the_teacher_can_stop_it(there: TinyClass) -
 def test_a_world_uses_the_link_while_it_is_shown(there: TinyClass) -> None:
     there.start()
     join_class(there.url, "BCDFG")
-    connection = current_connection()
-    assert connection is not None
-    until(lambda: connection.client.is_connected)
-    there.send(Assignment("a1", "Maze", "maze", None))
+    connection = connected()
     there.send(Attention("pause", "Look here", 0.0))
+    there.send(Assignment("a1", "Maze", "maze", None))
     until(lambda: there.of(Applied))
     assert there.of(Applied) == [Applied("a1", NO_WORLD)]
 

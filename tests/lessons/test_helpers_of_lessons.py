@@ -1,17 +1,21 @@
 """Helpers that notebooks call: paths without code, and the dialogue with a RemoteBrain."""
 
+import itertools
 from pathlib import Path
 
 import pytest
 
 from ai4u_edu import RemoteBrain
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks.brains.links.ai4u import AI4ULink
 from ai4u_edu.lessons.checking import judge
 from ai4u_edu.lessons.exercise import find
+from ai4u_edu.lessons.exercises import lesson_15
 from ai4u_edu.lessons.exercises.lesson_11_choice import clone_of, conditions, last_drives
 from ai4u_edu.lessons.exercises.lesson_12 import two_neurons
 from ai4u_edu.lessons.exercises.lesson_15 import overheard
 from ai4u_edu.lessons.filming import film_check
+from tests.waiting import LIMIT_S
 
 
 @pytest.fixture(autouse=True)
@@ -52,9 +56,24 @@ def test_the_choice_of_drives_decides_how_good_the_clone_is() -> None:
     assert not judge(find("11.2"), clone_of(drive_2=1)).passed
 
 
-def test_the_dialogue_of_a_remote_brain_ends_with_the_silent_script() -> None:
+def test_the_dialogue_of_a_remote_brain_ends_with_the_silent_script(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(lesson_15, "MAX_DIALOGUE_S", LIMIT_S)
     answers = ["move;4;1;0;0;0", "move;4;0;0.3;0;0"]
-    said = list(overheard(lambda port: RemoteBrain(port=port, receive_timeout=200), answers))
+    calls = itertools.count()
+
+    def clock() -> float:
+        """Tell a time that goes on with each look at it, however long the dialogue takes."""
+        return 0.001 * next(calls)
+
+    def brain(port: int) -> RemoteBrain:
+        # real time: seconds of the clock above
+        link = AI4ULink("127.0.0.1", port, receive_timeout=0.2, clock=clock)
+        # real time: as above
+        return RemoteBrain.with_link(link, clock=clock, receive_timeout=200)
+
+    said = list(overheard(brain, answers))
     assert [line.removeprefix("script: ") for line in said[1::2][:2]] == answers
     states = [line for line in said if "bearing=" in line]
     assert [f"steps={number} " in line for number, line in enumerate(states)] == [True] * 3

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -113,14 +114,13 @@ def test_where_there_is_no_server_a_picture_stands(
     exported.write_text(
         NOTEBOOK.format(base="", page=live.page(480), film=live.film), encoding="utf-8"
     )
-    context = chromium.new_context(java_script_enabled=has_scripts)
-    page = context.new_page()
+    page = new_page(chromium, java_script_enabled=has_scripts)
     page.goto(exported.as_uri())
     assert page.locator("img").is_visible()
     assert page.locator("img").evaluate("image => image.naturalWidth") > 200
     assert page.get_by_text("the last episode").is_visible()
     assert page.locator("iframe").count() == 0
-    context.close()
+    page.context.close()
 
 
 @pytest.mark.nightly  # installs JupyterLab anew
@@ -128,19 +128,20 @@ def test_from_the_wheel_lesson_02_is_driven_in_jupyterlab(
     chromium: Browser, tmp_path: Path
 ) -> None:
     programs = _installed(tmp_path)
-    folder, port = tmp_path / "course", free_port()
-    command = [str(programs / "ai4u-edu"), "lessons", str(folder), "--no-open", f"--port={port}"]
+    folder = tmp_path / "course"
+    command = [str(programs / "ai4u-edu"), "lessons", str(folder), "--no-open"]
+    command += [f"--port={free_port()}"]
     env = {name: value for name, value in os.environ.items() if not name.startswith("JUPYTER")}
     env["HOME"] = str(tmp_path)
     with (tmp_path / "log").open("w") as log:
         process = subprocess.Popen(command, stdout=log, stderr=log, env=env, cwd=tmp_path)
     try:
-        wait_for(f"http://localhost:{port}/login", process, tmp_path / "log")
-        token = (tmp_path / "log").read_text().partition("?token=")[2].split()[0]
+        address = _told_address(process, tmp_path / "log")
+        wait_for(f"{address[1]}login", process, tmp_path / "log")
         page = new_page(chromium, 1280, 900, draws=True)
         asked: list[str] = []
         page.on("request", lambda request: asked.append(request.url))
-        page.goto(f"http://localhost:{port}/lab/tree/02_drive.ipynb?token={token}")
+        page.goto(f"{address[1]}lab/tree/02_drive.ipynb?token={address[2]}")
         src = _shown(page)
         frame = page.frame_locator("iframe[src*=token]")
         frame.locator(".ai4u-keycap").first.wait_for()
@@ -177,6 +178,18 @@ def _installed(folder: Path) -> Path:
         f"{wheel}[lessons]",
     )
     return programs
+
+
+def _told_address(process: subprocess.Popen[bytes], log: Path) -> re.Match[str]:
+    """Return address and token of a JupyterLab from its log: it takes another port if it has to."""
+
+    def found() -> re.Match[str] | None:
+        return re.search(r"(http://localhost:\d+/)\S*[?&]token=(\w+)\s", log.read_text())
+
+    until(lambda: found() or process.poll() is not None)
+    address = found()
+    assert address is not None, log.read_text()
+    return address
 
 
 def _run(*command: str) -> None:

@@ -215,7 +215,7 @@ def test_traced_code_goes_on_after_a_check_in_a_thread() -> None:
 
 def test_many_slow_calls_end_too() -> None:
     slow = function("import time\ndef go(percept):\n    time.sleep(0.15)\n    return {}")
-    with TimeLimit(call_s=5, total_s=0.5) as limit, pytest.raises(TimeLimitError):
+    with TimeLimit(call_s=LIMIT_S, total_s=0.5) as limit, pytest.raises(TimeLimitError):
         [slow(None) for _ in range(100)]
     assert not limit.is_endless
     assert "Each of them is slow (line 3 of its cell: time.sleep(0.15))" in limit.text

@@ -1,15 +1,16 @@
 """``submit``: a notebook hands in a network, and hears what the class says of it."""
 
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from threading import Thread
+from typing import Any
 
 import pytest
 
 from ai4u_edu.lessons import join_class, leave_class, submit
 from ai4u_edu.lessons import network_submission as module
-from ai4u_edu.lessons.class_connection import POLL_S
+from ai4u_edu.lessons.class_connection import ClassConnection
+from ai4u_edu.lessons.class_membership import current_connection
 from ai4u_edu.wire.class_link import (
     MAX_NETWORK_BYTES,
     Ack,
@@ -19,8 +20,8 @@ from ai4u_edu.wire.class_link import (
     Problem,
 )
 from tests.class_link.tiny_class import TinyClass
-from tests.lessons.class_with_a_seat import class_with_a_seat
-from tests.waiting import until
+from tests.lessons.class_with_a_seat import class_with_a_seat, connected
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.needs("train")
 
@@ -35,8 +36,16 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture
 def there(monkeypatch: pytest.MonkeyPatch) -> Iterator[TinyClass]:
+    monkeypatch.setattr(module, "CHECK_TIMEOUT_S", LIMIT_S)
     with class_with_a_seat(monkeypatch) as there:
         yield there
+
+
+def joined(there: TinyClass) -> ClassConnection:
+    """Join a class that runs; return the connection with it."""
+    there.start()
+    join_class(there.url, "BCDFG")
+    return connected()
 
 
 def network_in(there: TinyClass, number: int = 0) -> Network:
@@ -59,15 +68,27 @@ def test_outside_of_a_class_it_says_what_to_do(capsys: pytest.CaptureFixture[str
     assert "on a JupyterHub `join_class()`" in told
 
 
-def test_the_class_tells_its_verdict(there: TinyClass, capsys: pytest.CaptureFixture[str]) -> None:
-    there.start()
-    join_class(there.url, "BCDFG")
+def test_the_class_tells_its_verdict(
+    there: TinyClass, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    outbox = joined(there).client.outbox
     answers = ["", "it is slow"]
+    looks: list[bool] = []
+    """For each look at the outbox, whether the class has acknowledged everything."""
+    keys = outbox.keys
+
+    def look() -> Any:
+        waiting = keys()
+        looks.append(not waiting)
+        return waiting
+
+    monkeypatch.setattr(outbox, "keys", look)
 
     def judge() -> None:
         for number, reason in enumerate(answers):
             network = network_in(there, number)
-            time.sleep(2 * POLL_S)  # a check takes longer than the acknowledgement
+            seen = len(looks)  # a check takes longer than the acknowledgement
+            until(lambda seen=seen: looks[seen:].count(True) > 1)  # type: ignore[misc]
             there.send(checked(network, reason))
 
     thread = Thread(target=judge)
@@ -86,8 +107,7 @@ def test_what_the_class_does_not_take_is_told(
     there: TinyClass, capsys: pytest.CaptureFixture[str]
 ) -> None:
     there.is_acknowledging = False
-    there.start()
-    join_class(there.url, "BCDFG")
+    joined(there)
 
     def refuse() -> None:
         network = network_in(there)
@@ -114,12 +134,19 @@ def test_without_a_connection_it_is_kept_and_delivered_later(
 
 
 def test_a_check_that_takes_long_goes_on_without_the_notebook(
-    there: TinyClass, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "CHECK_TIMEOUT_S", 0.5)
-    there.start()
-    join_class(there.url, "BCDFG")
-    submit("sumo", "policy.onnx")
+    def clock() -> float:
+        """Tell a time that is over as soon as the class has the network."""
+        connection = current_connection()
+        has_sent = connection is not None and bool(there.of(Network))
+        is_stored = has_sent and connection is not None and not len(connection.client.outbox)
+        return module.CHECK_TIMEOUT_S if is_stored else 0.0
+
+    with class_with_a_seat(monkeypatch, clock) as there:
+        joined(there)
+        submit("sumo", "policy.onnx")
+        leave_class()
     assert "Handed in. policy.onnx for sumo waits for its check." in capsys.readouterr().out
 
 

@@ -16,7 +16,7 @@ from ai4u_edu.lessons.checking import Verdict
 from ai4u_edu.lessons.course import exercise_ids, is_ticket, lesson
 from ai4u_edu.lessons.diagnoses import diagnosis_id
 from ai4u_edu.lessons.exercise import find
-from tests.lessons.workbook import tried
+from tests.lessons.workbook import try_answer
 
 PAGE = Path(__file__).parents[2] / "docs" / "lesson-checks.md"
 MAX_TEXT_CHARS = 150
@@ -70,7 +70,7 @@ def main() -> int:
                 continue
             for answer in answers_to(exercise).all:
                 with redirect_stdout(StringIO()):
-                    verdict = tried(lesson(exercise[:2]), exercise, answer.code)
+                    verdict = try_answer(lesson(exercise[:2]), exercise, answer)
                 good = is_as_wanted(answer, verdict)
                 bad += not good
                 lines.append(row(exercise, answer, verdict))
