@@ -19,9 +19,21 @@ pytestmark = pytest.mark.slow
 TAKE_IT = "take the whole address that its terminal shows, as in connect('http://teacher:8080/"
 
 
+PATIENT_COMMAND = f"""
+import functools
+import runpy
+
+from ai4u_edu.remote import bridge
+
+bridge.Bridge = functools.partial(bridge.Bridge, patience={LIMIT_S})
+runpy.run_module("ai4u_edu", run_name="__main__", alter_sys=True)
+"""
+"""``python -m ai4u_edu``, but that a script of a bridge may be silent for long."""
+
+
 def bridge(*args: str) -> "subprocess.Popen[str]":
     return subprocess.Popen(
-        [sys.executable, "-m", "ai4u_edu", "bridge", *args],
+        [sys.executable, "-c", PATIENT_COMMAND, "bridge", *args],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
