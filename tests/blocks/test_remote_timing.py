@@ -75,6 +75,7 @@ def test_while_it_waits_for_a_script_the_agent_takes_no_decisions() -> None:
 
 def test_a_script_that_is_silent_for_too_long_is_late() -> None:
     link = ScriptedLink()
+    # real time: none passes, since the test advances the link's clock
     sim, brain = sim_with_link(link, receive_timeout=200, on_missing="stop")
     sim.tick()
     link.clock.advance(0.2 - MOMENT_S)

@@ -139,12 +139,12 @@ def test_a_check_that_takes_long_goes_on_without_the_notebook(
     def clock() -> float:
         """Tell a time that is over as soon as the class has the network."""
         connection = current_connection()
-        has_sent = connection is not None and bool(there.of(Network))
+        has_sent = connection is not None and bool(tiny_class.of(Network))
         is_stored = has_sent and connection is not None and not len(connection.client.outbox)
         return module.CHECK_TIMEOUT_S if is_stored else 0.0
 
-    with class_with_a_seat(monkeypatch, clock) as there:
-        joined(there)
+    with class_with_a_seat(monkeypatch, clock) as tiny_class:
+        joined(tiny_class)
         submit("sumo", "policy.onnx")
         leave_class()
     assert "Handed in. policy.onnx for sumo waits for its check." in capsys.readouterr().out

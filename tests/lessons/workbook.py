@@ -18,7 +18,7 @@ from ai4u_edu.lessons.exit_ticket import TICKETS
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.lessons.time_limit import TimeLimit
-from tests.waiting import LIMIT_S
+from tests.waiting import LIMIT_MS, LIMIT_S
 
 SLOW = ("10.3", "11.1", "11.2", "17.3", "17.4", "17.5", "18.4")
 """Exercises whose answers train a network, or play many episodes."""
@@ -115,6 +115,6 @@ def be_patient(lesson: Lesson) -> None:
     for each in lesson.exercises:
         EXERCISES[each] = patient(find(each))
     for module in (filming, controls):
-        module.TimeLimit = partial(TimeLimit, LIMIT_S, LIMIT_S)  # type: ignore[assignment, misc]
-    live.StallWatch = partial(StallWatch, limit_s=LIMIT_S)  # type: ignore[assignment, misc]
-    lesson_15.RECEIVE_TIMEOUT_MS, lesson_15.MAX_DIALOGUE_S = 1000 * LIMIT_S, LIMIT_S
+        module.TimeLimit = partial(TimeLimit, LIMIT_S, LIMIT_S)  # type: ignore[attr-defined]
+    live.StallWatch = partial(StallWatch, limit_s=LIMIT_S)  # type: ignore[assignment, attr-defined]
+    lesson_15.RECEIVE_TIMEOUT_MS, lesson_15.MAX_DIALOGUE_S = round(LIMIT_MS), round(LIMIT_S)
