@@ -27,7 +27,7 @@ from ai4u_edu.wire.class_link import (
 from tests.classroom.fake_hub import HubClass
 from tests.classroom.served_class import ServedClass, Student
 from tests.server.rooms import open_socket
-from tests.waiting import LIMIT_S
+from tests.waiting import Deadline
 
 M = TypeVar("M")
 _keys = count(1)
@@ -64,8 +64,9 @@ class RawLink:
 
     def next(self, kind: type[M], fits: Callable[[M], bool] = lambda _: True) -> M:
         """Return the next message of a kind, for which a condition holds."""
+        deadline = Deadline()
         while True:
-            message = decode_from_class(self.socket.recv(LIMIT_S, decode=False))
+            message = decode_from_class(self.socket.recv(deadline.left(), decode=False))
             self.received.append(message)
             if isinstance(message, kind) and fits(message):
                 return message
@@ -80,8 +81,9 @@ class RawLink:
 
     def receive_all(self) -> None:
         """Receive messages until the link is closed, which raises an error."""
+        deadline = Deadline()
         while True:
-            frame = self.socket.recv(LIMIT_S, decode=False)
+            frame = self.socket.recv(deadline.left(), decode=False)
             self.received.append(decode_from_class(frame))
 
 
@@ -112,8 +114,9 @@ class TeacherSocket:
         for index, found in enumerate(self._waiting):
             if found["type"] == kind and fits(found):
                 return self._waiting.pop(index)
+        deadline = Deadline()
         while True:
-            event: dict[str, Any] = json.loads(self.socket.recv(LIMIT_S))
+            event: dict[str, Any] = json.loads(self.socket.recv(deadline.left()))
             if event["type"] == kind and fits(event):
                 return event
             self._waiting.append(event)

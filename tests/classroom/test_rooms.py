@@ -21,7 +21,7 @@ from tests.classroom.served_class import CODE, ServedClass, Student, served_clas
 from tests.load.clients import CAMERA, VISER
 from tests.server import http_client
 from tests.server.rooms import Page, open_socket
-from tests.waiting import LIMIT_S, until
+from tests.waiting import LIMIT_S, Deadline, until
 
 pytestmark = pytest.mark.slow
 
@@ -88,9 +88,10 @@ def test_what_is_no_message_to_the_picture_is_refused_before_viser(
     with _picture(ada) as picture:
         picture.recv(LIMIT_S)
         picture.send(frame)
+        deadline = Deadline()
         with suppress(ConnectionClosed):
             while True:
-                picture.recv(LIMIT_S)
+                picture.recv(deadline.left())
         assert picture.close_code == code
 
 
@@ -161,8 +162,9 @@ def _python_lines(student: Student) -> str:
     with _picture(student, page) as drawn, panel as told:
         drawn.send(CAMERA)
         told.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
+        deadline = Deadline()
         while True:
-            part = json.loads(told.recv(LIMIT_S))
+            part = json.loads(told.recv(deadline.left()))
             if part.get("name") == "python" and student.address in str(part["lines"]):
                 return str(part["lines"])
 

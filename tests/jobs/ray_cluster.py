@@ -6,6 +6,7 @@ Ray's calls can block in C, where no time limit of pytest's can end them: so no 
 import contextlib
 import json
 import os
+import secrets
 import subprocess
 import sys
 import threading
@@ -14,6 +15,7 @@ from dataclasses import dataclass
 from typing import IO
 
 import psutil
+import pytest
 
 from tests.waiting import until
 
@@ -40,14 +42,27 @@ class RayCluster:
 
 @contextlib.contextmanager
 def ray_cluster() -> Iterator[RayCluster]:
-    """Start a cluster, and end it whatever happens."""
+    """Start a cluster, and end it whatever happens.
+
+    It has a token of its own, which this process and those that it starts know. Ray makes none for
+    a cluster, and a user's file with one is there only if Ray was started before.
+    """
+    with pytest.MonkeyPatch.context() as variables:
+        variables.setenv("RAY_AUTH_MODE", "token")
+        variables.setenv("RAY_AUTH_TOKEN", secrets.token_hex(32))
+        with _started() as cluster:
+            yield cluster
+
+
+@contextlib.contextmanager
+def _started() -> Iterator[RayCluster]:
     for _ in range(START_TRIES):
         process = subprocess.Popen(
             [sys.executable, "-m", "tests.jobs.ray_cluster"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "RAY_AUTH_MODE": "token"},
+            env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
         )
         try:
             told = _line(process)
@@ -98,23 +113,31 @@ def main() -> None:
     print(json.dumps({"address": cluster.address, "mortal": mortal.node_id}), flush=True)
     if sys.stdin.readline():
         raylet = psutil.Process(mortal.all_processes["raylet"][0].process.pid)
-        until(lambda: _holds_job(raylet))
+        stopped: list[psutil.Process] = []
+
+        def holds_job() -> bool:
+            stopped[:] = _stopped_with_job(raylet)
+            return bool(stopped)
+
+        until(holds_job)
         cluster.remove_node(mortal, allow_graceful=False)
+        for each in stopped:
+            each.kill()
         print("killed", flush=True)
         sys.stdin.read()
     cluster.shutdown()
 
 
-def _holds_job(raylet: psutil.Process) -> bool:
+def _stopped_with_job(raylet: psutil.Process) -> list[psutil.Process]:
     """Stop a process of a machine that runs a job, so that the job does not end before it."""
     for each in raylet.children():
         with contextlib.suppress(psutil.Error):
             if _runs_job(each):
                 each.suspend()
                 if _runs_job(each):
-                    return True
+                    return [each]
                 each.resume()
-    return False
+    return []
 
 
 def _runs_job(process: psutil.Process) -> bool:
