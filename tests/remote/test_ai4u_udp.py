@@ -575,17 +575,15 @@ def test_what_does_not_fit_into_a_datagram_is_an_error_of_the_world(
 
 
 def test_a_closed_brain_leaves_nothing_behind(script: UDPScript) -> None:
-    process = psutil.Process()
-    before = process.num_fds()
+    before = psutil.Process().num_fds()
     for mode in ("lockstep", "realtime"):
         sim, brain = remote_sim(script, mode=mode)
         for _ in range(5):
             sim.tick()
         brain.close()
         brain.close()
-    assert process.num_fds() <= before
-    where = f"127.0.0.1:{script.port}"
-    assert not [thread for thread in threading.enumerate() if where in thread.name]
+    assert psutil.Process().num_fds() <= before
+    assert not [each for each in threading.enumerate() if f":{script.port}" in each.name]
 
 
 @pytest.mark.parametrize("mode", ["lockstep", "realtime"])
