@@ -10,7 +10,7 @@ from collections.abc import Generator, Iterator
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from tests import evidence
 from tests.tiers import LEFT_OUT, Tier
@@ -30,7 +30,8 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 # A busy machine makes an example slow, and no test asserts a time.
-settings.register_profile("project", deadline=None)
+too_slow = [HealthCheck.too_slow]
+settings.register_profile("project", deadline=None, suppress_health_check=too_slow)
 settings.load_profile("project")
 
 
