@@ -94,6 +94,7 @@ def test_a_ghost_of_an_episode_drives_beside_the_robot(server: Played, page: Pag
     assert where(server, "robot")[0] == 0
     press(page, "Pause")
     until(lambda: server.snapshot()["paused"])
+    expect(page.locator(".ai4u-banner")).to_contain_text("Paused")  # in the picture, too
     before = until_settled(page)
     press(page, "Remove ghost")
     expect(button(page, "Remove ghost")).to_have_count(0)
