@@ -125,9 +125,9 @@ class TinyClass:
             if hello.secret != SECRET:
                 send(Problem("secret", "This seat is not known. Join again."))
                 return
+            self._connections.append(connection)  # first: who is welcome may be sent more at once
             if self.is_welcoming:
                 send(Welcome(VERSION, "Red Fox", "#d55e00"))
-            self._connections.append(connection)
             while True:
                 message = decode_from_room(connection.recv(decode=False))
                 self.got.append(message)
