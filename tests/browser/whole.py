@@ -50,6 +50,8 @@ def whole_page(
     page = new_page(chromium, draws=draws, reduced_motion="reduce", **options)
     if draws:
         page.add_init_script(DRAW_SELDOM)
+        # viser takes rare frames for a slow machine, and clears its canvas to draw fewer pixels
+        query += ("&" if "?" in query else "?") + "fixedDpr=1"
     problems: list[str] = []
     page.on("pageerror", lambda error: problems.append(str(error)))
     page.goto(server.url + query)
