@@ -37,7 +37,7 @@ class FakeLink:
         self.results: list[Result] = []
         self._is_connected = True
         self.asked = 0
-        """How often the member has asked whether there is a link: a few times in each poll."""
+        """Number of times that the member has asked for a link: a few in each poll."""
         self.is_stopped = False
 
     @property

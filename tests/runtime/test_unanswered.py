@@ -137,7 +137,7 @@ def test_a_world_that_can_not_be_pictured_says_so_in_the_last_picture(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     class Nameless(Silent):
-        """Has a title only at first."""
+        """Brain that has a title only at first."""
 
         fails: ClassVar[bool] = False
 
