@@ -378,7 +378,8 @@ class BasicAgent(Parameterized):
                     raise ActionError(
                         f"agent {self.id!r} has no actuator {name!r}; {suggest(str(name), known)}"
                     ) from None
-        example = {name: [0.0] * len(each.limits()[0]) for name, each in known.items()}
+        sizes = {name: len(each.limits()[0]) for name, each in known.items()}
+        example = {name: [0.0] * size for name, size in sizes.items() if size}
         raise ActionError(
             f"agent {self.id!r}: expected an action by actuator name, such as {example}, "
             f"got {action!r}"

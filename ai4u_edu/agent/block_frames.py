@@ -12,6 +12,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.events import Event
 from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import Block
+from ai4u_edu.program.endless import line_at
 
 KINDS: tuple[tuple[type[Block], str], ...] = (
     (Sensor, "Sensor"),
@@ -84,14 +85,14 @@ def find_place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAge
 
 def calls_of_thread(thread_id: int) -> list[tuple[FrameType, int]]:
     """Return the frames of a thread with the lines that they are at, outermost call first."""
-    return [(frame, frame.f_lineno or 0) for frame in frames_of_thread(thread_id)]
+    return [(frame, line_at(frame.f_code, frame.f_lasti)) for frame in frames_of_thread(thread_id)]
 
 
 def calls_of_error(trace: TracebackType | None) -> list[tuple[FrameType, int]]:
     """Return the frames that an error came through with their lines, outermost call first."""
     calls = []
     while trace is not None:
-        calls.append((trace.tb_frame, trace.tb_lineno))
+        calls.append((trace.tb_frame, line_at(trace.tb_frame.f_code, trace.tb_lasti)))
         trace = trace.tb_next
     return calls
 

@@ -52,8 +52,8 @@ def judge(exercise: Exercise, *things: Any) -> Verdict:
         except NotYet as reason:
             return Verdict(False, reason.text, reason.hint or UNKNOWN, reason.picture)
         except TimeLimitError:
-            return Verdict(False, limit.text, "endless" if limit.is_endless else "slow")
-        except Exception as error:
+            return Verdict(False, limit.text, limit.diagnosis)
+        except (Exception, SystemExit) as error:
             return _failed(exercise, things, error)
     done = Done(found) if isinstance(found, str) else found
     return Verdict(True, done.text, picture=done.picture)
@@ -173,7 +173,7 @@ def progress() -> None:
     put(card("blue", "Progress.", words), _words("Progress.", words))
 
 
-def _failed(exercise: Exercise, things: tuple[Any, ...], error: Exception) -> Verdict:
+def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -> Verdict:
     """Return the verdict on an exception: the student's mistake, or a fault of the check."""
     mistake = mistake_in(error)
     if mistake is None:

@@ -169,7 +169,7 @@ class Controls:
                     answer(self._make(**self.numbers))
                 except TimeLimitError:
                     _stopped(limit.text)
-                except Exception as error:
+                except (Exception, SystemExit) as error:
                     mistake = mistake_in(error)
                     _stopped(
                         f"{type(error).__name__}: {error}" if mistake is None else mistake.text

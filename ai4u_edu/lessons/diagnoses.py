@@ -15,9 +15,15 @@ COMMON = {
     "spelled as it was when it was made, and is every bracket closed?",
     "no-return": "A function gives its answer with `return`. Every way through it needs one: also "
     "the way on which no `if` applies.",
+    "set-up": "The message says what was expected and what came instead. Look for that name or "
+    "number in your cell.",
+    "exit": "`exit()` and `quit()` end a whole program. A function ends by itself after its last "
+    "line, or at `return`.",
     "endless": "The robot calls your function again at every decision, twelve times a second. "
     "Decide about this one moment, with `if` and `else`. A loop that waits for the world to change "
     "waits for ever: the world stands still until your function has answered.",
+    "endless-loop": "A `while` loop goes on until its condition is no longer true: something in "
+    "the loop has to change that. A `for` loop ends with its list, unless it adds to that list.",
     "slow": "Do less in each call: compute once what stays the same, outside the function.",
     "parameters": "The names in the brackets after `def` are what a function is given. Compare "
     "them with the line that the exercise began with.",
@@ -30,11 +36,13 @@ COMMON = {
     "not-a-number": "A number is written without quotes, and it is neither True nor False. "
     "`print(type(x))` shows what a value is.",
     "list-for-number": "One number was expected, and there is a list. `numbers[0]` is its first "
-    "number.",
+    "number, `len(numbers)` says how many there are, and `sum(numbers)` adds them up.",
+    "table-for-number": "One number was expected, and there is a table in curly brackets. "
+    '`table["left"]` is the number that belongs to "left".',
     "number-for-list": "Several numbers were expected. They stand in square brackets, with commas "
     "between them: `[1, 0.5]`.",
-    "action": 'An action is written like `{"move": [forward, turn, 0, 0]}`: the actuator\'s name '
-    "in quotes, a colon, and a list of numbers.",
+    "action": "An action is a table in curly brackets: the actuator's name in quotes, a colon, and "
+    "a list of numbers. The message says which of them did not fit this robot.",
     "list": "A list stands in square brackets, with commas between its parts: `[first, second]`. A "
     "list of one needs the brackets too.",
     "called": "`connect(...)` takes a function to be called later. Brackets after a name call it "

@@ -9,6 +9,7 @@ from ai4u_edu.lessons.exercise import Exercise, NotYet
 from ai4u_edu.lessons.notebook_output import card, image, put
 from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, animation, moving
 from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives, observed
+from ai4u_edu.lessons.student_errors import mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
@@ -38,8 +39,10 @@ def film(
     with TimeLimit() as time_limit:
         try:
             (drive,) = drives(source, brain, [seed], limit=limit, watch=frames.add)
-        except TimeLimitError:
-            put(card("vermillion", "Stopped.", [time_limit.text]), f"Stopped. {time_limit.text}")
+        except (TimeLimitError, SystemExit) as error:
+            mistake = mistake_in(error)
+            text = mistake.text if mistake and not time_limit.text else time_limit.text
+            put(card("vermillion", "Stopped.", [text]), f"Stopped. {text}")
             return
     _put_film(drive, frames)
 

@@ -44,7 +44,8 @@ def finite_number(given: Any, *, hint: str = "") -> float:
     if given is ...:
         raise NotYet("Your function returns `...`: put your answer there.", hint="unfinished")
     if isinstance(given, list | tuple | dict | set):
-        raise NotYet(f"Expected a number, got {_kind(given)}.", hint="list-for-number")
+        kind = "table" if isinstance(given, dict) else "list"
+        raise NotYet(f"Expected a number, got {_kind(given)}.", hint=f"{kind}-for-number")
     one = given.item() if isinstance(given, np.ndarray) and given.size == 1 else given
     if isinstance(one, bool | np.bool_) or not isinstance(one, Real):
         raise NotYet(f"Expected a number, got {named(given)}.", hint=hint or "not-a-number")

@@ -4,11 +4,11 @@ import linecache
 import re
 import sys
 import sysconfig
-import traceback
 from dataclasses import dataclass
 from pathlib import Path
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.program.endless import line_at
 
 _OURS = str(Path(__file__).resolve().parent.parent)
 _LIBRARIES = tuple({*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix})
@@ -44,6 +44,9 @@ def mistake_in(error: BaseException) -> Mistake | None:
     Your code stopped with ZeroDivisionError: division by zero (line 2 of its cell).
     """
     line = line_of(error)
+    if isinstance(error, SystemExit):
+        where = f" ({line})" if line else ""
+        return Mistake(f"Your code called `exit`, which ends the program{where}.", "exit")
     if line:  # it says more than the notes about which block was asked
         name = "called" if str(error).startswith("connect: ") else "error"
         return Mistake(f"Your code stopped with {type(error).__name__}: {error} ({line}).", name)
@@ -57,21 +60,27 @@ def mistake_in(error: BaseException) -> Mistake | None:
         return Mistake(NOTHING_RETURNED, "no-return")
     notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
     if isinstance(error, AI4UError):
-        name = "action" if _ACTION.search(text) else "error"
-        return Mistake(f"It could not be put together or run: {error}{notes}", name)
+        name = "action" if _ACTION.search(text) else "set-up"
+        return Mistake(f"It could not be put together or run: {_plain(text)}{notes}", name)
     if _NO_NUMBER.search(text):
         return Mistake(f"Expected a number from your code: {text}{notes}.", "not-a-number")
     return None
 
 
+def _plain(text: str) -> str:
+    """Return an error's text without the number of a world's only agent."""
+    return text.replace("agent '0': ", "").replace("agent '0' ", "the robot ")
+
+
 def line_of(error: BaseException) -> str:
     """Return the student's innermost line in a traceback, in words; empty if there is none."""
-    frames = [
-        each for each in traceback.extract_tb(error.__traceback__) if is_students(each.filename)
-    ]
-    if not frames:
-        return ""
-    return line_words(frames[-1].filename, frames[-1].lineno or 0)
+    trace, words = error.__traceback__, ""
+    while trace is not None:
+        code = trace.tb_frame.f_code
+        if is_students(code.co_filename):
+            words = line_words(code.co_filename, line_at(code, trace.tb_lasti))
+        trace = trace.tb_next
+    return words
 
 
 def line_words(file: str, number: int) -> str:

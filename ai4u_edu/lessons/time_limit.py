@@ -13,11 +13,14 @@ from typing import Any, Self
 
 from ai4u_edu.base.syntax import parsed
 from ai4u_edu.lessons.student_errors import is_students, line_words
+from ai4u_edu.program.endless import line_at, loop_around, suspicion, why_endless
 
 CALL_LIMIT_S = 5.0
 """Longest time that one call of a student's function may take."""
 TOTAL_LIMIT_S = 90.0
 """Longest time that all calls of a check may take together."""
+DECISIONS_SHARE = 1 / 3
+"""Part of that time for a robot's decisions, which take microseconds each as a rule."""
 SAMPLE_S = 0.2
 """Interval at which the stack is looked at."""
 
@@ -42,8 +45,9 @@ class TimeLimit:
         self.call_s, self.total_s = call_s, total_s
         self.text = ""
         """Sentence on the call that took too long."""
-        self.is_endless = False
-        """True if one call took too long, False if all of them together did."""
+        self.diagnosis = ""
+        """Name of the diagnosis: ``endless`` for one call of a robot's driver, ``endless-loop`` for
+        one of another function, ``slow`` for all calls together."""
         self._root: FrameType | None = None
         self._call: FrameType | None = None
         self._since = self._total = self._last = 0.0
@@ -104,10 +108,19 @@ class TimeLimit:
         self._total += passed
         if calls[-1] is not self._call:
             self._call, self._since = calls[-1], now
-        self.is_endless = now - self._since >= self.call_s
-        if not self.is_endless and self._total < self.total_s:
+        is_endless = now - self._since >= self.call_s
+        total_s = self.total_s * (DECISIONS_SHARE if _is_decision(calls[-1]) else 1)
+        if not is_endless and self._total < total_s:
             return False
-        self.text = self._explained(calls)
+        if is_endless:
+            self.text = endless_call(calls, self.call_s)
+            self.diagnosis = "endless" if _is_decision(calls[-1]) else "endless-loop"
+        else:
+            self.text = (
+                f"All calls of your code took more than {total_s:g} s together. Each of them "
+                f"is slow ({_place_of(calls[0])})."
+            )
+            self.diagnosis = "slow"
         return True
 
     def _students_frames(self, frame: FrameType | None) -> list[FrameType]:
@@ -119,14 +132,6 @@ class TimeLimit:
             frame = frame.f_back
         return found if frame is self._root else []
 
-    def _explained(self, calls: list[FrameType]) -> str:
-        if not self.is_endless:
-            return (
-                f"All calls of your code took more than {self.total_s:g} s together. Each of them "
-                f"is slow ({line_words(calls[0].f_code.co_filename, calls[0].f_lineno)})."
-            )
-        return endless_call(calls, self.call_s)
-
 
 def endless_call(calls: Sequence[FrameType], seconds: float) -> str:
     """Return a sentence on a call that does not end.
@@ -135,15 +140,11 @@ def endless_call(calls: Sequence[FrameType], seconds: float) -> str:
         calls: the student's frames, the innermost one first; at least one.
         seconds: time since the call began.
     """
-    loops = [loop for call in calls if (loop := _loop_around(call))]
-    file, number = loops[0] if loops else (calls[0].f_code.co_filename, calls[0].f_lineno)
-    said = f"Your code did not answer for {seconds:g} s ({line_words(file, number)})."
-    if not loops:
-        return f"{said} Something in it never ends, or takes very long."
-    code = calls[-1].f_code
-    if "percept" in code.co_varnames[: code.co_argcount]:
-        return f"{said} The robot asks it again at each decision: use `if`, not `while`."
-    return f"{said} The loop never ends: its condition stays true."
+    loops = [(call, loop) for call in calls if (loop := _loop_around(call))]
+    frame, loop = max(loops, key=lambda each: suspicion(each[1]), default=(calls[0], None))
+    place = line_words(frame.f_code.co_filename, loop.lineno) if loop else _place_of(frame)
+    why = why_endless(loop, is_in_decision=_is_decision(calls[-1]))
+    return f"Your code did not answer for {seconds:g} s ({place}). {why}"
 
 
 def raise_in(thread: int, error: type[BaseException]) -> None:
@@ -159,18 +160,22 @@ def raise_in(thread: int, error: type[BaseException]) -> None:
     ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(error))
 
 
-def _loop_around(frame: FrameType) -> tuple[str, int] | None:
-    """Return file and line of the innermost ``while`` around a frame's present line."""
-    file = frame.f_code.co_filename
+def _is_decision(frame: FrameType) -> bool:
+    """Return True for a call of a function, or a method, that gets a percept alone."""
+    code = frame.f_code
+    return code.co_varnames[: code.co_argcount] in (("percept",), ("self", "percept"))
+
+
+def _place_of(frame: FrameType) -> str:
+    """Return the line that a frame is at, in words."""
+    return line_words(frame.f_code.co_filename, line_at(frame.f_code, frame.f_lasti))
+
+
+def _loop_around(frame: FrameType) -> ast.While | ast.For | None:
+    """Return the loop around a frame's present line."""
+    code = frame.f_code
     try:
-        tree = parsed("".join(linecache.getlines(file)))
+        tree = parsed("".join(linecache.getlines(code.co_filename)))
     except (SyntaxError, ValueError):
         return None
-    first = frame.f_code.co_firstlineno
-    around = [
-        node.lineno
-        for node in ast.walk(tree)
-        if isinstance(node, ast.While)
-        and first <= node.lineno <= frame.f_lineno <= (node.end_lineno or node.lineno)
-    ]
-    return (file, max(around)) if around else None
+    return loop_around(tree, line_at(code, frame.f_lasti), code.co_firstlineno)

@@ -5,6 +5,7 @@ import re
 from collections.abc import Collection, Iterable
 from typing import Any
 
+from ai4u_edu.program.endless import line_at
 from ai4u_edu.program.reading import MissingReadingError, Reading, Readings
 from ai4u_edu.program.words import nearest, shorten, shown, suggest
 
@@ -214,6 +215,6 @@ def _place_of(error: BaseException, file: str) -> tuple[int, list[str]]:
         # the last call of a recursion does not begin: the line that calls is the mistake's
         is_call = isinstance(error, RecursionError) and trace.tb_lineno == code.co_firstlineno
         if code.co_filename == file and not (line and is_call):
-            line, names = trace.tb_lineno, [*frame.f_locals, *frame.f_globals]
+            line, names = line_at(code, trace.tb_lasti), [*frame.f_locals, *frame.f_globals]
         trace = trace.tb_next
     return line, names

@@ -7,12 +7,13 @@ from typing import Any, Self
 
 from ai4u_edu.program import standins
 from ai4u_edu.program.action import Outputs, checked_action
+from ai4u_edu.program.endless import loop_around, why_endless
 from ai4u_edu.program.entry import METHOD, MODULE_NAME, check_parameters, entry_name
 from ai4u_edu.program.mistakes import ProgramError, mistake_in
 from ai4u_edu.program.output import Output
 from ai4u_edu.program.portable import obstacle_in_tree
 from ai4u_edu.program.reading import plain_sum, readings_of
-from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, ReportLine, Trace, loop_around
+from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, ReportLine, Trace
 
 MAX_SOURCE_CHARS = 200_000
 
@@ -175,14 +176,9 @@ class Program:
             raise mistake_in(error, self.file, self._quoted) from error
 
     def _endless(self, line: int) -> ProgramError:
-        said = f"Your code did not answer for {self.trace.limit_s:g} s."
         loop = loop_around(self._tree, line)
-        if not isinstance(loop, ast.While):
-            text = f"{said} Something in it never ends, or takes very long."
-        elif self._is_deciding:
-            text = f"{said} The robot asks it again at each decision: use `if`, not `while`."
-        else:
-            text = f"{said} The loop never ends: its condition stays true."
+        why = why_endless(loop, is_in_decision=self._is_deciding)
+        text = f"Your code did not answer for {self.trace.limit_s:g} s. {why}"
         return ProgramError(text, loop.lineno if loop else line, "endless")
 
 

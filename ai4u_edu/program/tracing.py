@@ -1,12 +1,12 @@
 """Trace of what a program runs in one decision, and the time limit of that decision."""
 
-import ast
 import sys
 import time
 from collections.abc import Callable
 from types import FrameType, FunctionType, ModuleType
 from typing import Any
 
+from ai4u_edu.program.endless import line_at
 from ai4u_edu.program.words import shown
 
 DECISION_LIMIT_S = 1.0
@@ -137,7 +137,7 @@ class Trace:
                 if time.monotonic() > self._deadline:
                     raise EndlessError(frame.f_lineno)
         elif event == "return" and frame is self._outermost:
-            self.last_line = frame.f_lineno
+            self.last_line = line_at(frame.f_code, frame.f_lasti)
             if self._keeps_lines:
                 self._locals = dict(frame.f_locals)
         return self._on_event
@@ -147,14 +147,3 @@ class Trace:
         if self._reports <= MAX_REPORTED_LINES or line not in self._reported:
             self._reported.add(line)
             report(line)
-
-
-def loop_around(tree: ast.Module, line: int) -> ast.While | ast.For | None:
-    """Return the innermost ``while`` or ``for`` around a line; None if there is none."""
-    around = [
-        node
-        for node in ast.walk(tree)
-        if isinstance(node, ast.While | ast.For)
-        and node.lineno <= line <= (node.end_lineno or node.lineno)
-    ]
-    return max(around, key=lambda node: node.lineno, default=None)

@@ -15,6 +15,7 @@ from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.progress_file import ProgressFile
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
+from ai4u_edu.program.endless import line_at
 from tests.lessons.workbook import run, tried
 from tests.waiting import LIMIT_S
 
@@ -102,6 +103,36 @@ SLIPS: dict[str, tuple[str, str, str, str]] = {
         "number-for-list",
         "For (3, 1) expected two numbers, got `3.0`.",
     ),
+    "several numbers for one": (
+        "01.4",
+        "def count_near(distances):\n    return [each for each in distances if each < 2]",
+        "list-for-number",
+        "Expected a number, got a list:",
+    ),
+    "a table for a number": (
+        "01.2",
+        "def turn_for(side):\n    return {'left': -1, 'right': 1, 'ahead': 0}",
+        "table-for-number",
+        "Expected a number, got a dict:",
+    ),
+    "an end of the program": (
+        "18.1",
+        "import sys\ndef seconds_of_comfort(level, loss):\n    sys.exit()",
+        "exit",
+        "Your code called `exit`, which ends the program (line 3 of its cell: sys.exit()).",
+    ),
+    "an action that is no table": (
+        "00.1",
+        "def go(percept):\n    return [1, 0, 0, 0]",
+        "action",
+        "run: expected an action by actuator name, such as {'move': [0.0, 0.0, 0.0, 0.0]}, got",
+    ),
+    "a number too few": (
+        "00.1",
+        "def go(percept):\n    return {'move': [1, 0, 0]}",
+        "set-up",
+        "expected 4 numbers, got 3",
+    ),
     "a name of no actuator": (
         "00.1",
         "def go(percept):\n    return {'mov': [1, 0, 0, 0]}",
@@ -147,7 +178,7 @@ def test_what_is_set_in_init_is_there() -> None:
 
 def function(code: str) -> Any:
     names: dict[str, Any] = {}
-    run(Cell(code), names, "<endless>")
+    run(Cell(code), names, f"<endless {hash(code)}>")
     return names["go"]
 
 
@@ -190,6 +221,44 @@ def test_an_endless_loop_ends_with_its_line(endless: Any, in_thread: bool) -> No
     assert verdict.text.endswith("use `if`, not `while`.")
 
 
+GROWS = function("def go(ways):\n    for way in ways:\n        if way:\n            ways.append(1)")
+IN_A_HELPER = function(
+    "def go(ways):\n    while ways:\n        sizes(ways)\n"
+    "def sizes(ways):\n    n = 0\n    for way in ways:\n        n += way"
+)
+LONG = function("def go(ways):\n    for n in range(10**12):\n        ways[0] = n")
+
+
+@pytest.mark.parametrize(
+    ("endless", "text"),
+    [
+        (GROWS, "(line 2 of its cell: for way in ways:). The loop never ends: it adds to `ways`"),
+        (IN_A_HELPER, "(line 2 of its cell: while ways:). The loop never ends: its condition"),
+        (LONG, "(line 2 of its cell: for n in range(10**12):). The loop never ends, or takes"),
+    ],
+)
+def test_the_loop_that_never_ends_is_found_and_explained(endless: Any, text: str) -> None:
+    with TimeLimit(call_s=0.4) as limit, pytest.raises(TimeLimitError):
+        endless([1])
+    assert text in limit.text
+    assert limit.diagnosis == "endless-loop"
+
+
+def test_a_loop_is_found_wherever_it_is_looked_at() -> None:
+    # Python gives some jumps back to a loop's head no line
+    code = GROWS.__code__
+    lines = [line_at(code, place) for place in range(0, len(code.co_code), 2)]
+    assert None in {line for _, _, line in code.co_lines()}
+    assert set(lines) <= {1, 2, 3, 4}
+    assert lines == sorted(lines[:-2]) + lines[-2:]  # the end of the loop is at its head again
+
+
+def test_a_film_of_code_that_ends_the_program_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    film("box_chase", function("def go(percept):\n    raise SystemExit"))
+    said = "Stopped. Your code called `exit`, which ends the program (line 2 of its cell: raise"
+    assert said in capsys.readouterr().out
+
+
 AFTER_A_CHECK = """
 import subprocess
 import sys
@@ -215,9 +284,9 @@ def test_traced_code_goes_on_after_a_check_in_a_thread() -> None:
 
 def test_many_slow_calls_end_too() -> None:
     slow = function("import time\ndef go(percept):\n    time.sleep(0.15)\n    return {}")
-    with TimeLimit(call_s=LIMIT_S, total_s=0.5) as limit, pytest.raises(TimeLimitError):
+    with TimeLimit(call_s=LIMIT_S, total_s=1.5) as limit, pytest.raises(TimeLimitError):
         [slow(None) for _ in range(100)]
-    assert not limit.is_endless
+    assert limit.diagnosis == "slow"
     assert "Each of them is slow (line 3 of its cell: time.sleep(0.15))" in limit.text
 
 

@@ -113,6 +113,12 @@ IN_DECIDE = [
         "did not answer",
     ),
     ("for x in iter(int, 1):\n        pass", 2, "endless", "never ends, or takes very long."),
+    (
+        "ways = [1]\n    for way in ways:\n        if way:\n            ways.append(way)",
+        3,
+        "endless",
+        "The loop never ends: it adds to `ways` while it goes through it.",
+    ),
     ("import numpy as np", 2, "numpy", "numpy is not there in the page"),
     ("import scipy", 2, "import", "scipy is not there in the page"),
 ]

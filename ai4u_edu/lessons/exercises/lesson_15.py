@@ -176,7 +176,7 @@ def _short(name: str) -> ControlRequestor:
 @exercise(
     "15.1",
     "A script drives",
-    call_limit_s=30,
+    call_limit_s=15,
     hints={
         "loop": "One action is one decision, 1/12 s. Go on until the episode is over: "
         "`for percept in robot:`, and in the loop one `robot.act(move=...)`.",
