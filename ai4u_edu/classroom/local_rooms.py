@@ -16,6 +16,7 @@ import httpx
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.errors import RoomError
+from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_process import (
     HOST,
@@ -166,7 +167,7 @@ class LocalRooms:
 
     async def _watch(self) -> None:
         """End processes that nobody uses, and those that break a limit, until the loop ends."""
-        async with httpx.AsyncClient(trust_env=False) as client:
+        async with httpx.AsyncClient(trust_env=False, cookies=no_cookies()) as client:
             while True:
                 await asyncio.sleep(self._limits.check_s)
                 # side by side: one that does not answer keeps no other from its check

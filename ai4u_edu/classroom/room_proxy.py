@@ -3,7 +3,6 @@
 from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
-from http.cookies import SimpleCookie
 from typing import Any
 
 import httpx
@@ -16,8 +15,10 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
+from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.server.proxy import SCRIPT_KEY_HEADER, connect_viser, pass_up
+from ai4u_edu.server.request_target import target_of
 from ai4u_edu.server.socket_pump import pump_sockets, sendable_code
 
 _HOP_BY_HOP = {
@@ -84,7 +85,10 @@ class RoomProxy:
         self._page_cookies = frozenset(page_cookies)
         self._links: dict[int, set[_Link]] = {}
         self._client = httpx.AsyncClient(
-            limits=httpx.Limits(max_connections=None), timeout=ANSWER_TIMEOUT_S, trust_env=False
+            limits=httpx.Limits(max_connections=None),
+            timeout=ANSWER_TIMEOUT_S,
+            trust_env=False,
+            cookies=no_cookies(),
         )
 
     def end(self, seat: int, reason: str) -> None:
@@ -106,11 +110,14 @@ class RoomProxy:
             send: see ASGI.
         """
         request = Request(scope, receive)
+        headers = self._headers(room, seat, request.headers)
         passed = self._client.build_request(
             request.method,
-            f"http://{room.host}:{room.port}{_raw_target(scope)}",
-            headers=self._headers(room, seat, request.headers),
+            httpx.URL(scheme="http", host=room.host, port=room.port, path="/"),
+            # as bytes: a value may have any
+            headers=[(name.encode(), value.encode("latin-1")) for name, value in headers],
             content=request.stream() if request.method not in ("GET", "HEAD") else None,
+            extensions={"target": target_of(scope).encode()},  # httpx would normalize it
         )
         response: Response
         try:
@@ -159,7 +166,7 @@ class RoomProxy:
     async def _connect(self, room: RoomAddress, seat: int, page: WebSocket) -> ClientConnection:
         return await connect(
             # the name under which the browser has the page; where to connect to is said below
-            f"ws://{page.headers['host']}{_raw_target(page.scope)}",
+            f"ws://{page.headers['host']}{target_of(page.scope)}",
             host=room.host,
             port=room.port,
             additional_headers=[
@@ -207,9 +214,9 @@ class RoomProxy:
             and not name.startswith(("sec-fetch-", _WEBSOCKET))
         ]
         page_cookies = [
-            f"{name}={each.coded_value}"
-            for name, each in SimpleCookie(given.get("cookie", "")).items()
-            if name in self._page_cookies
+            each.strip()
+            for each in given.get("cookie", "").split(";")
+            if each.partition("=")[0].strip() in self._page_cookies
         ]
         if page_cookies:
             passed.append(("cookie", "; ".join(page_cookies)))
@@ -219,13 +226,6 @@ class RoomProxy:
             (ROLE_HEADER, "student" if seat else "teacher"),
             (SEAT_HEADER, str(seat)),
         ]
-
-
-def _raw_target(scope: Scope) -> str:
-    """Return path and query as the browser sent them."""
-    path: bytes = scope.get("raw_path") or scope["path"].encode()
-    query: bytes = scope["query_string"]
-    return (path.partition(b"?")[0] + (b"?" + query if query else b"")).decode("ascii")
 
 
 async def _body_of(answer: httpx.Response) -> AsyncIterator[bytes]:

@@ -119,7 +119,7 @@ with --allow-host NAME"
         hosts = headers.getlist("host")
         host = hosts[0].lower() if len(hosts) == 1 else ""
         parts = _HOST.fullmatch(host)
-        if parts is None or not self._knows(parts[1]):
+        if parts is None or not _is_sound(parts) or not self._knows(parts[1]):
             return (
                 f"Host: expected one of {', '.join(sorted(self._hosts))}, got "
                 f"{_cut(', '.join(hosts))!r}; a name is allowed with --allow-host NAME"
@@ -166,6 +166,17 @@ with --allow-host NAME"
         # if any name is allowed there is a proxy, which may have terminated TLS and passes Host on
         is_secure = theirs == "https" and "*" in self._hosts
         return is_secure and _with_port(place, theirs) == _with_port(host, theirs)
+
+
+def _is_sound(parts: re.Match[str]) -> bool:
+    """Return True if a port is one, and an address in brackets too; libraries raise at others."""
+    name, port = parts[1], parts[2] or ":1"
+    try:
+        return 0 < int(port[1:]) < 2**16 and (
+            name[0] != "[" or bool(ipaddress.ip_address(name[1:-1]))
+        )
+    except ValueError:
+        return False
 
 
 def _is_navigation(scope: Scope, headers: Headers, pages: re.Pattern[str]) -> bool:

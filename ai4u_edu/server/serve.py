@@ -17,6 +17,7 @@ from ai4u_edu.server.address import listen, url_of
 from ai4u_edu.server.connections import MAX_PER_ADDRESS, Connections, raise_descriptor_limit
 from ai4u_edu.server.frames import FramesProtocol
 from ai4u_edu.server.listener import Listener
+from ai4u_edu.server.request_target import PathsOnly
 from ai4u_edu.server.requests import RequestProtocol, ServerConfig
 from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
@@ -130,7 +131,7 @@ class _Server(uvicorn.Server):
         max_message_bytes: int = MAX_MESSAGE_BYTES,
     ) -> None:
         config = ServerConfig(
-            app,
+            PathsOnly(app),
             loop="asyncio",
             http=RequestProtocol,
             ws=FramesProtocol,

@@ -12,6 +12,7 @@ import httpx
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
+from ai4u_edu.classroom.no_cookies import no_cookies
 
 TIMEOUT_S = 10.0
 CACHE_S = 60.0
@@ -47,7 +48,7 @@ class HubApi:
 
     def __init__(self, hub: HubEnvironment, clock: Callable[[], float] = time.monotonic) -> None:
         self._hub, self._clock = hub, clock
-        self._client = httpx.AsyncClient(timeout=TIMEOUT_S, trust_env=False)
+        self._client = httpx.AsyncClient(timeout=TIMEOUT_S, trust_env=False, cookies=no_cookies())
         self._cached: OrderedDict[bytes, tuple[float, HubUser]] = OrderedDict()
 
     async def user_of(self, token: str) -> HubUser | None:

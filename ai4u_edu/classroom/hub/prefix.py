@@ -1,5 +1,7 @@
 """Path and scheme of requests that come through the hub's proxy."""
 
+from urllib.parse import quote
+
 from starlette.responses import PlainTextResponse, RedirectResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocketClose
@@ -31,11 +33,11 @@ class BehindHub:
         if path == self._prefix and scope["type"] == "http":
             await RedirectResponse(f"{self._prefix}/")(scope, receive, send)
         elif path.startswith(f"{self._prefix}/"):
-            raw: bytes = scope.get("raw_path") or path.encode()
+            inner_path = path.removeprefix(self._prefix)
             inner = {
                 **scope,
-                "path": path.removeprefix(self._prefix),
-                "raw_path": raw.removeprefix(self._prefix.encode()),
+                "path": inner_path,
+                "raw_path": quote(inner_path).encode(),  # the one that was sent may be escaped
                 "scheme": _scheme(scope),
             }
             await self._app(inner, receive, send)
