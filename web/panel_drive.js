@@ -9,7 +9,7 @@ import { number } from "./panel_numbers.js";
 import { choice, section } from "./panel_parts.js";
 import { PythonLines } from "./panel_python.js";
 import { RewardTable } from "./panel_rewards.js";
-import { RobotTable, scriptWords } from "./panel_robots.js";
+import { RobotTable, scriptWarning, scriptWords } from "./panel_robots.js";
 import { SensorView } from "./panel_sensor.js";
 import { Training } from "./panel_training.js";
 import { Why } from "./panel_why.js";
@@ -21,6 +21,7 @@ export class DriveTab {
   #driverRow = element("div", { className: "ai4u-driver-row" });
   #brain = element("p", { className: "ai4u-soft ai4u-details-only" });
   #script = element("p", { className: "ai4u-soft ai4u-details-only" });
+  #scriptWarning = element("p", { className: "ai4u-problem", role: "alert" });
   #robots = new RobotTable();
   #state = element("p", { className: "ai4u-agent-state" });
   #driveThis = button("Drive this one", () => this.#driveShown());
@@ -55,7 +56,7 @@ export class DriveTab {
     this.#sections = {
       python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
       training: section("training", "Training", {}, this.#training.element),
-      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#brain, this.#script, this.#howTo),
+      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#scriptWarning, this.#brain, this.#script, this.#howTo),
       robots: section("robots", "All robots", { isOpen: false, detailsOnly: true }, this.#robots.element),
       needs: section("needs", "Needs", {}, this.#needs.element),
       sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
@@ -94,6 +95,7 @@ export class DriveTab {
     setText(this.#phases, phaseWords(agent.phases));
     this.#rewards.update(agent.rewards ?? [], agent.paid ?? []);
     setText(this.#script, scriptWords(agent.script));
+    setText(this.#scriptWarning, scriptWarning(agent.script));
     this.#robots.update(agent.others ?? []);
     this.#sections.robots.hidden = !agent.others?.length;
   }
@@ -135,6 +137,8 @@ export class DriveTab {
     setText(this.#howTo, scene.controls ?? "");
     this.#howTo.hidden = !scene.controls;
     this.#rewards.setHelp(scene.rewards ?? "");
+    const isPerson = Boolean(scene.agents.find(({ id }) => id === this.#panel.shown.agent)?.is_person);
+    this.#sections.why.hidden = this.#sections.maps.hidden = isPerson; // only who decides by the percept can be asked
     keyed(
       this.#legend,
       scene.legend ?? [],

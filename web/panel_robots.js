@@ -11,6 +11,7 @@ const COUNTS = {
   ignored: "messages that were no answer",
   refused: "actions that could not be carried out",
   clipped: "numbers out of range, cut",
+  warnings: "replies without effect, or with parts that had none",
 };
 
 /** A table of the robots, with what each of them has done in its episode. */
@@ -39,9 +40,15 @@ function makeRow() {
   return element("tr", {}, head, ...HEADS.slice(1).map(() => element("td")));
 }
 
-/** Return the state of a script in words: {state, reason, counts}, or null if there is no script. */
+/** Return the state of a script in words: {state, reason, warning, counts}, or null if there is no script. */
 export function scriptWords(script) {
   if (!script) return "";
   const counts = Object.entries(script.counts).map(([name, count]) => `${count} ${COUNTS[name] ?? name}`);
   return [`Script: ${script.state}`, script.reason, ...counts].filter(Boolean).join(" · ");
+}
+
+/** Return what a script sends that has no effect, or why it is lost: also said to who has no interest in its counts. */
+export function scriptWarning(script) {
+  if (!script) return "";
+  return script.warning || (script.state === "lost" ? script.reason : "");
 }

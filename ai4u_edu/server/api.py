@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import asdict
 from datetime import UTC, datetime, timedelta
 from typing import Annotated, Any, Literal
 
@@ -10,6 +11,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from typing_extensions import TypeAliasType
 
 from ai4u_edu.base.version import __version__
+from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
@@ -57,6 +59,28 @@ class StagesView(_View):
     targets: list[str] = Field(description="bodies and areas, in order if the order counts")
 
 
+class ScriptView(_View):
+    """The script that drives an agent, beside the world or on another machine."""
+
+    state: Literal["waiting", "connected", "late", "lost"]
+    reason: str = Field(description="the last event in a sentence; empty if there is nothing")
+    decisions: int = Field(description="actions that were carried out")
+    missing: int = Field(description="decisions for which no action was there in time")
+    ignored: int = Field(description="messages that were no answer")
+    refused: int = Field(description="actions that no actuator could carry out")
+    clipped: int = Field(description="numbers of actions that were out of range, and clipped")
+    warnings: int = Field(description="replies that had no effect, or of which a part had none")
+    warning: str = Field(
+        description="what was wrong in one of them; empty if there was none of late; "
+        "it changes every 5 s at most"
+    )
+
+    @classmethod
+    def of(cls, remote: RemoteStatus) -> "ScriptView":
+        """Return the view of a remote brain's status."""
+        return cls(**asdict(remote))
+
+
 class AgentView(_View):
     """An agent's last percept, action and reward, and its present pose."""
 
@@ -79,6 +103,7 @@ class AgentView(_View):
     seconds_left: float | None = Field(
         description="world time until the step limit ends the episode; null: no limit"
     )
+    script: ScriptView | None = Field(description="null where no remote script drives")
 
     @classmethod
     def of(cls, agent: AgentState, body: BodyState) -> "AgentView":
@@ -102,6 +127,7 @@ class AgentView(_View):
                 for each in agent.stages
             ],
             seconds_left=agent.seconds_left,
+            script=None if agent.remote is None else ScriptView.of(agent.remote),
         )
 
 

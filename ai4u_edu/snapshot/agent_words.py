@@ -18,6 +18,9 @@ SCRIPT_PROBLEMS = {
 }
 """Texts for agents whose script is not driving them, by the state of the remote brain."""
 
+WITHOUT_EFFECT = "⚠ its script sends what has no effect"
+"""Text for agents whose script makes mistakes."""
+
 
 def title(agent_id: str, body: str) -> str:
     """Return an agent's name for people.
@@ -43,7 +46,10 @@ def ending(agent: AgentState) -> str:
 
 def script_problem(agent: AgentState) -> str:
     """Return the problem with the script that should drive an agent; empty if there is none."""
-    return SCRIPT_PROBLEMS.get(agent.remote.state, "") if agent.remote is not None else ""
+    remote = agent.remote
+    if remote is None:
+        return ""
+    return SCRIPT_PROBLEMS.get(remote.state, "") or (WITHOUT_EFFECT if remote.warning else "")
 
 
 def driver_title(brain: Brain) -> str:

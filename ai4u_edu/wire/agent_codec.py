@@ -7,11 +7,12 @@ from typing import Any, Protocol
 import numpy as np
 from gymnasium import spaces
 
+from ai4u_edu.base.errors import suggest
 from ai4u_edu.wire.ai4u import Kind, Order, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
 from ai4u_edu.wire.ai4u_metadata import ModelInput, ModelOutput, metadata
 from ai4u_edu.wire.png import grey_png
-from ai4u_edu.wire.validation import WireError
+from ai4u_edu.wire.validation import WireError, shown
 
 KINDS = {
     "sfloat": Kind.FLOAT,
@@ -24,7 +25,8 @@ KINDS = {
 }
 """Field types of readings on the wire, by AI4U's type; all others are rows of floats."""
 
-
+MAX_LISTED_FIELDS = 4
+"""Fields that a sentence names; a reply may have hundreds."""
 TEXT_TYPES = ("sstring", "sstrings")
 """Types that are sent, but not part of the metadata: a script has no space for texts."""
 
@@ -88,7 +90,7 @@ class AgentCodec:
         ]
         inputs = [each for each in readings if each.is_input and each.kind not in TEXT_TYPES]
         driven = [each for each in outputs if each.is_output][:1]
-        self._known = {each.name for each in outputs}
+        self._known = [each.name for each in outputs]
         self.metadata = metadata(map(_input, inputs), map(_output, driven))
 
     def sensors(self, percept: Mapping[str, Any]) -> list[bytes]:
@@ -99,6 +101,34 @@ class AgentCodec:
         """Return the action in a reply: its command, and the fields that name an actuator."""
         (name, args), *fields = orders
         return {each: numbers for each, numbers in fields if each in self._known} | {name: args}
+
+    def find_dropped(self, orders: Sequence[Order], *, is_action: bool) -> str:
+        """Return a sentence about the fields of a reply that have no effect; empty for none.
+
+        Args:
+            orders: the reply: its command and its fields.
+            is_action: whether the command is an action; another one's fields have no effect at all.
+        """
+        if len(orders) == 1:
+            return ""
+        command, *names = (name for name, _ in orders)
+        usable = set(self._known) - {command} if is_action else set()
+        dropped = [
+            name
+            for index, name in enumerate(names)
+            if name not in usable or name in names[index + 1 :]
+        ]
+        if not dropped:
+            return ""
+        listed = ", ".join(map(shown, dropped[:MAX_LISTED_FIELDS]))
+        listed += ", ..." if len(dropped) > MAX_LISTED_FIELDS else ""
+        who = f"{'field' if len(dropped) == 1 else 'fields'} {listed} of {shown(command)}"
+        expected = (
+            f"expected names of other actuators ({suggest(dropped[0], sorted(usable))}), once each"
+            if usable
+            else "expected no fields, since nothing here reads them"
+        )
+        return f"{who} had no effect: {expected}"
 
 
 def _wire_kind(reading: Reading) -> Kind:

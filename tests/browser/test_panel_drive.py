@@ -124,6 +124,20 @@ def test_details_tell_of_the_script_of_other_robots_and_of_the_latest_rewards(
     expect(desk.page.get_by_role("row", name="runner")).to_contain_text("91.50fell")
 
 
+def test_what_a_script_sends_without_effect_is_said_in_simple(desk: PanelPage) -> None:
+    script = {"state": "connected", "reason": "", "warning": "", "counts": {"decisions": 7}}
+    desk.panel.change("agent", script=script)
+    warning = desk.page.get_by_text("no actuator 'mvoe'")
+    expect(warning).to_have_count(0)
+    text = "agent '0' has no actuator 'mvoe'; did you mean 'move'?"
+    desk.panel.change("agent", script=script | {"warning": text, "counts": {"warnings": 3}})
+    expect(desk.page.get_by_role("alert").filter(has=warning)).to_be_visible()
+    expect(warning).to_have_text(text)
+    desk.panel.change("agent", script=script | {"state": "lost", "reason": "it is gone"})
+    expect(warning).to_have_count(0)
+    expect(desk.page.get_by_text("it is gone", exact=True)).to_be_visible()
+
+
 def test_dark_is_remembered(desk: PanelPage) -> None:
     dark = desk.page.get_by_role("switch", name="Dark")
     dark.click()
@@ -272,6 +286,7 @@ WHY["top"] = [WHY["slots"][5], WHY["slots"][1]]
 
 
 def test_because_of_what(desk: PanelPage) -> None:
+    desk.panel.let_network_drive()
     section = desk.page.locator(".ai4u-why-sentence")
     expect(section).to_be_hidden()
     desk.page.get_by_role("switch", name="Show because of what").click()
@@ -301,6 +316,7 @@ def test_because_of_what(desk: PanelPage) -> None:
 
 
 def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> None:
+    desk.panel.let_network_drive()
     desk.page.get_by_role("switch", name="Show because of what").click()
     desk.until(lambda: len(desk.panel.commands("why")) == 1)
     desk.panel.drop()
@@ -309,6 +325,7 @@ def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> No
 
 
 def test_what_if(desk: PanelPage) -> None:
+    desk.panel.let_network_drive()
     def reply(message: Json) -> Json:
         then = message["changes"][0]["value"] if message["changes"] else 0.1
         dials = [

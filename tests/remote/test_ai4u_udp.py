@@ -324,10 +324,117 @@ def test_a_wrong_action_is_refused_and_the_script_gets_the_next_state(
     status = brain.status()
     assert (status.refused, status.missing, status.decisions) == (1, 1, 0)
     assert says in status.reason
+    assert says in status.warning
+    assert status.warnings == 1
     assert sim.agents[0].last_action == {}
     script.say(AHEAD)
     script.next(sim)
     assert (brain.status().decisions, brain.status().reason) == (1, "")
+    assert says in brain.status().warning  # a person may not have read it yet
+    brain.close()
+
+
+@pytest.mark.parametrize(
+    ("reply", "says"),
+    [
+        (
+            f"{AHEAD}@goalDist;1;3",
+            "field 'goalDist' of 'move' had no effect: expected names of other actuators "
+            "(known are 'other'), once each",
+        ),
+        (
+            f"{AHEAD}@othr;4;0;1;0;0@goalDist;1;3",
+            "fields 'othr', 'goalDist' of 'move' had no effect: expected names of other actuators "
+            "(did you mean 'other'?), once each",
+        ),
+        (f"{AHEAD}@move;4;0;1;0;0", "field 'move' of 'move' had no effect"),
+        (f"{AHEAD}@other;4;0;1;0;0@other;4;0;1;0;0", "field 'other' of 'move' had no effect"),
+        (
+            f"{RESET}@goalDist;1;3",
+            "field 'goalDist' of '__reset__' had no effect: expected no fields",
+        ),
+        (f"__pause__;1;0@{AHEAD}", "field 'move' of '__pause__' had no effect: expected no fields"),
+    ],
+)
+def test_fields_that_nothing_reads_are_reported(script: UDPScript, reply: str, says: str) -> None:
+    actuators = [RBMoveActuator(), RBMoveActuator(action_name="other")]
+    sim, brain = remote_sim(script, actuators=actuators)
+    script.meet(sim)
+    script.say(reply)
+    script.next(sim)
+    status = brain.status()
+    assert says in status.warning
+    assert (status.warnings, status.refused) == (1, 0)
+    brain.close()
+
+
+def test_fields_that_actuators_take_are_no_mistake(script: UDPScript) -> None:
+    actuators = [RBMoveActuator(), RBMoveActuator(action_name="other")]
+    sim, brain = remote_sim(script, actuators=actuators)
+    script.meet(sim)
+    script.say(f"{AHEAD}@other;4;0;1;0;0")
+    script.next(sim)
+    assert (brain.status().warnings, brain.status().warning) == (0, "")
+    brain.close()
+
+
+def test_a_message_that_is_no_command_is_named_with_the_next_reply(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say("move;4;1;0")
+    script.say(AHEAD)
+    script.next(sim)
+    assert brain.status().warning == (
+        "a message of the script was ignored: 'move': expected 4 arguments as it says, got 2"
+    )
+    brain.close()
+
+
+def test_a_session_that_ends_after_a_wrong_message_says_which(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    script.say("move;4;1;0")  # its only answer to that state
+    silent(script, sim, brain)
+    assert "'move': expected 4 arguments as it says, got 2" in brain.status().reason
+    brain.close()
+
+
+def test_a_warning_changes_seldom_and_goes_when_the_script_is_mended(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, on_missing="coast")
+    script.meet(sim)
+    for number in range(30):
+        script.say(f"move;4;nan;{number};0;0")
+        script.next(sim)
+    status = brain.status()
+    assert status.warnings == 30
+    assert "('nan', '0', " in status.warning  # the first sentence still stands
+    script.clock.advance(5.0)
+    script.say("mvoe;4;1;0;0;0")
+    script.next(sim)
+    assert "'mvoe'" in brain.status().warning
+    script.say(AHEAD)
+    script.next(sim)
+    assert "'mvoe'" in brain.status().warning
+    script.clock.advance(10.0)
+    script.say(AHEAD)
+    script.next(sim)
+    assert (brain.status().warning, brain.status().warnings) == ("", 31)
+    brain.close()
+
+
+def test_a_new_session_begins_without_a_warning(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, on_missing="coast")
+    script.meet(sim)
+    script.say("mvoe;4;1;0;0;0")
+    script.next(sim)
+    assert brain.status().warning
+    script.say("halt")
+    until(lambda: brain.status().state == "waiting", lambda _: script.tick(sim))
+    assert brain.status().warning  # what went wrong can still be read
+    while script.heard() is not None:
+        pass
+    script.meet(sim)
+    assert (brain.status().warning, brain.status().warnings) == ("", 1)
     brain.close()
 
 

@@ -24,6 +24,8 @@ from tests.remote.rooms import (
     unused_address,
 )
 from tests.server.rooms import UPGRADE, Room, raw_answer, served
+from tests.server.test_api import get
+from tests.waiting import until
 
 
 def refused(room: Room, code: str, **hello: object) -> str:
@@ -86,6 +88,10 @@ def test_a_client_of_another_version_is_told_so() -> None:
                 assert script.end()[0] == native.PROBLEMS["version"]
 
 
+def script_in_snapshot(room: Room) -> Any:
+    return get(room, "api/snapshot")["agents"][0]["script"]
+
+
 def test_a_bad_action_is_answered_and_never_applied() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
@@ -100,6 +106,9 @@ def test_a_bad_action_is_answered_and_never_applied() -> None:
             script.say(native.Action(percept.episode, percept.step, percept.seq, values))
             assert script.hear() == native.Problem("bad_action", complaint, percept.seq)
         assert log_of(room) == []
+        until(lambda: script_in_snapshot(room)["warnings"] == len(wrong))
+        assert script_in_snapshot(room)["warning"] == wrong[0][1]
+        assert script_in_snapshot(room)["refused"] == len(wrong)
         script.act(percept, -5)  # out of range: cut, and counted
         script.percept()
         assert [number for _, _, number in log_of(room)] == [0.0]
@@ -199,7 +208,7 @@ def test_the_client_raises_what_the_world_says() -> None:
         unused_address() as address,
         pytest.raises(LostError, match="is it running, and is the address right"),
     ):
-        connect(f"http://{address}")
+        connect(f"http://{address}", patience=0)
 
 
 def test_among_several_agents_lockstep_has_to_be_allowed() -> None:

@@ -44,6 +44,15 @@ def test_the_state_of_a_script_stands_at_its_agent_in_words(
     assert written(viewer)[0] == "robot"
 
 
+def test_a_script_whose_actions_have_no_effect_is_named_at_its_agent(
+    viewer: Viewer, runner: Runner
+) -> None:
+    agent = runner.latest.agents[0]
+    status = RemoteStatus("connected", "", 0, 0, 0, 1, 0, 1, "agent '0' has no actuator 'mvoe'")
+    part_of(viewer, Labels).draw(replace(runner.latest, agents=(agent._replace(remote=status),)))
+    assert "its script sends what has no effect" in written(viewer)[0]
+
+
 def test_who_has_no_script_has_no_trouble(runner: Runner) -> None:
     assert script_problem(runner.latest.agents[0]) == ""
 

@@ -41,6 +41,10 @@ class Patience:
         """Time since the script was asked for the action that it owes."""
         return self._clock() - (self._silent_since if self.is_given_up else self._asked)
 
+    def now(self) -> float:
+        """Return the seconds of the clock."""
+        return self._clock()
+
     def restart(self) -> None:
         """Give the script its time anew, as for another answer."""
         self._asked = self._clock()

@@ -263,6 +263,7 @@ class RemoteBrain(Brain):
     def _ask(self, link: Link, observation: Observation, timeout: float) -> Reply | None:
         """Return the script's reply, unless it belongs to something that is over."""
         reply = link.ask(observation, timeout)
+        self._status.follow(link.state)
         if link.state is not LinkState.CONNECTED:
             self._last_asked = None
             self._patience.resume()
@@ -290,6 +291,8 @@ class RemoteBrain(Brain):
     def _carry_out(self, link: Link, reply: Reply, observation: Observation) -> Answer:
         """Return a reply as the decision cycle takes it."""
         answer, agent = reply.answer, self._agent
+        if reply.warning:
+            self._status.warn(reply.warning, self._patience.now())
         if isinstance(answer, Reset):
             self._is_resetting, self._must_truncate = True, False
             self._seed = answer.seed
@@ -306,13 +309,12 @@ class RemoteBrain(Brain):
         except ActionError as error:
             self._status.refused += 1
             self._status.reason = str(error)
+            self._status.warn(str(error), self._patience.now())
             if link.refuse(reply, str(error)) and self._may_wait(link):
                 self._current = observation
                 return Command.HOLD
             return self._substitute()
-        self._status.decisions += 1
-        self._status.clipped += clipped
-        self._status.reason = ""
+        self._status.accept(clipped, self._patience.now())
         return action
 
     def _decide_overridden(self, brain: Brain, link: Link, observation: Observation) -> Answer:

@@ -138,10 +138,11 @@ def _driver_name(context: PanelContext, agent: AgentState) -> str:
 
 def _script(remote: RemoteStatus) -> dict[str, Any]:
     """Return the state of the script that drives an agent, with the counts that are not 0."""
-    names = ("decisions", "missing", "ignored", "refused", "clipped")
+    names = ("decisions", "missing", "ignored", "refused", "clipped", "warnings")
     return {
         "state": remote.state,
         "reason": remote.reason,
+        "warning": remote.warning,
         "counts": {name: count for name in names if (count := getattr(remote, name))},
     }
 

@@ -112,6 +112,8 @@ class AI4ULink:
         """The last observation that was converted, and its state."""
         self._early_reply: Reply | None = None
         """A reply that came while the world stood still."""
+        self._malformed = ""
+        """A sentence about the last message of the session that was no reply."""
         self._socket = UdpSocket(self._peer)
         self._close_socket = weakref.finalize(self, self._socket.close)
         if self._is_threaded:
@@ -236,8 +238,9 @@ class AI4ULink:
             if is_from_script:
                 try:
                     return self._dialogue.parse_reply(datagram)
-                except WireError:
-                    pass
+                except WireError as error:
+                    if self.state is LinkState.CONNECTED:
+                        self._malformed = f"a message of the script was ignored: {error}"
             self.ignored += 1
         self._check_timeout()
         return None
@@ -254,14 +257,22 @@ class AI4ULink:
             case ReplyKind.WAIT:
                 self.time_asked_at = self._clock()
             case ReplyKind.RESET:
-                return Reply(Reset(), observation)
+                return Reply(Reset(), observation, self._warning(received))
             case ReplyKind.HALT:
                 self._end_session(LinkState.WAITING, f"the script at {self.where} has ended")
             case ReplyKind.ACTION if self.expects_reply:
-                return Reply(self._codec.action(received.orders), observation)
+                action = self._codec.action(received.orders)
+                return Reply(action, observation, self._warning(received))
             case _ if self.expects_reply:
-                return Reply(COMMANDS[kind], observation)
+                return Reply(COMMANDS[kind], observation, self._warning(received))
         return None
+
+    def _warning(self, received: AI4UReply) -> str:
+        """Return a sentence about what had no effect, in a reply and in messages before it."""
+        malformed, self._malformed = self._malformed, ""
+        is_action = received.kind is ReplyKind.ACTION
+        dropped = self._codec.find_dropped(received.orders, is_action=is_action)
+        return "; ".join(filter(None, (malformed, dropped)))
 
     def _check_timeout(self) -> None:
         silence = self._clock() - self._sent_at
@@ -272,7 +283,8 @@ class AI4ULink:
                 LinkState.LOST,
                 f"the script at {self.where} did not answer for {self._timeout:g} s: its session "
                 "is over, since AI4U's protocol can't make up for a lost packet; start the script "
-                "again (or give it a longer receive_timeout, if it was only slow)",
+                "again (or give it a longer receive_timeout, if it was only slow)"
+                + (f"; {self._malformed}" if self._malformed else ""),
             )
 
     def _handle_unreachable(self, error: OSError) -> None:
@@ -292,6 +304,7 @@ class AI4ULink:
             self.state = state
         self.reason = reason
         self._asked = self._state = None
+        self._malformed = ""
         self._dialogue.begin()
 
     def _say_goodbye(self) -> None:

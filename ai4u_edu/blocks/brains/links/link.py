@@ -104,6 +104,8 @@ class Reply(NamedTuple):
     tick"; or a :class:`Reset`."""
     observation: Observation | None
     """None if it answers no observation, such as a reset by a script that has just connected."""
+    warning: str = ""
+    """A sentence about parts of it, or messages before it, that have no effect; empty for none."""
 
 
 class Link(Protocol):
