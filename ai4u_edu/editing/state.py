@@ -1,5 +1,7 @@
 """The edited state: a scene's description, and drivers that it does not contain."""
 
+import json
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -14,6 +16,9 @@ from ai4u_edu.editing.input_checks import check_name
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals, library_star_goals
 
+TASK_FIELDS = {"success", "world", "floors", "areas", "bodies"}
+TASK_PARTS = ("body", "actuators", "rewards", "max_steps_per_episode")
+"""Fields of a scene, and parameters of its agents, that decide how long reaching the goal takes."""
 NO_DRIVERS: Mapping[str, str] = MappingProxyType({})
 
 
@@ -43,6 +48,16 @@ class EditState:
     def star_goals(self) -> StarGoals | None:
         """Goals for programs; None unless this is a scene of the library without changes."""
         return library_star_goals(self.description)
+
+    @cached_property
+    def task_key(self) -> str:
+        """Key of all that makes times comparable: world, bodies, motion and rewards."""
+        parts = self.description.model_dump(mode="json", include=TASK_FIELDS)
+        parts["agents"] = [
+            {name: agent.get(name) for name in TASK_PARTS} for agent in self.description.agents
+        ]
+        text = json.dumps(parts, sort_keys=True, default=str)
+        return f"{self.description.name}-{zlib.crc32(text.encode()):08x}"
 
     def agent_index(self, agent_id: str) -> int:
         """Return the index of an agent in the description."""
@@ -82,8 +97,8 @@ class EditState:
 
 def _success(before: SceneDescription, index: int, agent: Mapping[str, Any]) -> str | None:
     wanted = before.success
-    had = [_reward_names(each) for each in before.agents]
-    have = _reward_names(agent)
+    had = [reward_names(each) for each in before.agents]
+    have = reward_names(agent)
     others = {name for number, names in enumerate(had) if number != index for name in names}
     if wanted is None or wanted not in had[index] or wanted in others or wanted in have:
         return wanted
@@ -92,7 +107,7 @@ def _success(before: SceneDescription, index: int, agent: Mapping[str, Any]) -> 
     return have[had[index].index(wanted)]
 
 
-def _reward_names(agent: Mapping[str, Any]) -> list[str]:
+def reward_names(agent: Mapping[str, Any]) -> list[str]:
     """Return the names of an agent's reward functions."""
     endings = ("RewardFunc", "Reward", "Func")
     return [

@@ -12,6 +12,7 @@ from ai4u_edu.editing.change_result import ChangeResult, When
 from ai4u_edu.editing.drivers import DriverRegistry
 from ai4u_edu.editing.dry_run import dry_run
 from ai4u_edu.editing.errors import ChangeError
+from ai4u_edu.editing.goals import with_goal
 from ai4u_edu.editing.history import History, Step
 from ai4u_edu.editing.move_warnings import move_warnings
 from ai4u_edu.editing.permissions import Permissions
@@ -134,6 +135,8 @@ class Transactions:
         try:
             proposal = _checked(propose)
             after, poses = proposal.state, proposal.poses
+            if not whole:
+                after = with_goal(before, after)
             rebuilds = whole or proposal.restarts
             if after == before and driver_of:
                 self._running.restore_driver(driver_of)
@@ -167,6 +170,7 @@ class Transactions:
         self.history.add(step)
         if whole:
             self.opened = after
+            self._runner.resume()  # who opens a scene does not think of a pause in another one
         self._set_state(after)
         return ChangeResult(when, proposal.label, _warnings(step))
 

@@ -30,6 +30,16 @@ def test_another_scene_runs_in_place_of_this_one() -> None:
     harness.tick(3)
 
 
+def test_a_pause_does_not_travel_to_the_next_scene() -> None:
+    harness = EditorHarness()
+    harness.done(harness.runner.pause())
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    assert harness.runner.paused
+    harness.done(harness.editor.open(Scene.load("donut")))
+    harness.done(harness.runner.submit(lambda: None))
+    assert not harness.runner.paused
+
+
 def test_blocks_of_the_new_scene_can_be_changed() -> None:
     harness = EditorHarness()
     harness.done(harness.editor.open(Scene.load("sumo")))

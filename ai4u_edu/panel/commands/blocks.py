@@ -9,6 +9,7 @@ from ai4u_edu.editing import ChangeError, SceneEditor
 from ai4u_edu.editing.blocks import block_at, types_of
 from ai4u_edu.editing.drivers import Driver
 from ai4u_edu.editing.forms import block_form, read_values
+from ai4u_edu.editing.goals import with_goal_values
 from ai4u_edu.editing.plain import BlockPath, Plain
 from ai4u_edu.editing.scene_names import SceneNames
 from ai4u_edu.editing.settings import agent_form, problems_in_agent_form
@@ -80,6 +81,8 @@ async def _add(page: Page, command: m.AddBlock) -> Answer:
         hint = suggest(command.type_name, known)
         raise NameNotFoundError(f"no block is called {command.type_name!r}; {hint}")
     block = suggest_block(editor.state, agent_id, command.type_name)
+    if parent == ("rewards",):
+        block = with_goal_values(editor.state, block)
     return await _add_to(page, block, parent, command.index, "added")
 
 
