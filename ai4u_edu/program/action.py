@@ -6,7 +6,7 @@ from typing import Any
 
 from ai4u_edu.program.mistakes import NOTHING_RETURNED, ProgramError
 from ai4u_edu.program.reading import Reading
-from ai4u_edu.program.words import shown, suggest
+from ai4u_edu.program.words import nearest, shown, suggest
 
 DIGITS = 9
 """Digits behind the point to which a decision's numbers are rounded. Functions such as sin and
@@ -50,8 +50,11 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
     count = None
     if outputs is not None:
         if not isinstance(name, str) or name not in outputs:
-            known = suggest(str(name), outputs)
-            text = f"the agent has no actuator {shown(name)}; {known}"
+            # others take no numbers, and the page does not list them
+            known = [each for each, (low, _) in outputs.items() if len(low)]
+            text = f"the agent has no actuator {shown(name)}; {suggest(str(name), known)}"
+            if not nearest(str(name), known):
+                text += f"; write, say, {_example(outputs)}"
             raise ProgramError(text, line, "actuator")
         count = len(outputs[name][0])
     wanted = "numbers" if count is None else f"{count} number{'s' * (count != 1)}"
@@ -61,9 +64,11 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
     for each in values:
         if each is None or not isinstance(each, int | float):
             text = f"action {name!r}: expected {wanted}, got {shown(each)} in {shown(value)}"
+            text += _advice(each, name, outputs)
             raise ProgramError(text, line, "not-a-number")
     if count is not None and len(values) != count:
         text = f"action {name!r}: expected {wanted}, got {len(values)}: {shown(value)}"
+        text += f"; write, say, {_example(outputs, name)}"
         raise ProgramError(text, line, "length")
     try:
         numbers = [float(each) for each in values]
@@ -71,13 +76,28 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
         numbers = [math.inf]
     if not all(map(math.isfinite, numbers)):
         text = f"action {name!r}: expected finite numbers, got {shown(value)}"
+        text += "; inf and nan come from sums and quotients without a value"
         raise ProgramError(text, line, "not-finite")
     return [round(each, DIGITS) for each in numbers]
 
 
-def _example(outputs: Outputs | None) -> str:
-    if not outputs:
+def _advice(value: Any, name: str, outputs: Outputs | None) -> str:
+    """Return how to mend a value that is no number."""
+    if isinstance(value, str):
+        try:
+            return f"; {shown(value)} is a text: write {float(value):g} without quotes"
+        except ValueError:
+            return f"; {shown(value)} is a text, and a number has no quotes"
+    if value is None:
+        return "; None means that a function returned nothing, or that nothing was computed yet"
+    return f"; write, say, {_example(outputs, name)}"
+
+
+def _example(outputs: Outputs | None, name: str = "") -> str:
+    numbered = {each: low for each, (low, _) in (outputs or {}).items() if len(low)}
+    if not numbered:
         return '{"move": [forward, turn, 0, 0]}'
-    name, (low, _) = next(iter(outputs.items()))
+    name = name if name in numbered else next(iter(numbered))
+    low = numbered[name]
     values = ", ".join(["1", *["0"] * (len(low) - 1)][: len(low)])
     return f'{{"{name}": [{values}]}}'

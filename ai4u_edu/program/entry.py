@@ -83,6 +83,7 @@ def _only_entry(names: Mapping[str, Any], tree: ast.Module) -> str:
     if len(classes) == 1:
         return classes[0]
     near = nearest(ENTRY, own)
-    hint = f"; did you mean {ENTRY!r} where you wrote {near!r}?" if near else ""
-    line = line_of(tree, near) if near else 0
-    raise ProgramError(f"there is no function {ENTRY!r}: {EXPECTED}{hint}", line, "entry")
+    if near:
+        text = f"the function must be called {ENTRY}, exactly so; you wrote {near}"
+        raise ProgramError(text, line_of(tree, near), "entry")
+    raise ProgramError(f"there is no function {ENTRY!r}; {EXPECTED}", 0, "entry")

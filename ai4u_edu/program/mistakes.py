@@ -57,7 +57,31 @@ _SYNTAX = (
         r"unterminated (?:triple-quoted )?f?-?string",
         "A text begins in this line and does not end: expected a quote (\" or ') behind it.",
     ),
-    (r"Maybe you meant '==' or ':='", "One = stores a value, and two compare: expected == here."),
+    (
+        r"Maybe you meant '==' (?:or ':='|instead of '=')|perhaps you meant \"==\"",
+        "One = stores a value, and two compare: expected ==, or a name on the left of the =.",
+    ),
+    (
+        r"cannot assign to|illegal expression for augmented assignment",
+        "Only a name can get a value: expected one in this line, on the left of the =.",
+    ),
+    (
+        r"'(?P<what>break|continue)' (?:outside loop|not properly in loop)",
+        "`{what}` stands outside of a loop: expected it below a `for` or a `while`.",
+    ),
+    (
+        r"invalid non-printable character",
+        "This line has a character that can't be seen, perhaps from a copy: type the line again.",
+    ),
+    (
+        r"invalid decimal literal",
+        "A number is followed by a letter: names begin with a letter, and a number has none.",
+    ),
+    (r"leading zeros in decimal", "A number can't begin with a 0: write 5 in place of 05."),
+    (
+        r"unexpected character after line continuation",
+        "There is a \\ in this line that does not belong there, or something stands behind it.",
+    ),
     (r"Perhaps you forgot a comma", "Something is missing between two values: perhaps a comma."),
     (
         r"'return' outside function",
@@ -118,7 +142,7 @@ def syntax_mistake(error: SyntaxError) -> ProgramError:
         found = re.search(pattern, said)
         if found:
             return ProgramError(text.format(**found.groupdict()), error.lineno or 0, kind)
-    text = f"Python can't read this line: {shorten(said, MAX_TEXT_CHARS)}."
+    text = f"Python can't read this line: {shorten(said, MAX_TEXT_CHARS).rstrip('.?!')}."
     return ProgramError(text, error.lineno or 0, kind)
 
 

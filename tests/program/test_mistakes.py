@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from ai4u_edu.program import Program, ProgramError, host
+from ai4u_edu.program.action import Outputs
 
-OUTPUTS = {"move": ([-1.0, -1.0], [1.0, 1.0])}
+OUTPUTS: Outputs = {"move": ([-1.0, -1.0], [1.0, 1.0]), "respawn": ([], [])}
 PERCEPT = {"eyes": [0.0, 0.5, 1.0], "speed": 0.25}
 
 IN_DECIDE = [
@@ -59,15 +60,33 @@ IN_DECIDE = [
         "actuator",
         "the agent has no actuator 'mov'; did you mean 'move'?",
     ),
-    ("return {'move': [1]}", 2, "length", "action 'move': expected 2 numbers, got 1: [1]"),
+    (
+        "return {'move': [1]}",
+        2,
+        "length",
+        "action 'move': expected 2 numbers, got 1: [1]; write, say, {\"move\": [1, 0]}",
+    ),
     ("return {'move': 1}", 2, "length", "action 'move': expected 2 numbers, got 1: 1"),
     (
         "return {'move': [1, '0']}",
         2,
         "not-a-number",
-        "action 'move': expected 2 numbers, got '0' in [1, '0']",
+        "got '0' in [1, '0']; '0' is a text: write 0 without quotes",
     ),
-    ("return {'move': [1, None]}", 2, "not-a-number", "got None in [1, None]"),
+    ("return {'move': [1, 'left']}", 2, "not-a-number", "'left' is a text, and a number has no"),
+    ("return {'move': [[1], 0]}", 2, "not-a-number", 'in [[1], 0]; write, say, {"move": [1, 0]}'),
+    (
+        "return {'move': [1, None]}",
+        2,
+        "not-a-number",
+        "None means that a function returned nothing",
+    ),
+    (
+        "return {'forward': 1}",
+        2,
+        "actuator",
+        "no actuator 'forward'; known are 'move'; write, say, {\"move\": [1, 0]}",
+    ),
     ("return {'move': [1, 1e999]}", 2, "not-finite", "expected finite numbers, got [1, inf]"),
     (
         "spede = 1\n    return {'move': [sped, 0]}",
@@ -133,6 +152,15 @@ AT_LOAD = [
     ("x = [1)\n", 1, "syntax", "The bracket [ is closed by )"),
     ("x = 'left\n", 1, "syntax", "A text begins in this line and does not end"),
     ("if x = 1:\n    pass", 1, "syntax", "One = stores a value, and two compare"),
+    ("if x[0] = 1:\n    pass", 1, "syntax", "One = stores a value, and two compare"),
+    ("f(x[0]=1)", 1, "syntax", "One = stores a value, and two compare"),
+    ("for f(x) in y:\n    pass", 1, "syntax", "Only a name can get a value"),
+    ("f(x) += 1", 1, "syntax", "Only a name can get a value"),
+    ("break", 1, "syntax", "`break` stands outside of a loop"),
+    ("x =\u00a01", 1, "syntax", "type the line again"),
+    ("x = 5m", 1, "syntax", "A number is followed by a letter"),
+    ("x = 05", 1, "syntax", "write 5 in place of 05"),
+    ("x = 1 \\ 2", 1, "syntax", "does not belong there"),
     ("x = [1 2]", 1, "syntax", "perhaps a comma"),
     ("return 1", 1, "syntax", "`return` stands outside of a function"),
     ("print 1", 1, "syntax", "`print` needs brackets"),
@@ -140,9 +168,11 @@ AT_LOAD = [
     ("x = 1 +", 1, "syntax", "Python can't read this line"),
     ("x = '\0'", 0, "error", "null byte"),
     ("x = 1", 0, "entry",
-     "there is no function 'decide': expected a function: def decide(percept):"),
+     "there is no function 'decide'; expected a function: def decide(percept):"),
     ("x = 1\ndef decid(percept):\n    return {}", 2, "entry",
-     "did you mean 'decide' where you wrote 'decid'?"),
+     "the function must be called decide, exactly so; you wrote decid"),
+    ("def Decide(percept):\n    return {}", 1, "entry",
+     "the function must be called decide, exactly so; you wrote Decide"),
     ("decide = 1", 1, "entry", "'decide' is no function"),
     ("def decide():\n    return {}", 1, "parameters",
      "decide must take one value, the percept: def decide(percept):"),
