@@ -115,7 +115,7 @@ def title_of(brain: Plain) -> str:
 
 def _plain_brain(state: EditState, name: str, rhythm: dict[str, Any]) -> Plain:
     if name.startswith(REMOTE):
-        return _plain(brain_at(name).changed(**rhythm))
+        return _plain(brain_at(name, **rhythm))
     if name.startswith(NETWORK):
         path = name.removeprefix(NETWORK)
         if not path.startswith(ZOO_PREFIX) and path not in _networks_in_folder(state):

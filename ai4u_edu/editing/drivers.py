@@ -114,7 +114,7 @@ class DriverRegistry:
             path = self._file(name.removeprefix(RECORDING), ".episode")
             return _replay_brain(Episode.load(path), "", agent_id)
         if name in self._remotes:
-            return self._remotes[name].changed(**rhythm)
+            return brain_at(name, **rhythm)
         if name.startswith(NETWORK):
             path = self._file(name.removeprefix(NETWORK), ".onnx")
             network = NeuralNetController(model_path=str(path.absolute()))

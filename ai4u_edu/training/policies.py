@@ -86,7 +86,8 @@ def entrant(spec: str, scene: str = "") -> Entrant:
     if spec.startswith(ZOO_PREFIX) or path.suffix == ".onnx":
         return _network(spec)
     if spec.startswith(SCHEME):
-        return Entrant(spec, _in_rhythm_of(brain_at(spec)), is_remote=True)
+        brain_at(spec)  # so that its mistakes are told before a world is built
+        return Entrant(spec, lambda agent: brain_at(spec, **_rhythm(agent)), is_remote=True)
     if path.is_dir() or path.suffix == ".zip":
         return _model(path)
     file, _, name = spec.rpartition(":")
@@ -218,18 +219,13 @@ def _drawn(space: Any, chance: np.random.Generator) -> Any:
 
 def _in_rhythm(make: Callable[[], Any]) -> Callable[[BasicAgent], Brain]:
     """Return a LocalBrain that decides as often as the agent's own brain."""
-    return lambda agent: LocalBrain(
-        controller=make(),
-        skip_frame=agent.brain.skip_frame,
-        repeat_action=agent.brain.repeat_action,
-    )
+    return lambda agent: LocalBrain(controller=make(), **_rhythm(agent))
 
 
-def _in_rhythm_of(brain: Brain) -> Callable[[BasicAgent], Brain]:
-    """Return a brain that decides as often as the agent's own."""
-    return lambda agent: brain.changed(
-        skip_frame=agent.brain.skip_frame, repeat_action=agent.brain.repeat_action
-    )
+def _rhythm(agent: BasicAgent) -> dict[str, Any]:
+    """Return ``skip_frame`` and ``repeat_action`` of an agent's own brain."""
+    brain = agent.brain
+    return {"skip_frame": brain.skip_frame, "repeat_action": brain.repeat_action}
 
 
 def _of_file(path: Path, name: str) -> Callable[[BasicAgent], Brain]:

@@ -238,3 +238,14 @@ def test_what_cant_be_offered_is_told_at_the_start(tmp_path: Path, name: str) ->
         EditorHarness(offers=(place,))
     with pytest.raises(SetupError, match="expected an address such as"):
         EditorHarness(offers=("ai4u://a:b",))
+
+
+@pytest.mark.parametrize("is_offered", [True, False])
+def test_an_address_says_how_often_its_script_decides(is_offered: bool) -> None:
+    address = "ai4u://127.0.0.1:9?skip_frame=2"
+    harness = EditorHarness(offers=(address,) if is_offered else ())
+    harness.done(harness.editor.set_driver("0", address))
+    brain = harness.agent.brain
+    assert isinstance(brain, RemoteBrain)
+    assert (brain.skip_frame, brain.repeat_action) == (2, True)
+    brain.close()

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from ai4u_edu import RemoteBrain, Scene
-from ai4u_edu.base.errors import NameNotFoundError, ParameterError, SetupError
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError, ParameterError, SetupError
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.training.assigned import with_drivers
 from tests.playing import played
@@ -37,6 +37,14 @@ def test_the_brain_decides_as_often_as_the_one_before() -> None:
     brain.close()
 
 
+def test_the_address_says_how_often_it_decides() -> None:
+    address = "ai4u://localhost:9?skip_frame=0&repeat_action=false"
+    sim, _ = with_drivers(Scene.load("box_chase"), [address], is_served=True)
+    brain = sim.agents[0].brain
+    assert (brain.skip_frame, brain.repeat_action) == (0, False)
+    brain.close()
+
+
 def test_with_several_agents_one_is_named() -> None:
     pair = Scene.load("tag")
     says = r"the scene has several agents \(.*\); name one, as in --brain .*=ai4u://127.0.0.1:9"
@@ -51,6 +59,23 @@ def test_with_several_agents_one_is_named() -> None:
 )
 def test_what_is_no_address(address: str) -> None:
     with pytest.raises(SetupError, match=r"expected an address such as ai4u://127.0.0.1:8080, got"):
+        brain_at(address)
+
+
+@pytest.mark.parametrize(
+    ("address", "says"),
+    [
+        ("ai4u://host:1?port=2", "expected port in front of the question mark"),
+        ("ai4u://host:1?host=other", "expected host in front of the question mark"),
+        ("ai4u://host:1?enabled=false", "expected no enabled in an address"),
+        ("ai4u://host:1?mode=realtime&mode=lockstep", "expected mode once, got it 2 times"),
+        ("ai4u://host:1?mode=", "mode: expected"),
+        ("ai4u://host:1#mode", "expected an address such as"),
+        ("ai4u://user@host:1", "expected an address such as"),
+    ],
+)
+def test_nothing_in_an_address_is_overwritten_or_dropped(address: str, says: str) -> None:
+    with pytest.raises(AI4UError, match=says):
         brain_at(address)
 
 

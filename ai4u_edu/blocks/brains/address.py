@@ -1,5 +1,6 @@
 """Addresses of brains on the command line."""
 
+from collections import Counter
 from typing import Any
 from urllib.parse import parse_qsl, urlsplit
 
@@ -7,13 +8,26 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 
 EXAMPLE = "ai4u://127.0.0.1:8080"
+IN_FRONT = ("host", "port")
+"""Parameters that stand in front of an address's question mark."""
 
 
-def brain_at(address: str) -> RemoteBrain:
+def brain_at(address: str, **defaults: Any) -> RemoteBrain:
     """Return the brain at an address; its parameters may follow a question mark.
+
+    Args:
+        address: of the script.
+        defaults: parameters for what the address does not name, such as the ``skip_frame`` of the
+            brain that it replaces.
+
+    Raises:
+        SetupError: it is no such address, or names a parameter that it can't have.
+        ParameterError: a parameter's value is wrong.
 
     >>> brain_at("ai4u://127.0.0.1:8090?mode=realtime&on_missing=stop")
     RemoteBrain(port=8090, mode='realtime', on_missing='stop')
+    >>> brain_at("ai4u://127.0.0.1?skip_frame=0", skip_frame=9, repeat_action=False)
+    RemoteBrain(skip_frame=0, repeat_action=False)
     >>> brain_at("http://127.0.0.1:8090")
     Traceback (most recent call last):
     ...
@@ -25,7 +39,22 @@ def brain_at(address: str) -> RemoteBrain:
         port = parts.port
     except ValueError:
         parts, port = urlsplit(""), None
-    if parts.scheme != "ai4u" or not parts.hostname or parts.path not in ("", "/"):
+    is_plain = parts.path in ("", "/") and not parts.fragment and parts.username is None
+    if parts.scheme != "ai4u" or not parts.hostname or not is_plain:
         raise SetupError(f"brain: expected an address such as {EXAMPLE}, got {address!r}")
+    named = parse_qsl(parts.query, keep_blank_values=True)
+    for name, count in Counter(name for name, _ in named).items():
+        if name in IN_FRONT:
+            raise SetupError(
+                f"brain: expected {name} in front of the question mark, as in {EXAMPLE}, "
+                f"got {address!r}"
+            )
+        if name == "enabled":
+            raise SetupError(
+                f"brain: expected no enabled in an address, since whoever is named drives, "
+                f"got {address!r}"
+            )
+        if count > 1:
+            raise SetupError(f"brain: expected {name} once, got it {count} times in {address!r}")
     place: dict[str, Any] = {"host": parts.hostname, "port": 8080 if port is None else port}
-    return RemoteBrain(**(place | dict(parse_qsl(parts.query))))
+    return RemoteBrain(**(defaults | place | dict(named)))
