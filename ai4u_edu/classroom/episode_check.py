@@ -1,20 +1,15 @@
 """Check of a race's result: the recorded episode is replayed, in a process of its own."""
 
-import asyncio
-import multiprocessing
-import sys
-import time
+import base64
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import NamedTuple
-
-import psutil
+from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, shorten
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.jobs import Job
+from ai4u_edu.jobs.isolated import IsolatedJobs
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.file import decode
 from ai4u_edu.scenes import Scene
@@ -25,10 +20,6 @@ MAX_CHECK_CPU_S = 30.0
 count: a class's machine is busy during a race."""
 MAX_CHECK_WALL_S = 600.0
 """Wall time, for a process that waits for ever."""
-START_TIMEOUT_S = 300.0
-"""Time in which the process starts; then the check is tried again later."""
-POLL_S = 0.1
-END_TIMEOUT_S = 2.0
 TIME_TOLERANCE_S = 0.05
 """Accepted difference between the claimed and the replayed time."""
 MAX_REASON_CHARS = 200
@@ -79,27 +70,24 @@ def _outcome(replay: Replay) -> str:
     return found
 
 
-def check_claims(claims: Connection, blocks: tuple[Path, ...]) -> None:
-    """Check claims until the other end is closed; the main function of the process.
+def prepare(blocks: list[str]) -> None:
+    """Load what a check needs: a job's function.
 
     Args:
-        claims: gets None when all is loaded; gives each :class:`Claim`, and gets the fault.
-        blocks: Python files with the teacher's blocks.
+        blocks: paths of Python files with the teacher's blocks.
     """
     for file in blocks:
-        load_blocks(file)
-    try:
-        claims.send(None)  # the time until here is no part of a check
-        while True:
-            claims.send(find_fault(claims.recv()))
-    except (EOFError, OSError, KeyboardInterrupt):
-        return
+        load_blocks(Path(file))
 
 
-class _Running(NamedTuple):
-    process: BaseProcess
-    connection: Connection
-    usage: psutil.Process
+def fault_of(episode: str, **fields: Any) -> str:
+    """Return :func:`find_fault` of a claim as plain data; a job's function.
+
+    Args:
+        episode: the bytes of its file in base64.
+        **fields: the other fields of the claim.
+    """
+    return find_fault(Claim(base64.b64decode(episode), **fields))
 
 
 class EpisodeCheck:
@@ -113,13 +101,17 @@ class EpisodeCheck:
     """
 
     def __init__(self, blocks: Iterable[Path] = (), max_cpu_s: float = MAX_CHECK_CPU_S) -> None:
-        self.max_cpu_s = max_cpu_s
-        self._blocks = tuple(blocks)
-        self._lock = asyncio.Lock()
-        self._running: _Running | None = None
-        # started anew and not forked, as this process has threads
-        method = "forkserver" if sys.platform == "linux" else "spawn"
-        self._context = multiprocessing.get_context(method)
+        first = Job.of(prepare, blocks=[str(each) for each in blocks])
+        self._jobs = IsolatedJobs(max_cpu_s, MAX_CHECK_WALL_S, first=first)
+
+    @property
+    def max_cpu_s(self) -> float:
+        """Processor time of one check."""
+        return self._jobs.max_cpu_s
+
+    @max_cpu_s.setter
+    def max_cpu_s(self, value: float) -> None:
+        self._jobs.max_cpu_s = value
 
     async def find_fault(self, claim: Claim) -> str:
         """Return why a claim is wrong; empty if it is right. See :func:`find_fault`.
@@ -127,50 +119,13 @@ class EpisodeCheck:
         Raises:
             OSError: the process could not be started; a later try may succeed.
         """
-        async with self._lock:
-            return await asyncio.to_thread(self._ask, claim)
-
-    def _ask(self, claim: Claim) -> str:
-        running = self._running = self._running or self._start()
-        try:
-            begin_cpu_s, end_at = _cpu_s(running.usage), time.monotonic() + MAX_CHECK_WALL_S
-            running.connection.send(claim)
-            while not running.connection.poll(POLL_S):
-                used_s = _cpu_s(running.usage) - begin_cpu_s
-                if used_s > self.max_cpu_s or time.monotonic() > end_at:
-                    self.close()
-                    return f"it could not be replayed in {self.max_cpu_s:g} s of processor time"
-            return str(running.connection.recv())
-        except (EOFError, OSError, psutil.Error):
-            self.close()
-            return "the process that replayed it has ended"
-
-    def _start(self) -> _Running:
-        ours, theirs = self._context.Pipe()
-        process = self._context.Process(  # type: ignore[attr-defined]
-            target=check_claims, args=(theirs, self._blocks), name="episode check", daemon=True
-        )
-        process.start()
-        theirs.close()
-        try:
-            if ours.poll(START_TIMEOUT_S):
-                ours.recv()
-                return _Running(process, ours, psutil.Process(process.pid))
-        except (EOFError, psutil.Error):
-            pass
-        ours.close()
-        process.kill()
-        raise OSError("the process that checks episodes did not start")
+        fields = vars(claim) | {"episode": base64.b64encode(claim.episode).decode()}
+        answer = await self._jobs.run(Job.of(fault_of, **fields))
+        if not answer.error:
+            return str(answer.result)
+        reason = answer.error.replace("it took more than", "it could not be replayed in")
+        return shorten(reason, MAX_REASON_CHARS)
 
     def close(self) -> None:
         """End the process."""
-        running, self._running = self._running, None
-        if running is not None:
-            running.connection.close()
-            running.process.kill()
-            running.process.join(END_TIMEOUT_S)
-
-
-def _cpu_s(process: psutil.Process) -> float:
-    times = process.cpu_times()
-    return float(times.user + times.system)
+        self._jobs.close()

@@ -14,6 +14,8 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 STYLE = """body{font:15px/1.4 system-ui,sans-serif;margin:1em;color:#1b2530}
 table{border-collapse:collapse;margin:.7em 0}td,th{border:1px solid #c9ced4;padding:.15em .5em;
 text-align:left;vertical-align:top}.solved{background:#cdeee2}.hint,.tried{background:#fbdfcc}"""
+ENDS = {"fell": "fell", "lost": "lost", "time": "time was up", "over": "not reached"}
+"""Words for the end of a drive that did not reach the goal."""
 WORDS = {"solved": "solved", "tried": "not yet", "hint": "not yet, with hints"}
 
 
@@ -25,9 +27,9 @@ def results_page(live: LiveClass) -> str:
         _progress(live),
         "<h2>Stars of programs</h2>",
         _table(("student", "scene", "stars"), star_rows(live)),
-        "<h2>Mistakes</h2>",
+        "<h2>Mistakes in exercises</h2>",
         _table(
-            ("exercise", "seats", "times", "hint that students got", "what to say"),
+            ("exercise", "students", "times", "hint that students got", "what to say"),
             (
                 (
                     each["exercise"],
@@ -37,6 +39,14 @@ def results_page(live: LiveClass) -> str:
                     each["guide"],
                 )
                 for each in misconceptions(live.progress.mistakes)
+            ),
+        ),
+        "<h2>Mistakes in programs</h2>",
+        _table(
+            ("mistake", "students", "times", "what to say"),
+            (
+                (each["title"], len(each["seats"]), each["count"], each["guide"])
+                for each in live.program_runs.mistakes()
             ),
         ),
         *_races(live),
@@ -78,20 +88,27 @@ def star_rows(live: LiveClass) -> Iterator[tuple[str, str, int]]:
 
 
 def _races(live: LiveClass) -> Iterator[str]:
-    """Yield a table for each race: the best result of each room."""
+    """Yield a table for each race: the best result of each room, also of one without a goal."""
     for race, title in live.store.query("select id, title from races order by rowid"):
         rows = live.store.query(
             "select room, outcome, min(seconds) from race_results where race = ? "
-            "and verdict = 'right' group by room order by min(seconds)",
+            "and (verdict = 'right' or outcome not in ('goal', 'won')) group by room, outcome "
+            "order by outcome not in ('goal', 'won'), min(seconds)",
             [race],
         )
         yield f"<h2>Race: {html.escape(title)}</h2>"
-        found = [
-            (place, _names(live, room), f"{seconds:.2f} s")
-            for place, (room, outcome, seconds) in enumerate(rows, 1)
-            if outcome in WINNING
-        ]
-        yield _table(("place", "who", "time"), found)
+        best: dict[str, tuple[str, float]] = {}
+        for room, outcome, seconds in rows:
+            best.setdefault(room, (outcome, seconds))
+        yield _table(
+            ("place", "who", "time"),
+            (
+                (place, _names(live, room), f"{seconds:.2f} s")
+                if outcome in WINNING
+                else ("", _names(live, room), ENDS.get(outcome, outcome))
+                for place, (room, (outcome, seconds)) in enumerate(best.items(), 1)
+            ),
+        )
 
 
 def _tournaments(live: LiveClass) -> Iterator[str]:
@@ -99,7 +116,7 @@ def _tournaments(live: LiveClass) -> Iterator[str]:
     tournaments = live.tournament.tournaments
     for each in tournaments.all():
         try:
-            view = json.loads((tournaments.folder_of(each) / VIEW).read_bytes())
+            view = json.loads((tournaments.work_of(each) / VIEW).read_bytes())
         except (OSError, ValueError):  # it was not played
             continue
         yield f"<h2>Tournament: {html.escape(each.title)}</h2>"
@@ -118,7 +135,7 @@ def _tournaments(live: LiveClass) -> Iterator[str]:
 
 
 def _names(live: LiveClass, room: str) -> str:
-    return " & ".join(each.name for each in live.seats_of_id(room)) or room
+    return " & ".join(each.name for each in live.all_seats_of(room)) or room
 
 
 def _table(heads: Iterable[object], rows: Iterable[Iterable[object]]) -> str:

@@ -1,12 +1,10 @@
 """ZIP files with the work of a class: all of it for the teacher, or one seat's own."""
 
-import csv
-import io
 import json
 import re
 import tempfile
 import zipfile
-from collections.abc import AsyncIterator, Iterable, Iterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import suppress
 from dataclasses import asdict
 from typing import IO
@@ -15,6 +13,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import StreamingResponse
 
 from ai4u_edu.base.atomic_write import PREFIX
+from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import remote_id
@@ -25,9 +24,7 @@ from ai4u_edu.classroom.results_page import results_page, star_rows
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
-from ai4u_edu.classroom.tournament.played import TEMPORARY
 from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
-from ai4u_edu.jobs.journal import FILE as JOURNAL
 from ai4u_edu.lessons import progress_file
 from ai4u_edu.scenes import Scene
 
@@ -72,7 +69,7 @@ def _zipped(files: Files) -> IO[bytes]:
 def _class_files(live: LiveClass) -> Files:
     yield "results.html", results_page(live).encode()
     yield "progress.csv", _table(live).encode()
-    yield "stars.csv", _csv(("name", "scene", "stars"), star_rows(live)).encode()
+    yield "stars.csv", csv_table(("name", "scene", "stars"), star_rows(live)).encode()
     remote = [remote_id(each.number) for each in live.seats.all()]
     for each in [*live.seats.scenes(), *remote]:
         name = _room_name(live, each)
@@ -101,27 +98,21 @@ def _class_files(live: LiveClass) -> Files:
 
 def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
     rooms = [seat.room, remote_id(seat.number)]
-    found = [dict(_room_files(live, each)) for each in rooms]
-    folder = live.store.folder / "rooms"
-    paths = [folder / each / SCENE_FILE for each in rooms]
-    # the scene that was changed last is the present one
-    paths = sorted(
-        (each for each in paths if each.is_file()), key=lambda path: path.stat().st_mtime
-    )
-    files = found[1] | found[0]
-    if paths:
-        files[SCENE_FILE] = paths[-1].read_bytes()
-    else:
-        files[SCENE_FILE] = _first_scene(live, seat.room).encode()
-    yield from files.items()
+    present = live.present_room(seat)
+    found = [dict(_room_files(live, each)) for each in sorted(rooms, key=present.__eq__)]
+    yield from ({SCENE_FILE: _first_scene(live, seat.room).encode()} | found[0] | found[1]).items()
     rows = live.store.query(
         "select key, race, seconds from race_results where verdict = 'right' and room in (?, ?)",
         rooms,
     )
+    races = live.store.query("select id, title from races order by rowid")
+    titles = {race: f"race {number} {title}" for number, (race, title) in enumerate(races, 1)}
+    known: set[str] = set()
     for key, race, seconds in rows:
         path = live.store.folder / RACES / race / f"{key}.episode"
         if path.is_file():
-            yield f"episodes/race {seconds:.2f} s {key}.episode", path.read_bytes()
+            name = _free_name(f"{_file_name(titles[race])} {seconds:.2f} s", known)
+            yield f"episodes/{name}.episode", path.read_bytes()
     for file, data in _programs(live, seat.number):
         yield f"{PROGRAMS}/{file}", data
     for file, data in _networks(live, seat.number):
@@ -139,13 +130,18 @@ def _programs(live: LiveClass, seat: int) -> Files:
     """Yield the programs of a seat, as files with different names on all systems."""
     known: set[str] = set()
     for each in live.programs.of_seat(seat):
-        stem = name = f"{_file_name(each.scene)}-{_file_name(each.agent)}"
-        number = 1
-        while name.casefold() in known:
-            number += 1
-            name = f"{stem}-{number}"
-        known.add(name.casefold())
+        name = _free_name(f"{_file_name(each.scene)}-{_file_name(each.agent)}", known)
         yield f"{name}.py", each.source.encode()
+
+
+def _free_name(stem: str, known: set[str]) -> str:
+    """Return a name that is not known yet, whatever its case, and add it to those known."""
+    name, number = stem, 1
+    while name.casefold() in known:
+        number += 1
+        name = f"{stem}-{number}"
+    known.add(name.casefold())
+    return name
 
 
 def _networks(live: LiveClass, seat: int) -> Files:
@@ -166,7 +162,7 @@ def _tournaments(live: LiveClass) -> Files:
         place = f"{TOURNAMENTS}/{number} {_file_name(each.title)}"
         for path in sorted(folder.rglob("*")):
             name = path.relative_to(folder).as_posix()
-            if not path.is_file() or name.startswith((TEMPORARY, JOURNAL, PREFIX)):
+            if not path.is_file() or path.name.startswith(PREFIX):
                 continue
             with suppress(FileNotFoundError):  # it is played now
                 yield f"{place}/{name}", path.read_bytes()
@@ -189,8 +185,8 @@ def _first_scene(live: LiveClass, room: str) -> str:
 
 
 def _room_name(live: LiveClass, room: str) -> str:
-    """Return a name of a room's folder: its seats, and its id."""
-    names = " & ".join(each.name for each in live.seats_of_id(room))
+    """Return a name of a room's folder: its seats, also those that were sent out, and its id."""
+    names = " & ".join(each.name for each in live.all_seats_of(room))
     return _file_name(f"{names} {room}".strip())
 
 
@@ -207,21 +203,13 @@ def _table(live: LiveClass) -> str:
     """Return one line of CSV for each seat and exercise."""
     names = {each.number: each.name for each in live.seats.all()}
     entries = sorted(live.progress.entries.items())
-    return _csv(
+    return csv_table(
         HEADER,
         (
             [seat, names.get(seat, ""), exercise, *_cells(entry)]
             for (seat, exercise), entry in entries
         ),
     )
-
-
-def _csv(header: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows(rows)
-    return out.getvalue()
 
 
 def _cells(entry: Entry) -> tuple[object, ...]:

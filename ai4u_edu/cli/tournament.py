@@ -154,10 +154,8 @@ def _check_folder(plan: "Plan", folder: Path) -> None:
 
 
 def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournament":
-    from ai4u_edu.base.atomic_write import write_atomically
     from ai4u_edu.jobs import engine
-    from ai4u_edu.tournament.page import page_of
-    from ai4u_edu.tournament.run import PAGE, run_tournament, write_results
+    from ai4u_edu.tournament.run import run_tournament, write_results
     from ai4u_edu.training.progress_bar import ProgressBar
 
     count = len(plan.entries)
@@ -174,7 +172,6 @@ def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournam
     with closing(bar), engine(engine_name, address=address) as running:
         done = run_tournament(plan, folder, running, tell=tell)
     write_results(done)
-    write_atomically(folder / PAGE, page_of(done))
     return done
 
 
@@ -206,11 +203,13 @@ def _verify(folder: Path, engine_name: str, address: str) -> None:
     from ai4u_edu.training.progress_bar import ProgressBar
 
     plan = Plan.load(folder)
-    bar = ProgressBar(plan.games_for(len(plan.entries)), "games")
+    bar = ProgressBar(len(plan.entries) + plan.games_for(len(plan.entries)), "games")
     with closing(bar), engine(engine_name, address=address) as running:
         count, problems = verify(folder, running, lambda: bar.add(1))
     for each in problems:
         typer.echo(each)
     if problems:
-        raise SetupError(f"{len(problems)} of {count} games differ")
+        wrong = sum(each.startswith("game ") for each in problems)
+        others = f", and {len(problems) - wrong} other things" if wrong < len(problems) else ""
+        raise SetupError(f"{folder}: {wrong} of {count} games differ{others}")
     typer.echo(f"{count} games, played again: all are the same, bit for bit")

@@ -3,8 +3,6 @@
 import asyncio
 import multiprocessing
 import shutil
-import signal
-import tempfile
 import time
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
@@ -13,9 +11,9 @@ from typing import NamedTuple
 
 import psutil
 
-from ai4u_edu.base.process_priority import lower_priority
-from ai4u_edu.jobs.call import Answer, call, use_one_thread
+from ai4u_edu.jobs.call import Answer
 from ai4u_edu.jobs.job import Job
+from ai4u_edu.jobs.worker import serve_jobs
 
 POLL_S = 0.1
 START_TIMEOUT_S = 300.0
@@ -37,18 +35,31 @@ class IsolatedJobs:
     Args:
         max_cpu_s: processor time of one job.
         max_wall_s: wall time of one job, for one that waits.
-        folder: for temporary files of jobs; deleted with the process.
+        folder: for temporary files of jobs; deleted with the process. By default the system's.
+        first: job of each new process, for which no limits hold: it loads what others need.
     """
 
-    def __init__(self, max_cpu_s: float, max_wall_s: float, folder: Path) -> None:
-        self._max_cpu_s, self._max_wall_s, self._folder = max_cpu_s, max_wall_s, folder
+    def __init__(
+        self,
+        max_cpu_s: float,
+        max_wall_s: float,
+        folder: Path | None = None,
+        first: Job | None = None,
+    ) -> None:
+        self.max_cpu_s = max_cpu_s
+        self._max_wall_s, self._folder = max_wall_s, folder
+        self._first = Job.of(ready) if first is None else first
         self._lock = asyncio.Lock()
         self._running: _Running | None = None
         # started anew and not forked, as this process has threads
         self._context = multiprocessing.get_context("spawn")
 
     async def run(self, job: Job) -> Answer:
-        """Run a job, and return its result or its error."""
+        """Run a job, and return its result or its error.
+
+        Raises:
+            OSError: the process could not be started; a later try may succeed.
+        """
         async with self._lock:
             return await asyncio.to_thread(self._run, job)
 
@@ -64,17 +75,18 @@ class IsolatedJobs:
             running.connection.close()
             running.process.kill()
             running.process.join(END_TIMEOUT_S)
-            shutil.rmtree(self._folder, ignore_errors=True)
+            if self._folder is not None:
+                shutil.rmtree(self._folder, ignore_errors=True)
 
     def _run(self, job: Job) -> Answer:
+        running = self._running = self._running or self._start()
         try:
-            running = self._running = self._running or self._start()
             begin_cpu_s, end_at = _cpu_s(running.usage), time.monotonic() + self._max_wall_s
             running.connection.send(job)
             while not running.connection.poll(POLL_S):
-                if _cpu_s(running.usage) - begin_cpu_s > self._max_cpu_s:
+                if _cpu_s(running.usage) - begin_cpu_s > self.max_cpu_s:
                     self.close()
-                    limit = f"{self._max_cpu_s:g} s of processor time"
+                    limit = f"{self.max_cpu_s:g} s of processor time"
                     return Answer(error=f"it took more than {limit}")
                 if time.monotonic() > end_at:
                     self.close()
@@ -86,42 +98,36 @@ class IsolatedJobs:
         return answer
 
     def _start(self) -> _Running:
-        shutil.rmtree(self._folder, ignore_errors=True)  # of a class that was killed
-        self._folder.mkdir(parents=True, exist_ok=True)
+        if self._folder is not None:
+            shutil.rmtree(self._folder, ignore_errors=True)  # of a class that was killed
+            self._folder.mkdir(parents=True, exist_ok=True)
         ours, theirs = self._context.Pipe()
         process = self._context.Process(
-            target=serve_jobs, args=(theirs, self._folder), name="isolated jobs", daemon=True
+            target=serve_jobs,
+            args=(theirs,),
+            # who starts it is a thread that may end earlier than this process
+            kwargs={"is_tied": False, "folder": self._folder, "has_low_priority": True},
+            name="isolated jobs",
+            daemon=True,
         )
         process.start()
         theirs.close()
+        problem = ""
         try:
+            ours.send(self._first)
             if ours.poll(START_TIMEOUT_S):
-                ours.recv()
-                return _Running(process, ours, psutil.Process(process.pid))
-        except EOFError:
-            pass
+                problem = ours.recv().error
+                if not problem:
+                    return _Running(process, ours, psutil.Process(process.pid))
+        except (EOFError, OSError, psutil.Error) as error:
+            problem = str(error)
         ours.close()
         process.kill()
-        raise OSError("the process for jobs did not start")
+        raise OSError(f"the process for jobs did not start: {problem or 'it took too long'}")
 
 
-def serve_jobs(jobs: Connection, folder: Path) -> None:
-    """Run jobs until the other end is closed; the main function of the process.
-
-    Args:
-        jobs: gets None first; gives each job, and gets its answer.
-        folder: for temporary files.
-    """
-    tempfile.tempdir = str(folder.absolute())
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
-    use_one_thread()
-    lower_priority()
-    try:
-        jobs.send(None)
-        while True:
-            jobs.send(call(jobs.recv()))
-    except (EOFError, OSError):
-        return
+def ready() -> None:
+    """Do nothing: the first job of a process, by default."""
 
 
 def _cpu_s(process: psutil.Process) -> float:

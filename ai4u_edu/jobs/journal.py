@@ -3,7 +3,9 @@
 import json
 import os
 from pathlib import Path
-from typing import Any, BinaryIO, Self
+from typing import Annotated, Any, BinaryIO, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.file_lock import FileLock, LockedError
@@ -57,21 +59,12 @@ class Journal:
 
     def add(self, outcome: Outcome) -> None:
         """Write how a job ended."""
-        job = outcome.job
-        line = {
-            "key": job.key,
-            "function": job.function,
-            "arguments": _shortened(job.arguments),
-            "result": outcome.result,
-            "error": outcome.error,
-            "tries": outcome.tries,
-            "seconds": round(outcome.seconds, 3),
-        }
+        line = line_of(outcome)
         self._file.write(json.dumps(line).encode() + b"\n")
         self._file.flush()
         os.fsync(self._file.fileno())
         if outcome.is_done:
-            self._done[job.key] = line
+            self._done[outcome.job.key] = line
 
     def close(self) -> None:
         """Close the file."""
@@ -95,15 +88,58 @@ class Journal:
         done = {}
         for number, line in enumerate(whole.splitlines(), 1):
             try:
-                kept = json.loads(line)
-                if not kept["error"]:
-                    done[kept["key"]] = kept
-            except (ValueError, TypeError, KeyError) as error:
+                kept = read_line(line)
+            except ValueError as error:
                 raise SetupError(
-                    f"{self.path}, line {number}: expected a finished job, got {line[:80]!r}; "
-                    "mend the line, or choose another folder"
+                    f"{self.path}, line {number}: expected a finished job, got {line[:80]!r} "
+                    f"({error}); mend the line, or choose another folder"
                 ) from error
+            if not kept["error"]:
+                done[kept["key"]] = kept
         return done
+
+
+class _Line(BaseModel):
+    """Form of a line: data, of which nothing is executed."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    key: str
+    function: str
+    arguments: dict[str, Any]
+    result: Any
+    error: str
+    tries: Annotated[int, Field(ge=1)]
+    seconds: Annotated[float, Field(ge=0, allow_inf_nan=False)]
+
+
+def line_of(outcome: Outcome) -> dict[str, Any]:
+    """Return what a journal notes of a job that has ended."""
+    return {
+        "key": outcome.job.key,
+        "function": outcome.job.function,
+        "arguments": _shortened(outcome.job.arguments),
+        "result": outcome.result,
+        "error": outcome.error,
+        "tries": outcome.tries,
+        "seconds": round(outcome.seconds, 3),
+    }
+
+
+def read_line(line: bytes) -> dict[str, Any]:
+    """Return what a line of a journal says, as :func:`line_of` gave it.
+
+    Raises:
+        ValueError: it says something else.
+    """
+    try:
+        found: dict[str, Any] = _Line.model_validate(json.loads(line)).model_dump()
+    except ValidationError as error:
+        first = error.errors()[0]
+        raise ValueError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
+    return found
 
 
 def _shortened(value: Any) -> Any:

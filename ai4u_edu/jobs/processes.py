@@ -7,19 +7,25 @@ it had. Here each process has a pipe of its own.
 import multiprocessing
 import os
 import signal
-import threading
+import time
 from contextlib import suppress
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
 from typing import Self
 
-from tqdm import tqdm
+import psutil
 
-from ai4u_edu.jobs.call import Answer, call, use_one_thread
+from ai4u_edu.jobs.call import Answer
 from ai4u_edu.jobs.job import Job
+from ai4u_edu.jobs.worker import is_main_thread, serve_jobs
 
 END_TIMEOUT_S = 2.0
 """Time in which a process that has closed its pipe ends by itself, and can tell how it ended."""
+STOP_POLL_S = 1.0
+"""Interval in which it is looked whether a process stands still."""
+STOP_TIMEOUT_S = 30.0
+"""Time after which a process that another one has stopped is killed, and its job tried again."""
+STOPPED = (psutil.STATUS_STOPPED, psutil.STATUS_TRACING_STOP)
 KILL_TIMEOUT_S = 60.0
 """Time in which the system removes a process that was killed; a busy machine takes seconds."""
 
@@ -49,12 +55,17 @@ class ProcessEngine:
     def wait(self) -> tuple[Job, Answer]:
         """See :class:`ai4u_edu.jobs.Engine`."""
         busy = {each.pipe: each for each in self._workers if each.is_busy}
-        (ready, *_) = wait([*busy])  # the pipe of a dead process is, too
-        worker = busy[ready]  # type: ignore[index]  # it is one of them
+        ready = wait([*busy], STOP_POLL_S)
+        while not ready:
+            for each in busy.values():
+                each.wake()
+            ready = wait([*busy], STOP_POLL_S)
+        worker = busy[ready[0]]  # type: ignore[index]  # it is one of them, maybe of a dead process
         answer = worker.answer()
         if answer is None:
             self._workers.remove(worker)
-            answer = Answer(error=f"its process died ({worker.end(END_TIMEOUT_S)})")
+            end = worker.end(END_TIMEOUT_S)
+            answer = Answer(error=worker.problem or f"its process died ({end})")
         return worker.job, answer
 
     def close(self) -> None:
@@ -75,9 +86,17 @@ class _Worker:
 
     def __init__(self) -> None:
         self.is_busy = False
+        self.problem = ""
+        """Reason for which the process was killed; empty if it was not."""
+        self._stopped_at: float | None = None
         context = multiprocessing.get_context("spawn")
         self.pipe, self._there = context.Pipe()
-        self._process: BaseProcess = context.Process(target=_work, args=(self._there,), name="job")
+        self._process: BaseProcess = context.Process(
+            target=serve_jobs,
+            args=(self._there,),
+            kwargs={"is_tied": is_main_thread()},
+            name="job",
+        )
 
     def begin(self) -> None:
         """Start the process."""
@@ -88,6 +107,26 @@ class _Worker:
         self.job, self.is_busy = job, True
         with suppress(OSError):  # it died while it was idle; the answer tells
             self.pipe.send(job)
+
+    def wake(self) -> None:
+        """Have the process go on if somebody has stopped it, and kill it if that does not help."""
+        try:
+            process = psutil.Process(self._process.pid)
+            is_stopped = process.status() in STOPPED
+        except psutil.Error:  # it has died
+            return
+        if not is_stopped:
+            self._stopped_at = None
+            return
+        now = time.monotonic()
+        if self._stopped_at is None:  # the second look counts: Ctrl-Z stops all, and they go on
+            self._stopped_at = now
+            return
+        if now - self._stopped_at > STOP_TIMEOUT_S:
+            self.problem = f"its process was stopped by another one for {STOP_TIMEOUT_S:g} s"
+            process.kill()
+        elif hasattr(signal, "SIGCONT"):
+            process.resume()
 
     def answer(self) -> Answer | None:
         """Return what the process sent; None if it died."""
@@ -118,19 +157,6 @@ class _Worker:
             killed = signal.Signals(-code).name
             return f"{killed}: out of memory?" if killed == "SIGKILL" else killed
         return f"exit code {code}"
-
-
-def _work(pipe: Connection) -> None:
-    use_one_thread()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
-    # torch shows progress with tqdm, whose usual lock a process that is killed leaves in the system
-    tqdm.set_lock(threading.RLock())
-    while True:
-        try:
-            job = pipe.recv()
-        except (EOFError, OSError):
-            return
-        pipe.send(call(job))
 
 
 def _cores() -> int:

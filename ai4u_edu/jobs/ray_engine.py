@@ -15,6 +15,7 @@ import psutil
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.optional_deps import need
+from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.jobs.call import Answer
 from ai4u_edu.jobs.job import Job
 from ai4u_edu.jobs.ray_driver import drive
@@ -146,9 +147,7 @@ def _check_address(address: str) -> None:
 def _kill(process: BaseProcess) -> None:
     """Kill a process and all that it has started."""
     with suppress(psutil.Error):
-        family = psutil.Process(process.pid).children(recursive=True)
+        started = psutil.Process(process.pid)
+        kill_descendants(started)
         process.kill()
-        for each in family:
-            with suppress(psutil.Error):
-                each.kill()
     process.join(KILL_TIMEOUT_S)

@@ -3,12 +3,11 @@
 Students hand in their ``progress.json``; nothing else is read, and nothing leaves the machine.
 """
 
-import csv
-import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.class_page import Collected, page
 from ai4u_edu.lessons.course import exercise_ids
@@ -67,9 +66,10 @@ def write(collected: Collected, folder: Path) -> list[Path]:
 
 def table(collected: Collected) -> str:
     """Return one line of CSV for each student and exercise that was begun."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(HEADER)
+    return csv_table(HEADER, _rows(collected))
+
+
+def _rows(collected: Collected) -> Iterator[tuple[object, ...]]:
     exercises = exercise_ids()
     for student, entries in collected.students.items():
         for each in exercises:
@@ -77,12 +77,4 @@ def table(collected: Collected) -> str:
                 entry = entries[each]
                 passed = "yes" if entry.passed else "no"
                 rest = (entry.when, entry.tries, entry.diagnosis, entry.text)
-                row = (student, each, find(each).title, passed, *rest)
-                writer.writerow([_harmless(cell) for cell in row])
-    return out.getvalue()
-
-
-def _harmless(cell: object) -> object:
-    """Return a cell that no spreadsheet takes for a formula."""
-    is_formula = isinstance(cell, str) and cell[:1] in ("=", "+", "-", "@", "\t", "\r")
-    return f"'{cell}" if is_formula else cell
+                yield (student, each, find(each).title, passed, *rest)

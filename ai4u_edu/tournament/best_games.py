@@ -1,11 +1,13 @@
 """Games of a tournament that are worth watching."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ai4u_edu.tournament.contest import ContestResult
-from ai4u_edu.tournament.run import Tournament
 from ai4u_edu.tournament.standings import Standing
+
+if TYPE_CHECKING:
+    from ai4u_edu.tournament.run import Tournament
 
 
 class BestGame(NamedTuple):
@@ -19,7 +21,7 @@ class BestGame(NamedTuple):
     """Index of the game in the contest."""
 
 
-def best_games(done: Tournament, order: Sequence[Standing], count: int) -> list[BestGame]:
+def best_games(done: "Tournament", order: Sequence[Standing], count: int) -> list[BestGame]:
     """Return finished games between strong entries, a different pair each, the best first.
 
     Args:
@@ -37,7 +39,7 @@ def best_games(done: Tournament, order: Sequence[Standing], count: int) -> list[
     return [*found.values()]
 
 
-def _candidates(done: Tournament, order: Sequence[Standing]) -> Iterator[BestGame]:
+def _candidates(done: "Tournament", order: Sequence[Standing]) -> Iterator[BestGame]:
     strength = {each.name: each.mu for each in order}
     clean = [(place, done.ended[place]) for place in sorted(done.ended)]
     clean = [(place, each) for place, each in clean if not each.error and _is_clean(each)]

@@ -1,7 +1,7 @@
 """Controllers for an entry's drivers, made for one game."""
 
 import base64
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +21,7 @@ from ai4u_edu.blocks import (
     Percept,
 )
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.command import Action
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.controllers.replay import ReplayController
 from ai4u_edu.recording import Episode
@@ -30,6 +31,9 @@ from ai4u_edu.tournament.entry import Driver
 from ai4u_edu.tournament.python_controller import PythonController
 from ai4u_edu.tournament.sides import Sides
 from ai4u_edu.world import WorldView
+
+ANSWERS = "answers"
+"""Kind of a driver with the answers of a recorded game; see :class:`RecordedAnswers`."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,30 @@ class RandomController(Controller):
         """Return a random action."""
         rng = self._view.random(self._name)
         return {name: _drawn(space, rng) for name, space in self._spaces.items()}
+
+
+class RecordedAnswers(Controller):
+    """Gives the answers of a recorded game again, in place of what can't be asked a second time.
+
+    Where it has no more of them, its program failed, or the end of the game cut off a decision.
+    """
+
+    abstract = True  # for a game that is verified
+
+    def attach(self, actions: Sequence[Action], reason: str) -> None:
+        """Set the answers, and the reason for which there are no more; empty if it did not fail."""
+        self._actions, self._reason, self._turn = actions, reason, 0
+
+    def get_action(self, percept: Percept) -> Answer:  # noqa: ARG002  # it looks at nothing
+        """Return the next answer.
+
+        Raises:
+            BlockError: it failed at this decision.
+        """
+        self._turn += 1
+        if self._turn > len(self._actions) and self._reason:
+            raise BlockError(self._reason)
+        return self._actions[min(self._turn, len(self._actions)) - 1]
 
 
 def driver_for(drivers: Mapping[str, Driver], sides: Sides, agent_id: str) -> Driver:
@@ -98,6 +126,8 @@ def make(
         return _scripted(sim, sides, agent)
     if kind == "episode":
         return _recorded(driver, sides, agent, own)
+    if kind == ANSWERS:
+        return Made(_answers(driver, agent), own.skip_frame, own.repeat_action)
     controller: Controller
     if kind == "python":
         controller = PythonController()
@@ -143,6 +173,23 @@ def _scripted(sim: ControlRequestor, sides: Sides, agent: BasicAgent) -> Made:
                 fresh = type(controller)(**controller.given())
                 return Made(fresh, brain.skip_frame, brain.repeat_action)
     raise BlockError(f"the scene has no scripted controller for agent {agent.id!r}")
+
+
+def _answers(driver: Driver, agent: BasicAgent) -> RecordedAnswers:
+    """Return the answers of an agent.
+
+    Raises:
+        BlockError: it failed before its first decision.
+    """
+    actions: list[Action] = []
+    if driver["data"]:
+        episode = decode(Episode, base64.b64decode(driver["data"]), "recording")
+        actions = [each.action for each in episode.agent(agent.id)]
+    if not actions:
+        raise BlockError(driver["reason"] or f"agent {agent.id!r} has no decision in its recording")
+    controller = RecordedAnswers()
+    controller.attach(actions, driver["reason"])
+    return controller
 
 
 def _recorded(driver: Driver, sides: Sides, agent: BasicAgent, own: Brain) -> Made:

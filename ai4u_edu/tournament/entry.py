@@ -4,9 +4,9 @@ import base64
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Block, Controller
@@ -23,8 +23,18 @@ FORMS = (
     "controllers), random, a recorded episode (FILE.episode), or a program (FILE.py, FILE.py:NAME)"
 )
 
-Driver = dict[str, Any]
+Driver = dict[str, str]
 """Description of a driver: its ``kind``, and the content of its file."""
+
+PARTS = {
+    "network": {"file", "data"},
+    "episode": {"file", "data"},
+    "python": {"file", "data", "name"},
+    "controller": {"type"},
+    "scene": set[str](),
+    "random": set[str](),
+}
+"""Kinds of drivers, with what describes one besides its kind."""
 
 
 class Entry(BaseModel):
@@ -32,9 +42,18 @@ class Entry(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    name: str
+    name: Annotated[str, Field(min_length=1, max_length=MAX_NAME_CHARS)]
     drivers: dict[str, Driver]
     """Drivers by the id, role or side of agents; "" for all others."""
+
+    @field_validator("drivers")
+    @classmethod
+    def _check_drivers(cls, drivers: dict[str, Driver]) -> dict[str, Driver]:
+        for each in drivers.values():
+            kind = each.get("kind", "")
+            if kind not in PARTS or each.keys() != {"kind", *PARTS[kind]}:
+                raise ValueError(f"expected a driver of {', '.join(PARTS)}, got {kind!r}")
+        return drivers
 
     @property
     def can_repeat(self) -> bool:

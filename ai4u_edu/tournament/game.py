@@ -5,7 +5,9 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.agent.block_errors import message_of
@@ -21,6 +23,39 @@ from ai4u_edu.tournament.sides import Sides, sides_of
 
 DEFAULT_MAX_DECISIONS = 3_000
 """Decisions after which a game ends in a scene without a limit of its own."""
+
+
+class _Result(BaseModel):
+    """Form of a game's result; see :func:`game`."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    points: list[Annotated[float, Field(allow_inf_nan=False)]]
+    goal: list[bool]
+    ticks: Annotated[int, Field(ge=0)]
+    episode: Annotated[str, Field(pattern=r"^[A-Za-z0-9+/]*={0,2}$")]
+    forfeit: int
+    reason: str
+
+
+def result_fault(result: Any, sides: int) -> str:
+    """Return what is wrong with data that stands for the result of a game; empty if nothing is.
+
+    Args:
+        result: as a journal has it.
+        sides: number of the scene's sides.
+    """
+    try:
+        told = _Result.model_validate(result)
+    except ValidationError as error:
+        return "; ".join(f"{each['loc']}: {each['msg']}" for each in error.errors())
+    if len(told.episode) % 4:
+        return "a recording that is no base64"
+    if not len(told.points) == len(told.goal) == sides:
+        return f"points of {len(told.points)} sides, and the scene has {sides}"
+    if not -1 <= told.forfeit < sides or (told.forfeit < 0) != (not told.reason):
+        return f"forfeit {told.forfeit} for the reason {told.reason!r}"
+    return ""
 
 
 def game(

@@ -17,6 +17,7 @@ GAME_CPU_S = 60.0
 MEMORY_BYTES = 2**31
 """Memory that a game may take beyond what its process has (on Linux)."""
 CHECK_INTERVAL_S = 0.1
+CPU_TIME = "s of processor time"
 
 
 class CpuMeter:
@@ -81,15 +82,17 @@ class OverTimeError(Exception):
 
 def over_time(used_s: float) -> str:
     """Return the sentence on a decision that took too long."""
-    return (
-        f"it took {used_s:.1f} s of processor time for a decision; expected at most "
-        f"{DECISION_CPU_S:g} s"
-    )
+    return f"it took {used_s:.1f} {CPU_TIME} for a decision; expected at most {DECISION_CPU_S:g} s"
+
+
+def is_over_time(reason: str) -> bool:
+    """Return True if an entry failed by processor time, which is not the same twice."""
+    return CPU_TIME in reason
 
 
 def over_game_time() -> str:
     """Return the sentence on a game that took too long."""
-    return f"it took more than {GAME_CPU_S:g} s of processor time in one game"
+    return f"it took more than {GAME_CPU_S:g} {CPU_TIME} in one game"
 
 
 @contextmanager

@@ -1,9 +1,9 @@
-"""A tournament that another program shows: ``python -m ai4u_edu.tournament.live_process DIR``.
+"""A tournament that another program shows: ``python -m ai4u_edu.tournament.live_process DIR WORK``.
 
 It plays the plan in the folder, and writes a line of JSON with the tournament so far when contests
 have ended. It ends with all its processes as soon as its input is closed, as when the other program
-has ended. The journal in the folder has what was played by then, and the same command goes on from
-there.
+has ended. The journal, in the folder WORK if there is one, has what was played by then, and the
+same command goes on from there.
 """
 
 import json
@@ -17,14 +17,13 @@ from typing import Any
 
 import psutil
 
-from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.base.process_priority import lower_priority
 from ai4u_edu.jobs.processes import ProcessEngine
 from ai4u_edu.tournament.live_view import live_view
-from ai4u_edu.tournament.page import page_of
 from ai4u_edu.tournament.plan import Plan
-from ai4u_edu.tournament.run import PAGE, Tournament, run_tournament, write_results
+from ai4u_edu.tournament.run import Tournament, run_tournament, write_results
 
 MIN_SHOW_INTERVAL_S = 0.5
 """Shortest time between two lines: to rate hundreds of contests takes some time."""
@@ -51,12 +50,12 @@ def main() -> None:
             shown_at = time.monotonic()
             tell(view=live_view(done))
 
-    folder = Path(sys.argv[1])
+    folder, *work = map(Path, sys.argv[1:])
     try:
         with ProcessEngine(_width()) as engine:
-            done = run_tournament(Plan.load(folder), folder, engine, show=show)
+            journal = work[0] if work else None
+            done = run_tournament(Plan.load(folder), folder, engine, journal=journal, show=show)
         write_results(done)
-        write_atomically(folder / PAGE, page_of(done))
     except (AI4UError, OSError) as error:
         tell(problem=str(error))
     else:
@@ -72,11 +71,7 @@ def _end_with(owner: int) -> None:
     """End this process and those that it has started when the other end is closed."""
     while os.read(owner, 1024):  # not buffered: its lock would be held at the end
         pass
-    for child in psutil.Process().children(recursive=True):
-        try:
-            child.kill()
-        except psutil.Error:  # it has ended
-            continue
+    kill_descendants(psutil.Process())
     os._exit(0)
 
 

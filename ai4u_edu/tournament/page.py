@@ -1,16 +1,20 @@
 """Report of a tournament as one HTML page, with the best games embedded."""
 
 import base64
+import hashlib
 from collections.abc import Iterator
 from html import escape
+from typing import TYPE_CHECKING
 
 from ai4u_edu.base.html_report import html_page, html_table
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.exports.html_page import html_of
 from ai4u_edu.recording.file import decode
 from ai4u_edu.tournament.best_games import best_games
-from ai4u_edu.tournament.run import Tournament
 from ai4u_edu.tournament.standings import MAX_SURE_SIGMA, Standing
+
+if TYPE_CHECKING:
+    from ai4u_edu.tournament.run import Tournament
 
 EMBEDDED_GAMES = 3
 MAX_LISTED_GAMES = 500
@@ -22,13 +26,13 @@ summary{cursor:pointer;padding:.3em 0}
 """
 
 
-def page_of(done: Tournament) -> str:
+def page_of(done: "Tournament") -> str:
     """Return the page."""
     title = f"Tournament: {done.plan.title}"
     return html_page(title, _parts(done), policy=POLICY, style=STYLE)
 
 
-def _parts(done: Tournament) -> Iterator[str]:
+def _parts(done: "Tournament") -> Iterator[str]:
     order = done.standings
     plan = done.plan
     kind = "race" if plan.sides.is_race else plan.system.replace("-", " ")
@@ -105,7 +109,7 @@ def _cross_table(order: list[Standing]) -> str:
     )
 
 
-def _best_games(done: Tournament, order: list[Standing]) -> Iterator[str]:
+def _best_games(done: "Tournament", order: list[Standing]) -> Iterator[str]:
     """Yield players for the best games."""
     found = best_games(done, order, EMBEDDED_GAMES)
     for _, result, game in found:
@@ -126,7 +130,7 @@ def _best_games(done: Tournament, order: list[Standing]) -> Iterator[str]:
         yield "<p>No game has been finished.</p>"
 
 
-def _games(done: Tournament) -> str:
+def _games(done: "Tournament") -> str:
     rows = [
         [
             number,
@@ -140,11 +144,13 @@ def _games(done: Tournament) -> str:
     ]
     more = len(done.games) - len(rows)
     note = f"<p>{more} more are in games.json.</p>" if more else ""
+    plan = hashlib.sha256(done.plan.text.encode()).hexdigest()
     return (
         "<h2>All games</h2><details><summary>Show</summary>"
         + html_table(
             ["game", "entries", "seed", "points", "", "file"], rows, text_columns=(1, 4, 5)
         )
         + f"{note}<p>Watch one: <code>ai4u-edu replay FILE</code>; play all again and compare: "
-        "<code>ai4u-edu tournament verify FOLDER</code></p></details>"
+        "<code>ai4u-edu tournament verify FOLDER</code></p>"
+        f"<p>SHA-256 of the plan (tournament.json): <code>{plan}</code></p></details>"
     )

@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError
@@ -31,6 +31,18 @@ class Plan(BaseModel):
     rounds: int
     """Rounds of the Swiss system; 0 for as many as find the best one."""
 
+    @model_validator(mode="after")
+    def _check_entries(self) -> "Plan":
+        names = [each.name for each in self.entries]
+        if len({*names}) < len(names):
+            raise ValueError(f"expected entries with different names, got {', '.join(names)}")
+        return self
+
+    @property
+    def text(self) -> str:
+        """The plan as its file has it."""
+        return self.model_dump_json(indent=1) + "\n"
+
     @property
     def sides(self) -> Sides:
         """Sides of the scene."""
@@ -56,7 +68,7 @@ class Plan(BaseModel):
     def save(self, folder: Path) -> None:
         """Write the plan into a tournament's folder."""
         make_folder(folder, "a tournament")
-        write_atomically(folder / FILE, self.model_dump_json(indent=1) + "\n")
+        write_atomically(folder / FILE, self.text)
 
     @classmethod
     def load(cls, folder: Path) -> "Plan":

@@ -14,6 +14,7 @@ import numpy as np
 import psutil
 
 from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.blocks import Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Action
@@ -35,8 +36,8 @@ class PythonController(Controller):
     """Sends readings to a process that runs a program, and takes its actions.
 
     The program runs as in the page, see :mod:`ai4u_edu.program`. The process has limits on
-    processor time and memory, may write no file, and has no network on Linux where the system lets
-    a process give it up.
+    processor time and memory, and on Linux no network where the system lets a process give it up;
+    see :mod:`ai4u_edu.tournament.python_child`. It is no sandbox: it can do what its user can.
     """
 
     abstract = True  # an entry of a tournament
@@ -97,9 +98,10 @@ class _Child:
         }
         if sys.platform == "win32":
             env["SYSTEMROOT"] = os.environ.get("SYSTEMROOT", "")
+        limit_s = str(int(GAME_CPU_S + START_CPU_S))
         self._folder = tempfile.TemporaryDirectory(prefix="ai4u-program-")
         self._process = subprocess.Popen(  # noqa: S603  # our own module, with the user's program
-            [sys.executable, "-B", "-m", MODULE, str(int(GAME_CPU_S + START_CPU_S))],
+            [sys.executable, "-B", "-m", MODULE, limit_s, str(os.getpid())],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -107,23 +109,45 @@ class _Child:
             env=env,
             start_new_session=sys.platform != "win32",
         )
-        self._usage = psutil.Process(self._process.pid)
+        self._guard = self._program = psutil.Process(self._process.pid)
         self._reader = LineReader(self._out, MAX_ANSWER_BYTES)
+        try:
+            self._program = psutil.Process(json.loads(self._line(START_CPU_S, 0.0))["pid"])
+        except (BlockError, ValueError, psutil.Error):
+            self.close()
+            raise BlockError("the program's process did not start") from None
 
     def ask(self, message: dict[str, Any], limit_s: float) -> Any:
         """Send a message and return the answer; a processor time of ``limit_s`` is allowed."""
-        before, since = self._used_s(), time.monotonic()
+        before = self._used_s()
         try:
             self._in.write(json.dumps(message).encode() + b"\n")
             self._in.flush()
         except OSError:
             raise BlockError(self._ended()) from None
+        line = self._line(limit_s, before)
+        try:
+            answer = json.loads(line)
+            if "error" in answer:
+                raise BlockError(str(answer["error"]))
+            return answer["answer"]
+        except (ValueError, TypeError, KeyError, RecursionError):
+            raise BlockError("expected an answer of the program, got other data") from None
+
+    def _line(self, limit_s: float, before_s: float) -> bytes:
+        """Return the next line of the process.
+
+        Args:
+            limit_s: processor time that it may take for it.
+            before_s: processor time that it had taken before.
+        """
+        since = time.monotonic()
         line = None
         while line is None:
             line = self._reader.line(CHECK_INTERVAL_S)
             if line is not None and not line.endswith(b"\n") and len(line) <= MAX_ANSWER_BYTES:
                 raise BlockError(self._ended())
-            used = self._used_s() - before
+            used = self._used_s() - before_s
             if used > limit_s:
                 self.close()
                 raise BlockError(over_time(used))
@@ -133,22 +157,19 @@ class _Child:
         if len(line) > MAX_ANSWER_BYTES:
             self.close()
             raise BlockError(f"expected an answer of at most {MAX_ANSWER_BYTES} bytes")
-        try:
-            answer = json.loads(line)
-            if "error" in answer:
-                raise BlockError(str(answer["error"]))
-            return answer["answer"]
-        except (ValueError, TypeError, KeyError, RecursionError):
-            raise BlockError("expected an answer of the program, got other data") from None
+        return line
 
     def close(self) -> None:
         """End the process, and all that it has started."""
-        with suppress(OSError):
-            if sys.platform == "win32":
-                self._process.kill()
-            else:
+        for process in (self._guard, self._program):
+            kill_descendants(process)
+            with suppress(psutil.Error):
+                process.kill()
+        if sys.platform != "win32":
+            with suppress(OSError):  # those of its group that it has not started
                 os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
+        with suppress(subprocess.TimeoutExpired):  # one that another process traces
+            self._process.wait(END_TIMEOUT_S)
         with suppress(OSError):
             self._in.close()
         self._reader.close()
@@ -168,10 +189,10 @@ class _Child:
 
     def _used_s(self) -> float:
         try:
-            times = self._usage.cpu_times()
+            times = self._program.cpu_times()
         except psutil.Error:
             return 0.0
-        return float(times.user + times.system)
+        return float(sum(times[:4]))  # also of processes that it has started and that have ended
 
     def _ended(self) -> str:
         try:

@@ -16,7 +16,6 @@ from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import Networks
 from ai4u_edu.tournament.entry import Driver
 from ai4u_edu.tournament.plan import Plan
-from ai4u_edu.tournament.run import GAMES
 
 SEATS = "seats.json"
 """File with the number of the seat of each entry; 0 for the scene's own player."""
@@ -25,6 +24,7 @@ System = Literal["round-robin", "swiss"]
 
 def write_plan(
     folder: Path,
+    work: Path,
     networks: Networks,
     seats: Sequence[SeatRow],
     scene: str,
@@ -39,7 +39,8 @@ def write_plan(
     played again.
 
     Args:
-        folder: of the tournament.
+        folder: of the tournament's results.
+        work: gets the seats of the entries.
         networks: of the class.
         seats: those that may take part.
         scene: name of a scene of the library.
@@ -53,9 +54,10 @@ def write_plan(
     """
     try:
         plan, numbers = _plan(networks, seats, scene, seeds, system, has_own_player)
-        shutil.rmtree(folder / GAMES, ignore_errors=True)  # files of a plan before; see the journal
+        shutil.rmtree(folder, ignore_errors=True)  # files of a plan before; see the journal
         plan.save(folder)
-        write_atomically(folder / SEATS, json.dumps(numbers))
+        work.mkdir(exist_ok=True)
+        write_atomically(work / SEATS, json.dumps(numbers))
     except OSError as error:
         raise StoreError(f"The tournament can't be saved: {reason(error)}.") from None
     except SetupError as error:
@@ -97,10 +99,10 @@ def _plan(
     return plan, numbers
 
 
-def seats_of(folder: Path) -> Mapping[str, int]:
+def seats_of(work: Path) -> Mapping[str, int]:
     """Return the number of the seat of each entry of a tournament; a thread does it."""
     try:
-        found: dict[str, int] = json.loads((folder / SEATS).read_bytes())
+        found: dict[str, int] = json.loads((work / SEATS).read_bytes())
     except (OSError, ValueError):
         return {}
     return found

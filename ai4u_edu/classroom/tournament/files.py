@@ -90,6 +90,8 @@ class TournamentFiles:
         try:
             path = str(found[0].absolute())
             answer = await self._pages.run(Job.of(game_page, path=path, is_projected=is_projected))
+        except OSError as error:
+            raise HTTPException(503, f"This recording can't be shown now: {error}.") from None
         finally:
             self._open -= 1
             if self._open == 0:

@@ -20,12 +20,12 @@ class PlayedTournament:
     """A tournament that is played in a process of its own, which ends with this one.
 
     Args:
-        folder: of the tournament, with its plan.
+        folder: of the tournament's results, with its plan.
+        work: gets the journal, and files of the games that are played.
         on_change: called in a thread of its own when the tournament goes on or ends.
     """
 
-    def __init__(self, folder: Path, on_change: Callable[[], object]) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, work: Path, on_change: Callable[[], object]) -> None:
         self.view: dict[str, Any] | None = None
         """The tournament so far; see :func:`ai4u_edu.tournament.live_view.live_view`."""
         self.problem = ""
@@ -35,12 +35,12 @@ class PlayedTournament:
         self.has_ended = False
         """True when the process has ended, in any way."""
         self._on_change = on_change
-        own = folder / TEMPORARY
-        shutil.rmtree(own, ignore_errors=True)  # of a class that was killed
-        own.mkdir(parents=True, exist_ok=True)
-        variables = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(own.absolute()))
+        self._temporary = work / TEMPORARY
+        shutil.rmtree(self._temporary, ignore_errors=True)  # of a class that was killed
+        self._temporary.mkdir(parents=True, exist_ok=True)
+        variables = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._temporary.absolute()))
         self._process = subprocess.Popen(  # noqa: S603 - our own module
-            [sys.executable, "-m", MODULE, str(folder)],
+            [sys.executable, "-m", MODULE, str(folder), str(work)],
             env={**os.environ, **variables},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -57,7 +57,7 @@ class PlayedTournament:
         except subprocess.TimeoutExpired:
             self._process.kill()
         self._reader.join(END_TIMEOUT_S)
-        shutil.rmtree(self.folder / TEMPORARY, ignore_errors=True)
+        shutil.rmtree(self._temporary, ignore_errors=True)
 
     def _read(self) -> None:
         assert self._process.stdout is not None  # noqa: S101 - it is a pipe

@@ -60,10 +60,10 @@ class TournamentRunner:
         self.seats: Mapping[str, int] = {}
         """Number of the seat of each entry, by its name; 0 for the scene's own player."""
         if self.tournaments.now is not None:
-            folder = self.tournaments.folder_of(self.tournaments.now)
-            self.seats = seats_of(folder)
+            work = self.tournaments.work_of(self.tournaments.now)
+            self.seats = seats_of(work)
             with suppress(OSError, ValueError):
-                self._ended_view = json.loads((folder / VIEW).read_bytes())
+                self._ended_view = json.loads((work / VIEW).read_bytes())
 
     @property
     def view(self) -> dict[str, Any] | None:
@@ -125,10 +125,11 @@ class TournamentRunner:
                 raise CommandError("There is no tournament: choose its scene first.")
             if missing := missing_extras():
                 raise CommandError(missing)
-            folder = self.tournaments.folder_of(row)
+            folder, work = self.tournaments.folder_of(row), self.tournaments.work_of(row)
             await asyncio.to_thread(
                 write_plan,
                 folder,
+                work,
                 self.networks,
                 seats,
                 row.scene,
@@ -136,7 +137,7 @@ class TournamentRunner:
                 system,
                 has_own_player=has_own_player,
             )
-            self.seats = await asyncio.to_thread(seats_of, folder)
+            self.seats = await asyncio.to_thread(seats_of, work)
             self.tournaments.change("running")
             self._ended_view = None
 
@@ -201,9 +202,9 @@ class TournamentRunner:
                     return
                 played = self._played
                 if played is None:
-                    folder = self.tournaments.folder_of(row)
+                    folder, work = self.tournaments.folder_of(row), self.tournaments.work_of(row)
                     self._played = await asyncio.to_thread(
-                        PlayedTournament, folder, lambda: self._news.append(0)
+                        PlayedTournament, folder, work, lambda: self._news.append(0)
                     )
                 else:
                     self.tournaments.change("over" if played.is_over else "failed", played.problem)
@@ -218,7 +219,7 @@ class TournamentRunner:
         if played is not None:
             await asyncio.to_thread(played.end)
             self._ended_view = played.view
-            path = self.tournaments.folder_of(row) / VIEW
+            path = self.tournaments.work_of(row) / VIEW
             with suppress(OSError):  # a full disk: the results are in the journal
                 await asyncio.to_thread(write_atomically, path, json.dumps(played.view))
         self._note_change()

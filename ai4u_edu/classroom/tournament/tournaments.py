@@ -95,8 +95,12 @@ class Tournaments:
         self.now = None
 
     def folder_of(self, tournament: TournamentRow) -> Path:
-        """Return the folder of a tournament's files."""
+        """Return the folder of a tournament's results, as ``ai4u-edu tournament`` has it."""
         return self.folder / tournament.id
+
+    def work_of(self, tournament: TournamentRow) -> Path:
+        """Return the folder of what else a tournament needs, such as the journal."""
+        return self.folder / f"{tournament.id}.work"
 
 
 _ALL = "select id, scene, title, phase, problem from tournaments order by rowid"

@@ -1,6 +1,5 @@
 """Export of an episode as CSV: one row for each decision of each agent."""
 
-import csv
 import math
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ai4u_edu.base.atomic_write import partial_file
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.recording.replay import Moment, Replay
 
 Row = dict[str, Any]
@@ -27,11 +27,8 @@ def write_csv(replay: Replay, path: Path) -> Path:
     """
     rows = [row for agent in replay.episode.ids for row in _rows(replay, agent)]
     names = list(dict.fromkeys(name for row in rows for name in row))
-    with partial_file(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, [_text(name) for name in names], restval="")
-        writer.writeheader()
-        for row in rows:
-            writer.writerow({_text(name): _text(value) for name, value in row.items()})
+    cells = ([row.get(name, "") for name in names] for row in rows)
+    write_atomically(path, csv_table(names, cells))
     return path
 
 
@@ -69,10 +66,3 @@ def _cells(name: str, value: Any) -> Row:
     if isinstance(value, np.ndarray):
         return {f"{name}[{index}]": each for index, each in enumerate(value.ravel().tolist())}
     return {name: int(value) if isinstance(value, bool) else value}
-
-
-def _text(value: Any) -> Any:
-    """Quote text that a spreadsheet would evaluate as a formula."""
-    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
-        return "'" + value
-    return value

@@ -1,14 +1,13 @@
 """Results of a sweep's trials, their order, and the files made of them."""
 
 import base64
-import csv
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.jobs import Outcome
 from ai4u_edu.training.run import Check
 from ai4u_edu.training.sweep.plan import Choice
@@ -133,25 +132,26 @@ def groups(results: Sequence[TrialResult]) -> list[dict[str, str]]:
 
 def csv_text(results: Sequence[TrialResult], names: Sequence[str]) -> str:
     """Return all trials as CSV, with full numbers and the evaluation curve's points."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     head = "trial algorithm", "seed state success reward length", "best_at_step steps seconds"
     first, middle, last = (each.split() for each in head)
-    writer.writerow([*first, *names, *middle, *last, "curve", "error"])
-    for each in results:
-        best = each.best if each.checks else None
-        told = ["", "", "", ""]
-        if best is not None:
-            success = "" if best.success is None else best.success
-            told = [str(v) for v in (success, best.reward, best.length, best.steps)]
-        settings = each.choice.settings
-        writer.writerow(
-            [each.number, each.choice.algorithm]
-            + [_full(settings.get(name, "")) for name in names]
-            + [each.choice.seed, each.state, *told, each.steps, f"{each.seconds:.1f}"]
-            + [" ".join(f"{v:.6g}" for v in (each.curve if each.checks else ())), each.error]
-        )
-    return out.getvalue()
+    header = [*first, *names, *middle, *last, "curve", "error"]
+    return csv_table(header, (_row(each, names) for each in results))
+
+
+def _row(result: TrialResult, names: Sequence[str]) -> list[object]:
+    told = ["", "", "", ""]
+    if result.checks:
+        best = result.best
+        success = "" if best.success is None else best.success
+        told = [str(v) for v in (success, best.reward, best.length, best.steps)]
+    choice = result.choice
+    return [
+        *(result.number, choice.algorithm),
+        *(_full(choice.settings.get(name, "")) for name in names),
+        *(choice.seed, result.state, *told, result.steps, f"{result.seconds:.1f}"),
+        " ".join(f"{v:.6g}" for v in (result.curve if result.checks else ())),
+        result.error,
+    ]
 
 
 def _full(value: object) -> object:
