@@ -7,6 +7,7 @@ const UNREACHABLE = "The class can't be reached. Is its program still running?";
 /**
  * Send a command.
  * @param {{do: string}} command with its arguments
+ * @returns {Promise<object>} the answer
  * @throws {Error} with a sentence for the teacher if it can't be done
  */
 export async function command(command) {
@@ -20,7 +21,7 @@ export async function command(command) {
   } catch {
     throw new Error(UNREACHABLE);
   }
-  if (answer.ok) return;
+  if (answer.ok) return answer.json();
   const { problem } = await answer.json().catch(() => ({}));
   throw new Error(problem ?? `The class answered with status ${answer.status}.`);
 }

@@ -2,6 +2,7 @@
 
 import { commandOrTell } from "./class_command.js";
 import { element, keyed, setText } from "./dom.js";
+import { showMoveCode } from "./move_code_dialog.js";
 import { ask } from "./question.js";
 
 /** Words by a seat's state; "in" needs none. */
@@ -38,7 +39,7 @@ export class JoinHeader {
     find("#qr").hidden = false;
     find("#open").setAttribute("aria-pressed", String(!state.open));
     setText(find("#count"), here.length ? `(${here.length})` : "");
-    showGone(state.seats.filter((seat) => seat.state !== "in"));
+    showGone(state.seats.filter((seat) => seat.state !== "in"), Boolean(state.code));
     this.#resize();
   }
 
@@ -53,14 +54,19 @@ export class JoinHeader {
   }
 }
 
-/** Show who was here. */
-function showGone(seats) {
+/** Show who was here, with a way back where seats have codes. */
+function showGone(seats, hasCodes) {
   const gone = find("#gone");
   gone.hidden = seats.length === 0;
   setText(gone.querySelector("summary"), `No longer here (${seats.length})`);
-  const make = () => element("li", {}, element("span", { className: "ai4u-name" }), " ", element("span", { className: "ai4u-facts" }));
+  const make = (seat) => {
+    const code = element("button", { type: "button", className: "ai4u-plain", textContent: "Code…", hidden: !hasCodes });
+    code.setAttribute("aria-label", `Code for ${seat.name}`);
+    code.addEventListener("click", () => showMoveCode(seat));
+    return element("li", {}, element("span", { className: "ai4u-name" }), " ", element("span", { className: "ai4u-facts" }), " ", code);
+  };
   keyed(gone.querySelector("ul"), seats, (seat) => seat.number, make, (item, seat) => {
     setText(item.firstElementChild, seat.name);
-    setText(item.lastElementChild, STATES[seat.state] ?? seat.state);
+    setText(item.querySelector(".ai4u-facts"), STATES[seat.state] ?? seat.state);
   });
 }

@@ -4,6 +4,7 @@ import { showAssign } from "./assign_dialog.js";
 import { command, commandOrTell } from "./class_command.js";
 import { element } from "./dom.js";
 import { choices, chosenIn, closeDialogOf, showForm } from "./form_dialog.js";
+import { showMoveCode } from "./move_code_dialog.js";
 import { ask, tell } from "./question.js";
 import { showPrograms } from "./room_programs.js";
 import { clock, counted, roomName, seatsOf, statusOf } from "./room_words.js";
@@ -38,7 +39,7 @@ export function showRoom(room, state, realNames) {
     facts(room),
     room.error && element("pre", { className: "ai4u-error", tabIndex: 0, "aria-label": "Error", textContent: room.error }),
     actions,
-    element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames))),
+    element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames, Boolean(state.code)))),
   ];
   return showForm({ title: roomName(room, state), content: content.filter(Boolean), no: "Close" });
 }
@@ -61,23 +62,29 @@ function pair(name, value) {
   return [element("dt", { textContent: name }), element("dd", { textContent: value })];
 }
 
-function person(seat, realNames) {
+function person(seat, realNames, hasCodes) {
   const dot = element("span", { className: "ai4u-dot" });
   dot.style.background = seat.colour;
   const rename = action("Rename…", (button) => {
     closeDialogOf(button);
     showRename(seat);
   });
-  const kick = action("Send out", async (button) => {
+  const kick = action("Send out…", async (button) => {
     closeDialogOf(button);
-    await commandOrTell({ do: "kick", seat: seat.number });
+    const text = "The page closes. With the class’s code this student can join again, and finds all work there.";
+    if (await ask({ title: `Send ${seat.name} out?`, text, yes: "Send out" })) await commandOrTell({ do: "kick", seat: seat.number });
   });
   const ban = action("Ban…", async (button) => {
     closeDialogOf(button);
-    const text = "This seat can’t be used again. Its work stays.";
-    if (await ask({ title: `Ban ${seat.name}?`, text, yes: "Ban" })) await commandOrTell({ do: "ban", seat: seat.number });
+    await showBan(seat, hasCodes);
   });
-  for (const [each, verb] of [[rename, "Rename"], [kick, "Send out"], [ban, "Ban"]]) each.setAttribute("aria-label", `${verb} ${seat.name}`);
+  const move = action("Code…", async (button) => {
+    closeDialogOf(button);
+    await showMoveCode(seat);
+  });
+  move.hidden = !hasCodes;
+  const actions = [[rename, "Rename"], [move, "Code for"], [kick, "Send out"], [ban, "Ban"]];
+  for (const [each, verb] of actions) each.setAttribute("aria-label", `${verb} ${seat.name}`);
   const real = realNames.of(seat);
   return element(
     "li",
@@ -85,7 +92,17 @@ function person(seat, realNames) {
     dot,
     element("span", { className: "ai4u-name", textContent: seat.name }),
     element("span", { className: "ai4u-facts", textContent: [real, seat.is_here ? "" : "page closed"].filter(Boolean).join(" · ") }),
-    element("span", { className: "ai4u-actions" }, rename, kick, ban),
+    element("span", { className: "ai4u-actions" }, rename, move, kick, ban),
+  );
+}
+
+/** Who is banned may join again with the code in another browser, unless the code changes. */
+async function showBan(seat, hasCodes) {
+  const options = { new: "Set a new code. Whoever knows the old one can’t join again.", keep: "Keep the code" };
+  const group = choices("Code of the class", "ban-code", options, "new");
+  const text = "This seat can’t be used again. Its work stays.";
+  await showForm({ title: `Ban ${seat.name}?`, text, content: hasCodes ? [group] : [], yes: "Ban", isDanger: true }, () =>
+    command({ do: "ban", seat: seat.number, new_code: hasCodes && chosenIn(group) === "new" }),
   );
 }
 

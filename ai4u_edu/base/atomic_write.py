@@ -93,18 +93,22 @@ def partial_file(path: Path, *, over: bool = True, mode: int = 0o666) -> Iterato
     _flush_folder(path.parent)
 
 
-def make_folder(folder: Path, what: str) -> None:
+def make_folder(folder: Path, what: str, *, is_private: bool = False) -> None:
     """Make a folder that the user asked for, and remove what killed processes left there.
 
     Args:
         folder: which; one that is there already will do.
         what: what it is for, for the message.
+        is_private: True to let nobody but its owner look into it, also if it is there already; but
+            not the user's home or the folder in which the program runs, which are for more.
 
     Raises:
         SetupError: it can't be made, or may not be written to.
     """
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(0o700 if is_private else 0o777, parents=True, exist_ok=True)
+        if is_private and folder.resolve() not in (Path.home().resolve(), Path.cwd()):
+            make_private(folder)
         if not os.access(folder, os.W_OK | os.X_OK):
             raise PermissionError(errno.EACCES, "it may not be written to")
     except (OSError, ValueError) as error:  # ValueError: a null character
@@ -113,6 +117,14 @@ def make_folder(folder: Path, what: str) -> None:
             f"{folder}: expected a folder for {what}: {why}; choose another one"
         ) from None
     remove_leftovers(folder)
+
+
+def make_private(path: Path) -> None:
+    """Take away what others than the owner may do with a file or folder, where that is possible."""
+    with suppress(OSError):  # another user's, or a file system without permissions
+        mode = stat.S_IMODE(path.stat().st_mode)
+        if mode & 0o077:
+            path.chmod(mode & 0o700)
 
 
 def remove_leftovers(folder: Path) -> int:
@@ -145,9 +157,8 @@ def _remove_if_left(path: Path) -> bool:
     status = path.lstat()
     if not stat.S_ISREG(status.st_mode):
         return False
-    fd = os.open(path, os.O_RDWR | getattr(os, "O_NOFOLLOW", 0))
     try:
-        lock = FileLock(path, fd)
+        lock = FileLock(path)
     except LockedError:
         return False
     is_old = time.time() - status.st_mtime > MIN_LEFTOVER_AGE_S
@@ -165,16 +176,12 @@ def _new_partial(path: Path, mode: int) -> FileLock:
         except OSError as error:
             error.filename = str(path)  # the name that the user gave
             raise
-        try:
-            lock = FileLock(beside, fd)
-        except LockedError:  # somebody who removes leftovers looks at it just now
-            continue
         if HAS_HELD_RENAME:
             with suppress(OSError):
                 os.fchmod(fd, stat.S_IMODE(path.stat().st_mode))
-        if beside.exists():
-            return lock
-        lock.release()  # it was taken for a leftover before it was locked
+        os.close(fd)
+        with suppress(LockedError):  # somebody who removes leftovers looks at it just now
+            return FileLock(beside)
 
 
 def _suffix(path: Path) -> str:

@@ -65,6 +65,8 @@ MAX_LISTED = 20
 """Maximum number of problems in one message."""
 MAX_HINTS = 50
 """Maximum number of problems that get a suggested name; comparing names is the slowest part."""
+MAX_EXPLAINED = 100
+"""Maximum number of problems that are explained; of more, only the number is told."""
 
 
 def is_open(bound: float) -> bool:
@@ -87,6 +89,9 @@ class Problem(NamedTuple):
         return f"{format_path(self.path)}: {self.text}" if self.path else self.text
 
 
+_UNEXPLAINED = Problem((), "is wrong")
+
+
 def format_path(path: Sequence[str | int]) -> str:
     """Return a path as text.
 
@@ -107,14 +112,17 @@ def explain(
         known: the model, or the names of its parameters.
     """
     names = known if isinstance(known, type) else list(known)
-    found = [(error, *_walk(error["loc"], names)) for error in errors]
+    all_errors = list(errors)
+    found = [(error, *_walk(error["loc"], names)) for error in all_errors[:MAX_EXPLAINED]]
     holders = {path[:length] for _, path, _ in found for length in range(len(path))}
-    return [
+    explained = [
         Problem(path, _sentence(error, names_there, hints=place < MAX_HINTS))
         for place, (error, path, names_there) in enumerate(found)
         # pydantic also reports a list with wrong entries as too short; the entries' errors suffice
         if not (error["type"] == "too_short" and path in holders)
     ]
+    # nobody reads more: of the rest the number counts
+    return explained + [_UNEXPLAINED] * (len(all_errors) - len(found))
 
 
 def format_problems(problems: Sequence[Problem]) -> str:

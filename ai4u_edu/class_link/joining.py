@@ -12,7 +12,8 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
 
 SEAT_COOKIE = "ai4u_edu_seat"
-"""Cookie with a seat's token; scripts in a page can't read it."""
+"""Cookie with a seat's token from a program; those from a class go on with a name of its own, as
+cookies know no ports. Scripts in a page can't read it."""
 CONNECT_TIMEOUT_S = 10.0
 """Time in which the class's machine has to be reached."""
 ANSWER_TIMEOUT_S = 90.0
@@ -162,7 +163,9 @@ def _names(client: httpx.Client) -> list[str]:
 
 
 def _seat_of(answer: httpx.Response, name: str, address: str) -> Seat:
-    token = answer.cookies.get(SEAT_COOKIE)
+    token = next(
+        (value for name, value in answer.cookies.items() if name.startswith(SEAT_COOKIE)), ""
+    )
     if not token:
         raise NotJoinedError(f"The class at {address} gave no seat. Is it of the same version?")
     named, colour = _field(answer, "name"), _field(answer, "colour")

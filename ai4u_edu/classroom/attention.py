@@ -4,17 +4,25 @@ import json
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Literal, cast
+from typing import Literal
+
+from pydantic import BaseModel, Field
 
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.store import ClassStore
-from ai4u_edu.wire.class_link import Attention
+from ai4u_edu.wire.class_link import MAX_MESSAGE_CHARS, Attention
 
 SETTING = "attention"
 MAX_SECONDS = 4 * 3600.0
 SAVE_EVERY_S = 5.0
 """Interval of saving the remaining seconds; at most so much longer it lasts after a crash."""
 Kind = Literal["", "pause", "blank"]
+
+
+class _Stored(BaseModel):
+    kind: Kind = ""
+    message: str = Field(default="", max_length=MAX_MESSAGE_CHARS)
+    seconds: float = Field(default=0.0, ge=0, le=MAX_SECONDS, allow_inf_nan=False)
 
 
 class AttentionState:
@@ -31,11 +39,9 @@ class AttentionState:
 
     def read(self) -> None:
         """Take the stored request, with the seconds that it had left."""
-        stored = json.loads(self._store.setting(SETTING) or "{}")
-        self.kind = cast("Kind", stored.get("kind", ""))
-        self.message: str = stored.get("message", "")
-        seconds = stored.get("seconds", 0.0)
-        self._ends_at = self._clock() + seconds if seconds else None
+        stored = self._store.setting_as(SETTING, _Stored)
+        self.kind, self.message = stored.kind, stored.message
+        self._ends_at = self._clock() + stored.seconds if stored.seconds else None
         self._saved_at = self._clock()
 
     def set(self, kind: Kind, message: str, seconds: float) -> None:

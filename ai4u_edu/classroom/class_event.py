@@ -8,7 +8,9 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+from ai4u_edu.class_member.episode_watch import PERSON
 from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
+from ai4u_edu.classroom.help_score import MISTAKE_HELP
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
@@ -69,9 +71,9 @@ class ClassEvents:
             "address": address,
             "qr": code,
             "open": live.seats.is_open,
-            "problem": live.results.problem,
+            "problem": live.problem,
             "attention": live.attention.as_event(),
-            "shown": live.shown,
+            "shown": live.shown.model_dump(),
             "race": live.race.event(is_projected=is_projected),
             "tournament": tournament_event(
                 live.tournament, live.seats.all(), is_projected=is_projected
@@ -80,7 +82,7 @@ class ClassEvents:
             "exercises": [each._asdict() for each in course_index()],
             "lessons": _lessons(),
             "seats": self._seats(),
-            "rooms": self._rooms(),
+            "rooms": self._rooms(has_mistakes=not is_projected),
         }
         if is_projected:
             for room in event["rooms"]:
@@ -90,6 +92,8 @@ class ClassEvents:
         event["handed_in"] = networks_event(live.tournament)
         event["progress"] = live.progress.by_seat()
         event["stars"] = live.stars.by_seat()
+        event["runs"] = live.program_runs.by_seat()
+        event["program_mistakes"] = live.program_runs.mistakes()
         event["misconceptions"] = misconceptions(live.progress.mistakes)
         return event
 
@@ -106,8 +110,12 @@ class ClassEvents:
             for each in self._live.seats.all()
         ]
 
-    def _rooms(self) -> list[Event]:
-        """Return all rooms that somebody has."""
+    def _rooms(self, *, has_mistakes: bool) -> list[Event]:
+        """Return all rooms that somebody has.
+
+        Args:
+            has_mistakes: True if the mistakes of students' programs are shown.
+        """
         live = self._live
         found = []
         remote = {each.seat for each in live.rooms.values() if each.seat and each.state}
@@ -122,6 +130,15 @@ class ClassEvents:
             seats = members.get(state.id, [])
             if state.seat and seats and (state.link or state.state):
                 found.append(self._room(state, seats, ""))
+        for each in found if has_mistakes else ():
+            mistakes = [live.program_runs.mistake_of(seat) for seat in each["seats"]]
+            mistake = next(filter(None, mistakes), "")
+            if each["status"] == "driving" and each["driver"] == PERSON:
+                continue  # whoever drives by hand is not stuck in the program
+            if mistake and each["help"] < MISTAKE_HELP:
+                each |= {"help": MISTAKE_HELP, "why": f"program stopped: {mistake}"}
+                if each["status"] not in ("asleep", "away"):
+                    each["status"] = "mistake"
         return found
 
     def _room(self, room: LiveRoom, seats: list[int], scene: str) -> Event:

@@ -28,6 +28,15 @@ class SeatCommand(_Command):
     do: Literal["kick", "ban", "rename"]
     seat: int
     name: str = Field(default="", max_length=60)
+    new_code: bool = False
+    """True with a ban to set a new code too, since who knows the old one may join again."""
+
+
+class MoveCode(_Command):
+    """Return a code with which a student takes a seat again, whatever its state is."""
+
+    do: Literal["move code"]
+    seat: int
 
 
 class PlainCommand(_Command):
@@ -122,6 +131,7 @@ class Sleep(_Command):
 
 AnyCommand = (
     SeatCommand
+    | MoveCode
     | PlainCommand
     | Assign
     | Attend

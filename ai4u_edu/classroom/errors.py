@@ -11,6 +11,10 @@ class WrongCodeError(JoinError):
     """The code is not the class's."""
 
 
+class NewSeatError(JoinError):
+    """A new seat would be needed, and the caller has to ask for it."""
+
+
 class NameTakenError(JoinError):
     """Another seat has that name."""
 

@@ -1,21 +1,24 @@
 """The web app of a class: joining, the way into rooms, and the teacher's page."""
 
 import re
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Awaitable, Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
 from ai4u_edu.classroom.class_event import ClassEvents
-from ai4u_edu.classroom.echo import echo
+from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.episode_check import EpisodeCheck
-from ai4u_edu.classroom.join import Join
+from ai4u_edu.classroom.join import NO_STORE, Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.my_work import my_work_route
+from ai4u_edu.classroom.open_limits import seat_requests, seat_sockets, stranger_sockets
 from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.program_routes import ProgramRoutes
 from ai4u_edu.classroom.room_entrance import RoomEntrance
@@ -69,6 +72,7 @@ def class_app(
     """
     live, attempts = LiveClass(store, seats, rooms, EpisodeCheck(blocks)), Attempts()
     keys = ScriptKeys(store, seats)
+    strangers, seated = stranger_sockets(), seat_sockets()
     proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)
 
     def join_here(url: str) -> tuple[str, str]:
@@ -78,6 +82,8 @@ def class_app(
     events = ClassEvents(live, join_here)
     join, teacher = Join(seats, live.tell_people), Teacher(live, events, proxy)
     programs = ProgramRoutes(live)
+    cookie = PageCookie(teacher_token)
+    entrance = RoomEntrance(live, proxy, cookie, keys, sockets=seated, requests=seat_requests())
     auth = Middleware(TokenAuth, token=teacher_token, attempts=attempts)
     page_auth = Middleware(
         TokenAuth, token=teacher_token, attempts=attempts, token_page=TokenPage()
@@ -90,14 +96,13 @@ def class_app(
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["POST"]),
             Route("/api/my-work", my_work_route(live)),
-            Route("/api/program", programs.own, methods=["GET", "PUT"]),
-            Route("/api/stars", StarRoutes(live).own, methods=["GET", "PUT"]),
-            Route("/api/network", NetworkRoutes(live).own, methods=["GET", "PUT"]),
+            *_work_routes(live, programs),
+            Route("/api/program/run", programs.run, methods=["PUT"]),
             Route("/check", page_route("check.html")),
-            WebSocketRoute("/check/socket", echo),
+            WebSocketRoute("/check/socket", Echo(strangers)),
             Route("/privacy", page_route("privacy.html")),
             *FILE_ROUTES,
-            WebSocketRoute(LINK_PATH, LinkEndpoint(live)),
+            WebSocketRoute(LINK_PATH, LinkEndpoint(live, strangers, seated)),
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/export", teacher.export, middleware=[auth]),
@@ -107,10 +112,30 @@ def class_app(
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[page_auth]),
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
-            Mount("/r", app=RoomEntrance(live, proxy, PageCookie(teacher_token), keys)),
+            Mount("/r", app=entrance),
         ],
         middleware=[_origin_check(allowed_hosts, proxy_hosts)],
     )
+
+
+def _work_routes(live: LiveClass, programs: ProgramRoutes) -> list[Route]:
+    """Return the routes with which pages keep work, as long as the class's folder is not full."""
+    routes = {
+        "/api/program": programs.own,
+        "/api/stars": StarRoutes(live).own,
+        "/api/network": NetworkRoutes(live).own,
+    }
+
+    def limited(keep: Callable[[Request], Awaitable[Response]]) -> Callable[..., Any]:
+        async def answer(request: Request) -> Response:
+            if request.method == "PUT" and live.store.quota.is_full:
+                text = "The class's folder is full, and keeps nothing more. Tell your teacher."
+                return JSONResponse({"problem": text}, 507, NO_STORE)
+            return await keep(request)
+
+        return answer
+
+    return [Route(path, limited(keep), methods=["GET", "PUT"]) for path, keep in routes.items()]
 
 
 def _origin_check(allowed_hosts: Collection[str], proxy_hosts: Collection[str]) -> Middleware:

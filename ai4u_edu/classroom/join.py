@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable
+from functools import partial
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -10,18 +11,33 @@ from starlette.responses import JSONResponse, RedirectResponse, Response
 
 from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.classroom.code_limit import CodeLimit
-from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
+from ai4u_edu.classroom.errors import (
+    JoinError,
+    NameTakenError,
+    NewSeatError,
+    StoreError,
+    WrongCodeError,
+)
 from ai4u_edu.classroom.move_codes import LIFE_S
+from ai4u_edu.classroom.open_limits import joins
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.server.attempts import client_address
+from ai4u_edu.server.concurrency_limit import TooManyOpenError
 from ai4u_edu.server.json_body import read_json
+from ai4u_edu.server.rate_limit import RateLimits
 from ai4u_edu.server.standalone import standalone_page
 
 COOKIE_LIFE_S = 200 * 24 * 3600
 MAX_BODY_BYTES = 2000
+MAX_NEW_SEATS_AT_ONCE = 60
+"""New seats that an address may get at once, such as a school's; then they come one by one."""
+NEW_SEATS_PER_S = 1.0
+MAX_NEW_SEAT_WAIT_S = 20.0
+"""Longest wait for a new seat; who would wait longer is asked to try again."""
 NO_STORE = {"Cache-Control": "no-store"}
+TOO_MANY = "Too many devices join from your network. Try again in a moment."
 
 
 class JoinRequest(BaseModel):
@@ -46,6 +62,8 @@ class Join:
 
     def __init__(self, seats: Seats, on_change: Callable[[], object] = lambda: None) -> None:
         self._seats, self._limit, self._on_change = seats, CodeLimit(), on_change
+        self._waiting = joins()
+        self._new_seats = RateLimits(NEW_SEATS_PER_S, MAX_NEW_SEATS_AT_ONCE)
 
     async def page(self, request: Request) -> Response:
         """Return the page, or send a browser that has a seat to its room."""
@@ -72,17 +90,27 @@ class Join:
         The room's process starts when its page is opened, so never for a program with a world.
         """
         wanted = await read_json(request, JoinRequest, MAX_BODY_BYTES)
+        try:
+            async with self._waiting.one_of(client_address(request.scope)):
+                return await self._join(request, wanted)
+        except TooManyOpenError:
+            return _problem(TOO_MANY, 429)
+
+    async def _join(self, request: Request, wanted: JoinRequest) -> Response:
         address = client_address(request.scope)
         if not await self._limit.wait_for_turn(address):
             return _problem("Too many wrong codes come from your network. Try again.", 429)
+        given = wanted.code, wanted.name, wanted.request, seat_token(self._seats, request)
         try:
-            seat, token = await asyncio.to_thread(
-                self._seats.join,
-                wanted.code,
-                wanted.name,
-                wanted.request,
-                request.cookies.get(SEAT_COOKIE, ""),
-            )
+            try:
+                join = partial(self._seats.join, *given, may_be_new=False)
+                seat, token = await asyncio.to_thread(join)
+            except NewSeatError:
+                wait_s = self._new_seats.take_within(address, MAX_NEW_SEAT_WAIT_S)
+                if wait_s is None:
+                    return _problem(TOO_MANY, 429)
+                await asyncio.sleep(wait_s)
+                seat, token = await asyncio.to_thread(self._seats.join, *given)
         except WrongCodeError as error:
             self._limit.add_wrong(address)
             return _problem(str(error), 403)
@@ -96,7 +124,7 @@ class Join:
         found = {"room": f"{path_of(seat.room)}/", "name": seat.name, "colour": seat.colour}
         answer = JSONResponse(found, headers=NO_STORE)
         answer.set_cookie(
-            SEAT_COOKIE,
+            self._seats.cookie,
             token,
             max_age=COOKIE_LIFE_S,
             secure=request.url.scheme == "https",
@@ -108,8 +136,14 @@ class Join:
 
 def seat_of(seats: Seats, connection: HTTPConnection) -> SeatRow | None:
     """Return the seat of a browser's cookie; None if it has none."""
-    token = connection.cookies.get(SEAT_COOKIE, "")
+    token = seat_token(seats, connection)
     return seats.by_token(token) if token else None
+
+
+def seat_token(seats: Seats, connection: HTTPConnection) -> str:
+    """Return the token in a browser's cookie, or in a program's, which knows no class's name."""
+    cookies = connection.cookies
+    return cookies.get(seats.cookie) or cookies.get(SEAT_COOKIE, "")
 
 
 def _problem(text: str, status: int) -> Response:

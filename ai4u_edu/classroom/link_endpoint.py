@@ -14,6 +14,7 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
 from ai4u_edu.server.attempts import Attempts, Verdict, client_address
+from ai4u_edu.server.concurrency_limit import TRY_LATER, ConcurrencyLimit, TooManyOpenError
 from ai4u_edu.server.rate_limit import RateLimit
 from ai4u_edu.wire.class_link import (
     SUBPROTOCOL,
@@ -48,10 +49,10 @@ MAX_STATE_BYTES = 2**18
 MAX_MISTAKES = 5
 """Malformed messages in a row after which a link is ended."""
 MAX_WAITING_ACKS = 1000
-NOT_ALLOWED, TRY_LATER = 1008, 1013
+NOT_ALLOWED = 1008
 
 
-FindRoom = Callable[[str], Awaitable[LiveRoom | None]]
+FindRoom = Callable[[str, str], Awaitable[LiveRoom | None]]
 
 
 class LinkEndpoint:
@@ -59,13 +60,22 @@ class LinkEndpoint:
 
     Args:
         live: the class.
-        find_room: returns the room of a link by its secret, or None; left out, by the secrets of
-            rooms and the tokens of seats. Any :class:`AI4UError` closes the link, which is opened
-            again later.
+        strangers: limit of links before their hello, by address.
+        seated: limit of the sockets of seats.
+        find_room: returns the room of a link by its secret and address, or None; left out, by the
+            secrets of rooms and the tokens of seats. Any :class:`AI4UError` closes the link, which
+            is opened again later.
     """
 
-    def __init__(self, live: LiveClass, find_room: FindRoom | None = None) -> None:
+    def __init__(
+        self,
+        live: LiveClass,
+        strangers: ConcurrencyLimit,
+        seated: ConcurrencyLimit,
+        find_room: FindRoom | None = None,
+    ) -> None:
         self._live, self._find_room = live, find_room
+        self._strangers, self._seated = strangers, seated
         self._attempts = Attempts()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -73,24 +83,37 @@ class LinkEndpoint:
         socket = WebSocket(scope, receive, send)
         with suppress(WebSocketDisconnect):
             await socket.accept(SUBPROTOCOL if SUBPROTOCOL in scope["subprotocols"] else None)
-            room = await self._greet(socket)
-            if room is None:
-                return
-            self._live.ensure_ticking()
-            link = Link(socket)
-            sender = asyncio.create_task(link.run())
-            self._live.connect(room, link)
             try:
-                await self._receive(socket, room, link)
-            finally:
-                self._live.disconnect(room, link)
-                link.stop()
-                with suppress(asyncio.CancelledError, WebSocketDisconnect):
-                    await sender
+                async with self._strangers.one_of(client_address(scope)):
+                    room = await self._greet(socket)
+                if room is not None and room.seat:
+                    await asyncio.to_thread(self._live.seats.note_opened, room.seat)
+                    async with self._seated.one_of(room.seat):
+                        await self._serve(socket, room)
+                elif room is not None:
+                    await self._serve(socket, room)
+            except TooManyOpenError as error:
+                if socket.application_state is WebSocketState.CONNECTED:
+                    await socket.close(TRY_LATER, _close_reason(str(error)))
+
+    async def _serve(self, socket: WebSocket, room: LiveRoom) -> None:
+        """Serve the link of a room."""
+        self._live.ensure_ticking()
+        link = Link(socket)
+        sender = asyncio.create_task(link.run())
+        self._live.connect(room, link)
+        try:
+            await self._receive(socket, room, link)
+        finally:
+            self._live.disconnect(room, link)
+            link.stop()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect):
+                await sender
 
     async def _greet(self, socket: WebSocket) -> LiveRoom | None:
         """Return the room that a link's hello names; end the link if it names none."""
         try:
+            # not wait_for, which in Python 3.11 loses a cancellation that comes with the frame
             frame = await asyncio.wait_for(_frame(socket), HELLO_TIMEOUT_S)
             hello = decode_from_room(frame)
         except TimeoutError:
@@ -110,8 +133,9 @@ class LinkEndpoint:
             await _refuse(socket, Problem("version", text))
             return None
         found: list[LiveRoom] = []
+        address = client_address(socket.scope)
         try:
-            elsewhere = await self._find_room(hello.secret) if self._find_room else None
+            elsewhere = await self._find_room(hello.secret, address) if self._find_room else None
         except AI4UError as error:
             await socket.close(TRY_LATER, _close_reason(str(error)))
             return None
@@ -121,7 +145,6 @@ class LinkEndpoint:
             found.extend([room] if room is not None else [])
             return bool(found)
 
-        address = client_address(socket.scope)
         verdict = await self._attempts.check(address, is_right)
         if verdict is Verdict.TOO_MANY:
             await socket.close(TRY_LATER, "too many wrong secrets from this address")
@@ -184,7 +207,10 @@ class LinkEndpoint:
             link.add(Problem("message", "network: expected a link of one seat; use the page"))
             link.add(Ack(network.key))
             return
+        quota = self._live.store.quota
         try:
+            if quota.is_full:
+                raise NetworkError("The class's folder is full. Tell your teacher.")  # noqa: TRY301
             await asyncio.to_thread(self._live.tournament.networks.add, room.seat, *given)
         except NetworkError as error:
             link.add(Problem("message", str(error)))  # sent again it would be refused again

@@ -1,19 +1,23 @@
 """A class as it is now: rooms, links, who is here, and what the teacher has asked for."""
 
 import asyncio
-import json
 import logging
 from collections import Counter, defaultdict
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Literal
+
+from pydantic import BaseModel
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.log_limit import log_limited
+from ai4u_edu.class_member.room_counts import read_counts
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
+from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.program_runs import ProgramRuns
 from ai4u_edu.classroom.programs import Programs
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import Races
@@ -41,8 +45,17 @@ _logger = logging.getLogger(__name__)
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
-NOTHING_SHOWN = '{"kind": "join", "room": ""}'
+PRESENT_ROOM = "present_room_"
+"""Beginning of the name of a setting with the room that a seat used last."""
 ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
+
+
+class Shown(BaseModel):
+    """Content of the projector page."""
+
+    kind: ShownKind = "join"
+    room: str = ""
+    game: int = 0
 
 
 class LiveClass:
@@ -64,10 +77,12 @@ class LiveClass:
         self.rooms: dict[str, LiveRoom] = {}
         self.pages: Counter[int] = Counter()
         """Open sockets of each seat's pages."""
+        self.looks_in: Counter[str] = Counter()
+        """Open sockets of the teacher's pages in each room."""
         self.attention = AttentionState(store)
         self.assignments = Assignments(store)
         self.progress = Progress(store)
-        self.programs = Programs(store)
+        self.programs, self.program_runs = Programs(store), ProgramRuns(store)
         self.stars = Stars(store)
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
@@ -76,7 +91,7 @@ class LiveClass:
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
 
-        self.shown = json.loads(store.setting(SHOWN, NOTHING_SHOWN))
+        self.shown = store.setting_as(SHOWN, Shown)
         """Content of the projector page."""
         self._ticking: asyncio.Task[None] | None = None
 
@@ -99,13 +114,25 @@ class LiveClass:
                 self.race.tick()
                 self.tournament.tick()
                 await asyncio.to_thread(self.attention.save_rest)
+                await self._measure_folder()
             except Exception as error:  # a full disk, say: the next tick tries again
                 log_limited(_logger, logging.ERROR, "tick", "a class's clock failed: %r", error)
 
+    async def _measure_folder(self) -> None:
+        before = self.store.quota.warning
+        await asyncio.to_thread(self.store.quota.measure)
+        if self.store.quota.warning != before:
+            self.note_change()
+
+    @property
+    def problem(self) -> str:
+        """Sentence for the teacher about what is not saved, or soon won't be; empty for none."""
+        return self.results.problem or self.store.quota.warning
+
     def show(self, kind: ShownKind, room: str, game: int = 0) -> None:
         """Store what the projector page shows."""
-        shown = {"kind": kind, "room": room, "game": game}
-        self.store.set_setting(SHOWN, json.dumps(shown))
+        shown = Shown(kind=kind, room=room, game=game)
+        self.store.set_setting(SHOWN, shown.model_dump_json())
         self.shown = shown
 
     def room_of(self, secret: str) -> LiveRoom | None:
@@ -119,7 +146,9 @@ class LiveClass:
     def room(self, room: str, seat: int = 0) -> LiveRoom:
         """Return the state of a room, which is made if there is none; with a seat, a remote one."""
         if room not in self.rooms:
-            self.rooms[room] = LiveRoom(room, "remote" if seat else "local", seat)
+            self.rooms[room] = live = LiveRoom(room, "remote" if seat else "local", seat)
+            if not seat:
+                live.note_counts(read_counts(self.store.folder / "rooms" / room))
         return self.rooms[room]
 
     def seats_of(self, room: LiveRoom) -> list[SeatRow]:
@@ -139,6 +168,10 @@ class LiveClass:
         """Return the seats of a room that may enter it; see :meth:`seats_of`."""
         return self.members().get(room, [])
 
+    def all_seats_of(self, room: str) -> list[SeatRow]:
+        """Return all seats of a room, also those that were sent out or banned."""
+        return [each for each in self.seats.all() if room in (each.room, remote_id(each.number))]
+
     def is_here(self, seat: int) -> bool:
         """Return True while a page, a notebook or a world of the seat is connected."""
         remote = self.rooms.get(remote_id(seat))
@@ -156,7 +189,7 @@ class LiveClass:
         link.send(Welcome(VERSION, name, colour))
         link.send(self.assignments.of(room.id))
         link.send(self.attention.as_message())
-        link.send(self.race.message())
+        link.send(self.race.messages()(room.id))
         if room.seat:
             link.send(self._handed_in(room.seat))
         self.tell_people()
@@ -172,6 +205,17 @@ class LiveClass:
         self.pages[seat] += change
         self.tell_people()
 
+    @contextmanager
+    def looking_in(self, room: str) -> Iterator[None]:
+        """Tell a room's students that the teacher looks in, meanwhile."""
+        self.looks_in[room] += 1
+        self.tell_people()
+        try:
+            yield
+        finally:
+            self.looks_in[room] -= 1
+            self.tell_people()
+
     def tell_people(self) -> None:
         """Tell all rooms and pages who has a seat, and who is here."""
         members = self.members()
@@ -184,6 +228,7 @@ class LiveClass:
                     for each in members.get(room.id, ())
                 ),
                 is_visited=bool(room.seat) or self.host.is_used(room.id),
+                has_teacher=self.looks_in[room.id] > 0,
             )
             if people != room.people:
                 room.people = people
@@ -199,8 +244,8 @@ class LiveClass:
         self._send(lambda room: self.assignments.of(room.id))
 
     def _tell_race(self) -> None:
-        message = self.race.message()
-        self._send(lambda _: message)
+        message = self.race.messages()
+        self._send(lambda room: message(room.id))
 
     def _tell_networks(self, seat: int) -> None:
         room = self.rooms.get(remote_id(seat))
@@ -224,15 +269,27 @@ class LiveClass:
         self.note_change()
 
     def keep_work(self, room: LiveRoom, work: Work) -> None:
-        """Write the scene of a remote room to the class's folder; a thread may do it.
+        """Note the scene of a room, and write that of a remote one; a thread may do it.
 
         Rooms of this machine write their own. A scene that can't be written is sent again later.
         """
-        if room.seat:
-            folder = self.store.folder / "rooms" / room.id
-            with suppress(OSError):
+        with suppress(StoreError, OSError):
+            for seat in self.seats_of(room):
+                if self.present_room(seat) != room.id:
+                    self.store.set_setting(f"{PRESENT_ROOM}{seat.number}", room.id)
+            if room.seat:
+                self.store.quota.check()
+                folder = self.store.folder / "rooms" / room.id
                 folder.mkdir(parents=True, exist_ok=True)
                 write_atomically(folder / SCENE_FILE, work.scene)
+
+    def present_room(self, seat: SeatRow) -> str:
+        """Return the room of a seat whose scene changed last: the class's, or one it brought.
+
+        Raises:
+            StoreError: the class's file can't be read.
+        """
+        return self.store.setting(f"{PRESENT_ROOM}{seat.number}", seat.room)
 
     def end_links(self, seat: int, sentence: str) -> None:
         """End the link that a seat brought along."""
@@ -255,10 +312,11 @@ class LiveClass:
         self.attention.read()
         self.assignments.read()
         self.progress.read()
+        self.program_runs.read()
         self.stars.read()
         self.races.read()
         self.tournament.read()
-        self.shown = json.loads(NOTHING_SHOWN)
+        self.shown = Shown()
         self.tell_people()
 
     def _note_results(self) -> None:

@@ -16,6 +16,7 @@ import httpx
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.errors import RoomError
+from ai4u_edu.classroom.folder_quota import FolderQuota
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_process import (
@@ -92,6 +93,8 @@ class LocalRooms:
         self._secrets: dict[str, str] = {}
         self.class_url = ""
         """Address of the class, to which rooms open links; set before the first one starts."""
+        self.quota: FolderQuota | None = None
+        """Quota of the class's folder, to which rooms write; set before the first one starts."""
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
@@ -186,6 +189,8 @@ class LocalRooms:
         if slot.users == 0 and 0 < self._limits.sleep_after_s < idle_s:
             await self.end(room)
             return
+        if self.quota is not None:
+            running.watch.limit_files(is_full=self.quota.is_full)
         reason = running.watch.broken_limit()
         if reason:
             slot.reason = reason

@@ -13,8 +13,9 @@ LIFE_S = 300.0
 class _MoveCode:
     seat: int
     ends_at: float
+    is_teachers: bool
     request: str = ""
-    """Id of the join request that has used it; empty before."""
+    """Digest of the join request that has used it; empty before."""
 
 
 class MoveCodes:
@@ -25,20 +26,21 @@ class MoveCodes:
 
     >>> codes = MoveCodes()
     >>> code = codes.new(3, ())
-    >>> codes.seat_of(code, "a"), codes.seat_of(code, "a"), codes.seat_of(code, "b")
-    (3, 3, 0)
+    >>> codes.use(code, "a"), codes.use(code, "a"), codes.use(code, "b")
+    ((3, False), (3, False), (0, False))
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._codes: dict[str, _MoveCode] = {}
 
-    def new(self, seat: int, taken: Collection[str]) -> str:
+    def new(self, seat: int, taken: Collection[str], *, is_teachers: bool = False) -> str:
         """Return a new code of a seat, whose code before is void.
 
         Args:
             seat: its number.
             taken: codes that must not be used, such as the class's.
+            is_teachers: True for a code that the teacher has asked for.
         """
         now = self._clock()
         self._codes = {
@@ -48,21 +50,23 @@ class MoveCodes:
         }
         while (code := new_code()) in self._codes or code in taken:
             pass
-        self._codes[code] = _MoveCode(seat, now + LIFE_S)
+        self._codes[code] = _MoveCode(seat, now + LIFE_S, is_teachers)
         return code
 
-    def seat_of(self, code: str, request: str) -> int:
-        """Use a code, and return its seat; 0 if there is no such code, or another request used it.
+    def use(self, code: str, request: str) -> tuple[int, bool]:
+        """Use a code, and return its seat, and True if it is the teacher's.
+
+        The seat is 0 if there is no such code, or another request has used it.
 
         Args:
             code: normalized.
-            request: id of the join request, which may be repeated because an answer was lost.
+            request: digest of the join request, which may be repeated because an answer was lost.
         """
         found = self._codes.get(code)
         if found is None or found.ends_at <= self._clock() or found.request not in ("", request):
-            return 0
+            return 0, False
         found.request = request
-        return found.seat
+        return found.seat, found.is_teachers
 
     def clear(self) -> None:
         """Make all codes void."""

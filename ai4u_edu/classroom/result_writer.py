@@ -13,6 +13,15 @@ from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.wire.class_link import EpisodeResult, ExerciseResult, Result
 
 MAX_BATCH = 500
+MAX_RESULTS = 2000
+"""Latest results of a room that are kept, so that one that comes twice counts once. Programs send
+those again that were not acknowledged, which are fewer."""
+
+
+_FORGET_OLD = (
+    "delete from results where room = ? and rowid <= "
+    "(select rowid from results where room = ? order by rowid desc limit 1 offset ?)"
+)
 
 
 @dataclass(frozen=True)
@@ -106,6 +115,7 @@ class ResultWriter:
 
     def _write(self, batch: list[tuple[Received, float]]) -> _Written:
         """Write a batch, and return the changes."""
+        self._store.quota.check()
         new: list[Received] = []
         exercises: list[tuple[int, float, ExerciseResult]] = []
         raced: list[tuple[str, EpisodeResult]] = []
@@ -124,6 +134,8 @@ class ResultWriter:
                     exercises += [(seat, seconds, checked) for seat in received.seats]
                 elif self._races.takes(received.room, result):
                     raced.append((received.room, result))
+            for room in {received.room for received, _ in batch}:
+                database.execute(_FORGET_OLD, [room, room, MAX_RESULTS])
             staged = self._progress.stage(database, exercises)
             return _Written(staged, self._races.stage(database, raced), new)
 

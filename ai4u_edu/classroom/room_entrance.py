@@ -1,5 +1,8 @@
 """The way into rooms: everything below ``/r/``, for a room's own seats and for the teacher."""
 
+import asyncio
+from contextlib import nullcontext
+
 from starlette.requests import HTTPConnection
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import Receive, Scope, Send
@@ -11,15 +14,19 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
 from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
 from ai4u_edu.classroom.script_keys import ScriptKeys
+from ai4u_edu.server.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.server.token_auth import PageCookie
 from ai4u_edu.server.token_page import wants_page
 
 SCRIPTS_PATH = "ws/remote"
 """Path of a room's socket for scripts, which have no cookie."""
+INPUT_PATH = "ws/input"
+"""Path of the socket that each page of a room has."""
 NO_KEY = (
     "expected the key of a seat of this world; take the whole address that its page shows under "
     "Python, with ?token=... at its end"
 )
+LEFT = "you have no place in this class now; ask your teacher, or join again"
 TEACHER = 0
 """Number that stands for the teacher in the place of a seat's."""
 
@@ -32,11 +39,21 @@ class RoomEntrance:
         proxy: passes requests on to rooms.
         teacher: cookie of the teacher's browser.
         keys: of students' scripts.
+        sockets: limit of the sockets of seats.
+        requests: limit of the requests of seats.
     """
 
     def __init__(
-        self, live: LiveClass, proxy: RoomProxy, teacher: PageCookie, keys: ScriptKeys
+        self,
+        live: LiveClass,
+        proxy: RoomProxy,
+        teacher: PageCookie,
+        keys: ScriptKeys,
+        *,
+        sockets: ConcurrencyLimit,
+        requests: ConcurrencyLimit,
     ) -> None:
+        self._limits = {"websocket": sockets, "http": requests}
         self._live = live
         self._seats, self._rooms, self._proxy = live.seats, live.host, proxy
         self._teacher, self._keys = teacher, keys
@@ -58,6 +75,21 @@ class RoomEntrance:
         if not slash and scope["type"] == "http":  # the page's addresses are relative
             await RedirectResponse(f"{path_of(room)}/")(scope, receive, send)
             return
+
+        async def enter(scope: Scope, receive: Receive, send: Send) -> None:
+            await self._enter(room, rest, visitor, scope, receive, send)
+
+        if visitor and not self._seats.has_opened(visitor):
+            await asyncio.to_thread(self._seats.note_opened, visitor)
+        if visitor == TEACHER:
+            await enter(scope, receive, send)
+        else:
+            await self._limits[scope["type"]].serve(visitor, enter, scope, receive, send)
+
+    async def _enter(
+        self, room: str, rest: str, visitor: int, scope: Scope, receive: Receive, send: Send
+    ) -> None:
+        """Pass a request of somebody who may enter on to a room."""
         try:
             address = await self._rooms.enter(room, self._seats.scenes()[room])
         except RoomError as error:
@@ -69,7 +101,9 @@ class RoomEntrance:
             inner = {**scope, "root_path": path_of(room)}
             serve = self._proxy.websocket if rest else self._proxy.viser
             try:
-                with self._rooms.in_use(room):
+                is_look = visitor == TEACHER and rest == INPUT_PATH
+                looking = self._live.looking_in(room) if is_look else nullcontext()
+                with self._rooms.in_use(room), looking:
                     await serve(address, visitor, inner, receive, send)
             finally:
                 self._live.tell_people()  # the room may rest now
@@ -86,7 +120,7 @@ class RoomEntrance:
 
 async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
-        await _close(scope, receive, send, NOT_ALLOWED, "this is not your world; join the class")
+        await _close(scope, receive, send, NOT_ALLOWED, LEFT)
         return
     response: Response = PlainTextResponse("this is not your world; join the class at /\n", 403)
     if scope["method"] == "GET" and wants_page(HTTPConnection(scope)):

@@ -7,7 +7,7 @@ from typing import Any
 
 import httpx
 from starlette.datastructures import Headers
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response, StreamingResponse
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket
@@ -122,6 +122,8 @@ class RoomProxy:
         response: Response
         try:
             answer = await self._client.send(passed, stream=True)
+        except ClientDisconnect:  # in the middle of what it sends
+            return
         except httpx.HTTPError:
             response = PlainTextResponse("Your world does not answer. Reload in a moment.\n", 503)
             await response(scope, receive, send)

@@ -58,6 +58,7 @@ class RoomWatch:
         self._asked_at = -limits.ask_s
         self._unanswered_since: float | None = None
         self._is_busy = False
+        self._max_file_bytes = MAX_FILE_BYTES
         with suppress(psutil.Error):
             self._process.cpu_percent()  # measures from here on
         self._set_niceness(NICENESS)
@@ -85,6 +86,15 @@ class RoomWatch:
             self._is_busy = not self._is_busy
             self._set_niceness(BUSY_NICENESS if self._is_busy else NICENESS)
         return ""
+
+    def limit_files(self, *, is_full: bool) -> None:
+        """Let the process write no more to files while the class's folder is full (on Linux)."""
+        limit = 0 if is_full else MAX_FILE_BYTES
+        if sys.platform == "linux" and limit != self._max_file_bytes:
+            with suppress(psutil.Error, OSError, ValueError):
+                _, hard = self._process.rlimit(psutil.RLIMIT_FSIZE)
+                self._process.rlimit(psutil.RLIMIT_FSIZE, (limit, hard))
+                self._max_file_bytes = limit
 
     async def ask(self, client: httpx.AsyncClient, url: str, address: RoomAddress) -> None:
         """Ask the process for a sign of life, if that is due."""

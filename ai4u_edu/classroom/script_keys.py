@@ -39,8 +39,4 @@ class ScriptKeys:
         return None
 
     def _secret(self) -> bytes:
-        secret = self._store.setting(SETTING)
-        if not secret:
-            secret = secrets.token_hex(16)
-            self._store.set_setting(SETTING, secret)
-        return secret.encode()
+        return self._store.setting_or(SETTING, lambda: secrets.token_hex(16)).encode()

@@ -3,6 +3,8 @@
 import time
 from collections.abc import Callable
 
+from ai4u_edu.server.rate_limit import RateLimits
+
 REQUESTS_PER_S = 1.0
 """Rate of a seat's requests, of which some may come at once."""
 MAX_REQUESTS_AT_ONCE = 30
@@ -20,15 +22,8 @@ class SeatRate:
     """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock = clock
-        self._requests: dict[int, tuple[float, float]] = {}  # how many of late, and when
+        self._limits = RateLimits(REQUESTS_PER_S, MAX_REQUESTS_AT_ONCE, clock=clock)
 
     def is_allowed(self, seat: int) -> bool:
         """Count a request of a seat; return False if there are too many."""
-        now = self._clock()
-        count, since = self._requests.get(seat, (0.0, now))
-        count = max(0.0, count - (now - since) * REQUESTS_PER_S)
-        if count >= MAX_REQUESTS_AT_ONCE:
-            return False
-        self._requests[seat] = (count + 1, now)
-        return True
+        return self._limits.take_within(seat) is not None

@@ -2,12 +2,22 @@
 
 import hashlib
 import secrets
+import time
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from enum import Enum
 from threading import Lock
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.classroom.errors import JoinError, NameTakenError, WrongCodeError
+from ai4u_edu.class_link.joining import SEAT_COOKIE
+from ai4u_edu.classroom.errors import (
+    JoinError,
+    NameTakenError,
+    NewSeatError,
+    StoreError,
+    WrongCodeError,
+)
 from ai4u_edu.classroom.move_codes import MoveCodes
 from ai4u_edu.classroom.names import (
     DEFAULT_LANGUAGE,
@@ -25,6 +35,11 @@ OFFERED_NAMES = 3
 ROOM_ID_BYTES = 6
 MAX_DEVICES = 3
 """Devices that hold a seat at the same time; one more takes the place of the oldest."""
+UNOPENED_S = 60.0
+"""Time that a new seat has to open its room, before it makes room for another one in a full class.
+"""
+COOKIE_SETTING = "seat_cookie"
+"""Name of the setting with the name of the seats' cookie."""
 
 
 class State(Enum):
@@ -45,6 +60,7 @@ class Seats:
         rooms: rule for the rooms of new seats.
         code: join code; left out, the stored one or a new one.
         language: of the names that are offered.
+        clock: returns seconds; to be replaced in tests.
 
     Raises:
         SetupError: there are no names in that language.
@@ -57,12 +73,15 @@ class Seats:
         rooms: RoomRule,
         code: str = "",
         language: str = DEFAULT_LANGUAGE,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         if language not in LANGUAGES:
             known = ", ".join(LANGUAGES)
             raise SetupError(f"--language: expected one of {known}, got {language!r}")
         self._store, self._scene, self._rooms = store, scene, rooms
-        self._language = language
+        self._language, self._clock = language, clock
+        self._made_at: dict[int, float] = {}
+        """Times at which seats were made, by number; of this run."""
         self._lock = Lock()
         self._move_codes = MoveCodes()
         self._seats: dict[int, SeatRow] = {}
@@ -94,7 +113,14 @@ class Seats:
                 {each.name for each in self._seats.values()}, OFFERED_NAMES, self._language
             )
 
-    def join(self, code: str, name: str, request: str, held: str = "") -> tuple[SeatRow, str]:
+    @property
+    def cookie(self) -> str:
+        """Name of the cookie with a seat's token: each class has one, as cookies know no ports."""
+        return self._cookie
+
+    def join(
+        self, code: str, name: str, request: str, held: str = "", *, may_be_new: bool = True
+    ) -> tuple[SeatRow, str]:
         """Give somebody a seat, and return it with its secret token.
 
         Repeated with the same request id, because an answer was lost or the seat was sent out, it
@@ -105,27 +131,33 @@ class Seats:
             name: one of those that were offered.
             request: random id of the request, which the browser makes.
             held: token that the browser has already; a banned seat's gets no other one.
+            may_be_new: False if a seat that is there already will do, and no other one.
 
         Raises:
             WrongCodeError: the code is not the class's.
+            NewSeatError: this would be a new seat.
             NameTakenError: somebody else has that name.
             JoinError: the class is full or closed, or the seat is banned.
         """
         token, wanted = secrets.token_urlsafe(24), normalized_code(code)
+        request = digest_of(request)
         with self._lock:
-            moved = self._move_codes.seat_of(wanted, request)
+            moved, is_teachers = self._move_codes.use(wanted, request)
             if not moved and not secrets.compare_digest(wanted.encode(), self.code.encode()):
                 raise WrongCodeError("This code is not right. Look at the board again.")
             replaced = [each for each in self._tokens.values() if _is_of(each, request, held)]
             own = [self._seats[each.seat] for each in replaced]
             if moved:
                 own = [self._seats[moved]]
-            if any(each.state == State.BANNED.value for each in own):
-                raise JoinError("You may not join this class. Ask your teacher.")
-            if any(each.state != State.IN.value for each in own) or not own:
-                self._check_open()
+            if not is_teachers:  # with the teacher's code, the teacher has decided
+                if any(each.state == State.BANNED.value for each in own):
+                    raise JoinError("You may not join this class. Ask your teacher.")
+                if any(each.state != State.IN.value for each in own) or not own:
+                    self._check_open()
             if own:
                 seat = self._take_again(own[0], request, token, replaced)
+            elif not may_be_new:
+                raise NewSeatError("expected a seat that is there already")
             else:
                 seat = self._new_seat(name, TokenRow(hash_of(token), 0, request))
         return seat, token
@@ -137,6 +169,7 @@ class Seats:
         before = [each for each in self._tokens.values() if each.seat == seat.number]
         if seat.state != State.IN.value:  # whoever was sent out with it stays out
             before = []
+            self._make_room()
         kept = [each for each in before if each not in replaced][-(MAX_DEVICES - 1) :]
         tokens = [*kept, TokenRow(hash_of(token), seat.number, request)]
         others = [each for each in replaced if each.seat != seat.number]
@@ -160,12 +193,12 @@ class Seats:
 
     def _new_seat(self, name: str, device: TokenRow) -> SeatRow:
         """Store a new seat with its device, whose number is set here, and return it."""
-        if len(self._seats) >= MAX_SEATS:
-            raise JoinError(f"The class is full: it has {MAX_SEATS} seats. Ask your teacher.")
         if not is_name(name):
             raise JoinError("Choose one of the names that are offered.")
         if name in {each.name for each in self._seats.values()}:
             raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
+        self._store.quota.check()
+        self._make_room()
         number = max(self._seats, default=0) + 1
         room = self._rooms.room_for(list(self._seats.values()))
         new_room = None
@@ -178,7 +211,51 @@ class Seats:
         if new_room is not None:
             self._scenes[room] = self._scene
         self._seats[number], self._tokens[device.hash] = seat, device
+        self._made_at[number] = self._clock()
         return seat
+
+    def _make_room(self) -> None:
+        """In a full class, take back the oldest seat that never opened its room.
+
+        Those who were sent out or banned don't count: their seats are kept with their work.
+
+        Raises:
+            JoinError: there is no such seat.
+        """
+        taken = [each for each in self._seats.values() if each.state == State.IN.value]
+        if len(taken) < MAX_SEATS:
+            return
+        before = self._clock() - UNOPENED_S
+        for seat in taken:
+            is_old = self._made_at.get(seat.number, before) <= before
+            if not seat.is_opened and is_old and self._store.remove_unused_seat(seat):
+                self._forget_seat(seat)
+                return
+        raise JoinError(f"The class is full: it has {MAX_SEATS} seats. Ask your teacher.")
+
+    def _forget_seat(self, seat: SeatRow) -> None:
+        del self._seats[seat.number]
+        self._made_at.pop(seat.number, None)
+        self._tokens = {key: each for key, each in self._tokens.items() if each.seat != seat.number}
+        if seat.room not in {each.room for each in self._seats.values()}:
+            self._scenes.pop(seat.room, None)
+
+    def has_opened(self, number: int) -> bool:
+        """Return True if a seat has opened its room."""
+        with self._lock:
+            seat = self._seats.get(number)
+        return seat is not None and seat.is_opened
+
+    def note_opened(self, number: int) -> None:
+        """Store that a seat has opened its room, or has brought one along."""
+        with self._lock:
+            seat = self._seats.get(number)
+            if seat is None or seat.is_opened:
+                return
+            opened = replace(seat, is_opened=True)
+            with suppress(StoreError):  # it is tried again with the next request
+                self._store.update_seat(opened)
+                self._seats[number] = opened
 
     def by_token(self, token: str) -> SeatRow | None:
         """Return the seat whose token this is; None if there is none that may enter."""
@@ -223,11 +300,20 @@ class Seats:
                 self._seats[seat.number] = seat
             return seat
 
-    def new_move_code(self, number: int) -> str:
-        """Return a code with which a seat moves to another device; see :mod:`.move_codes`."""
+    def new_move_code(self, number: int, *, is_teachers: bool = False) -> str:
+        """Return a code with which a seat moves to another device; see :mod:`.move_codes`.
+
+        Args:
+            number: of the seat.
+            is_teachers: True for a code from the teacher, with which a seat that was sent out or
+                banned comes back, also to a class that is closed.
+
+        Raises:
+            JoinError: there is no such seat.
+        """
         with self._lock:
             self._known(number)
-            return self._move_codes.new(number, {self.code})
+            return self._move_codes.new(number, {self.code}, is_teachers=is_teachers)
 
     def set_state(self, number: int, state: State) -> None:
         """Store that somebody left, was kicked (and may join again) or banned.
@@ -274,7 +360,7 @@ class Seats:
     def let_nobody_in(self) -> None:
         """Forget all seats and rooms in memory, and close the class; its file is left as it is."""
         with self._lock:
-            self._seats, self._tokens, self._scenes = {}, {}, {}
+            self._seats, self._tokens, self._scenes, self._made_at = {}, {}, {}, {}
             self.is_open = False
 
     def begin_anew(self) -> None:
@@ -296,6 +382,9 @@ class Seats:
         self._seats = {each.number: each for each in self._store.seats()}
         self._tokens = {each.hash: each for each in self._store.tokens()}
         self._scenes = {each.id: each.scene for each in self._store.rooms()}
+        self._made_at = {}
+        name = self._store.setting_or(COOKIE_SETTING, lambda: secrets.token_hex(4))
+        self._cookie = f"{SEAT_COOKIE}_{name}"
 
     def _known(self, number: int) -> SeatRow:
         if number not in self._seats:
@@ -307,6 +396,11 @@ def _is_of(device: TokenRow, request: str, held: str) -> bool:
     """Return True if a browser with this request id or token had the seat."""
     is_held = bool(held) and secrets.compare_digest(device.hash, hash_of(held))
     return device.request == request or is_held
+
+
+def digest_of(request: str) -> str:
+    """Return what is stored of a join request's id: with the id and the code one gets its seat."""
+    return hashlib.sha256(b"ai4u-edu request " + request.encode()).hexdigest()
 
 
 def hash_of(token: str) -> bytes:

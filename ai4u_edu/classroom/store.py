@@ -4,23 +4,35 @@ Results, progress, assignments, programs, stars and races are read and written b
 own them, through :meth:`ClassStore.query` and :meth:`ClassStore.transaction`.
 """
 
+import logging
+import os
 import sqlite3
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from secrets import token_urlsafe
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
-from ai4u_edu.base.atomic_write import make_folder
+from pydantic import BaseModel, ValidationError
+
+from ai4u_edu.base.atomic_write import make_folder, make_private, reason
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.classroom.errors import StoreError
+from ai4u_edu.classroom.folder_quota import MAX_GB, FolderQuota
+
+Model = TypeVar("Model", bound=BaseModel)
+_logger = logging.getLogger(__name__)
 
 FILE = "class.sqlite3"
+LOCK_FILE = "class.lock"
+_ENDINGS = ("", "-wal", "-shm", "-journal")
+"""Endings of the files of the database, to be put after its name."""
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 7
+VERSION = 10
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -30,7 +42,8 @@ create table seats (
     name text not null unique,
     colour text not null,
     room text not null references rooms (id),
-    state text not null check (state in ('in', 'left', 'kicked', 'banned'))
+    state text not null check (state in ('in', 'left', 'kicked', 'banned')),
+    opened integer not null
 ) strict;
 create table tokens (
     hash blob primary key,
@@ -44,6 +57,7 @@ create table results (
     outcome text not null,
     seconds real not null
 ) strict;
+create index results_of_room on results (room);
 create table progress (
     seat integer not null,
     exercise text not null,
@@ -74,8 +88,24 @@ create table programs (
     scene text not null,
     agent text not null,
     source text not null,
-    changed_at real not null,
+    version integer not null,
+    device text not null,
+    saved_at real not null,
     primary key (seat, scene, agent)
+) strict;
+create table program_runs (
+    seat integer primary key references seats (number),
+    state text not null check (state in ('running', 'mistake', 'ended')),
+    kind text not null,
+    text text not null,
+    line integer not null
+) strict;
+create table program_mistakes (
+    seat integer not null references seats (number),
+    kind text not null,
+    text text not null,
+    count integer not null,
+    primary key (seat, kind)
 ) strict;
 create table stars (
     seat integer not null references seats (number),
@@ -121,6 +151,13 @@ create table race_results (
 """
 
 
+_TABLES_OF_WORK = (
+    *("programs", "program_runs", "program_mistakes"),
+    *("stars", "networks", "progress", "diagnoses"),
+)
+"""Tables with the work of seats."""
+
+
 @dataclass(frozen=True)
 class SeatRow:
     """A seat, as it is stored."""
@@ -130,6 +167,8 @@ class SeatRow:
     colour: str
     room: str
     state: str
+    is_opened: bool = False
+    """True once its room was opened, or a world of its own was connected."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +178,8 @@ class TokenRow:
     hash: bytes
     seat: int
     request: str
-    """Id that the browser gave to its join request, so that a repeated one gets the same seat."""
+    """Digest of the id that the browser gave to its join request, so that a repeated one gets the
+    same seat."""
 
 
 @dataclass(frozen=True)
@@ -153,22 +193,33 @@ class RoomRow:
 class ClassStore:
     """The class's file. Thread-safe; what a method has written is on disk when it returns.
 
+    It has secrets, so that nobody but its owner may read it. One process at a time has the folder,
+    by a lock that ends with the process.
+
     Args:
         folder: of the class; created if needed.
+        max_gb: limit of the folder's size (GB).
 
     Raises:
-        SetupError: the folder can't be written to, or holds a class of another version.
+        SetupError: the folder can't be written to, holds a class of another version, or another
+            class runs in it.
     """
 
-    def __init__(self, folder: Path) -> None:
-        make_folder(folder, "the class's folder")
-        self.folder = folder
+    def __init__(self, folder: Path, max_gb: float = MAX_GB) -> None:
+        make_folder(folder, "the class's folder", is_private=True)
+        self.folder, self.quota = folder, FolderQuota(folder, max_gb)
         self._lock = threading.Lock()
-        self._database = _opened(folder / FILE)
+        self._folder_lock = _locked(folder)
+        try:
+            self._database = _opened(folder / FILE)
+        except BaseException:
+            self._folder_lock.release()
+            raise
 
     def close(self) -> None:
         """Close the file."""
         self._database.close()
+        self._folder_lock.release()
 
     def begin_anew(self) -> None:
         """Delete the file with everything in it, and begin another one.
@@ -179,7 +230,7 @@ class ClassStore:
         with self._lock:
             self._database.close()
             try:
-                for ending in ("", "-wal", "-shm", "-journal"):
+                for ending in _ENDINGS:
                     (self.folder / f"{FILE}{ending}").unlink(missing_ok=True)
                 self._database = _opened(self.folder / FILE)
             except (OSError, SetupError) as error:
@@ -201,14 +252,37 @@ class ClassStore:
         with self.transaction() as database:
             database.execute("insert or replace into settings values (?, ?)", [name, value])
 
+    def setting_or(self, name: str, make: Callable[[], str]) -> str:
+        """Return a setting, which is made and stored if there is none: the same to all threads."""
+        value = self.setting(name)
+        if value:
+            return value
+        with self.transaction() as database:
+            row = database.execute("select value from settings where name = ?", [name]).fetchone()
+            value = str(row[0]) if row else ""
+            if not value:
+                value = make()
+                database.execute("insert or replace into settings values (?, ?)", [name, value])
+        return value
+
+    def setting_as(self, name: str, model: type[Model]) -> Model:
+        """Return a setting that is JSON; the model's default if there is none, or another text."""
+        try:
+            return model.model_validate_json(self.setting(name) or "{}")
+        except ValidationError:
+            _logger.warning("the class's setting %r is damaged; it begins anew", name)
+            return model()
+
     def rooms(self) -> list[RoomRow]:
         """Return all rooms, in the order in which they were made."""
         return [RoomRow(*row) for row in self.query("select id, scene from rooms order by rowid")]
 
     def seats(self) -> list[SeatRow]:
         """Return all seats, by number."""
-        rows = self.query("select number, name, colour, room, state from seats order by number")
-        return [SeatRow(*row) for row in rows]
+        rows = self.query(
+            "select number, name, colour, room, state, opened from seats order by number"
+        )
+        return [SeatRow(*row, is_opened=bool(opened)) for *row, opened in rows]
 
     def tokens(self) -> list[TokenRow]:
         """Return the devices of all seats, the oldest first."""
@@ -221,8 +295,8 @@ class ClassStore:
             if new_room is not None:
                 database.execute("insert into rooms values (?, ?)", [new_room.id, new_room.scene])
             database.execute(
-                "insert into seats values (?, ?, ?, ?, ?)",
-                [seat.number, seat.name, seat.colour, seat.room, seat.state],
+                "insert into seats values (?, ?, ?, ?, ?, ?)",
+                [seat.number, seat.name, seat.colour, seat.room, seat.state, seat.is_opened],
             )
             database.execute(
                 "insert into tokens values (?, ?, ?)", [token.hash, token.seat, token.request]
@@ -232,14 +306,33 @@ class ClassStore:
         """Store a seat's new name and state, and its devices if they are given."""
         with self.transaction() as database:
             database.execute(
-                "update seats set name = ?, state = ? where number = ?",
-                [seat.name, seat.state, seat.number],
+                "update seats set name = ?, state = ?, opened = ? where number = ?",
+                [seat.name, seat.state, seat.is_opened, seat.number],
             )
             if tokens is None:
                 return
             database.execute("delete from tokens where seat = ?", [seat.number])
             rows = [(each.hash, each.seat, each.request) for each in tokens]
             database.executemany("insert into tokens values (?, ?, ?)", rows)
+
+    def remove_unused_seat(self, seat: SeatRow) -> bool:
+        """Delete a seat with its devices, and its room if nobody else has it.
+
+        Returns:
+            False if there is work of the seat; then it is kept.
+        """
+        with self.transaction() as database:
+            for table in _TABLES_OF_WORK:
+                found = f"select 1 from {table} where seat = ? limit 1"  # noqa: S608 - ours
+                if database.execute(found, [seat.number]).fetchone():
+                    return False
+            database.execute("delete from tokens where seat = ?", [seat.number])
+            database.execute("delete from seats where number = ?", [seat.number])
+            database.execute(
+                "delete from rooms where id = ? and id not in (select room from seats)",
+                [seat.room],
+            )
+        return True
 
     def query(self, sql: str, values: Sequence[object] = ()) -> list[tuple[Any, ...]]:
         """Return the rows of a query.
@@ -251,14 +344,14 @@ class ClassStore:
             try:
                 return self._database.execute(sql, values).fetchall()
             except sqlite3.Error as error:
-                raise StoreError(f"The class's file can't be read: {error}") from None
+                raise StoreError(f"The class's file can't be read: {_cause(error)}") from None
 
     @contextmanager
     def transaction(self) -> Iterator[sqlite3.Connection]:
         """Give the database for changes, all of which are on disk at the end, or none.
 
         Raises:
-            StoreError: they can't be written, say because the disk is full.
+            StoreError: they can't be written; its sentence says why.
         """
         with self._lock:
             try:
@@ -271,9 +364,7 @@ class ClassStore:
                         self._database.execute("rollback")
                     raise
             except sqlite3.Error as error:
-                raise StoreError(
-                    f"The class can't save anything now: {error}. Is its disk full?"
-                ) from None
+                raise StoreError(f"The class can't save anything now: {_cause(error)}") from None
 
 
 def _opened(path: Path) -> sqlite3.Connection:
@@ -283,6 +374,7 @@ def _opened(path: Path) -> sqlite3.Connection:
         SetupError: it can't be used, or is of another version.
     """
     try:
+        _prepare_file(path)
         database = sqlite3.connect(path, check_same_thread=False, isolation_level=None)
         database.execute("pragma journal_mode = wal")
         database.execute("pragma synchronous = full")
@@ -292,9 +384,14 @@ def _opened(path: Path) -> sqlite3.Connection:
             database.executescript(f"begin; {_TABLES} pragma user_version = {VERSION}; commit")
     except sqlite3.Error as error:
         raise SetupError(
-            f"expected a class's file at {path}, and couldn't use it: {error}"
+            f"expected a class's file at {path}, and couldn't use it: {_cause(error)}"
+        ) from None
+    except OSError as error:
+        raise SetupError(
+            f"expected a class's file at {path}, and couldn't use it: {reason(error)}"
         ) from None
     if version not in (0, VERSION):
+        database.close()
         raise SetupError(
             f"{path} was made by another version of ai4u-edu (tables {version}, expected "
             f"{VERSION}); use another --folder"
@@ -302,10 +399,58 @@ def _opened(path: Path) -> sqlite3.Connection:
     return database
 
 
+def _locked(folder: Path) -> FileLock:
+    """Return the lock of a class's folder.
+
+    Raises:
+        SetupError: another process has it.
+    """
+    try:
+        lock = FileLock(folder / LOCK_FILE)
+    except LockedError:
+        raise SetupError(
+            f"{folder}: another class runs in this folder; end that one first, or give this one "
+            "another --folder"
+        ) from None
+    except OSError as error:
+        raise SetupError(f"{folder}: it can't be locked: {reason(error)}") from None
+    make_private(lock.path)
+    return lock
+
+
+def _prepare_file(path: Path) -> None:
+    """Make a database's file if there is none, and let only its owner read it and what is beside.
+
+    SQLite gives the files beside it the same permissions.
+    """
+    os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o600))
+    for ending in _ENDINGS:
+        make_private(path.with_name(f"{path.name}{ending}"))
+
+
+_DAMAGED = "The file is damaged. Put a copy in its place, or use another --folder."
+_CAUSES = {
+    sqlite3.SQLITE_FULL: "The disk is full. Make room on it.",
+    sqlite3.SQLITE_IOERR: "The disk can't be read or written. Is it full, or was it taken out?",
+    sqlite3.SQLITE_READONLY: "The file may not be written to. Allow it in the folder's settings.",
+    sqlite3.SQLITE_PERM: "The file may not be written to. Allow it in the folder's settings.",
+    sqlite3.SQLITE_CANTOPEN: "The file can't be opened. Is its folder still there?",
+    sqlite3.SQLITE_BUSY: "Another program has the file open. Close that program.",
+    sqlite3.SQLITE_LOCKED: "Another program has the file open. Close that program.",
+    sqlite3.SQLITE_CORRUPT: _DAMAGED,
+    sqlite3.SQLITE_NOTADB: _DAMAGED,
+    sqlite3.SQLITE_CONSTRAINT: "This is a mistake of ai4u-edu; please report it.",
+}
+"""Sentences about errors of SQLite, by their primary code."""
+
+
+def _cause(error: sqlite3.Error) -> str:
+    """Return what an error of SQLite says, and what to do about it if that is known."""
+    code = getattr(error, "sqlite_errorcode", None)  # not set by the module's own errors
+    sentence = "" if code is None else _CAUSES.get(code & 0xFF, "")
+    return f"{sentence} ({error})" if sentence else f"{error}."
+
+
 def teacher_token(store: ClassStore) -> str:
     """Return the secret of the teacher's page, which is made once for each class."""
-    token = store.setting(TEACHER_SETTING)
-    if not token:
-        token = token_urlsafe(24)
-        store.set_setting(TEACHER_SETTING, token)
-    return token
+    return store.setting_or(TEACHER_SETTING, lambda: token_urlsafe(24))

@@ -21,6 +21,7 @@ from ai4u_edu.classroom.commands import (
     BeginTournament,
     Command,
     HideBoard,
+    MoveCode,
     PlainCommand,
     SeatCommand,
     Show,
@@ -31,6 +32,7 @@ from ai4u_edu.classroom.commands import (
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.forget import forget
 from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.move_codes import LIFE_S
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.scene_source import find_scene
 from ai4u_edu.classroom.seats import State
@@ -76,6 +78,9 @@ class Teacher:
         """Do what the teacher wants; answer with a sentence if it can't be done."""
         try:
             wanted = await read_json(request, Command, MAX_BODY_BYTES)
+            if isinstance(wanted.root, MoveCode):
+                code = self._seats.new_move_code(wanted.root.seat, is_teachers=True)
+                return JSONResponse({"code": code, "minutes": LIFE_S // 60}, headers=NO_STORE)
             await self._do(wanted.root)
         except HTTPException as error:
             status = 400 if error.status_code == UNPROCESSABLE else error.status_code
@@ -99,7 +104,8 @@ class Teacher:
                 live.tell_attention()
             case StartRace():
                 scene = await asyncio.to_thread(find_scene, live, wanted.scene)
-                live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)
+                race = live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)
+                live.assignments.assign_race(scene, race.id)
                 live.race.tell()
             case BeginTournament(scene=name):
                 await live.tournament.begin(name)
@@ -128,7 +134,9 @@ class Teacher:
                 await asyncio.to_thread(self._seats.set_state, wanted.seat, State.KICKED)
             case "ban":
                 await asyncio.to_thread(self._seats.set_state, wanted.seat, State.BANNED)
-        self._proxy.end(wanted.seat, "your teacher has sent you out; reload to join again")
+                if wanted.new_code:
+                    await asyncio.to_thread(self._seats.change_code)
+        self._proxy.end(wanted.seat, "your teacher has sent you out; ask before you join again")
         self._live.end_links(wanted.seat, "Your teacher has sent you out. Join again.")
 
     async def _do_plain(self, wanted: PlainCommand) -> None:

@@ -1,5 +1,6 @@
 """``ai4u-edu class``: a class of many rooms behind one address."""
 
+import os
 from contextlib import closing
 from pathlib import Path
 from typing import Annotated
@@ -32,6 +33,15 @@ RoomMemory = Annotated[
     float,
     typer.Option(min=100, max=100_000, callback=finite, help="Memory (MB) that one world may use."),
 ]
+MaxFolder = Annotated[
+    float,
+    typer.Option(
+        min=0.01,
+        max=100_000,
+        callback=finite,
+        help="Size (GB) of the class's folder from which nothing more of students' work is kept.",
+    ),
+]
 
 AtHub = Annotated[
     bool,
@@ -61,6 +71,7 @@ def classroom(
     language: Language = "en",
     sleep_after: SleepAfter = 5.0,
     room_memory: RoomMemory = 600.0,
+    max_folder: MaxFolder = 5.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,
@@ -69,6 +80,7 @@ def classroom(
 ) -> None:
     """Serve a class: students join with a code, and each drives in a world of their own."""
     load_own_blocks(own_blocks)
+    os.umask(0o077)  # whatever a class and its rooms write is its owner's alone
     if hub:
         from ai4u_edu.cli.classroom_hub import serve_at_hub
 
@@ -88,7 +100,8 @@ def classroom(
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
     rule, blocks = RoomRule.parse(rooms), own_blocks or ()
     made = LocalRooms(folder, blocks, limits, are_shared=rule.kind != "each")
-    with ClassStore(folder) as store, closing(made) as local:
+    with ClassStore(folder, max_folder) as store, closing(made) as local:
+        local.quota = store.quota
         seats = Seats(store, scene, rule, code, language)
         token = teacher_token(store)
 

@@ -31,7 +31,7 @@ def serve_at_hub(context: typer.Context) -> None:
     def announce(url: str) -> None:
         typer.echo(f"The class is a service of the hub: {url.rstrip('/')}{hub.prefix}")
 
-    with ClassStore(options["folder"]) as store:
+    with ClassStore(options["folder"], options["max_folder"]) as store:
         rule = RoomRule.parse("each")
         seats = Seats(store, options["scene"], rule, language=options["language"])
         app = hub_class_app(

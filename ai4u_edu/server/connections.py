@@ -1,8 +1,9 @@
 """Limits of a server's connections, total and by address, with eviction of idle ones.
 
 Each connection takes a file descriptor, and a page's takes two more towards viser. The total limit
-depends on the process's limit of descriptors. A connection without a complete request, or between
-two requests, is *idle*: at a limit, a new connection evicts the one that is idle for longest.
+depends on the process's limit of descriptors. A connection that waits for its other side is *idle*:
+for a complete request, for the next one, for more of an answer to be read, or for the end of a
+WebSocket whose app has ended. At a limit, a new connection evicts the one that is idle for longest.
 """
 
 import ipaddress

@@ -9,8 +9,10 @@ ASGI's. See ``docs/adr/0003-limits-of-connections.md``.
 import asyncio
 from asyncio.transports import BaseTransport
 from collections.abc import Callable, MutableMapping
+from contextlib import suppress
 from typing import Any, cast
 
+from starlette.websockets import WebSocketDisconnect
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from websockets.exceptions import InvalidState
 from websockets.http11 import Request
@@ -21,6 +23,9 @@ from ai4u_edu.server.timeouts import Timeouts
 
 EXTENSION = "ai4u_edu.frames"
 """Key of the protocol in an ASGI scope's ``extensions``."""
+
+INVALID_DATA = 1007
+"""Code of a close: a text was not UTF-8."""
 
 Listener = Callable[[bytes], bool]
 """Callback that gets each binary frame; one for which it returns False goes through ASGI."""
@@ -72,7 +77,32 @@ class FramesProtocol(WebSocketsSansIOProtocol):
     def on_task_complete(self, task: asyncio.Task[None]) -> None:
         """Abort the connection after its app has ended if the other side does not read the rest."""
         super().on_task_complete(task)
+        connections = cast(ServerConfig, self.config).connections
+        if connections is not None:  # a new connection need not wait for the other side's close
+            connections.set_idle(self.transport, True)
         self._abort_after(2 * self._timeouts.close)
+
+    async def run_asgi(self) -> None:
+        """Call the app, for which a page that has left is no error."""
+        app = self.app
+
+        async def call(scope: Any, receive: Any, send: Any) -> None:
+            with suppress(WebSocketDisconnect):
+                await app(scope, receive, send)
+            if self.transport.is_closing():  # the page left during the handshake
+                self.handshake_complete = True
+
+        self.app = call
+        await super().run_asgi()
+
+    async def send(self, message: Any) -> None:
+        """Send an app's message; note a page that left before it was accepted.
+
+        uvicorn drops that ``accept``, and would take the app's next message for one too early.
+        """
+        await super().send(message)
+        if message["type"] == "websocket.accept" and not self.handshake_complete:
+            self.disconnected = True
 
     def handle_connect(self, event: Request) -> None:
         """Add the extension to the scope; refuse a request that websockets fails to refuse."""
@@ -124,6 +154,12 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             if not self.close_sent and self.listener(frame):
                 self.frames = []
                 return
+        if self.curr_msg_data_type == "text" and not _is_utf8(b"".join(self.frames)):
+            self.frames = []
+            if not self.close_sent:  # uvicorn would log a traceback besides
+                self.conn.send_close(INVALID_DATA)
+                self.handle_parser_exception()
+            return
         super().send_receive_event_to_app()
 
     def write(self, frame: bytes) -> bool:
@@ -136,3 +172,11 @@ class FramesProtocol(WebSocketsSansIOProtocol):
             return False
         self.transport.write(b"".join(self.conn.data_to_send()))
         return True
+
+
+def _is_utf8(text: bytes) -> bool:
+    try:
+        text.decode()
+    except UnicodeDecodeError:
+        return False
+    return True

@@ -110,9 +110,16 @@ class RequestProtocol(H11Protocol):
         return self._is_ending
 
     def pause_writing(self) -> None:
-        """Start to check that the other side reads at all."""
+        """Start to check that the other side reads; meanwhile another one may have its place."""
         super().pause_writing()
+        self._set_idle(True)
         self._watch_reader()
+
+    def resume_writing(self) -> None:
+        """Go on with an answer that the other side reads."""
+        super().resume_writing()
+        if self._deadline is None:  # else it waits for a request
+            self._set_idle(False)
 
     def end(self, answer: bytes = b"") -> None:
         """Close the connection with an answer, and give the other side time to read it."""
@@ -131,7 +138,7 @@ class RequestProtocol(H11Protocol):
 
     def _wait_for_request(self) -> None:
         self._has_begun = bool(self.conn.trailing_data[0])
-        self._set_idle(not self.transport.get_write_buffer_size())  # it may still read an answer
+        self._set_idle(True)
         self._restart_deadline()
 
     def _restart_deadline(self) -> None:

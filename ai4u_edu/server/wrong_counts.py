@@ -5,11 +5,15 @@ from collections import OrderedDict
 from collections.abc import Callable
 from typing import TypeVar
 
+from ai4u_edu.server.rate_limit import MAX_KEYS, RateLimits
+
 MAX_WRONG = 60
 """Wrong secrets in a row after which an address is limited."""
 FORGOTTEN_PER_S = 1.0
 """Rate at which an address's wrong secrets are forgotten."""
-MAX_ADDRESSES = 1000
+MAX_DEBT = 10
+"""Wrong secrets beyond that which count, so that an address is not limited without end."""
+MAX_ADDRESSES = MAX_KEYS
 """Addresses that are remembered, the most recent ones."""
 
 Value = TypeVar("Value")
@@ -23,25 +27,18 @@ class WrongCounts:
     """
 
     def __init__(self, clock: Callable[[], float]) -> None:
-        self._clock = clock
-        self._wrong: OrderedDict[str, tuple[float, float]] = OrderedDict()  # how many, and when
+        self._limits = RateLimits(FORGOTTEN_PER_S, MAX_WRONG, max_debt=MAX_DEBT, clock=clock)
 
     def __len__(self) -> int:
-        return len(self._wrong)
+        return len(self._limits)
 
     def add(self, address: str) -> None:
         """Count a wrong secret."""
-        count = min(self._count(address) + 1, MAX_WRONG + 10)  # the count must not grow without end
-        remember(self._wrong, address, (count, self._clock()))
+        self._limits.take(address)
 
     def seconds_over(self, address: str) -> int:
         """Return the seconds until an address is not limited any more; 0 if it is not now."""
-        over = self._count(address) - MAX_WRONG + 1
-        return max(0, math.ceil(over / FORGOTTEN_PER_S))
-
-    def _count(self, address: str) -> float:
-        count, when = self._wrong.get(address, (0.0, 0.0))
-        return max(0.0, count - (self._clock() - when) * FORGOTTEN_PER_S)
+        return math.ceil(self._limits.wait_s(address))
 
 
 def remember(kept: OrderedDict[str, Value], address: str, value: Value) -> None:

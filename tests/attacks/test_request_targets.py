@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pytest
 
 from tests.attacks.raw_http import SOCKET_HEADERS, ForbiddenServer, ask, status_of
+from tests.attacks.targets import attack_all
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.waiting import LIMIT_S
 
@@ -114,3 +115,11 @@ def test_odd_headers_cause_no_error_of_the_server(
         assert status_of(answer) in (101, 200, 403, 404), answer
     assert ada.client.get(ada.room + "healthz", timeout=LIMIT_S).status_code == 200
     assert "Traceback" not in "".join(served.told)
+
+
+@pytest.mark.parametrize(
+    ("count", "seed"), [(60, 1), pytest.param(1700, 2, marks=pytest.mark.nightly)]
+)
+def test_no_mutated_target_reaches_another_server_through_any_proxy(count: int, seed: int) -> None:
+    """``python -m tests.attacks.targets`` tries 10,000."""
+    assert attack_all(count, seed).wrong == []

@@ -6,11 +6,12 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from pydantic import BaseModel, ValidationError
 
 from ai4u_edu import AI4UError, BoxShape, RBMoveActuator, VelocitySensor
 from ai4u_edu.base import errors
 from ai4u_edu.base.errors import shown, suggest
-from ai4u_edu.base.parameters import MAX_HINTS
+from ai4u_edu.base.parameters import MAX_EXPLAINED, MAX_HINTS, explain
 from ai4u_edu.blocks import Sensor
 from ai4u_edu.blocks.actuators import DiscreteActuator
 from ai4u_edu.scenes import Scene
@@ -119,3 +120,18 @@ def test_many_known_names_are_told_in_part() -> None:
     assert text.endswith(" and 1950 more")
     assert len(suggest("moon", ["x" * 10_000])) < 100
     assert suggest("x" * 100_000, ["box"]) == "known are 'box'"
+
+
+def test_of_very_many_mistakes_the_first_ones_are_explained_and_all_are_counted() -> None:
+    """To explain each of 30,000 unknown keys of a scene took seconds."""
+
+    class Empty(BaseModel, extra="forbid"):
+        pass
+
+    with pytest.raises(ValidationError) as raised:
+        Empty.model_validate({f"key{number}": 1 for number in range(30_000)})
+    problems = explain(raised.value.errors(), Empty)
+    assert len(problems) == 30_000
+    explained = [each for each in problems if each.path]
+    assert len(explained) == MAX_EXPLAINED
+    assert all(each.text.startswith("unknown parameter") for each in explained)

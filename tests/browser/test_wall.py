@@ -53,7 +53,7 @@ def page(opened: Page, school: WallServer) -> Page:
     opened.get_by_role("tab", name="Wall").click()
     opened.get_by_role("button", name="All", exact=False).first.click()
     opened.get_by_label("Sort").select_option("help")
-    school.problem = ""
+    school.problem, school.answer = "", {"room": "/privacy"}
     school.commands.clear()
     school.send(**class_message(COUNT))
     expect(cards(opened)).to_have_count(COUNT)
@@ -127,6 +127,8 @@ def test_a_room_is_reached_and_sent_out_by_keyboard(page: Page, school: WallServ
     look_in = dialog.get_by_role("link", name="Look in")
     expect(look_in).to_have_attribute("href", f"./r/{seat['room']}/")
     dialog.get_by_role("button", name=f"Send out {name}").press("Enter")
+    question = page.get_by_role("dialog", name=f"Send {name} out?")
+    question.get_by_role("button", name="Send out").press("Enter")
     expect(dialog).to_have_count(0)
     kick = {"do": "kick", "seat": seat["number"]}
     until(lambda: school.commands == [kick])
@@ -138,6 +140,29 @@ def test_a_room_is_reached_and_sent_out_by_keyboard(page: Page, school: WallServ
     page.get_by_role("button", name="Rename", exact=True).click()
     expect(page.get_by_role("dialog")).to_have_count(0)
     assert school.commands == [kick, {**kick, "do": "rename", "name": "Calm Owl"}]
+
+
+def test_a_ban_sets_a_new_code_unless_the_teacher_keeps_it(page: Page, school: WallServer) -> None:
+    name = names(page)[0]
+    seat = next(seat["number"] for seat in school.state["seats"] if seat["name"] == name)
+    for keeps in (False, True):
+        cards(page).first.click()
+        page.get_by_role("button", name=f"Ban {name}").click()
+        if keeps:
+            page.get_by_label("Keep the code").check()
+        page.get_by_role("button", name="Ban", exact=True).click()
+        expect(page.get_by_role("dialog")).to_have_count(0)
+        assert school.commands[-1] == {"do": "ban", "seat": seat, "new_code": not keeps}
+
+
+def test_the_teacher_gets_a_code_for_a_seat_that_is_gone(page: Page, school: WallServer) -> None:
+    gone = {**school.state["seats"][0], "state": "banned"}
+    school.answer = {"code": "KVBTM", "minutes": 5}
+    school.send(seats=[gone, *school.state["seats"][1:]])
+    page.get_by_text("No longer here (1)").click()
+    page.get_by_role("button", name=f"Code for {gone['name']}").click()
+    expect(page.get_by_role("heading", name=f"Code for {gone['name']}: KVBTM")).to_be_visible()
+    assert school.commands == [{"do": "move code", "seat": gone["number"]}]
 
 
 def test_programs_of_a_room_are_read_as_text(page: Page, school: WallServer) -> None:
@@ -156,19 +181,61 @@ def test_programs_of_a_room_are_read_as_text(page: Page, school: WallServer) -> 
     assert shown.text_content() == source
     heads = dialog.get_by_role("heading", level=3)
     expect(heads).to_have_text(
-        [f"{MARKUP} {MARKUP} · agent 0 · changed 2 minutes ago", "Calm Owl no program yet"]
+        [f"{MARKUP} {MARKUP} · changed 2 minutes ago", "Calm Owl no program yet"]
     )
     assert dialog.locator("img, textarea, input, [contenteditable]").count() == 0
     assert findings(page) == []
 
-    school.programs[1] |= {"source": "pass\n", "scene": "Maze", "agent": "0", "age": 0.2}
+    school.programs[1] |= {"source": "pass\n", "scene": "maze", "agent": "1", "age": 0.2}
     dialog.get_by_role("button", name="Refresh").click()
-    expect(heads.last).to_have_text("Calm Owl Maze · agent 0 · changed just now")
+    expect(heads.last).to_have_text("Calm Owl Maze · robot 1 · changed just now")
     school.problem = "The class's file can't be read."
     dialog.get_by_role("button", name="Refresh").click()
     expect(dialog.get_by_role("alert").first).to_have_text("The class's file can't be read.")
     expect(shown).to_be_visible()
     dialog.get_by_role("button", name="Close").click()
+
+
+def test_mistakes_in_programs_come_first_and_all_programs_are_seen(
+    page: Page, school: WallServer
+) -> None:
+    text = f"nothing is called {MARKUP!r}"
+    school.programs = [
+        {"seat": seat, "name": "", "source": source, "scene": "maze", "agent": "0", "age": 5.0}
+        for seat, source in ((1, "# first\ndef decide(percept):\n    return x\n"), (2, "pass\n"))
+    ]
+    why = f"program stopped: line 3: {text}"
+    first, second = (seat["name"] for seat in school.state["seats"][:2])
+    rooms = rooms_with(status="mistake", help=92, why=why)
+    rooms[0], rooms[-1] = {**rooms[0], "seats": [1]}, rooms[-1]
+    mistakes = {
+        "kind": "unknown-name",
+        "title": "A name that has no value",
+        "count": 4,
+        "seats": [1],
+        "examples": [text],
+        "guide": "Is it spelled the same?",
+    }
+    run = {"state": "mistake", "text": text, "line": 3}
+    running = {"state": "running", "text": "", "line": 0}
+    school.send(rooms=rooms, runs={"1": run, "2": running}, program_mistakes=[mistakes])
+    expect(cards(page).first).to_contain_text(why)
+    expect(cards(page).first).to_contain_text("program stopped")
+    page.get_by_role("tab", name="Programs (1 stopped)").click()
+    board = page.get_by_role("tabpanel", name="Programs")
+    expect(board.get_by_role("article")).to_contain_text(["Is it spelled the same?"])
+    expect(board.get_by_role("article")).to_contain_text([first])
+    glances = board.get_by_role("listitem")
+    expect(glances).to_have_count(2)
+    expect(glances.first).to_contain_text(f"line 3: {text}")
+    expect(glances.first.locator("[data-mistake]")).to_have_text("    return x")
+    expect(glances.last).to_contain_text(second)
+    expect(glances.last).to_contain_text("runs")
+    assert findings(page) == []
+    glances.first.get_by_role("button").click()
+    expect(page.get_by_role("dialog", name=f"Code: {first}")).to_be_visible()
+    page.get_by_role("dialog").get_by_role("button", name="Close").click()
+    page.get_by_role("tab", name="Wall").click()
 
 
 def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> None:

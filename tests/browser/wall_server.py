@@ -12,9 +12,10 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from ai4u_edu.classroom.echo import echo
+from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.pages import FILE_ROUTES
 from ai4u_edu.server import ServerThread
+from ai4u_edu.server.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.server.standalone import standalone_page
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 from tests.waiting import LIMIT_S
@@ -37,6 +38,7 @@ class WallServer:
         self.bodies: list[bytes] = []
         self.problem = ""
         """Answer to commands with this sentence, if there is one."""
+        self.answer: dict[str, Any] = {"room": "/privacy"}
         self.programs: list[dict[str, Any]] = []
         """Programs of any room."""
         self.count = count
@@ -59,7 +61,7 @@ class WallServer:
                 Route("/teacher/programs", self._programs),
                 Route("/api/names", self._names),
                 Route("/api/join", self._command, methods=["POST"]),
-                WebSocketRoute("/check/socket", echo),
+                WebSocketRoute("/check/socket", Echo(ConcurrencyLimit(50, 0.2))),
                 WebSocketRoute("/{page}/socket", self._socket),
                 *FILE_ROUTES,
             ]
@@ -97,7 +99,7 @@ class WallServer:
         self.commands.append(json.loads(body))
         if self.problem:
             return JSONResponse({"problem": self.problem}, 400)
-        return JSONResponse({"room": "/privacy"})
+        return JSONResponse(self.answer)
 
     async def _programs(self, request: Request) -> Response:
         self.paths.append(str(request.url))

@@ -37,6 +37,8 @@ class FakeHub:
     """Token by the code that a browser brings."""
     forms: list[dict[str, str]] = field(default_factory=list)
     """Requests for tokens."""
+    asked: list[str] = field(default_factory=list)
+    """Paths of requests to the API."""
     is_down: bool = False
     class_url: str = ""
     api_url: str = ""
@@ -101,6 +103,7 @@ def fake_hub() -> Iterator[FakeHub]:
 
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self) -> None:
+            hub.asked.append(self.path)
             user = hub.users.get(self.headers.get("Authorization", "").removeprefix("token "))
             if hub.is_down:
                 self._answer(503, {})

@@ -43,6 +43,7 @@ def be_patient() -> None:
     for module, names in (
         ("ai4u_edu.classroom.hub.api", ["TIMEOUT_S"]),
         ("ai4u_edu.classroom.link_endpoint", ["HELLO_TIMEOUT_S"]),
+        ("ai4u_edu.classroom.open_limits", ["STRANGER_SOCKET_S"]),
         ("ai4u_edu.classroom.room_proxy", ["OPEN_TIMEOUT_S", "ANSWER_TIMEOUT_S"]),
         ("ai4u_edu.classroom.tournament.played", ["END_TIMEOUT_S"]),
     ):

@@ -8,16 +8,18 @@ from starlette.routing import WebSocketRoute
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.connection import Connection
 
-from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, echo
+from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, Echo
 from ai4u_edu.server import ServerThread
+from ai4u_edu.server.concurrency_limit import ConcurrencyLimit
 from tests.server.rooms import PATIENT, open_socket
 from tests.waiting import LIMIT_S
 
 
 @pytest.fixture
 def socket() -> Iterator[Connection]:
+    app = Starlette(routes=[WebSocketRoute("/", Echo(ConcurrencyLimit(50, 0.2)))])
     with (
-        ServerThread(Starlette(routes=[WebSocketRoute("/", echo)]), timeouts=PATIENT) as server,
+        ServerThread(app, timeouts=PATIENT) as server,
         open_socket(server.url) as socket,
     ):
         yield socket

@@ -1,5 +1,6 @@
 """Attention, assignments and races after the class was started again."""
 
+import asyncio
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +10,10 @@ import pytest
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.assignments import NONE, AssignedScene, Assignments
 from ai4u_edu.classroom.attention import SAVE_EVERY_S, AttentionState
+from ai4u_edu.classroom.live_class import Shown
+from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import RaceResult, Races
+from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.wire.class_link import EpisodeResult
 
 MAZE = AssignedScene("Maze", "maze")
@@ -33,6 +37,45 @@ def test_attention_has_its_remaining_seconds_by_whatever_clock(store: ClassStore
     assert not later.is_over()
     later.end()
     assert AttentionState(store).kind == ""
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "null", '{"kind": 7}', '{"seconds": 1e999, "room": 1}', '{"kind": "x"}'],
+)
+def test_a_damaged_setting_is_as_if_there_was_none(
+    store: ClassStore, text: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    store.set_setting("attention", text)
+    store.set_setting("shown", text)
+    attention = AttentionState(store)
+    assert (attention.kind, attention.message, attention.ends_in_s) == ("", "", 0.0)
+    assert store.setting_as("shown", Shown) == Shown()
+    assert caplog.text.count("is damaged") == (2 if text else 0)
+
+
+def test_of_a_rooms_results_the_latest_are_kept(
+    store: ClassStore, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ai4u_edu.classroom.result_writer.MAX_RESULTS", 3)
+    done: list[bool] = []
+
+    async def write(room: str, keys: range) -> None:
+        writer = ResultWriter(store, Progress(store), Races(store), str, list)
+        for number in keys:
+            result = EpisodeResult(f"key{number:05}", "Maze", 1, "goal", 1.0, 1.0, "", "", b"")
+            writer.add(Received(room, (), result, done.append))
+        await writer.finish()
+
+    asyncio.run(write("a", range(10)))
+    asyncio.run(write("b", range(10, 12)))
+    asyncio.run(write("a", range(9, 10)))  # it was not acknowledged, say
+    kept = store.query("select room, key from results order by rowid")
+    assert kept == [
+        *[("a", f"key{number:05}") for number in (7, 8, 9)],
+        *[("b", f"key{number:05}") for number in (10, 11)],
+    ]
+    assert done == [True] * 13
 
 
 def test_rooms_keep_their_assignments(store: ClassStore) -> None:

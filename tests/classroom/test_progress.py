@@ -2,8 +2,9 @@
 
 import os
 import signal
+import sqlite3
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.course_index import known_exercises
 from ai4u_edu.classroom.progress import MAX_GAP_S, Entry, Progress
+from ai4u_edu.classroom.store import FILE
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.wire.class_link import Ack, ExerciseResult, Hello
 from tests.classroom.link_client import RawLink, check
@@ -106,7 +108,8 @@ def test_a_result_that_can_not_be_stored_is_not_acknowledged(served: ServedClass
     with RawLink(served, ada) as link:
         link.send(check("right"))
         link.next(Ack)
-        with ClassStore(served.folder) as other, other.transaction():
+        with closing(sqlite3.connect(served.folder / FILE, isolation_level=None)) as other:
+            other.execute("begin immediate")
             unsaved = check("wrong", exercise="04.3")
             link.send(unsaved)
             code, _ = link.end()

@@ -10,7 +10,7 @@ from ai4u_edu.classroom import ClassStore, RoomRule, Seats
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.names import CODE_LENGTH, CODE_LETTERS, LANGUAGES, is_name, words_of
 from ai4u_edu.classroom.room_rule import MAX_SEATS
-from ai4u_edu.classroom.seats import State
+from ai4u_edu.classroom.seats import State, digest_of
 from ai4u_edu.classroom.store import SeatRow
 
 
@@ -155,7 +155,8 @@ def test_a_seat_gets_another_name(seats: Seats) -> None:
 
 def test_a_full_class_says_so(seats: Seats) -> None:
     for number in range(MAX_SEATS):
-        joined(seats, f"{number}")
+        seat, _ = joined(seats, f"{number}")
+        seats.note_opened(seat.number)
     with pytest.raises(JoinError, match="full"):
         joined(seats, "one more")
 
@@ -194,7 +195,7 @@ def test_the_fourth_device_takes_the_place_of_the_oldest(store: ClassStore, seat
     ]
     assert seats.by_token(first) is None
     assert all(seats.by_token(token) == seat for token in tokens)
-    assert [each.request for each in store.tokens()] == ["b", "c", "d"]
+    assert [each.request for each in store.tokens()] == [digest_of(each) for each in "bcd"]
 
 
 def test_a_device_that_moves_to_another_seat_leaves_its_own(seats: Seats) -> None:
@@ -221,7 +222,7 @@ def test_a_disk_that_is_full_is_said_and_nothing_is_half_there(
     joined(seats, "a")
     pages = store.query("pragma page_count")[0][0]
     store.query(f"pragma max_page_count = {pages}")
-    with pytest.raises(StoreError, match="disk full"):
+    with pytest.raises(StoreError, match="The disk is full"):
         collections.deque(joined(seats, f"{number}") for number in range(MAX_SEATS))
     assert [each.number for each in store.seats()] == [each.number for each in seats.all()]
     store.query("pragma max_page_count = 100000")

@@ -11,13 +11,17 @@ from typing import Any
 import httpx
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.no_cookies import no_cookies
+from ai4u_edu.classroom.open_limits import hub_questions
+from ai4u_edu.server.concurrency_limit import TooManyOpenError
 
 TIMEOUT_S = 10.0
 CACHE_S = 60.0
 """Time for which the hub's answer on a token counts: so long may who has left the hub go on."""
 MAX_CACHED = 1000
+TOO_MANY = "Too many sign-ins come from your network. Try again in a moment."
 _TOKEN = re.compile(r"[!-~]+")
 
 
@@ -49,13 +53,20 @@ class HubApi:
     def __init__(self, hub: HubEnvironment, clock: Callable[[], float] = time.monotonic) -> None:
         self._hub, self._clock = hub, clock
         self._client = httpx.AsyncClient(timeout=TIMEOUT_S, trust_env=False, cookies=no_cookies())
+        self._limit, self._asking = CodeLimit(clock), hub_questions()
         self._cached: OrderedDict[bytes, tuple[float, HubUser]] = OrderedDict()
 
-    async def user_of(self, token: str) -> HubUser | None:
+    async def user_of(self, token: str, address: str = "") -> HubUser | None:
         """Return the user of a token; None if the hub does not know it, or it is a service's.
 
+        After many wrong tokens from an address, the hub is asked about its tokens one by one.
+
+        Args:
+            token: from a browser or a program.
+            address: of its sender.
+
         Raises:
-            HubUnreachableError: the hub does not answer.
+            HubUnreachableError: the hub does not answer, or must not be asked now.
             NoAccessError: the token is not for this service.
         """
         key = hashlib.sha256(token.encode()).digest()
@@ -63,8 +74,15 @@ class HubApi:
         if user is not None and self._clock() < until:
             return user
         self._cached.pop(key, None)
-        found = await self._whoami(token)
+        try:
+            async with self._asking.one_of(address):
+                if not await self._limit.wait_for_turn(address):
+                    raise HubUnreachableError(TOO_MANY)
+                found = await self._whoami(token)
+        except TooManyOpenError:
+            raise HubUnreachableError(TOO_MANY) from None
         if found is None or found.get("kind") != "user":
+            self._limit.add_wrong(address)
             return None
         if not set(self._hub.access_scopes) & set(found.get("scopes") or ()):
             raise NoAccessError(

@@ -10,7 +10,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from ai4u_edu.classroom.class_event import ClassEvents
-from ai4u_edu.classroom.echo import echo
+from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.hub.api import HubApi
 from ai4u_edu.classroom.hub.environment import HubEnvironment
@@ -24,6 +24,7 @@ from ai4u_edu.classroom.hub.teacher_auth import TeacherAuth
 from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.open_limits import seat_sockets, stranger_sockets
 from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
@@ -68,6 +69,8 @@ def hub_class_app(
     teacher = Teacher(live, events, RoomProxy((), lambda _: ""))
     auth = Middleware(TeacherAuth, sign_in=sign_in, groups=groups)
     projector = WallSocket(live, events, is_projected=True)
+    strangers = stranger_sockets()
+    link = LinkEndpoint(live, strangers, seat_sockets(), student.room_of)
     app = Starlette(
         routes=[
             Route("/", student.page),
@@ -75,10 +78,10 @@ def hub_class_app(
             Route("/api/me", student.me),
             Route("/api/hub-seat", student.seat, methods=["POST"]),
             Route("/check", page_route("check.html")),
-            WebSocketRoute("/check/socket", echo),
+            WebSocketRoute("/check/socket", Echo(strangers)),
             Route("/privacy", page_route("privacy.html")),
             *FILE_ROUTES,
-            WebSocketRoute(LINK_PATH, LinkEndpoint(live, student.room_of)),
+            WebSocketRoute(LINK_PATH, link),
             Route("/api/names", Join(seats).names, middleware=[auth]),
             Route("/teacher", teacher.page, middleware=[auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),

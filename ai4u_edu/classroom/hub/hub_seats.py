@@ -47,8 +47,4 @@ class HubSeats:
         return hmac.digest(self._key(), name.encode(), "sha256")
 
     def _key(self) -> bytes:
-        key = self._store.setting(SETTING)
-        if not key:
-            key = secrets.token_hex(32)
-            self._store.set_setting(SETTING, key)
-        return bytes.fromhex(key)
+        return bytes.fromhex(self._store.setting_or(SETTING, lambda: secrets.token_hex(32)))

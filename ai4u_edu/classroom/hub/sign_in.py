@@ -12,6 +12,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
+from ai4u_edu.server.attempts import client_address
 from ai4u_edu.server.token_auth import is_same_secret
 
 COOKIE = "ai4u-edu-hub"
@@ -43,7 +44,7 @@ class SignIn:
             NoAccessError: the user may not use this service.
         """
         token = given.cookies.get(COOKIE, "")
-        return await self._api.user_of(token) if token else None
+        return await self._api.user_of(token, client_address(given.scope)) if token else None
 
     def begin(self, request: HTTPConnection) -> Response:
         """Return the redirect with which a browser begins to sign in."""
@@ -76,7 +77,8 @@ class SignIn:
             return PlainTextResponse(f"The hub did not sign you in: {why[:200]}\n", 403, NO_STORE)
         try:
             token = await self._api.token_for(given["code"], kept["verifier"])
-            user = await self._api.user_of(token) if token else None
+            address = client_address(request.scope)
+            user = await self._api.user_of(token, address) if token else None
         except HubUnreachableError as error:
             return PlainTextResponse(f"{error}\n", 503, NO_STORE)
         except NoAccessError as error:

@@ -15,6 +15,7 @@ from ai4u_edu.classroom.hub.teacher_auth import SIGN_IN, is_teacher
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
 from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.server.attempts import client_address
 from ai4u_edu.server.standalone import standalone_page
 
 _TOKEN = re.compile(r"(?:token|bearer)\s+(\S+)", re.IGNORECASE)
@@ -73,21 +74,26 @@ class HubStudent:
         """Return the seat of a program that has a token of the hub."""
         found = _TOKEN.fullmatch(request.headers.get("authorization", ""))
         try:
-            user = await self._api.user_of(found[1]) if found else None
+            address = client_address(request.scope)
+            user = await self._api.user_of(found[1], address) if found else None
             return await self._seat(user)
         except HubUnreachableError as error:
             return _problem(str(error), 503)
         except NoAccessError as error:
             return _problem(str(error), 403)
 
-    async def room_of(self, token: str) -> LiveRoom | None:
+    async def room_of(self, token: str, address: str) -> LiveRoom | None:
         """Return the room of a link with a token of the hub; None if its user has no seat.
+
+        Args:
+            token: from the link.
+            address: of its sender.
 
         Raises:
             HubUnreachableError: the hub does not answer.
         """
         try:
-            user = await self._api.user_of(token)
+            user = await self._api.user_of(token, address)
         except NoAccessError:
             return None
         seat = None if user is None else await asyncio.to_thread(self._seats.find, user)
