@@ -217,7 +217,8 @@ def test_action_sensor_of_no_actuator() -> None:
 
 def test_action_sensor_of_another_size() -> None:
     assert error_of(BlockError, sensors=[ActionSensor(action_size=3)]) == (
-        "agent '0', ActionSensor 'action': action_size: expected 4, as actuator 'move' takes, got 3"
+        "agent '0', ActionSensor 'action': action_size: expected 4, since an action of 'move' has "
+        "4 numbers, got 3; leave it out, and for the last 3 actions set stacked_observations=3"
     )
 
 

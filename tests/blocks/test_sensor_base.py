@@ -4,11 +4,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gymnasium.spaces import Box, Discrete, Text
+from gymnasium.spaces import Box, Discrete, MultiBinary, MultiDiscrete, Sequence, Space, Text
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ai4u_edu import LocalBrain, Scene, Sensor
+from ai4u_edu import FloatArrayCompositeSensor, IDSensor, LocalBrain, Scene, Sensor
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
 from ai4u_edu.check.drive import RandomDrive
 from tests.builders import small_sim
 
@@ -45,7 +48,7 @@ def readings(sensor: Sensor, steps: int, seed: int = 0) -> list[Any]:
     sim.reset(seed=seed)
     found = [sim.agents[0].percept[sensor.perception_key]]
     found += [sim.step()[sensor.perception_key] for _ in range(steps)]
-    return [each.tolist() for each in found]
+    return [np.asarray(each).tolist() for each in found]
 
 
 def test_plain() -> None:
@@ -224,3 +227,156 @@ def test_a_sensor_may_still_define_the_old_name_of_is_sentinel() -> None:
                 return super().says_nothing(reading)
 
     assert Older().is_sentinel([0.5])
+
+
+# -- choices and texts -----------------------------------------------------------------------------
+
+
+class Choice(Sensor):
+    """Reads 3, 4, 5, 6, 3, ... of the choices 3 to 6."""
+
+    def on_setup(self, agent: Any, view: Any) -> None:
+        self.count = -1
+
+    def on_reset(self, agent: Any, view: Any) -> None:
+        self.count = -1
+
+    def space(self) -> Space[Any]:
+        return Discrete(4, start=3)
+
+    def read(self, body: Any, view: Any) -> Any:
+        self.count += 1
+        return 3 + self.count % 4
+
+
+class Flag(Choice):
+    """Reads false, true, false, ..."""
+
+    kind = "sbool"
+
+    def space(self) -> Space[Any]:
+        return Discrete(2)
+
+    def read(self, body: Any, view: Any) -> Any:
+        self.count += 1
+        return bool(self.count % 2)
+
+
+class Amount(Flag):
+    """Reads 0, 1, 0, ... as one float."""
+
+    kind = "sfloat"
+
+    def space(self) -> Space[Any]:
+        return Box(0.0, 1.0, ())
+
+
+class Flags(Choice):
+    """Reads two bits."""
+
+    def space(self) -> Space[Any]:
+        return MultiBinary(2)
+
+    def read(self, body: Any, view: Any) -> Any:
+        self.count += 1
+        return [self.count % 2, 1]
+
+
+class Choices(Choice):
+    """Reads two choices."""
+
+    def space(self) -> Space[Any]:
+        return MultiDiscrete([4, 2])
+
+    def read(self, body: Any, view: Any) -> Any:
+        self.count += 1
+        return [self.count % 4, 1]
+
+
+@pytest.mark.parametrize(
+    ("kind", "expected"),
+    [
+        (Choice, [[3, 3], [3, 4], [4, 5]]),
+        (Flag, [[0, 0], [0, 1], [1, 0]]),
+        (Amount, [[0, 0], [0, 1], [1, 0]]),
+        (Flags, [[[0, 1], [0, 1]], [[0, 1], [1, 1]], [[1, 1], [0, 1]]]),
+        (Choices, [[[0, 1], [0, 1]], [[0, 1], [1, 1]], [[1, 1], [2, 1]]]),
+    ],
+)
+def test_choices_and_single_numbers_stack(kind: type[Sensor], expected: list[Any]) -> None:
+    sensor = kind(stacked_observations=2)
+    assert readings(sensor, 2) == expected
+    space = sensor.observation_space()
+    assert isinstance(space, Box)
+    assert all(np.asarray(each, space.dtype) in space for each in expected)
+
+
+@pytest.mark.parametrize("kind", [Choice, Flag, Amount, Flags, Choices])
+def test_a_stack_of_choices_can_be_sent_to_an_ai4u_script(kind: type[Sensor]) -> None:
+    sim = small_sim([kind(stacked_observations=3)])
+    sim.reset(0)
+    agent = sim.agents[0]
+    codec = AI4UCodec(describe_agent(agent, skip_frame=4, repeat_action=True, tick=1 / 60))
+    observation = Observation(
+        1, 1, agent.percept, 0.0, {}, 0, 0, False, False, paused=False, stopped=False
+    )
+    assert codec.state(observation).sensors
+
+
+def test_choices_in_a_composite_stack() -> None:
+    composite = FloatArrayCompositeSensor(
+        sensors=[Choice(stacked_observations=2)], range_min=0, range_max=10
+    )
+    assert readings(composite, 2) == [[3, 3], [3, 4], [4, 5]]
+
+
+def test_choices_are_normalised() -> None:
+    sensor = Choice(normalized=True)
+    assert readings(sensor, 2) == [pytest.approx(each) for each in (3 / 6, 4 / 6, 5 / 6)]
+    assert np.array(5 / 6, np.float32) in sensor.observation_space()
+    assert readings(Flag(normalized=True), 1) == [False, True]
+
+
+class Word(Sensor):
+    """Reads a word."""
+
+    def space(self) -> Space[Any]:
+        return Text(10)
+
+    def read(self, body: Any, view: Any) -> Any:
+        return "word"
+
+
+class Words(Word):
+    """Reads words."""
+
+    def space(self) -> Space[Any]:
+        return Sequence(Text(10))
+
+    def read(self, body: Any, view: Any) -> Any:
+        return ["a", "word"]
+
+
+@pytest.mark.parametrize("kind", [Word, Words, IDSensor])
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("stacked_observations", 3),
+        ("normalized", True),
+        ("noise", 0.5),
+        ("delay", 2),
+        ("dropout", 0.5),
+    ],
+)
+def test_attributes_of_numbers_are_refused_for_texts(
+    kind: type[Sensor], name: str, value: Any
+) -> None:
+    says = rf"expected {name} (1|False|0) \(texts are no numbers\), got {value}"
+    with pytest.raises(BlockError, match=says):
+        small_sim([kind(**{name: value})])
+
+
+@pytest.mark.parametrize("kind", [Choice, Flag, Flags, Choices])
+def test_noise_is_refused_for_choices(kind: type[Sensor]) -> None:
+    with pytest.raises(BlockError, match=r"expected noise 0 \(choices can't be a little wrong"):
+        small_sim([kind(noise=0.1)])

@@ -94,7 +94,9 @@ class FloatArrayCompositeSensor(Sensor):
         """Read all children into ``out``."""
         start = 0
         for child, place in zip(self._children, self._places, strict=True):
-            if child.is_active:
+            if child.is_held:
+                pass
+            elif child.is_active:
                 child.take(body, view)
             else:
                 child.blank()

@@ -101,6 +101,10 @@ class LocalGridSensor(Sensor):
         """Return the group of each channel."""
         return ChannelLegend(tuple(self.channels))
 
+    def _unstack(self) -> None:
+        count = len(self.channels)
+        self._out[..., count:] = self._out[..., :-count].copy()
+
     def _stack(self, reading: Any) -> None:
         out, count = self._out, len(self.channels)
         if self.stacked_observations == 1:

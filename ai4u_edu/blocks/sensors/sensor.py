@@ -33,6 +33,10 @@ SPACES = (
 """Spaces that a reading may have, besides a Tuple or a Sequence of Text."""
 KINDS = (*DTYPES, *TEXTS)
 """AI4U's types of readings."""
+ARRAY_KINDS = {"sfloat": "sfloatarray", "sint": "sintarray", "sbool": "sintarray"}
+"""Types of several readings of a type of one number."""
+NEUTRAL = {"stacked_observations": 1, "normalized": False, "noise": 0, "delay": 0, "dropout": 0}
+"""Values with which these attributes of a sensor change nothing."""
 
 
 class Sensor(Block):
@@ -89,6 +93,11 @@ class Sensor(Block):
     kind: ClassVar[str] = ""
     """AI4U's type of the reading; by default it follows from the space."""
     stackable: ClassVar[bool] = True
+    reads_status: ClassVar[bool] = False
+    """True for a sensor that reads its agent's reward or the end of its episode: it reads again if
+    other sensors or handlers change these while the agent senses."""
+    is_held: ClassVar[bool] = False
+    """True on a sensor inside another one while only the others inside it read again."""
 
     def __post_init__(self) -> None:
         self.perception_key = self.perception_key or default_name(type(self), "Sensor")
@@ -125,7 +134,7 @@ class Sensor(Block):
 
     def scale(self) -> Any:
         """Return the divisor of normalising; by default the largest bound, without its sign."""
-        space = self.space()
+        space = _as_box(self.space())
         if not isinstance(space, spaces.Box):
             return 1.0
         largest = np.maximum(np.abs(space.low), np.abs(space.high)).astype(np.float64)
@@ -164,8 +173,17 @@ class Sensor(Block):
         """Return AI4U's type of the reading: sfloat, sfloatarray, sbool, sint, sstring, ...
 
         Raises:
-            BlockError: there is no such type, or the space is of no kind that a sensor may have.
+            BlockError: there is no such type, the space is of no kind that a sensor may have, or
+                an attribute can't take effect on such readings.
         """
+        kind = self._declared_kind()
+        self._check_attributes(kind)
+        if self._is_normalized() and kind in DTYPES and DTYPES[kind] is not np.float32:
+            kind = "sfloatarray" if self.space().shape else "sfloat"
+        return ARRAY_KINDS.get(kind, kind) if self.stacked_observations > 1 else kind
+
+    def _declared_kind(self) -> str:
+        """Return AI4U's type of one reading as it is."""
         space = self.space()
         if not _can_be_read(space):
             raise BlockError(
@@ -192,9 +210,35 @@ class Sensor(Block):
         whole = space.dtype is not None and np.issubdtype(space.dtype, np.integer)
         return "sintarray" if whole else "sfloatarray"
 
-    def observation_space(self) -> spaces.Space[Any]:
-        """Return the space of the reading in the percept: normalised and stacked."""
+    def _is_normalized(self) -> bool:
+        """Return True if normalising changes the numbers; choices of 0 and 1 stay what they are."""
         space = self.space()
+        return self.normalized and (
+            isinstance(space, spaces.Box) or bool((np.asarray(self.scale()) != 1.0).any())
+        )
+
+    def _check_attributes(self, kind: str) -> None:
+        """Raise a BlockError if an attribute can't take effect on readings of a type."""
+        if kind in TEXTS:
+            self._expect_none("texts are no numbers", *NEUTRAL)
+        if not self.stackable:
+            self._expect_none("its readings don't stack", "stacked_observations")
+        if not isinstance(self.space(), spaces.Box):
+            self._expect_none("choices can't be a little wrong; there is dropout", "noise")
+
+    def _expect_none(self, reason: str, *names: str) -> None:
+        for name in names:
+            if (value := getattr(self, name)) != NEUTRAL[name]:
+                raise BlockError(f"expected {name} {NEUTRAL[name]} ({reason}), got {value}")
+
+    def observation_space(self) -> spaces.Space[Any]:
+        """Return the space of the reading in the percept: normalised and stacked.
+
+        Choices that are stacked or normalised are numbers there: their space is a Box.
+        """
+        space = self.space()
+        if self.stacked_observations > 1 or self._is_normalized():
+            space = _as_box(space)
         if not isinstance(space, spaces.Box):
             return space
         low, high = space.low, space.high
@@ -207,7 +251,7 @@ class Sensor(Block):
         if self.stacked_observations > 1:
             times = (self.stacked_observations, *([1] * low.ndim))
             low, high = np.tile(low, times), np.tile(high, times)
-        dtype: Any = np.float32 if self.normalized else space.dtype
+        dtype: Any = np.float32 if self._is_normalized() else space.dtype
         return spaces.Box(low.astype(dtype), high.astype(dtype), dtype=dtype)
 
     def attach(self, out: Array, get_rng: Callable[[], np.random.Generator]) -> None:
@@ -217,11 +261,6 @@ class Sensor(Block):
             out: the reading's place in the agent's memory; every reading is written there.
             get_rng: returns the episode's generator for noise and dropout; called when needed.
         """
-        if self.stacked_observations > 1 and not self.stackable:
-            raise BlockError(
-                "expected stacked_observations 1 (its readings don't stack), "
-                f"got {self.stacked_observations}"
-            )
         space = self.space()
         self._out, self._get_rng, self._declared = out, get_rng, space
         shape = space.shape or ()
@@ -231,7 +270,7 @@ class Sensor(Block):
         self._ever_read = self._is_range_checked = False
         self._scale = np.broadcast_to(np.asarray(self.scale(), np.float64), shape)
         # dividing by 1 leaves a number as it is
-        self._is_scaled = self.normalized and bool((self._scale != 1.0).any())
+        self._is_scaled = self._is_normalized() and bool((self._scale != 1.0).any())
         is_filtered = self.stacked_observations > 1 or self.noise or self.delay or self.dropout
         has_own_write = type(self).write is not Sensor.write
         self._reads_numbers = not has_own_write and out.dtype == np.float32 and bool(out.size)
@@ -311,6 +350,10 @@ class Sensor(Block):
             out[:-1] = out[1:]
             out[-1] = reading
 
+    def _unstack(self) -> None:
+        """Make place for the newest reading to be put on the stack once more."""
+        self._out[1:] = self._out[:-1].copy()
+
     def _checked(self, reading: Any) -> Array:
         shape = self._declared.shape or ()
         try:
@@ -340,6 +383,20 @@ class Sensor(Block):
         raise ReadingError(
             f"{type(self).__name__} {self.perception_key!r}: expected {expected}, got {got}"
         )
+
+
+def _as_box(space: spaces.Space[Any]) -> spaces.Space[Any]:
+    """Return choices as the numbers that they are read as; any other space as it is."""
+    match space:
+        case spaces.Discrete():
+            low, high = np.array(space.start), np.array(space.start + space.n - 1)
+        case spaces.MultiDiscrete():
+            low, high = space.start, space.start + space.nvec - 1
+        case spaces.MultiBinary():
+            low, high = np.zeros(space.shape), np.ones(space.shape)
+        case _:
+            return space
+    return spaces.Box(low.astype(np.int32), high.astype(np.int32), dtype=np.int32)
 
 
 def _can_be_read(space: object) -> bool:

@@ -1,5 +1,6 @@
 """State of a sensor, kept while the sensor is set up again; and reading a moment twice."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -50,18 +51,47 @@ class SensorState:
 def read_again(sensor: Sensor, body: BodyView, view: WorldView) -> None:
     """Replace the last reading by a new one of the same moment."""
     _unread(sensor)
-    stack = sensor._out.copy() if sensor.stacked_observations > 1 and not sensor._fresh else None
     sensor.take(body, view)
-    if stack is not None:
-        sensor._out[:-1] = stack[:-1]
+
+
+def depends_on_status(sensor: Sensor) -> bool:
+    """Return True if a sensor, or one inside it, reads its agent's reward or end."""
+    return sensor.reads_status or any(map(depends_on_status, _children(sensor)))
+
+
+def read_status_again(sensor: Sensor, body: BodyView, view: WorldView) -> None:
+    """Replace the last reading where it depends on the agent's status; others inside it stay.
+
+    Reading those again could pay a reward twice, or draw other noise.
+    """
+    held = list(_independent(sensor))
+    for child in held:
+        child.is_held = True
+    try:
+        read_again(sensor, body, view)
+    finally:
+        for child in held:
+            child.is_held = False
+
+
+def _independent(sensor: Sensor) -> Iterator[Sensor]:
+    """Yield the sensors inside one that do not depend on the agent's status."""
+    for child in _children(sensor):
+        if depends_on_status(child):
+            yield from _independent(child)
+        else:
+            yield child
 
 
 def _unread(sensor: Sensor) -> None:
-    """Drop the newest of the delayed readings."""
+    """Drop the newest of the delayed readings, and of the stack."""
     if sensor._past:
         sensor._past.pop()
+    if sensor.stacked_observations > 1 and not sensor._fresh:
+        sensor._unstack()
     for child in _children(sensor):
-        _unread(child)
+        if not child.is_held:
+            _unread(child)
 
 
 def _children(sensor: Sensor) -> list[Sensor]:

@@ -39,6 +39,7 @@ class DoneSensor(StatusSensor):
 
     perception_key: str = "done"
     kind = "sbool"
+    reads_status = True
 
     def space(self) -> Discrete:
         """Return the space of 0 and 1."""
@@ -60,6 +61,7 @@ class TruncatedSensor(StatusSensor):
 
     perception_key: str = "truncated"
     kind = "sbool"
+    reads_status = True
 
     def space(self) -> Discrete:
         """Return the space of 0 and 1."""
@@ -135,6 +137,7 @@ class RewardSensor(StatusSensor):
     reward_scale: Annotated[float, quantity("1")] = 1.0
     """Factor by which the reward is multiplied."""
     kind = "sfloat"
+    reads_status = True
 
     def space(self) -> Box:
         """Return the range of all numbers."""
@@ -152,13 +155,15 @@ class ActionSensor(Sensor):
 
     Reading: (action_size,), within the actuator's ranges. Source: AI4U.
 
-    Differs from AI4U: ``action_size`` follows from the actuator unless it is given.
+    Differs from AI4U: ``action_size`` follows from the actuator unless it is given. The number of
+    actions, which AI4U's guide calls action_size, is ``stacked_observations``.
     """
 
     action_name: str = "move"
     """Name of the action that is read."""
     action_size: Annotated[int, Field(ge=1, le=1024)] | None = None
-    """Number of values; left out: as many as the actuator takes."""
+    """Number of values of one action; by default as many as the actuator takes. For several actions
+    set ``stacked_observations``."""
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the actuator."""
@@ -172,8 +177,9 @@ class ActionSensor(Sensor):
         low, high = actuators[self.action_name].limits()
         if self.action_size not in (None, len(low)):
             raise BlockError(
-                f"action_size: expected {len(low)}, as actuator {self.action_name!r} takes, "
-                f"got {self.action_size}"
+                f"action_size: expected {len(low)}, since an action of {self.action_name!r} has "
+                f"{len(low)} numbers, got {self.action_size}; leave it out, and for the last "
+                f"{self.action_size} actions set stacked_observations={self.action_size}"
             )
         self._low, self._high = np.array(low, np.float32), np.array(high, np.float32)
 
