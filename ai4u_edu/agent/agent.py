@@ -104,6 +104,8 @@ class BasicAgent(Parameterized):
         self._bound_blocks: BoundBlocks | None = None
         self._percept: Percept | None = None
         self._done_requested = False
+        self._status_read = (0.0, False, False)
+        """Reward, terminated and truncated when the sensors last read."""
         self.agent_start = Event("agent_start")
         self.before_the_reset = Event("before_the_reset")
         self.begin_of_episode = Event("begin_of_episode")
@@ -114,6 +116,9 @@ class BasicAgent(Parameterized):
         self.end_of_apply_action = Event("end_of_apply_action")
         self.end_of_step = Event("end_of_step")
         self.end_of_episode = Event("end_of_episode")
+        self.percept_ready = Event("percept_ready")
+        """Our own event, for recorders and connections: percept, reward and end of a decision are
+        final. It also comes once after each reset."""
 
     if not TYPE_CHECKING:  # a type checker is to report the old names
         fitting = RenamedAttribute("bound_blocks")
@@ -247,11 +252,17 @@ class BasicAgent(Parameterized):
         bound.attach_sensors()
 
     def add_reward(self, amount: float, request_done: bool = False, name: str = HANDLERS) -> None:
-        """Add to the reward of the decision under way; for handlers of any event.
+        """Add to the reward of a decision; for handlers of any event, and for blocks.
+
+        The decision under way gets it. What is paid while the reading after it is taken, or by
+        another agent at the same tick, is part of it, too. What a controller pays is in the
+        decision that it takes; so is what is paid between two steps. What is paid before an
+        episode's first decision is asked for (``before_the_reset``, the first reading,
+        ``begin_of_episode``), or after its end, is dropped, as in AI4U.
 
         Args:
             amount: a finite number; multiplied by reward_scale.
-            request_done: True ends the episode with this decision.
+            request_done: True ends the episode with that decision, which may have to begin first.
             name: the reward term.
 
         Raises:
@@ -268,6 +279,15 @@ class BasicAgent(Parameterized):
             )
         self.ledger.pay(name, paid)
         self._done_requested = self._done_requested or request_done
+
+    @property
+    def is_done_requested(self) -> bool:
+        """True if the episode ends with the decision under way, or with the next one."""
+        return self._done_requested
+
+    def request_done(self) -> None:
+        """End the episode with the decision under way, or with the next one."""
+        self._done_requested = True
 
     def use_brain(self, brain: Brain | Controller | Callable[[Percept], Answer]) -> None:
         """Replace the brain, from the next decision on; the body stays as it is.
@@ -296,6 +316,7 @@ class BasicAgent(Parameterized):
     def sense(self) -> Percept:
         """Read every active sensor once and return the new percept."""
         bound = self.bound_blocks
+        self._status_read = self.ledger.total, self.terminated, self.truncated
         if self.begin_of_update_state.handlers:
             self.begin_of_update_state.fire(self)
         self._percept = bound.sense()
@@ -341,11 +362,8 @@ class BasicAgent(Parameterized):
         return accepted
 
     def begin_step(self) -> None:
-        """Begin a decision, with no reward yet."""
-        if self.steps:
-            self.ledger.open()
-        else:
-            self.ledger.clear()  # rewards from before the first decision belong to none
+        """Begin a decision, with what its controller has paid."""
+        self.ledger.open()
         if self.begin_of_step.handlers:
             self.begin_of_step.fire(self)
 
@@ -358,17 +376,43 @@ class BasicAgent(Parameterized):
             self.end_of_step.fire(self)
         self.steps += 1
         self.ledger.close(self.steps)
-        total = self.ledger.total
-        self.terminated = (
-            self._done_requested
-            or bound.body.fallen
-            or (self.done_at_negative_reward and total < 0)
-            or (self.done_at_positive_reward and total > 0)
-        )
+        self.terminated = bound.body.fallen or self._is_end_asked()
         limit = self.max_steps_per_episode
         self.truncated = not self.terminated and 0 < limit <= self.steps
         if self.end_of_episode.handlers and self.done:
             self.end_of_episode.fire(self)
+
+    def end_while_sensing(self) -> None:
+        """End the episode if something has asked for that since the step ended."""
+        if not self.done and self._is_end_asked():
+            self.terminated = True
+            if self.end_of_episode.handlers:
+                self.end_of_episode.fire(self)
+
+    def settle(self) -> None:
+        """Finish a decision: what is paid from now on is in the next one.
+
+        Sensors that read the reward or the end read again if these have changed since.
+        """
+        if self._status_read != (self.ledger.total, self.terminated, self.truncated):
+            self._percept = self.bound_blocks.read_status_again(self.percept)
+        self.ledger.seal()
+        if self.percept_ready.handlers:
+            self.percept_ready.fire(self)
+
+    def settle_reset(self) -> None:
+        """Finish a reset: drop what was paid in it."""
+        self.ledger.drop_carried()
+        if self.percept_ready.handlers:
+            self.percept_ready.fire(self)
+
+    def _is_end_asked(self) -> bool:
+        total = self.ledger.total
+        return (
+            self._done_requested
+            or (self.done_at_negative_reward and total < 0)
+            or (self.done_at_positive_reward and total > 0)
+        )
 
     def _refuse(self, action: object) -> None:
         known = self.bound_blocks.actuators

@@ -25,6 +25,7 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.percept import TEXTS
+from ai4u_edu.blocks.sensors.sensor_state import depends_on_status, read_status_again
 from ai4u_edu.world import World, WorldView
 
 if TYPE_CHECKING:
@@ -51,6 +52,8 @@ class BoundBlocks:
         self.view = WorldView(world)
         world.contacts.watch(self.body)
         self.brain = enabled_brain(agent)
+        self._switches = self._read_switches()
+        """The agent's brains, and whether each was enabled, when the present one was chosen."""
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
         self.sensors = [sensor for sensor in self._with_standard_sensors() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
@@ -102,20 +105,60 @@ class BoundBlocks:
         others = [each for each in self.blocks if each is not self.brain]
         check_each_once(self._agent, [*others, brain])
         claim(self._agent, [brain])
-        brain.enabled = True
-        self._set_up(brain)
-        self._reset(brain)
+        was_enabled, brain.enabled = brain.enabled, True
+        try:
+            self._set_up(brain)
+            self._reset(brain)
+        except BaseException:
+            brain.enabled = was_enabled
+            raise
         if self.brain is not brain:
             self.brain.enabled = False
             self.brain.close()
         self.brain = brain
         if not any(each is brain for each in self._agent.brains):
             self._agent.brains.append(brain)
+        self._switches = self._read_switches()
+
+    def follow_switches(self) -> None:
+        """Give control to another brain if somebody has set ``enabled`` of brains since.
+
+        Raises:
+            SetupError: none or several are enabled, or the brain does not fit the agent.
+        """
+        if self._read_switches() == self._switches or isinstance(self.brain, LostBrain):
+            return
+        try:
+            brain = enabled_brain(self._agent)
+        except SetupError as error:
+            raise SetupError(f"{error}; or call agent.use_brain(brain)") from None
+        if brain is not self.brain:
+            self.swap_brain(brain)
+        self._switches = self._read_switches()
+
+    def _read_switches(self) -> list[tuple[Brain, bool]]:
+        return [(brain, brain.enabled) for brain in self._agent.brains]
 
     @property
     def number_sensors(self) -> tuple[Sensor, ...]:
         """Sensors whose readings are numbers."""
         return tuple(self._number_sensors)
+
+    def read_status_again(self, percept: Percept) -> Percept:
+        """Read the agent's own state again, after it has changed; all other readings stay.
+
+        Args:
+            percept: the latest one.
+        """
+        sensor: Sensor | None = None
+        try:
+            for sensor in self._status_sensors:
+                if sensor.is_active:
+                    read_status_again(sensor, self.body, self.view)
+        except Exception as error:
+            self._raise_as_reading(error, sensor, "was reading")
+            raise
+        return Percept(self.layout, bytes(self._memory), percept.texts)
 
     def percept(self) -> Percept:
         """Return the readings in memory as a percept; only text is read anew."""
@@ -123,7 +166,12 @@ class BoundBlocks:
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
     def reset(self) -> None:
-        """Reset every block, in the order of setup."""
+        """Reset every block, in the order of setup.
+
+        Raises:
+            SetupError: the agent has an active block that was not set up with the others.
+        """
+        self._check_all_bound()
         for reward in self.rewards:
             self._reset(reward)
         for sensor in self.sensors:
@@ -133,6 +181,16 @@ class BoundBlocks:
         for actuator in self.actuators.values():
             self._reset(actuator)
         self._reset(self.brain)
+
+    def _check_all_bound(self) -> None:
+        agent, bound = self._agent, {id(block) for block in self.blocks}
+        for block in (*agent.sensors, *agent.actuators, *agent.rewards):
+            if block.is_active and id(block) not in bound:
+                raise SetupError(
+                    f"agent {agent.id!r}: {block_label(block)} was switched on, or added, after "
+                    "the agent was set up, and would have no effect; call "
+                    "agent.setup(world), or make it active before ControlRequestor(world, [agent])"
+                )
 
     def sense(self) -> Percept:
         """Read every active sensor once into memory; return a copy as a percept."""
@@ -207,6 +265,7 @@ class BoundBlocks:
             if kinds[id(each)] in TEXTS
         ]
         self._number_sensors = [each for each in ordered if kinds[id(each)] not in TEXTS]
+        self._status_sensors = [each for each in self._number_sensors if depends_on_status(each)]
         self.layout = Layout(
             [
                 (each.perception_key, kinds[id(each)], each.observation_space().shape or ())

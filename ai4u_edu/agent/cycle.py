@@ -11,7 +11,17 @@ The order is a contract::
                world ticks; then actuators' and reward functions' on_tick
     end:       every reward function's on_update, end_of_step, steps += 1; the episode may be over:
                end_of_episode
-    sense:     ... the reading that ends one decision is the one that begins the next
+    sense:     ... the reading that ends one decision is the one that begins the next;
+               the episode may be over after it: end_of_episode
+
+A reward is in exactly one decision, which env, ``agent.reward``, RewardSensor and the ledger show
+alike: what is paid from begin_of_step to the reading after the step is in this decision, as is what
+other agents pay at its last tick; what a controller pays while it decides is in the decision that
+begins then. What is paid before the first decision is asked for (before_the_reset, the first sense,
+begin_of_episode) or after the episode's end is dropped. ``request_done`` ends the episode with the
+decision that gets the reward: asked for by a sensor or in end_of_update_state, it ends at once, and
+sensors of the agent's own state (done, reward, truncated) read again; asked for before the first
+decision, with that one.
 
 The two events of applying an action fire once a tick, around all actuators together, also for an
 action that names none. A body that falls out of the world during a step ends the step at that tick.
@@ -182,7 +192,9 @@ class ControlRequestor:
             return 0
         cycle = self._cycles[0]
         if len(self._cycles) == 1 and cycle.can_run_to_end():
-            return cycle.run_to_end(self.world)
+            ticks = cycle.run_to_end(self.world)
+            _settle(self.agents)
+            return ticks
         self._move()
         return 1
 
@@ -254,9 +266,13 @@ class ControlRequestor:
             if cycle.under_way:
                 cycle.apply()
         self.world.tick()
+        ended = []
         for cycle in self._cycles:
             if cycle.under_way:
                 cycle.advance()
+                if not cycle.under_way:
+                    ended.append(cycle.agent)
+        _settle(ended)
         if self._respawning:
             # after the tick, so that their first percept is not older than the one they decide on
             self._restart(self._respawning)
@@ -281,6 +297,16 @@ class ControlRequestor:
             agent.sense()
             if agent.begin_of_episode.handlers:
                 agent.begin_of_episode.fire(agent)
+        for cycle in cycles:
+            cycle.agent.settle_reset()
 
     def _cycle_of(self, agent: BasicAgent) -> DecisionCycle:
         return self._cycles[self.agents.index(agent)]
+
+
+def _settle(agents: Sequence[BasicAgent]) -> None:
+    """Finish the decisions of agents, once all that decide at this tick have paid and sensed."""
+    for agent in agents:
+        agent.end_while_sensing()
+    for agent in agents:
+        agent.settle()

@@ -30,7 +30,11 @@ class Entry(NamedTuple):
 
 
 class Ledger:
-    """The breakdown of rewards.
+    """The breakdown of rewards: each amount is in one decision, or in no total at all.
+
+    An amount belongs to the decision under way. After its end (:meth:`close`) the decision still
+    gets what its reading and other agents pay, until it is sealed (:meth:`seal`). What is paid
+    after that, as by a controller, is carried into the next decision.
 
     Attributes:
         terms: amounts by name of the last decision, or of the one under way.
@@ -46,6 +50,13 @@ class Ledger:
     >>> ledger.open()
     >>> ledger.total, ledger.episode_total
     (0.0, 99.5)
+    >>> ledger.close(2); ledger.seal()
+    >>> ledger.pay("asked", 1.0)
+    >>> ledger.total, ledger.episode_total
+    (0.0, 99.5)
+    >>> ledger.open()
+    >>> ledger.total, ledger.episode_total
+    (1.0, 100.5)
     """
 
     if not TYPE_CHECKING:  # a type checker is to report the old name
@@ -57,8 +68,13 @@ class Ledger:
         self.total = 0.0
         self.episode_total = 0.0
         self.history: deque[Entry] = deque(maxlen=0)
+        self.carried: dict[str, float] = {}
+        """Amounts by name that were paid between two decisions; the next one gets them."""
+        self.brought: Mapping[str, float] = {}
+        """The carried amounts that the decision under way has got."""
         self._latest: tuple[Entry, ...] | None = None
         self._is_closed = False
+        self._is_sealed = False
         self._finished: tuple[float, Mapping[str, float]] = NOTHING
 
     @property
@@ -73,31 +89,50 @@ class Ledger:
             self._latest = None
 
     def open(self) -> None:
-        """Begin a decision, with no rewards yet."""
+        """Begin a decision, with the carried amounts alone."""
         if self._is_closed:
             self._finished = self.total, self.terms
-            self._is_closed = False
+        self._is_closed = self._is_sealed = False
         self.terms = {}
         self.total = 0.0
+        self.brought, self.carried = self.carried, {}
+        for name, amount in self.brought.items():
+            self.pay(name, amount)
 
     def pay(self, name: str, amount: float) -> None:
         """Book an amount under a name."""
+        if self._is_sealed:
+            self.carried[name] = self.carried.get(name, 0.0) + amount
+            return
         terms, episode_terms = self.terms, self.episode_terms
         terms[name] = terms.get(name, 0.0) + amount
         episode_terms[name] = episode_terms.get(name, 0.0) + amount
         self.total += amount
         self.episode_total += amount
+        if self._is_closed and self.history:
+            self.history[-1] = self.history[-1]._replace(so_far=self.episode_total)
+            self._latest = None
 
     def close(self, step: int) -> None:
-        """End a decision; amounts that are added until the next one still belong to it."""
+        """End a decision; amounts that are added until it is sealed still belong to it."""
         self._is_closed = True
         if self.history.maxlen:
             self.history.append(Entry(step, self.terms, self.episode_total))
             self._latest = None
 
+    def seal(self) -> None:
+        """Carry amounts into the next decision from now on."""
+        self._is_sealed = True
+
+    def drop_carried(self) -> None:
+        """Drop the carried amounts: the first decision of an episode begins."""
+        self.carried = {}
+
     def clear(self) -> None:
-        """Begin an episode."""
+        """Begin an episode; amounts are carried until its first decision."""
+        self.drop_carried()
         self.open()
+        self.seal()
         self._finished = NOTHING
         self.episode_terms = {}
         self.episode_total = 0.0

@@ -46,6 +46,10 @@ class AgentView(Protocol):
         """The event after all sensors have read."""
 
     @property
+    def percept_ready(self) -> Event:
+        """The event after a decision or a reset, when percept, reward and end are final."""
+
+    @property
     def body(self) -> "BodyView":
         """The agent's body."""
 

@@ -107,10 +107,10 @@ class EpisodeWatch:
         self._agent_episode = 0
         self._note_episode(agent)
         # connected after the recorder's handler, which has then recorded the same decision
-        agent.end_of_update_state.connect(self._on_percept)
+        agent.percept_ready.connect(self._on_percept)
 
     def _detach(self, sim: ControlRequestor) -> None:
-        event = sim.agents[0].end_of_update_state
+        event = sim.agents[0].percept_ready
         if self._on_percept in event.handlers:
             event.disconnect(self._on_percept)
 

@@ -36,7 +36,7 @@ class DecisionResults:
         self._player = player
         self._index = index
         self._into = into
-        player.sim.agents[index].end_of_update_state.connect(self._on_percept)
+        player.sim.agents[index].percept_ready.connect(self._on_percept)
 
     def _on_percept(self, agent: BasicAgent) -> None:
         decision = self._player.taken[self._index] - 1

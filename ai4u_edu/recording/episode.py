@@ -13,9 +13,10 @@ from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.recording.table import Table
 from ai4u_edu.scenes import SceneDescription
 
-REPEAT, ENDED, TERMINATED, TRUNCATED = 1, 2, 4, 8
+REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED = 1, 2, 4, 8, 16
 """Bits of a decision's flags."""
 
+NO_ROWS = Table.of([])
 MAX_DRIVER_CHARS = 200
 """Length of a driver's title."""
 
@@ -54,7 +55,7 @@ class AgentRecord:
     skip: npt.NDArray[np.uint16]
     """(n,) ``skip_frame`` of the brain."""
     flags: npt.NDArray[np.uint8]
-    """(n,) REPEAT, ENDED, TERMINATED, TRUNCATED."""
+    """(n,) REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED (before it was taken)."""
     actions: Table
     terms: Table
     rewards: npt.NDArray[np.float64]
@@ -69,6 +70,9 @@ class AgentRecord:
     """(m,) checksum of the first percept of each of these episodes."""
     driver: str = ""
     """Title of the brain that decided; titles of several are joined."""
+    carried: Table = NO_ROWS
+    """(n,) reward terms that were paid before each was taken, as by a controller, which no replay
+    can compute; no rows if none were."""
 
     def __len__(self) -> int:
         return len(self.begin)
@@ -88,6 +92,12 @@ class AgentRecord:
             skip_frame=int(self.skip[step]),
             repeat_action=bool(flags & REPEAT),
         )
+
+    def carried_into(self, step: int) -> dict[str, float]:
+        """Return the reward terms that were paid before a decision was taken."""
+        if not len(self.carried):
+            return {}
+        return {name: amount for name, (amount,) in self.carried[step].items()}
 
     def __iter__(self) -> Iterator[Decision]:
         return (self[step] for step in range(len(self)))

@@ -1,5 +1,6 @@
 """Builds the record of an episode while it happens."""
 
+from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 
 import numpy as np
@@ -10,8 +11,10 @@ from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import Brain
 from ai4u_edu.recording.checksum import percept_checksum, world_checksum
 from ai4u_edu.recording.episode import (
+    DONE_REQUESTED,
     ENDED,
     MAX_DRIVER_CHARS,
+    NO_ROWS,
     REPEAT,
     TERMINATED,
     TRUNCATED,
@@ -41,6 +44,7 @@ class _AgentColumns:
         self.flags: list[int] = []
         self.actions: list[dict[str, tuple[float, ...]]] = []
         self.terms: list[dict[str, float]] = []
+        self.carried: list[Mapping[str, float]] = []
         self.rewards: list[float] = []
         self.percepts: list[int] = []
         self.worlds: list[int] = []
@@ -60,9 +64,8 @@ class _AgentColumns:
             skip=np.array(self.skip[:count], np.uint16),
             flags=np.array(self.flags[:count], np.uint8),
             actions=Table.of(self.actions[:count]),
-            terms=Table.of(
-                {name: (amount,) for name, amount in row.items()} for row in self.terms[:count]
-            ),
+            terms=_amounts(self.terms[:count]),
+            carried=_amounts(self.carried[:count]) if any(self.carried[:count]) else NO_ROWS,
             rewards=np.array(self.rewards[:count], np.float64),
             percepts=np.array(self.percepts[:count], np.uint32),
             worlds=np.array(self.worlds[:count], np.uint32),
@@ -70,6 +73,10 @@ class _AgentColumns:
             firsts=np.array(self.firsts, np.uint32),
             driver=", ".join(self.drivers)[:MAX_DRIVER_CHARS],
         )
+
+
+def _amounts(rows: Iterable[Mapping[str, float]]) -> Table:
+    return Table.of({name: (amount,) for name, amount in row.items()} for row in rows)
 
 
 class EpisodeBuilder:
@@ -134,7 +141,8 @@ class EpisodeBuilder:
         column.begin.append(world.ticks)
         column.end.append(world.ticks)
         column.skip.append(brain.skip_frame)
-        column.flags.append(REPEAT * brain.repeat_action)
+        column.flags.append(REPEAT * brain.repeat_action | DONE_REQUESTED * agent.is_done_requested)
+        column.carried.append(agent.ledger.brought)
         column.actions.append(agent.last_action)
         column.terms.append({})
         column.rewards.append(0.0)

@@ -21,7 +21,7 @@ from ai4u_edu.recording.columns import check_finite, pack_column, unpack_column,
 from ai4u_edu.recording.episode import MAX_DRIVER_CHARS, AgentRecord, Episode, Restart
 from ai4u_edu.recording.episode_builder import MAX_TICK
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.table import MAX_FORMS
+from ai4u_edu.recording.table import MAX_FORMS, Table
 from ai4u_edu.recording.validation import validate_episode
 from ai4u_edu.scenes import Scene, SceneDescription
 
@@ -58,6 +58,9 @@ class _Agent(BaseModel):
     starts: bytes
     firsts: bytes
     driver: str = Field(default="", max_length=MAX_DRIVER_CHARS)
+    carried_forms: list[list[str]] = Field(default=[], max_length=MAX_FORMS)
+    carried_form: bytes = b""
+    carried_numbers: bytes = b""
 
 
 class _File(BaseModel):
@@ -111,15 +114,14 @@ def encode(episode: Episode) -> bytes:
                 "action_forms": record.actions.forms,
                 "action_form": pack_column(record.actions.form),
                 "action_numbers": pack_column(record.actions.numbers),
-                "term_forms": [[name for name, _ in form] for form in record.terms.forms],
-                "term_form": pack_column(record.terms.form),
-                "term_numbers": pack_column(record.terms.numbers),
+                **_packed_terms("term", record.terms),
                 "rewards": pack_column(record.rewards),
                 "percepts": pack_column(record.percepts),
                 "worlds": pack_column(record.worlds),
                 "starts": pack_column(record.starts),
                 "firsts": pack_column(record.firsts),
                 "driver": record.driver,
+                **(_packed_terms("carried", record.carried) if len(record.carried) else {}),
             }
             for record in episode.agents
         ],
@@ -268,16 +270,26 @@ def _record(agent: _Agent) -> AgentRecord:
             agent.action_numbers,
             "action",
         ),
-        terms=unpack_table(
-            [[(name, 1) for name in form] for form in agent.term_forms],
-            agent.term_form,
-            agent.term_numbers,
-            "term",
-        ),
+        terms=_terms(agent.term_forms, agent.term_form, agent.term_numbers, "term"),
         rewards=check_finite(unpack_column(agent.rewards, np.float64, "rewards"), "rewards"),
         percepts=unpack_column(agent.percepts, np.uint32, "percepts"),
         worlds=unpack_column(agent.worlds, np.uint32, "worlds"),
         starts=unpack_column(agent.starts, np.uint32, "starts"),
         firsts=unpack_column(agent.firsts, np.uint32, "firsts"),
         driver=agent.driver,
+        carried=_terms(agent.carried_forms, agent.carried_form, agent.carried_numbers, "carried"),
     )
+
+
+def _packed_terms(what: str, terms: Table) -> dict[str, Any]:
+    """Return the columns of a table of reward terms by name."""
+    return {
+        f"{what}_forms": [[name for name, _ in form] for form in terms.forms],
+        f"{what}_form": pack_column(terms.form),
+        f"{what}_numbers": pack_column(terms.numbers),
+    }
+
+
+def _terms(forms: list[list[str]], form: bytes, numbers: bytes, what: str) -> Table:
+    """Return a table of reward terms from its columns."""
+    return unpack_table([[(name, 1) for name in each] for each in forms], form, numbers, what)

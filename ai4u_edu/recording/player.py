@@ -8,7 +8,7 @@ from ai4u_edu.agent.block_errors import may_be_kept, sentence_of
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
-from ai4u_edu.recording.episode import REPEAT, Episode
+from ai4u_edu.recording.episode import DONE_REQUESTED, REPEAT, Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.scenes.description import make_agents
@@ -141,6 +141,10 @@ class Player:
         due = step < len(record) and record.begin[step] == ticks
         if due and (ahead is None or self.episode.places[index][step] < ahead):
             self.taken[index] += 1
+            agent = self.sim.agents[index]
+            agent.ledger.carried = record.carried_into(step)
+            if record.flags[step] & DONE_REQUESTED:
+                agent.request_done()
             brain.skip_frame = int(record.skip[step])
             brain.repeat_action = bool(record.flags[step] & REPEAT)
             return record.actions[step]

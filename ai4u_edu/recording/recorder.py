@@ -93,7 +93,7 @@ class Recorder:
                 (agent.before_the_reset, self._on_reset),
                 (agent.begin_of_episode, self._on_episode_begin),
                 (agent.begin_of_step, self._on_decision),
-                (agent.end_of_update_state, self._on_percept),
+                (agent.percept_ready, self._on_percept),
             ):
                 (event.connect if enabled else event.disconnect)(handler)
 

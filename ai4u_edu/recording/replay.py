@@ -162,12 +162,12 @@ class Replay:
 
         driver = player.sim.agents[index]
         driver.begin_of_episode.connect(began)
-        driver.end_of_update_state.connect(sensed)
+        driver.percept_ready.connect(sensed)
         player.rewind()
         while not player.is_over:
             player.advance()
         driver.begin_of_episode.disconnect(began)
-        driver.end_of_update_state.disconnect(sensed)
+        driver.percept_ready.disconnect(sensed)
         return found
 
     def continue_from(

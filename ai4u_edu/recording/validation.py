@@ -32,6 +32,11 @@ def _check_agent(record: AgentRecord, ticks: int) -> None:
                 f"{who}: expected {count} {name}, one for each decision, "
                 f"got {len(getattr(record, name))}"
             )
+    if len(record.carried) not in (0, count):
+        raise RecordingError(
+            f"{who}: expected {count} carried, one for each decision, or none, "
+            f"got {len(record.carried)}"
+        )
     if (record.skip > MAX_SKIP_FRAME).any():
         raise RecordingError(f"{who}: skip: expected at most {MAX_SKIP_FRAME}")
     if (record.end < record.begin).any() or (record.end > ticks).any():

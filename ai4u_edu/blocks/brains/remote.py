@@ -147,7 +147,7 @@ class RemoteBrain(Brain):
             )
         )
         self._link = link
-        agent.end_of_update_state.connect(self._tell)
+        agent.percept_ready.connect(self._tell)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Begin an episode; a script that did not ask for it learns that its own was truncated.
@@ -209,7 +209,7 @@ class RemoteBrain(Brain):
         """Say goodbye to the script."""
         if self._link is not None:
             self._link.close(reason)
-            self._agent.end_of_update_state.disconnect(self._tell)
+            self._agent.percept_ready.disconnect(self._tell)
             self._link = self._current = self._last_asked = None
 
     def title(self) -> str:
