@@ -47,6 +47,7 @@ class DecisionCycle:
         bound = agent.bound_blocks
         if bound is not self._bound:
             self.refresh_binding()
+        bound.follow_switches()
         brain = bound.brain
         try:
             answer = brain.decide(agent.percept)

@@ -14,7 +14,8 @@ class Brain(Block):
     """The base of all brains. An agent has exactly one that is enabled."""
 
     enabled: bool = True
-    """True for the one brain that decides; an agent has exactly one."""
+    """True for the one brain that decides; an agent has exactly one. It may be set at any time, and
+    counts from the next decision on; ``agent.use_brain`` does the same in one step."""
     skip_frame: Annotated[int, Field(ge=0, le=10_000)] = 4
     """Ticks skipped between two decisions: it decides every ``skip_frame + 1`` ticks."""
     repeat_action: bool = True
