@@ -30,9 +30,10 @@ def check_scene(
 
     The scene must survive being written to a file and read back; give finite readings inside the
     sensors' spaces; run the same for the same seed, also after a reset; and leave the global random
-    generators alone. Warnings: no description, a sensor that always reads the same, a reward that
-    is never paid, an agent that cannot move, a position over the void or inside another body, a
-    group that no body carries, and a reward that is meant to end the episode and cannot.
+    generators alone. Warnings: no description, an agent without a sensor or without an actuator, a
+    sensor that always reads the same, a reward that is never paid, an agent that cannot move, a
+    position over the void or inside another body, a group that no body carries, and a reward that
+    is meant to end the episode and cannot. ``ai4u-edu check FILE`` gives the same report.
 
     Args:
         scene: a Scene, or the name of one.
@@ -63,6 +64,7 @@ def check_scene(
 
     checks = BlockCheck(report, make, options, of=_all_of, words="world")
     if checks.run():
+        _look_at_agents(report, rollouts[0].sim.agents)
         _warn(report, rollouts[0].sim.agents)
         _look_at_sensors(report, rollouts[0], checks.records)
         _look_at_rewards(report, rollouts[0], checks.records)
@@ -88,6 +90,28 @@ def _lost(scene: Scene) -> str:
 def _all_of(record: Record) -> Any:
     percepts = [(percept.data, percept.texts) for percept in record.percepts.values()]
     return record.poses, percepts, record.terms
+
+
+def _look_at_agents(report: Report, agents: Sequence[BasicAgent]) -> None:
+    """Warn of agents without a sensor or an actuator of their own."""
+    bare = []
+    for agent in agents:
+        bound = agent.bound_blocks
+        if not any(sensor in bound.sensors for sensor in agent.sensors):
+            bare.append(
+                f"agent {agent.id!r} has no sensor, so its brain knows nothing of the world; "
+                "give it one, as in sensors: [{type: OrientationSensor, target: NAME}]"
+            )
+        if not any(actuator.is_output for actuator in bound.actuators.values()):
+            bare.append(
+                f"agent {agent.id!r} has no actuator, so nothing that its brain decides has an "
+                "effect; give it one, as in actuators: [{type: RBMoveActuator}]"
+            )
+    report.add(
+        "senses and acts",
+        "; ".join(bare),
+        outcome=Outcome.WARNING if bare else None,
+    )
 
 
 def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:

@@ -171,16 +171,25 @@ def scenes(
 def check(
     file: Annotated[Path, typer.Argument(help="A scene file.")], own_blocks: OwnBlocks = None
 ) -> None:
-    """Check a scene file and report its mistakes."""
+    """Check a scene file: drive its agents at random, and report what is wrong, like check_scene.
+
+    It exits with status 1 if a check failed; warnings may be intended.
+    """
+    from ai4u_edu.check import check_scene
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
-    described = Scene.load(file).description
+    scene = Scene.load(file)
+    described = scene.description
     typer.echo(
-        f"{file}: fine: {_count(described.bodies, 'body', 'bodies')}, "
+        f"{file}: {_count(described.bodies, 'body', 'bodies')}, "
         f"{_count(described.floors, 'floor', 'floors')}, "
         f"{_count(described.agents, 'agent', 'agents')}"
     )
+    report = check_scene(scene)
+    typer.echo(str(report))
+    if not report.ok:
+        raise typer.Exit(1)
 
 
 def _count(things: Sized, one: str, many: str) -> str:

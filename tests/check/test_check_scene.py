@@ -1,15 +1,18 @@
 """The check of a whole scene."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from gymnasium.spaces import Box
+from typer.testing import CliRunner
 
 from ai4u_edu import Scene, Sensor, VelocitySensor, check_scene, check_sensor
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.check import Outcome
 from ai4u_edu.check.rollout import standard_scene
+from ai4u_edu.cli.main import app
 
 SCENE = """
 name: tiny
@@ -214,3 +217,63 @@ def test_places_that_nobody_means() -> None:
     assert "pose 1 of 'respawn' of agent '0', (3.2, 0), lies over the void" in places(
         respawns.replace("bodies:", plate)
     )
+
+
+def senses_and_acts(text: str) -> tuple[str, str]:
+    report = check_scene(Scene.loads(text), decisions=2)
+    found = next(each for each in report.findings if each.check == "senses and acts")
+    return found.outcome.value, found.text
+
+
+def test_an_agent_senses_and_acts() -> None:
+    text = with_sensor(SCENE)
+    assert senses_and_acts(text) == ("passed", "")
+    nothing = text.replace("sensors: [{type: VelocitySensor}]", "sensors: []")
+    outcome, told = senses_and_acts(nothing)
+    assert outcome == "warning"
+    assert told.startswith("agent '0' has no sensor, so its brain knows nothing of the world")
+    off = text.replace("{type: VelocitySensor}", "{type: VelocitySensor, is_active: false}")
+    assert "agent '0' has no sensor" in senses_and_acts(off)[1]
+    still = text.replace("[{type: RBMoveActuator}]", "[]")
+    outcome, told = senses_and_acts(still)
+    assert outcome == "warning"
+    assert told.startswith("agent '0' has no actuator, so nothing that its brain decides has an")
+    respawning = text.replace(
+        "{type: RBMoveActuator}", "{type: RespawnActuator, poses: [[0, 0, 0]]}"
+    )
+    assert "agent '0' has no actuator" in senses_and_acts(respawning)[1]
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "says"),
+    [
+        ("{type: circle}", "{type: circle}\n    kind: static", "which can't move"),
+        (
+            "bodies:",
+            "floors: [{name: far, shape: {type: box, size: [1, 1]}, position: [9, 9]}]\nbodies:",
+            "body 'robot' begins over the void",
+        ),
+        ("sensors: [{type: VelocitySensor}]", "sensors: []", "has no sensor"),
+        ("actuators: [{type: RBMoveActuator}]", "actuators: []", "has no actuator"),
+    ],
+)
+def test_the_command_gives_the_same_report(
+    tmp_path: Path, was: str, becomes: str, says: str
+) -> None:
+    text = with_sensor(SCENE).replace(was, becomes)
+    file = tmp_path / "tiny.yaml"
+    file.write_text(text)
+    result = CliRunner().invoke(app, ["check", str(file)])
+    assert result.exit_code == 0
+    assert says in result.output
+    assert str(check_scene(Scene.loads(text))) in result.output
+
+
+def test_the_command_fails_where_the_function_does(tmp_path: Path) -> None:
+    file = tmp_path / "tiny.yaml"
+    text = SCENE.replace("SENSOR", "Leaving")
+    file.write_text(text)
+    result = CliRunner().invoke(app, ["check", str(file)])
+    report = check_scene(Scene.loads(text))
+    assert (result.exit_code, report.ok) == (1, False)
+    assert str(report) in result.output
