@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import HeadingSensor, PositionSensor, RespawnActuator
+from ai4u_edu.base.errors import ParameterError
 from tests.builders import small_sim
 
 POSES: Any = [(1, 2, 0), (-3, 1, 90), (0, -2, -45)]
@@ -82,3 +83,27 @@ def test_a_drawn_heading_leaves_the_choice_of_the_place_as_it_is() -> None:
         for actuator in (plain, turned):
             small_sim(actuators=[actuator]).reset(seed)
         assert plain.last_selected == turned.last_selected
+
+
+@pytest.mark.parametrize(
+    ("poses", "says"),
+    [
+        (
+            [[1, 2]] * 8,
+            "poses: expected x, y, heading in degrees of each pose, as in [1, 2, 90], got [1, 2] "
+            "as pose 0, and 7 more like it",
+        ),
+        (
+            [[1, 2, 3], [1, 2, 3, 4]],
+            "poses: expected x, y, heading in degrees of each pose, as in [1, 2, 90], "
+            "got [1, 2, 3, 4] as pose 1",
+        ),
+        ([[1, 2, "a"]], "poses[0][2]: expected a number, got 'a'"),
+        ([], "poses: expected at least 1 entries, got []"),
+        (5, "poses: expected a list, got 5"),
+    ],
+)
+def test_what_a_pose_is_is_said_once(poses: Any, says: str) -> None:
+    with pytest.raises(ParameterError) as problem:
+        RespawnActuator(poses=poses)
+    assert str(problem.value) == f"RespawnActuator: {says}"

@@ -5,8 +5,9 @@ from typing import Annotated, Any
 
 import numpy as np
 from gymnasium.spaces import Box
-from pydantic import Field
+from pydantic import Field, field_validator
 
+from ai4u_edu.base.errors import shown
 from ai4u_edu.base.parameters import Degrees, Metres
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
@@ -38,6 +39,26 @@ class RespawnActuator(Actuator):
     """True moves the body before the first reading of the episode, False after it."""
     randomise_heading: bool = False
     """True draws a random heading instead of the pose's own."""
+
+    @field_validator("poses", mode="before")
+    @classmethod
+    def _with_headings(cls, poses: Any) -> Any:
+        """Say once what a pose is, and not of each of its numbers that it is missing."""
+        if not isinstance(poses, list | tuple):
+            return poses
+        wrong = [
+            (number, pose)
+            for number, pose in enumerate(poses)
+            if isinstance(pose, list | tuple) and len(pose) != 3
+        ]
+        if wrong:
+            (number, pose), *others = wrong
+            more = f", and {len(others)} more like it" if others else ""
+            raise ValueError(
+                "expected x, y, heading in degrees of each pose, as in [1, 2, 90], "
+                f"got {shown(pose)} as pose {number}{more}"
+            )
+        return poses
 
     def __post_init__(self) -> None:
         super().__post_init__()
