@@ -71,6 +71,7 @@ class Autosave:
         self._folder, self._name = folder, name
         self._on_problem = on_problem
         self._instance = token_hex(6)
+        self._order = 1, 0
         self._lock: FileLock | None = None
         self._holding = threading.Lock()
         self._open_scenes: list[_OpenScene] = []
@@ -81,6 +82,7 @@ class Autosave:
         try:
             folder.mkdir(parents=True, exist_ok=True)
             remove_leftovers(folder)
+            self._order = _last_start(folder) + 1, 0
             prune(folder)
             if not os.access(folder, os.W_OK):
                 self._fail("it may not be written to")
@@ -175,7 +177,8 @@ class Autosave:
             if state is not None:
                 self._hold_lock()
                 entry.file = entry.file or self._file(state.description.name or self._name)
-                _write_file(entry.file, state)
+                self._order = self._order[0], self._order[1] + 1
+                _write_file(entry.file, state, self._order)
             elif entry.file is not None:
                 entry.file.unlink(missing_ok=True)
         except OSError as error:
@@ -214,12 +217,18 @@ def _home() -> Path:
         return Path(os.devnull)
 
 
-def _write_file(file: Path, state: EditState) -> None:
+def _last_start(folder: Path) -> int:
+    """Return the greatest number of a start in a folder's files."""
+    return max((each.order[0] for each in unsaved_scenes(folder, of_running=True)), default=0)
+
+
+def _write_file(file: Path, state: EditState, order: tuple[int, int]) -> None:
     data = {
         "scene": state.description.name,
         "text": state.scene.dumps(),
         "folder": str(state.folder or ""),
         "saved_at": time.time(),
+        "order": order,
     }
     file.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(file, json.dumps(data), mode=0o600)

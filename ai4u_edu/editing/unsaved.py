@@ -35,9 +35,11 @@ class Unsaved:
     text: str
     folder: Path | None
     saved_at: float
-    """Seconds since 1970."""
+    """Seconds since 1970, to be shown to people."""
     name: str = ""
     """Name of the scene."""
+    order: tuple[int, int] = (0, 0)
+    """Number of the server's start, and of its write; clocks may be set between two of them."""
 
     @property
     def when(self) -> str:
@@ -60,15 +62,20 @@ class Unsaved:
             self.file.unlink(missing_ok=True)
 
 
-def unsaved_scenes(folder: Path) -> list[Unsaved]:
-    """Return the unsaved scenes of servers that no longer run, the latest first."""
+def unsaved_scenes(folder: Path, *, of_running: bool = False) -> list[Unsaved]:
+    """Return the unsaved scenes of servers that no longer run, the latest first.
+
+    Args:
+        folder: of the files.
+        of_running: True for those of servers that run, too.
+    """
     found = []
     with suppress(OSError):
         for file in folder.glob(f"*{ENDING}"):
             with suppress(OSError, ValueError, TypeError, KeyError, OverflowError, RecursionError):
-                if not _is_owner_running(file):
+                if of_running or not _is_owner_running(file):
                     found.append(_load(file))
-    return sorted(found, key=lambda each: each.saved_at, reverse=True)
+    return sorted(found, key=lambda each: (each.order, each.saved_at), reverse=True)
 
 
 def latest(folder: Path) -> Unsaved | None:
@@ -146,4 +153,6 @@ def _load(file: Path) -> Unsaved:
     # an earlier version named its files by the scene alone, and wrote no name into them
     owned = OWNED.fullmatch(file.name.removesuffix(ENDING))
     stem = owned["name"] if owned else file.name.removesuffix(ENDING)
-    return Unsaved(file, str(data["text"]), place, saved_at, str(data.get("scene") or stem))
+    start, write = data.get("order", (0, 0))
+    name = str(data.get("scene") or stem)
+    return Unsaved(file, str(data["text"]), place, saved_at, name, (int(start), int(write)))

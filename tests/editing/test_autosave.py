@@ -35,8 +35,8 @@ def written(monkeypatch: pytest.MonkeyPatch) -> Semaphore:
     """Released after each write; without the usual delay before it."""
     done, write = Semaphore(0), autosave._write_file
 
-    def tell(file: Path, state: EditState) -> None:
-        write(file, state)
+    def tell(file: Path, state: EditState, order: tuple[int, int]) -> None:
+        write(file, state, order)
         done.release()
 
     monkeypatch.setattr(autosave, "WRITE_DELAY_S", 0.0)
@@ -166,6 +166,21 @@ def left_by_an_earlier_version(folder: Path, name: str, text: str, ago_s: float 
     (folder / f"{name}.unsaved").write_text(json.dumps(data))
 
 
+def test_the_latest_is_found_after_the_clock_was_set_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left_by_an_earlier_version(tmp_path, "small", "the oldest", ago_s=-3e7)
+    for name, ahead_s in (("first", 1e7), ("second", 0.0), ("third", -1e7)):
+        monkeypatch.setattr(time, "time", lambda ahead_s=ahead_s: NOW + ahead_s)
+        harness, saver = EditorHarness(), Autosave(tmp_path, "small")
+        harness.editor.recovery.autosave = saver
+        harness.done(harness.editor.add_body({"name": name, "position": [0, 3]}))
+        saver.stop()
+    left = [each.text for each in unsaved_scenes(tmp_path)]
+    assert left.pop() == "the oldest"
+    assert ["third" in left[0], "second" in left[1], "first" in left[2]] == [True] * 3
+
+
 def test_one_is_chosen_by_scene_or_number(tmp_path: Path) -> None:
     for number, name in enumerate(["small", "sumo", "box_chase", "box_chase 2"]):
         left_by_an_earlier_version(tmp_path, name, TEXT, ago_s=60.0 * number)
@@ -220,7 +235,7 @@ def test_it_is_brought_back_or_forgotten(tmp_path: Path) -> None:
 
 def test_many_changes_are_written_once(saver: Autosave, monkeypatch: pytest.MonkeyPatch) -> None:
     written = []
-    monkeypatch.setattr(autosave, "_write_file", lambda _file, state: written.append(state))
+    monkeypatch.setattr(autosave, "_write_file", lambda _file, state, _order: written.append(state))
     # the pause after the last change does not come before the end
     monkeypatch.setattr(autosave, "WRITE_DELAY_S", LIMIT_S)
     monkeypatch.setattr(autosave, "MAX_WRITE_DELAY_S", LIMIT_S)
@@ -262,11 +277,11 @@ def test_a_full_disk_is_told_of_once_and_tried_again(
     tries, is_written, write = Semaphore(0), Event(), autosave._write_file
     is_full = [True]
 
-    def written(file: Path, state: EditState) -> None:
+    def written(file: Path, state: EditState, order: tuple[int, int]) -> None:
         tries.release()
         if is_full[0]:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        write(file, state)
+        write(file, state, order)
         is_written.set()
 
     monkeypatch.setattr(autosave, "_write_file", written)
