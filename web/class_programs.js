@@ -1,8 +1,9 @@
 /**
  * The class's copy of a student's programs: saved while they write, and read where they go on.
  *
- * Only a page of a class does this; elsewhere nothing is sent. The program that was changed last counts. Ages are
- * compared, not times, since devices' clocks differ. A program that does not count is kept among the earlier runs.
+ * Only a page of a class does this; elsewhere nothing is sent. The program that was saved last counts. The class numbers
+ * all saves, and a device says which one it has seen last: clocks differ and may be set. A program that does not count
+ * is kept among the earlier runs.
  */
 
 import { element, setText } from "./dom.js";
@@ -15,7 +16,6 @@ const RETRY_DELAYS_MS = [3000, 10_000, 30_000];
 /** Largest body that a page which is closed can still send (characters, all of them maybe of three bytes). */
 const MAX_LAST_CHARS = 20_000;
 const MAX_SCENE_NAME_CHARS = 200;
-const MAX_AGE_S = 3e8;
 const ADDRESS = "../../api/program";
 const NEWER = "The class has a newer program of yours, from another device. It is among the earlier runs.";
 const UNREACHABLE = "The class can't be reached. Your program is kept in this browser, and saved there later.";
@@ -33,7 +33,7 @@ export class ClassPrograms {
   #place = null;
   /** The person has changed or run the program since it was opened. */
   #isTouched = false;
-  /** Programs to save, by place: {place, source, changedAt}. */
+  /** Programs to save, by place: {place, source}. */
   #waiting = new Map();
   /** Text that the class has, by place. */
   #saved = new Map();
@@ -68,7 +68,6 @@ export class ClassPrograms {
   changed(source) {
     if (!this.#isInClass || this.#place === null) return;
     this.#isTouched = true;
-    remember(timeKey(this.#place), Date.now());
     this.#queue(source, SAVE_DELAY_MS);
   }
 
@@ -96,18 +95,18 @@ export class ClassPrograms {
     }
   }
 
-  #compare(place, { source, age }) {
+  #compare(place, { source, version, is_of_device: isOfDevice }) {
     const own = this.#tab.source();
-    const changedAt = recall(timeKey(place), 0);
     if (source === null) {
       if (own !== null) this.#queue(own, 0);
       return;
     }
+    const isSeen = isOfDevice || version === versionOf(place);
+    remember(versionKey(place), version);
     this.#saved.set(keyOf(place), source);
     if (source === own) {
       this.#say("Kept in the class.");
-    } else if (!this.#isTouched && (own === null || age * 1000 < Date.now() - changedAt)) {
-      remember(timeKey(place), Date.now() - age * 1000);
+    } else if (!this.#isTouched && (own === null || !isSeen)) {
       this.#tab.take(source);
       this.#say("This is your program from the class.");
     } else {
@@ -124,8 +123,7 @@ export class ClassPrograms {
       this.#waiting.delete(keyOf(place));
       return;
     }
-    if (!recall(timeKey(place), 0)) remember(timeKey(place), Date.now());
-    this.#waiting.set(keyOf(place), { place, source, changedAt: recall(timeKey(place), 0) });
+    this.#waiting.set(keyOf(place), { place, source });
     this.#saveIn(delay);
   }
 
@@ -150,7 +148,7 @@ export class ClassPrograms {
   }
 
   /** Note the class's answer; return true if the program need not be sent again. */
-  #note(key, program, { status, problem }) {
+  #note(key, program, { status, problem, version }) {
     const isShown = program.place === this.#place;
     if (status === 403) {
       this.#isInClass = false; // a teacher who looks in, or a student who was sent out
@@ -162,16 +160,21 @@ export class ClassPrograms {
     }
     this.#failures = 0;
     if (this.#waiting.get(key) === program) this.#waiting.delete(key);
-    if (status === 200) this.#saved.set(key, program.source);
+    if (status === 200) {
+      this.#saved.set(key, program.source);
+      remember(versionKey(program.place), version);
+    }
     if (status === 409 && isShown) this.#keepNewer(program.place);
     if (isShown) this.#say(status === 200 ? "Kept in the class." : status === 409 ? NEWER : problem);
     return true;
   }
 
-  /** Keep the program of another device that was changed later than this one. */
+  /** Keep the program that another device has saved; what the person changes from now on replaces it in the class. */
   async #keepNewer(place) {
     const { status, found } = await get(place);
-    if (status === 200 && found.source !== null && place === this.#place) this.#tab.keep(found.source);
+    if (status !== 200 || found.source === null || place !== this.#place) return;
+    this.#tab.keep(found.source);
+    remember(versionKey(place), found.version);
   }
 
   /** Save while the page is closed. */
@@ -193,27 +196,27 @@ export class ClassPrograms {
 /** Return the class's answer: {status, found}; status 0 if it can't be reached. */
 async function get({ scene, agent }) {
   try {
-    const answer = await fetch(`${ADDRESS}?${new URLSearchParams({ scene, agent })}`, { cache: "no-store" });
+    const query = new URLSearchParams({ scene, agent, device: deviceId() });
+    const answer = await fetch(`${ADDRESS}?${query}`, { cache: "no-store" });
     return { status: answer.status, found: answer.ok ? await answer.json() : null };
   } catch {
     return { status: 0, found: null };
   }
 }
 
-/** Send a program; return {status, problem}; status 0 if the class can't be reached. */
-async function put({ place, source, changedAt }, options = {}) {
-  const age = Math.min(Math.max(0, (Date.now() - changedAt) / 1000), MAX_AGE_S);
+/** Send a program; return {status, problem, version}; status 0 if the class can't be reached. */
+async function put({ place, source }, options = {}) {
   try {
     const answer = await fetch(ADDRESS, {
       method: "PUT",
       headers: { "Content-Type": "application/json" },
-      body: JSON.stringify({ ...place, source, age }),
+      body: JSON.stringify({ ...place, source, base: versionOf(place), device: deviceId() }),
       ...options,
     });
-    const { problem = "" } = await answer.json().catch(() => ({}));
-    return { status: answer.status, problem };
+    const { problem = "", version = 0 } = await answer.json().catch(() => ({}));
+    return { status: answer.status, problem, version };
   } catch {
-    return { status: 0, problem: "" };
+    return { status: 0, problem: "", version: 0 };
   }
 }
 
@@ -221,7 +224,22 @@ function keyOf({ scene, agent }) {
   return JSON.stringify([scene, agent]);
 }
 
-/** Key of the time at which the program of a place was changed in this browser (ms since 1970). */
-function timeKey({ scene, agent }) {
-  return `code-changed-${roomOfPage()}/${scene}-${agent}`;
+/** Return the latest version of a place's program that this browser has seen; 0 for none. */
+function versionOf(place) {
+  const version = recall(versionKey(place), 0);
+  return Number.isSafeInteger(version) && version > 0 ? version : 0;
+}
+
+function versionKey({ scene, agent }) {
+  return `code-version-${roomOfPage()}/${scene}-${agent}`;
+}
+
+/** Return the random id of this browser in the room, by which the class knows its own saves again. */
+function deviceId() {
+  const key = `code-device-${roomOfPage()}`;
+  const known = recall(key, "");
+  if (typeof known === "string" && /^[\w-]{1,64}$/.test(known)) return known;
+  const made = [...crypto.getRandomValues(new Uint8Array(12))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+  remember(key, made);
+  return made;
 }

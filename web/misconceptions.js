@@ -42,7 +42,7 @@ function namesOf(numbers, seats, realNames) {
 }
 
 function section([exercise, group]) {
-  const cards = [...group].sort((a, b) => b.count - a.count).map(card);
+  const cards = [...group].sort((a, b) => b.count - a.count).map(mistakeCard);
   return element(
     "section",
     { className: "ai4u-mistakes" },
@@ -51,7 +51,8 @@ function section([exercise, group]) {
   );
 }
 
-function card({ count, names, sentence, guide, diagnosis }) {
+/** Return a card with a mistake: how often it was made, what it is, what to say, and by whom. */
+export function mistakeCard({ count, names, sentence, guide, diagnosis = "", examples = [] }) {
   return element(
     "article",
     {},
@@ -60,6 +61,7 @@ function card({ count, names, sentence, guide, diagnosis }) {
       "div",
       {},
       element("p", { className: "ai4u-sentence", textContent: sentence || diagnosis }),
+      ...examples.map((text) => element("p", { textContent: `“${text}”` })),
       guide && element("p", { className: "ai4u-guide" }, element("strong", { textContent: "Say: " }), guide),
       element("p", { className: "ai4u-facts", textContent: `${counted(names.length, "student")}: ${names.join(", ")}` }),
     ),

@@ -6,6 +6,9 @@ import { showForm } from "./form_dialog.js";
 import { roomName } from "./room_words.js";
 
 const UNREACHABLE = "The class can't be reached. Is its program still running?";
+const ELSEWHERE = "In this class, students' programs stay on their own machines.";
+/** Id of the agent of a scene that has one only. */
+const ONLY_AGENT = "0";
 /** Units of an age, the largest first: [seconds, word]. */
 const UNITS = [[86400, "day"], [3600, "hour"], [60, "minute"]];
 
@@ -19,7 +22,7 @@ export function showPrograms(room, state) {
     refresh.disabled = true;
     try {
       const { programs } = await programsOf(room.id);
-      list.replaceChildren(...programs.map(programElement));
+      list.replaceChildren(...programs.map((program) => programElement(program, state)));
       if (programs.length === 0) list.replaceChildren(element("p", { textContent: "Nobody is in this room." }));
       problem.textContent = "";
     } catch (error) {
@@ -37,26 +40,37 @@ export function showPrograms(room, state) {
   return shown;
 }
 
-async function programsOf(room) {
+/** Return the latest programs of a room's seats; of all seats their beginning if `room` is empty. */
+export async function programsOf(room) {
   let answer;
   try {
     answer = await fetch(`./teacher/programs?room=${encodeURIComponent(room)}`, { cache: "no-store" });
   } catch {
     throw new Error(UNREACHABLE);
   }
+  if (answer.status === 404 && !room) throw new Error(ELSEWHERE);
   const found = await answer.json().catch(() => ({}));
   if (!answer.ok) throw new Error(found.problem ?? `The class answered with status ${answer.status}.`);
   return found;
 }
 
-function programElement({ name, source, scene, agent, age }) {
+/** Return where a program is for, and when it was changed. */
+export function programFacts({ scene, agent, age }, { scenes = [] }) {
+  const title = scenes.find(({ name }) => name === scene)?.title ?? scene;
+  return [title, agent !== ONLY_AGENT && `robot ${agent}`, ago(age)].filter(Boolean).join(" · ");
+}
+
+function programElement(program, state) {
+  const { name, source } = program;
   const isAny = source !== null;
-  const facts = isAny ? `${scene} · agent ${agent} · ${ago(age)}` : "no program yet";
+  const facts = isAny ? programFacts(program, state) : "no program yet";
+  const run = state.runs?.[program.seat];
+  const mistake = isAny && run?.state === "mistake" && `Stopped: ${run.line ? `line ${run.line}: ` : ""}${run.text}`;
   const head = element("h3", {}, name, " ", element("small", { className: "ai4u-facts", textContent: facts }));
   const { python = "", isOfBlocks } = isAny ? splitProgram(source) : {};
   if (isOfBlocks) head.lastChild.append(" · made of blocks");
   const text = isAny && element("pre", { tabIndex: 0, "aria-label": `Program of ${name}`, textContent: python });
-  return element("section", {}, head, text);
+  return element("section", {}, head, mistake && element("p", { className: "ai4u-problem", textContent: mistake }), text);
 }
 
 /** Return an age in words. */

@@ -13,6 +13,7 @@ export const STATUSES = {
   idle: { text: "idle", sign: "–" },
   paused: { text: "paused", sign: "Ⅱ" },
   error: { text: "error", sign: "!" },
+  mistake: { text: "program stopped", sign: "!" },
   asleep: { text: "asleep", sign: "☾" },
   away: { text: "not connected", sign: "×" },
 };

@@ -11,10 +11,12 @@ import { showEnd } from "./end_dialog.js";
 import { JoinHeader } from "./join_header.js";
 import { Misconceptions } from "./misconceptions.js";
 import { showNames } from "./names_dialog.js";
+import { ProgramsBoard } from "./programs_board.js";
 import { ProgressTable } from "./progress_table.js";
 import { showRace } from "./race_dialog.js";
 import { RealNames } from "./real_names.js";
 import { showRoom } from "./room_dialog.js";
+import { showPrograms } from "./room_programs.js";
 import { showProjector } from "./show_dialog.js";
 import { TournamentBoard } from "./tournament_board.js";
 import { Wall } from "./wall.js";
@@ -39,6 +41,10 @@ const header = new JoinHeader();
 const strips = new ClassStrips(find("#held"), find("#running-race"));
 const progress = new ProgressTable(find("#view-progress"), realNames);
 const misconceptions = new Misconceptions(find("#view-mistakes"), realNames);
+const programs = new ProgramsBoard(find("#view-programs"), realNames, (number) => {
+  const room = state.rooms.find(({ seats }) => seats.includes(number));
+  if (room) showPrograms(room, state);
+});
 const tournament = new TournamentBoard(find("#view-tournament"), realNames);
 const controls = new WallControls(find("#wall-controls"), wall);
 
@@ -84,7 +90,10 @@ function show(message) {
   sayNobody();
   progress.show(state);
   misconceptions.show(state);
+  programs.show(state);
   tournament.show(state);
+  const stopped = Object.values(state.runs ?? {}).filter((run) => run.state === "mistake").length;
+  setText(find("#stopped-count"), stopped ? `(${stopped} stopped)` : "");
   const mistakes = state.misconceptions?.length ?? 0;
   setText(find("#mistake-count"), mistakes ? `(${mistakes})` : "");
   find("#wall ul").removeAttribute("aria-busy");

@@ -8,6 +8,8 @@ MANY_FALLS = 3
 MANY_EPISODES = 8
 MANY_WRONG = 3
 LONG_IDLE_MINUTES = 1.0
+MISTAKE_HELP = 92
+"""Need for help of a seat whose program was stopped by a mistake."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,7 @@ def help_score(signals: Signals) -> tuple[int, str]:
 
     ======================================  =======================================
     the world has an error                  95
+    a mistake stopped its program           92, of the class and not of the room
     the same wrong answer n >= 3 times      40 + 10 (n - 3), at most 90
     n >= 3 falls, goal not reached          30 + 8 (n - 3), at most 80
     n >= 8 episodes, goal not reached       25 + 3 (n - 8), at most 70

@@ -17,8 +17,10 @@ MAX_SCENE_NAME_CHARS = 200
 MAX_AGENT_NAME_CHARS = 100
 FOLDER = "programs"
 """Folder of programs in ZIP files with the work of a class."""
-_OF_SEAT = "select seat, scene, agent, source, changed_at from programs where seat = ?"
-_LATEST_FIRST = " order by changed_at desc, rowid desc"
+MAX_DEVICE_CHARS = 64
+_ALL = "select seat, scene, agent, source, version, device, saved_at from programs"
+_OF_SEAT = _ALL + " where seat = ?"
+_LATEST_FIRST = " order by version desc"
 
 
 @dataclass(frozen=True)
@@ -30,8 +32,12 @@ class ProgramRow:
     agent: str
     """Id of the agent that it drives."""
     source: str
-    changed_at: float
-    """Time of the last change by this machine's clock (s since 1970)."""
+    version: int
+    """Number of the save, counted over all programs of the class; a later one is greater."""
+    device: str
+    """Random id of the browser that saved it."""
+    saved_at: float
+    """Time by this machine's clock (s since 1970), to be shown to people; it decides nothing."""
 
 
 class Programs:
@@ -45,28 +51,35 @@ class Programs:
     def __init__(self, store: ClassStore, clock: Callable[[], float] = time.time) -> None:
         self._store, self._clock = store, clock
 
-    def save(self, seat: int, scene: str, agent: str, source: str, age_s: float) -> None:
-        """Store a seat's program, unless a newer one is stored; it is on disk on return.
+    def save(
+        self, seat: int, scene: str, agent: str, source: str, *, base: int, device: str
+    ) -> int:
+        """Store a seat's program, unless another device has stored one that this one never saw.
+
+        Saves are counted, as clocks differ between devices and may be set at any time.
 
         Args:
             seat: number of the seat.
             scene: name of the scene.
             agent: id of the agent.
             source: the program.
-            age_s: seconds since it was changed; devices' clocks differ, so no time is told.
+            base: latest version that the device has seen; 0 for none.
+            device: id of the browser.
+
+        Returns:
+            The version, which is on disk.
 
         Raises:
-            NewerProgramError: another device has stored a program that was changed later.
+            NewerProgramError: another device has stored a later version.
             ProgramNotKeptError: the seat has too many programs.
             StoreError: it can't be written.
         """
-        changed_at = self._clock() - age_s
         with self._store.transaction() as database:
             stored = database.execute(
-                "select changed_at from programs where seat = ? and scene = ? and agent = ?",
+                "select version, device from programs where seat = ? and scene = ? and agent = ?",
                 [seat, scene, agent],
             ).fetchone()
-            if stored is not None and stored[0] > changed_at:
+            if stored is not None and stored[0] > base and stored[1] != device:
                 raise NewerProgramError("The class has a newer program, from another device.")
             (count,) = database.execute(
                 "select count(*) from programs where seat = ?", [seat]
@@ -76,10 +89,12 @@ class Programs:
                     f"The class keeps at most {MAX_PROGRAMS} programs of each student, and you "
                     "have that many. This one stays in this browser; download it."
                 )
-            database.execute(
-                "insert or replace into programs values (?, ?, ?, ?, ?)",
-                [seat, scene, agent, source, changed_at],
-            )
+            version: int = database.execute(
+                "insert or replace into programs values (?, ?, ?, ?, "
+                "(select coalesce(max(version), 0) + 1 from programs), ?, ?) returning version",
+                [seat, scene, agent, source, device, self._clock()],
+            ).fetchone()[0]
+        return version
 
     def find(self, seat: int, scene: str, agent: str) -> ProgramRow | None:
         """Return a seat's program; None if there is none."""
@@ -88,15 +103,20 @@ class Programs:
         return ProgramRow(*rows[0]) if rows else None
 
     def of_seat(self, seat: int) -> list[ProgramRow]:
-        """Return a seat's programs, the one that was changed last first."""
+        """Return a seat's programs, the one that was saved last first."""
         rows = self._store.query(_OF_SEAT + _LATEST_FIRST, [seat])
         return [ProgramRow(*row) for row in rows]
 
     def latest_of(self, seat: int) -> ProgramRow | None:
-        """Return the program of a seat that was changed last; None if there is none."""
+        """Return the program of a seat that was saved last; None if there is none."""
         rows = self._store.query(_OF_SEAT + _LATEST_FIRST + " limit 1", [seat])
         return ProgramRow(*rows[0]) if rows else None
 
+    def latest_of_all(self) -> list[ProgramRow]:
+        """Return the program of each seat that was saved last, the latest first."""
+        of_each = " where version in (select max(version) from programs group by seat)"
+        return [ProgramRow(*row) for row in self._store.query(_ALL + of_each + _LATEST_FIRST)]
+
     def age_of(self, program: ProgramRow) -> float:
-        """Return the seconds since a program was changed."""
-        return max(0.0, self._clock() - program.changed_at)
+        """Return the seconds since a program was saved, by a clock that may have been set since."""
+        return max(0.0, self._clock() - program.saved_at)

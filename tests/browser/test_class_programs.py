@@ -128,12 +128,65 @@ def test_a_program_is_kept_goes_on_elsewhere_and_is_read(
     shown = teacher.get_by_label("Program of Red Fox")
     expect(shown).to_be_visible()
     assert shown.text_content() == PROGRAM
-    expect(teacher.get_by_role("heading", name="Red Fox box_chase · agent 0")).to_be_visible()
+    expect(teacher.get_by_role("heading", name="Red Fox Box chase · changed")).to_be_visible()
     teacher.goto(f"{school.url}projector?token={school.token}")
     expect(teacher.locator("#code")).to_have_text(CODE)
     expect(teacher.get_by_role("button", name="Code", exact=True)).to_have_count(0)
     first.close()
     teacher.context.close()
+
+
+def test_a_mistake_reaches_the_teacher_and_goes_with_the_next_run(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ada = school.joined(name="Red Fox")
+    desk = Desk(chromium, ada)
+    desk.write(PROGRAM)
+    mistake = {"ok": False, "kind": "unknown-name", "text": "nothing is called 'x'", "line": 3}
+    desk.page.evaluate(
+        """(mistake) => {
+            fake.decided = fake.decide;
+            fake.decide = () => ({ ...mistake, printed: "", lines: [], variables: {} });
+            const begun = { step: 0, episode: 1, terminated: false, truncated: false };
+            fake.percepts.push({ ...begun, values: {} });
+        }""",
+        mistake,
+    )
+    teacher = teachers_page(chromium, school)
+    desk.page.get_by_role("button", name="Run", exact=True).click()
+    card = teacher.locator("button.ai4u-room").filter(has_text="Red Fox")
+    expect(card).to_contain_text("program stopped: line 3: nothing is called 'x'")
+    teacher.get_by_role("tab", name="Programs (1 stopped)").click()
+    glance = teacher.locator(".ai4u-glance").filter(has_text="Red Fox")
+    expect(glance.locator("[data-mistake]")).to_have_text("    return {}")
+    desk.page.evaluate("fake.decide = fake.decided")
+    desk.page.evaluate(
+        "fake.give({ step: 0, episode: 2, values: {}, terminated: false, truncated: false })"
+    )
+    desk.page.get_by_role("button", name="Run", exact=True).click()
+    expect(glance).to_contain_text("runs")
+    expect(teacher.get_by_role("tab", name="stopped")).to_have_count(0)
+    desk.close()
+    teacher.context.close()
+
+
+def test_a_device_whose_clock_is_set_back_saves_its_program(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ada = school.joined(name="Red Fox")
+    desk = Desk(chromium, ada)
+    desk.page.evaluate("(() => { const now = Date.now; Date.now = () => now() + 3.2e10; })()")
+    desk.write(PROGRAM)
+    desk.is_told("Kept in the class.")
+    desk.page.reload()  # the clock of the page is right again
+    desk.open()
+    assert desk.text == PROGRAM
+    later = f"{PROGRAM}# later\n"
+    desk.write(later)
+    desk.page.get_by_role("button", name="Run", exact=True).click()
+    until(lambda: kept(school, ada) == later)
+    desk.is_told("Kept in the class.")
+    desk.close()
 
 
 @pytest.mark.nightly
@@ -171,7 +224,7 @@ def test_a_newer_program_of_another_device_is_kept_beside_this_one(
     desk.write(PROGRAM)
     desk.is_told("The class can't be reached.")
     newer = f"{PROGRAM}# of another device"
-    body = {"scene": SCENE, "agent": AGENT, "source": newer, "age": 0}
+    body = {"scene": SCENE, "agent": AGENT, "source": newer, "base": 0, "device": "other"}
     assert ada.client.put("api/program", json=body).status_code == 200
     desk.page.unroute_all()
     serve_fakes(desk.page)

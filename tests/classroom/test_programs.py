@@ -36,39 +36,61 @@ def store(tmp_path: Path) -> Iterator[ClassStore]:
         yield store
 
 
-def test_the_program_that_was_changed_last_is_kept(store: ClassStore) -> None:
-    now = 1000.0
+def test_the_program_that_was_saved_last_is_kept_whatever_the_clock_says(
+    store: ClassStore,
+) -> None:
+    now = 1e9
     programs = Programs(store, lambda: now)
-    programs.save(1, "Maze", "robot", "first", 5.0)
-    programs.save(1, "Maze", "robot", "second", 0.0)
-    now += 10
+
+    def save(source: str, device: str, base: int, scene: str = "Maze") -> int:
+        return programs.save(1, scene, "robot", source, base=base, device=device)
+
+    first = save("first", "a", 0)
+    now -= 3600  # the clock is set back
+    second = save("second", "a", first)
+    assert save("second, whose answer was lost", "a", first) > second
     with pytest.raises(NewerProgramError, match="newer"):
-        programs.save(1, "Maze", "robot", "of a device without network", 11.0)
-    found = Programs(store, lambda: now).find(1, "Maze", "robot")
+        save("of a device that has not seen it", "b", 0)
+    known = programs.find(1, "Maze", "robot")
+    assert known is not None
+    assert known.source == "second, whose answer was lost"
+    assert programs.age_of(known) == 0
+    save("third", "b", known.version)
+    with pytest.raises(NewerProgramError, match="newer"):
+        save("of the first device", "a", known.version)
+    now -= 3600
+    save("of another scene", "a", 0, "Tag")
+    now += 10
+    programs = Programs(store, lambda: now)
+    found = programs.find(1, "Maze", "robot")
     assert found is not None
-    assert (found.source, programs.age_of(found)) == ("second", 10.0)
+    assert found.source == "third"
     assert programs.find(1, "Maze", "other") is None
     assert programs.find(2, "Maze", "robot") is None
-    programs.save(1, "Tag", "robot", "of another scene", 9.0)
     latest = programs.latest_of(1)
     assert latest is not None
-    assert latest.source == "of another scene"
+    assert (latest.source, programs.age_of(latest)) == ("of another scene", 10.0)
     assert [each.scene for each in programs.of_seat(1)] == ["Tag", "Maze"]
 
 
 def test_a_seat_has_a_limit_of_programs_and_loses_none(store: ClassStore) -> None:
     programs = Programs(store)
+
+    def save(seat: int, scene: str) -> None:
+        programs.save(seat, scene, "robot", "pass", base=0, device="a")
+
     for number in range(MAX_PROGRAMS):
-        programs.save(1, f"Scene {number}", "robot", "pass", 0.0)
+        save(1, f"Scene {number}")
     with pytest.raises(ProgramNotKeptError, match="at most 50"):
-        programs.save(1, "One more", "robot", "pass", 0.0)
-    programs.save(1, "Scene 3", "robot", "changed", 0.0)
-    programs.save(2, "One more", "robot", "pass", 0.0)
+        save(1, "One more")
+    save(1, "Scene 3")
+    save(2, "One more")
     assert len(programs.of_seat(1)) == MAX_PROGRAMS
 
 
 def put(student: Student, **changes: Any) -> httpx.Response:
-    body = {"scene": "Maze", "agent": "robot", "source": "pass", "age": 0} | changes
+    body: dict[str, Any] = {"scene": "Maze", "agent": "robot", "source": "pass"}
+    body |= {"base": 0, "device": "a"} | changes
     return student.client.put("api/program", json=body)
 
 
@@ -93,10 +115,10 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
 def test_only_the_own_browser_and_the_teacher_read_a_program(served: ServedClass) -> None:
     ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
     source = f"{MARKUP}{RUNS}# \u00e9\u0000\U0001f600"
-    assert put(ada, source=source, age=100).status_code == 200
+    assert put(ada, source=source).status_code == 200
     answer = found(ada)
     assert (answer["source"], answer["scene"], answer["agent"]) == (source, "Maze", "robot")
-    assert 100 <= answer["age"] < 1000  # it has the seconds since then, too
+    assert (answer["version"], answer["is_of_device"]) == (1, False)
     assert found(ben) == {"source": None}
     stranger = served.student()
     assert put(stranger).status_code == 403
@@ -113,7 +135,7 @@ def test_only_the_own_browser_and_the_teacher_read_a_program(served: ServedClass
     assert other["seat"] != answer[0]["seat"]
     evil = ada.client.put(
         "api/program",
-        json={"scene": "Maze", "agent": "robot", "source": "evil", "age": 0},
+        json={"scene": "Maze", "agent": "robot", "source": "evil", "base": 9, "device": "a"},
         headers={"Origin": "http://evil.example"},
     )
     assert evil.status_code == 403
@@ -126,23 +148,63 @@ def test_bad_input_gets_a_sentence_and_many_requests_are_refused(served: ServedC
     answer = put(eve, source="x" * (MAX_PROGRAM_CHARS + 1))
     assert (answer.status_code, "100000 characters" in answer.json()["problem"]) == (422, True)
     assert "body of at most" in put(eve, source="x" * 10**6).json()["problem"]
-    bad: list[dict[str, Any]] = [{"age": -1}, {"age": "nan"}, {"scene": ""}, {"agent": "x" * 101}]
+    bad: list[dict[str, Any]] = [{"base": -1}, {"base": 0.5}, {"base": 2**60}, {"scene": ""}]
+    bad += [{"agent": "x" * 101}, {"device": ""}, {"device": "x" * 65}]
     for changes in [*bad, {"source": None}, {"more": 1}]:
         answer = put(eve, **changes)
         assert answer.status_code == 422, changes
         assert answer.json()["problem"].startswith(next(iter(changes)))
-    text = '{"scene": "Maze", "agent": "robot", "source": "\\ud800", "age": 0}'
+    text = '{"scene": "Maze", "agent": "robot", "source": "\\ud800", "base": 0, "device": "a"}'
     json = {"Content-Type": "application/json"}
     answer = eve.client.put("api/program", content=text, headers=json)
     assert answer.status_code == 422, answer.text
     assert eve.client.put("api/program", content=text).status_code == 415
-    assert put(eve, age=0).status_code == 200
-    assert put(eve, age=50).status_code == 409
+    assert put(eve).status_code == 200
+    assert put(eve, device="b").status_code == 409
     codes = [put(eve).status_code for _ in range(MAX_REQUESTS_AT_ONCE)]
     taken = codes.index(429)
     assert taken > 0
     assert codes == [200] * taken + [429] * (MAX_REQUESTS_AT_ONCE - taken)
     assert put(served.joined()).status_code == 200
+
+
+def report(student: Student, **run: Any) -> httpx.Response:
+    return student.client.put("api/program/run", json=run)
+
+
+@pytest.mark.slow
+def test_a_mistake_in_a_program_is_on_the_wall_first_and_outlasts_a_crash(tmp_path: Path) -> None:
+    folder = tmp_path / "class"
+    with served_class(folder, replaced=NONE_FORGOTTEN) as served:
+        ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
+        assert put(ada, source="x = speed").status_code == 200
+        mistake = {"kind": "unknown-name", "text": "nothing is called 'speed'", "line": 1}
+        assert report(ada, state="running").status_code == 200
+        assert report(ada, state="mistake", **mistake).status_code == 200
+        assert report(ada, state="mistake", **mistake).status_code == 200
+        assert report(served.student(), state="running").status_code == 403
+        bad: list[dict[str, Any]] = [{"kind": "fun"}, {"line": -1}, {"text": "x" * 701}, {"a": 1}]
+        for changes in bad:
+            assert report(ben, state="mistake", **changes).status_code == 422, changes
+        assert report(ben, state="walks").status_code == 422
+        os.kill(served.process.pid, signal.SIGKILL)
+    with served_class(folder, replaced=NONE_FORGOTTEN) as served:
+        told = served.state()
+        first = told["rooms"][0]
+        assert (first["seats"], first["help"]) == ([1], 92)
+        assert first["why"] == "program stopped: line 1: nothing is called 'speed'"
+        (row,) = told["program_mistakes"]
+        assert (row["kind"], row["count"], row["seats"]) == ("unknown-name", 2, [1])
+        programs = of_room(served, "", served.token).json()["programs"]
+        assert [(each["name"], each["source"]) for each in programs] == [("Red Fox", "x = speed")]
+        page = zip_of(served.export())["results.html"].decode()
+        assert "A name that has no value" in page
+        back = served.student()
+        back.client.cookies.update(dict(ada.client.cookies))
+        assert report(back, state="running").status_code == 200
+        told = served.state()
+        assert [each["why"] for each in told["rooms"]] == [""] * len(told["rooms"])
+        assert told["runs"]["1"]["state"] == "running"
 
 
 @pytest.mark.slow
