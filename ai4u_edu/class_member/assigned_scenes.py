@@ -13,13 +13,14 @@ from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shorten
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.scene_pictures import load_by_name
 from ai4u_edu.editing.scene_store import SceneExistsError, SceneStore
+from ai4u_edu.recording.scene_export import export_scene, without_brains
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene, SceneDescription
-from ai4u_edu.wire.class_link import Applied, Assignment
+from ai4u_edu.wire.class_link import Applied, Assignment, race_assignment
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 MEMORY = "class.json"
-"""File with the id of the last assignment, and a hash of the scene that the class gave."""
+"""File with ids of the last assignment and race, and a hash of the scene that the class gave."""
 OPEN_TIMEOUT_S = 30.0
 """Usual time that the world has to open a scene; a block that does not return may keep it from
 that."""
@@ -56,6 +57,7 @@ class AssignedScenes:
         memory = _read(folder / MEMORY) if folder is not None else {}
         self._last = str(memory.get("assignment", ""))
         self._given = str(memory.get("given", ""))
+        self._race = str(memory.get("race", ""))
         self._remember_at: float | None = None
         if not self._given and editor is not None:
             self._given = _fingerprint(editor.state.description)
@@ -63,7 +65,7 @@ class AssignedScenes:
 
     def apply(self, assignment: Assignment) -> Applied:
         """Open an assignment's scene unless that was done before; return the answer."""
-        if assignment.id == self._last:
+        if assignment.id in (self._last, race_assignment(self._race)):
             return Applied(assignment.id)
         try:
             if assignment.scene:
@@ -86,13 +88,37 @@ class AssignedScenes:
         editor = self._editor
         if editor is None:
             raise SetupError("this world can't open another scene; it was shown without one")
-        scene = editor.read(source, "scene") if "\n" in source else _named(source)
+        scene = self._read(source)
         self._save_own(editor)
         self._result(editor.open(scene))
         if seed is not None:
             self._result(self._runner.reset(seed))
         self._given = _fingerprint(scene.description)
         self._remember_at = self._clock() + REMEMBER_DELAY_S
+
+    def open_race(self, race: str, source: str, seed: int) -> list[Any]:
+        """Open a race's scene, unless this room or its process before has done so for this race.
+
+        Args:
+            race: id of the race.
+            source: as for :meth:`open`.
+            seed: of the race.
+
+        Returns:
+            The scene's parts that determine an episode.
+
+        Raises:
+            AI4UError: as :meth:`open`.
+        """
+        if self._race != race:
+            self.open(source, seed)
+            self._race = race
+        return without_brains(export_scene(self._read(source).build()))
+
+    def _read(self, source: str) -> Scene:
+        if self._editor is not None and "\n" in source:
+            return self._editor.read(source, "scene")
+        return _named(source)
 
     def poll(self) -> None:
         """Write what is to be remembered, when it is time."""
@@ -153,7 +179,7 @@ class AssignedScenes:
         self._remember_at = None
         if self._folder is None:
             return
-        memory = {"assignment": self._last, "given": self._given}
+        memory = {"assignment": self._last, "given": self._given, "race": self._race}
         try:
             write_atomically(self._folder / MEMORY, json.dumps(memory))
         except OSError:  # such as a full disk: the assignment is opened again after a restart

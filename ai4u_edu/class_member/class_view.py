@@ -18,6 +18,7 @@ class _Shown:
     name: str = ""
     colour: str = ""
     people: tuple[Person, ...] = ()
+    has_teacher: bool = False
     attention: Attention | None = None
     attention_ends_at: float | None = None
     race: Race | None = None
@@ -51,8 +52,8 @@ class ClassView:
         self._change(name=message.name, colour=message.colour)
 
     def set_people(self, message: People) -> None:
-        """Show who else has this world."""
-        self._change(people=message.people)
+        """Show who else has this world, and whether the teacher looks in."""
+        self._change(people=message.people, has_teacher=message.has_teacher)
 
     def set_lesson(self, lesson: str) -> None:
         """Show the lesson that the class is at; empty for none."""
@@ -112,6 +113,7 @@ class ClassView:
                 }
                 for each in shown.people
             ],
+            "has_teacher": shown.has_teacher and not is_teacher,
             "attention": {
                 "kind": shown.attention.kind if shown.attention else "",
                 "message": shown.attention.message if shown.attention else "",

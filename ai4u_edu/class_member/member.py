@@ -74,7 +74,7 @@ class ClassMember:
         editor: of the world; None if the scene can't be changed.
         link: settings of the link, or a function that makes one for a receiver of messages.
         folder: of the world's files, which exists; left out, what has to outlast the process (the
-            last assignment, undelivered results) does not.
+            last assignment, undelivered results, counts) does not.
         title: of the scene, where there is no editor.
         show_ghosts: shows the ghosts of episodes in the page, each with a name.
         page: as :attr:`ClassLinkSettings.page`, where ``link`` is a function.
@@ -114,7 +114,8 @@ class ClassMember:
             clock,
             open_timeout,
         )
-        self._room_state, self._thumbnail = RoomState(clock), Thumbnail()
+        self._room_state = RoomState(clock, folder, self._scene(), self._scene_title)
+        self._thumbnail = Thumbnail()
         self._attention_lock = threading.Lock()
         self._attention_until: float | None = None
         self._state: State | None = None
@@ -147,6 +148,8 @@ class ClassMember:
         self._race.stop()
         self._holds.end()
         self._scenes.stop()
+        if self._state is not None:
+            self._room_state.save(self._state, at_once=True)
         self.link.stop()
 
     def _add_recorder(self) -> None:
@@ -204,7 +207,8 @@ class ClassMember:
         self._watch.follow()
         self._race.poll()
         self._scenes.poll()
-        self._room_state.note_scene(self._watch.scene)
+        if self._watch.scene is not None:  # else it was not counted yet
+            self._room_state.note_scene(self._watch.scene)
         self._report_episodes()
         self._report_state()
         if not self.link.is_connected:
@@ -281,6 +285,8 @@ class ClassMember:
         if is_due or before is None or state != replace(before, seconds=state.seconds):
             self._state, self._state_sent_at = state, now
             self.link.send(state)
+        if self._watch.scene is not None:
+            self._room_state.save(state)
 
     def _report_work(self) -> None:
         editor, now = self._editor, self._clock()

@@ -57,7 +57,7 @@ class RaceRun:
         self._track: list[Any] = []
         """The scene's parts that determine an episode."""
         self._starts_at = -math.inf
-        self._is_started = False
+        self._is_started = self._is_late = False
         self._was_locked = False
         self._best = math.inf
         self._best_of = ""
@@ -86,6 +86,8 @@ class RaceRun:
             self._show_best(self._race)
         if race.id != self._best_of:
             self._best_of, self._best = race.id, math.inf
+        if race.own_best > 0:  # of an earlier process, say
+            self._best = min(self._best, race.own_best)
         is_shown = bool(race.id) and answer is None
         self._view.set_race(race if is_shown else None, starts_at, self._own_best())
         return answer
@@ -100,7 +102,8 @@ class RaceRun:
                 return
             self._is_started = True
             self._holds.refresh()
-            self._runner.start_episode()
+            if not self._is_late:  # else nobody may be there: the first key starts it
+                self._runner.start_episode()
         if self._runner.latest.seed != race.seed:
             self._runner.submit(lambda: self._restore_seed(race))
 
@@ -129,31 +132,35 @@ class RaceRun:
         self._ghosts = ()
 
     def _prepare(self, race: Race, starts_at: float) -> Applied | None:
+        self._is_late = starts_at <= self._clock()
         self._holds.for_race(starts_at)
         self._was_locked = self._runner.latest.is_seed_locked
         try:
-            self._scenes.open(race.scene, race.seed)
-            self._track = self._runner.submit(self._lock).result(self._open_timeout)
+            self._track = self._scenes.open_race(race.id, race.scene, race.seed)
+            self._race, self._starts_at, self._is_started = race, starts_at, False
+            self._runner.submit(lambda: self._go_to_start(race)).result(self._open_timeout)
         except (AI4UError, TimeoutError) as error:
+            self._race = None
             self._holds.for_race(-math.inf)
             return Applied(race.id, shorten(f"the race: {error}", MAX_TEXT_CHARS))
-        self._race, self._starts_at, self._is_started = race, starts_at, False
         self._watch.has_recordings = True
         return None
 
-    def _lock(self) -> list[Any]:
-        """Repeat the seed from now on, and return the scene's parts; in the world's thread."""
+    def _go_to_start(self, race: Race) -> None:
+        """Go to the race's start and repeat it, unless another scene is open.
+
+        In the world's thread.
+        """
         sim = self._runner.sim
-        sim.is_seed_locked = True
-        return without_brains(export_scene(sim))
+        if self._race is race and without_brains(export_scene(sim)) == self._track:
+            sim.is_seed_locked = True
+            if sim.world.seeds.seed != race.seed or sim.world.ticks:
+                sim.reset(race.seed)
 
     def _restore_seed(self, race: Race) -> None:
-        """Go back to the race's seed, unless another scene was opened; in the world's thread."""
-        sim = self._runner.sim
-        is_other = sim.world.seeds.seed != race.seed
-        if self._race is race and is_other and without_brains(export_scene(sim)) == self._track:
-            sim.is_seed_locked = True
-            sim.reset(race.seed)
+        """Go back to the race's seed; in the world's thread."""
+        if self._runner.sim.world.seeds.seed != race.seed:
+            self._go_to_start(race)
 
     def _own_best(self) -> float | None:
         return None if math.isinf(self._best) else round(self._best, 2)

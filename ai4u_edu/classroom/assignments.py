@@ -2,10 +2,10 @@
 
 import secrets
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ai4u_edu.classroom.store import ClassStore
-from ai4u_edu.wire.class_link import Assignment
+from ai4u_edu.wire.class_link import Assignment, race_assignment
 
 EVERY_ROOM = ""
 """Id in the place of a room's for rooms that have no assignment of their own, also later ones."""
@@ -47,18 +47,38 @@ class Assignments:
         """Return a room's assignment; an empty one if nothing is assigned."""
         return self._by_room.get(room) or self._by_room.get(EVERY_ROOM, NONE)
 
-    def assign(self, scene: AssignedScene, rooms: Iterable[str] | None, seed: int | None) -> None:
+    def assign_race(self, scene: AssignedScene, race: str) -> None:
+        """Store a race's scene for students who come later; rooms that know the race have it.
+
+        Args:
+            scene: of the race.
+            race: its id.
+
+        Raises:
+            StoreError: it can't be stored; then nothing has changed.
+        """
+        lesson = self._by_room.get(EVERY_ROOM, NONE).lesson
+        self.assign(replace(scene, lesson=lesson), None, None, race_assignment(race))
+
+    def assign(
+        self,
+        scene: AssignedScene,
+        rooms: Iterable[str] | None,
+        seed: int | None,
+        name: str = "",
+    ) -> None:
         """Store an assignment, which replaces others.
 
         Args:
             scene: the scene.
             rooms: ids of the rooms; None for all, also those of students who come later.
             seed: of the world; None for a random one in each room.
+            name: id of the assignment; by default a random one.
 
         Raises:
             StoreError: it can't be stored; then nothing has changed.
         """
-        name = secrets.token_hex(8)
+        name = name or secrets.token_hex(8)
         facts = (scene.title, scene.text, seed, scene.lesson, scene.program)
         assignment = Assignment(name, *facts)
         places = [EVERY_ROOM] if rooms is None else list(rooms)

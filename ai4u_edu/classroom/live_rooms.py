@@ -5,6 +5,7 @@ import time
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from ai4u_edu.class_member.room_counts import RoomCounts
 from ai4u_edu.classroom.help_score import Signals, help_score
 from ai4u_edu.wire.class_link import Drawing, FromClass, People, Poses, Shape, State, Work
 
@@ -54,6 +55,12 @@ class LiveRoom:
         if state.status == "idle" and not was_idle:
             self.idle_since = time.monotonic()
         self.state = state
+
+    def note_counts(self, counts: RoomCounts) -> None:
+        """Take what an earlier process of the room has counted, until it runs again."""
+        if counts.episodes:
+            numbers = counts.episodes, counts.falls, counts.is_solved
+            self.state = State("idle", counts.scene, "", 0.0, *numbers)
 
     def note_drawing(self, drawing: Drawing) -> None:
         """Take a new drawing; poses of another one are void."""

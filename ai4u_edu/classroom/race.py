@@ -95,8 +95,10 @@ class Races:
         """Seconds until the start; 0 after it."""
         return max(0.0, self._starts_at - self._clock())
 
-    def start(self, scene: AssignedScene, seed: int | None, countdown: float, hide: bool) -> None:
-        """Begin a race, in the place of one before.
+    def start(
+        self, scene: AssignedScene, seed: int | None, countdown: float, hide: bool
+    ) -> RaceState:
+        """Begin a race, in the place of one before, and return it.
 
         Raises:
             StoreError: it can't be stored; then nothing has changed.
@@ -111,6 +113,7 @@ class Races:
             )
         self.now, self.results = race, {}
         self._starts_at = self._clock() + countdown
+        return race
 
     def change(self, *, phase: Phase | None = None, hide: bool | None = None) -> None:
         """Change the present race's phase, or hide or show its board.

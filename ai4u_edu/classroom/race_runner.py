@@ -7,7 +7,7 @@ from typing import Any
 
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.errors import StoreError
-from ai4u_edu.classroom.race import RaceResult, Races
+from ai4u_edu.classroom.race import WINNING, RaceResult, Races
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.wire.class_link import Race, RaceRow
 
@@ -36,7 +36,7 @@ class RaceRunner:
         self._judging: asyncio.Task[None] | None = None
         self._has_news = False
         self._told_at = 0.0
-        self._ghosts: tuple[bytes, ...] = ()
+        self._ghosts = races.ghosts()
 
     def note_results(self) -> None:
         """Note that there are new results, or that they have changed."""
@@ -71,21 +71,23 @@ class RaceRunner:
         finally:
             self._judging = None
 
-    def message(self) -> Race:
-        """Return the race as rooms get it."""
+    def messages(self) -> Callable[[str], Race]:
+        """Return a function that returns the race as a room gets it."""
         race = self._races.now
         if race is None:
-            return NO_RACE
+            return lambda _room: NO_RACE
+        best = self._races.best()
+        times = {room: each.seconds for room, each in best.items() if each.outcome in WINNING}
         rows: list[RaceRow] = []
         if not race.is_board_hidden:
-            best = sorted(self._races.best().values(), key=lambda each: each.rank)
             rows = [
                 RaceRow(*self._who(each.room), each.outcome, each.seconds, each.room)
-                for each in best
+                for each in sorted(best.values(), key=lambda each: each.rank)
             ]
         starts_in = self._races.starts_in_s
         fields = (race.id, race.phase, starts_in, race.scene, race.seed, tuple(rows))
-        return Race(*fields, self._ghosts)
+        ghosts = self._ghosts
+        return lambda room: Race(*fields, ghosts, times.get(room, 0.0))
 
     def event(self, *, is_projected: bool) -> dict[str, Any] | None:
         """Return the race as the teacher's page and the projector page get it."""

@@ -243,6 +243,8 @@ class People(TaggedMessage, frozen=True):
     people: Annotated[tuple[Person, ...], LIST]
     is_visited: bool = True
     """False while no page and no script is connected: a room of the class's machine may rest."""
+    has_teacher: bool = False
+    """True while the teacher has the page of a room of the class's machine open."""
 
 
 class Assignment(TaggedMessage, frozen=True):
@@ -302,6 +304,13 @@ class Race(TaggedMessage, frozen=True):
     """Best first; empty while the teacher hides it."""
     ghosts: Annotated[tuple[bytes, ...], Meta(max_length=3)] = ()
     """Recorded episodes of the best three."""
+    own_best: Finite = 0.0
+    """Shortest time (s) of the room to the goal that the class has checked; 0 for none."""
+
+
+def race_assignment(race: str) -> str:
+    """Return the id of the assignment with which a race's scene comes to later students."""
+    return f"race-{race}"
 
 
 class Problem(TaggedMessage, frozen=True):

@@ -8,7 +8,7 @@ from ai4u_edu import Scene
 from ai4u_edu.class_member.member import MIN_RESULT_INTERVAL_S
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.file import decode, encode
-from ai4u_edu.wire.class_link import Applied, EpisodeResult, Race, RaceRow
+from ai4u_edu.wire.class_link import Applied, EpisodeResult, Race, RaceRow, State
 from tests.class_member.fake_link import Joined, joined
 from tests.waiting import LIMIT_S, until
 
@@ -122,12 +122,47 @@ def test_what_counts_in_a_race_is_an_untouched_episode_of_its_scene_and_seed() -
         assert fall().race == ""
 
 
+def press(room: Joined) -> None:
+    """Press a driving key, as a page does."""
+    room.runner.start_episode()
+
+
 def test_a_student_who_comes_late_starts_when_the_key_is_pressed() -> None:
-    with joined(wait_for_key=True) as room:
+    with joined("maze", wait_for_key=True) as room:
         room.tell(race("running"))
-        until(lambda: room.runner.latest.seed == 11 and room.runner.latest.is_seed_locked)
-        until(lambda: room.runner.latest.tick > 0 or room.runner.latest.waiting == "key")
-        assert room.runner.latest.waiting != "teacher"
+        room.poll()
+        until(lambda: room.runner.latest.waiting == "key" and room.runner.latest.seed == 11)
+        room.poll()
+        assert room.runner.latest.tick == 0
+        assert room.runner.latest.is_seed_locked
+        press(room)
+        drive_to_the_box(room)
+        assert room.episode_result().race == "r1"
+
+
+def test_after_a_restart_nobodys_clock_runs_and_nothing_is_forgotten(tmp_path: Path) -> None:
+    with joined("maze", tmp_path, wait_for_key=True) as room:
+        started(room)
+        drive_to_the_box(room)
+        assert room.episode_result().race == "r1"
+        room.state(is_solved=True)
+    with joined("box_chase", tmp_path, wait_for_key=True) as room:
+        room.tell(race("running", own_best=1.25))
+        until(lambda: room.member.view.version > 0)
+        assert own_best(room) == 1.25
+        room.poll()
+        assert (room.runner.latest.waiting, room.runner.latest.tick) == ("key", 0)
+        assert (room.runner.latest.seed, room.runner.latest.is_seed_locked) == (11, True)
+        assert all(each.is_solved for each in room.link.of(State))
+        press(room)
+        drive_to_the_box(room)
+        assert room.episode_result().race == "r1"
+    with joined("parking", tmp_path, wait_for_key=True) as room:  # it has left the race's scene
+        room.tell(race("running"))
+        until(lambda: (room.member.view.event("student", 0) or {}).get("race"))
+        room.poll()
+        assert room.editor.state.description.name == "parking"
+        assert not room.runner.latest.is_seed_locked
 
 
 def test_a_race_that_can_not_be_opened_is_answered() -> None:

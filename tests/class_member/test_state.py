@@ -1,11 +1,12 @@
 """States and results of a room are what happened there."""
 
 import math
+from pathlib import Path
 
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.class_member.room_state import IDLE_S, RoomState
+from ai4u_edu.class_member.room_state import DRIVING_S, IDLE_S, RoomState
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.wire.class_link import HEARTBEAT_S, Drawing, EpisodeResult, Poses, State, Work
 from tests.class_member.fake_link import Clock, Joined, joined
@@ -19,7 +20,7 @@ def drive_off(room: Joined) -> None:
 
 def test_falls_restarts_and_goals_are_counted_and_told() -> None:
     with joined() as room:
-        first = room.state(status="driving", driver="A person", scene=room.editor.title)
+        first = room.state(status="idle", driver="A person", scene=room.editor.title)
         assert (first.episodes, first.falls, first.is_solved, first.error) == (1, 0, False, "")
         drive_off(room)
         room.state(status="fell", falls=1, episodes=1)
@@ -32,6 +33,33 @@ def test_falls_restarts_and_goals_are_counted_and_told() -> None:
         robot = room.runner.sim.agents[0]
         room.runner.submit(lambda: robot.add_reward(0.0, request_done=True)).result(LIMIT_S)
         assert (room.episode_result(1).outcome, room.episode_result(1).seed) == ("over", 5)
+
+
+def reach_the_goal(room: Joined) -> None:
+    def touch() -> None:
+        sim = room.runner.sim
+        sim.agents[0].body.move_to(*sim.world["box"].position)
+
+    room.runner.submit(touch).result(LIMIT_S)
+
+
+def test_counts_of_a_scene_outlast_the_process_of_the_room(tmp_path: Path) -> None:
+    with joined(folder=tmp_path) as room:
+        drive_off(room)
+        room.state(falls=1)
+        room.clock.now += 1
+        room.runner.reset(5)
+        room.state(episodes=2)
+        reach_the_goal(room)
+        room.state(is_solved=True)
+    with joined(folder=tmp_path) as room:
+        room.state(episodes=3)
+        assert {(each.falls, each.is_solved) for each in room.link.of(State)} == {(1, True)}
+        room.editor.open(Scene.load("box_chase")).result(LIMIT_S)  # the same one, but again
+        room.state(episodes=1, falls=0, is_solved=False)
+    with joined("parking", tmp_path) as room:
+        first = room.next(State)
+        assert (first.episodes, first.falls, first.is_solved) == (1, 0, False)
 
 
 def test_another_scene_is_counted_anew_and_its_text_sent() -> None:
@@ -126,19 +154,27 @@ class Watched:
         return self.state.read(picture, self.sim, title="A scene", version=version, begun=1)
 
 
-def test_who_neither_drives_nor_edits_for_a_minute_is_idle() -> None:
+def test_who_neither_drives_nor_edits_is_soon_idle() -> None:
     room = Watched()
-    assert room.read().status == "driving"
-    room.clock.now += IDLE_S - 1
-    assert room.read().status == "driving"
-    room.clock.now += 1
-    assert room.read().status == "idle"
+    assert room.read().status == "idle"  # nobody has done anything since the process began
     assert room.read(version=1).status == "driving"
-    room.clock.now += IDLE_S
+    room.clock.now += DRIVING_S - 1
+    assert room.read(version=1).status == "driving"
+    room.clock.now += 1
     assert room.read(version=1).status == "idle"
     room.sim.agents[0].keyboard.timeout_s = math.inf
     room.sim.agents[0].keyboard.hold({"KeyW"})
     assert room.read(version=1).status == "driving"
+
+
+def test_a_world_that_waits_is_idle_after_a_minute() -> None:
+    room = Watched()
+    room.read()
+    assert room.read(version=1, waiting="key").status == "waiting"
+    room.clock.now += IDLE_S - 1
+    assert room.read(version=1, waiting="key").status == "waiting"
+    room.clock.now += 1
+    assert room.read(version=1, waiting="key").status == "idle"
 
 
 @pytest.mark.parametrize("paused", [True, False])
