@@ -18,8 +18,9 @@ export class Why {
   #switch = toggle("Show because of what", (isOn) => this.#toggle(isOn));
   #sentence = element("p", { className: "ai4u-why-sentence" });
   #list = element("ul", { className: "ai4u-why-list", ariaLabel: "Slots that move the action most" });
+  #also = element("p", { className: "ai4u-soft", hidden: true });
   #limits = element("p", { className: "ai4u-soft" });
-  #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#limits);
+  #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#also, this.#limits);
   #whatIf;
   element = element("div", {}, this.#switch.element, this.#result);
 
@@ -81,7 +82,9 @@ export class Why {
     keyed(this.#list, part.top, ({ name }) => name, makeSlot, (item, slot) => drawSlot(item, slot, part.components, scale));
     this.#whatIf.update(!part.problem);
     this.#limits.hidden = Boolean(part.problem);
-    setText(this.#limits, `${part.limits} Compared with ${part.baseline}.`);
+    setText(this.#also, part.also ?? "");
+    this.#also.hidden = !part.also;
+    setText(this.#limits, [`Compared with ${part.baseline}.`, part.explained, part.limits].filter(Boolean).join(" "));
     this.#onChange();
   }
 }

@@ -19,7 +19,7 @@ from ai4u_edu.explain.field import Field, field
 from ai4u_edu.explain.groups import Group, groups_of_agent
 from ai4u_edu.explain.occlusion import LIMITS, Occlusion, occlusion
 from ai4u_edu.explain.reward_terms import RewardTerms, reward_terms
-from ai4u_edu.explain.sentence import axes_of_agent, sentence
+from ai4u_edu.explain.sentence import axes_of_agent, explained, sentence
 from ai4u_edu.explain.value_map import ValueMap, value_map
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "RewardTerms",
     "ValueMap",
     "axes_of_agent",
+    "explained",
     "field",
     "first_disagreement",
     "groups_of_agent",

@@ -1,11 +1,12 @@
 """Two drivers on what one agent sensed in an episode: where they first disagree, and why."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks import Percept
 from ai4u_edu.explain.baseline import Baseline, mean_of
 from ai4u_edu.explain.disagreement import DEFAULT_TOLERANCE, first_disagreement
 from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, middle_of_infos, parts_of
@@ -27,12 +28,28 @@ class Comparison(NamedTuple):
     actions: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
     """Both actions there."""
     sentences: tuple[str, str] = ("", "")
-    """The slot that each of them sees as decisive there, in words."""
+    """The slot that each of them sees as decisive there, in words; empty for what was done."""
+
+
+class _RecordedActions:
+    """The actions that an agent took, as a function of the percepts that it had then."""
+
+    __slots__ = ("_actions",)  # without attributes that Policy would compare at each decision
+
+    def __init__(self, agents: Sequence[AgentState], keys: Iterable[str]) -> None:
+        wanted = list(keys)
+        self._actions = {
+            id(agent.percept): {key: agent.action[key] for key in wanted if key in agent.action}
+            for agent in agents
+        }
+
+    def __call__(self, percept: Percept) -> dict[str, tuple[float, ...]]:
+        return self._actions[id(percept)]
 
 
 def compare(
-    first: Policy,
-    second: Policy,
+    first: Policy | None,
+    second: Policy | None,
     agents: Sequence[AgentState],
     *,
     tolerance: float = DEFAULT_TOLERANCE,
@@ -40,8 +57,8 @@ def compare(
     """Return where two policies first disagree, and what each of them sees as decisive there.
 
     Args:
-        first: a policy.
-        second: another one.
+        first: a policy; None for what the agent did.
+        second: another one, likewise.
         agents: states of one agent at its decisions, in order.
         tolerance: difference of one number of an action from which they disagree.
 
@@ -52,8 +69,11 @@ def compare(
     percepts = [agent.percept for agent in agents]
     if not percepts:
         raise SetupError("expected an episode with at least one decision, got none")
-    told = first_disagreement(first, second, percepts, tolerance=tolerance, groups=())
-    axes = axes_of(agents[0].actuator_infos, list(first.answer(percepts[0])))
+    asked = first or second
+    keys = list(agents[0].action if asked is None else asked.answer(percepts[0]))
+    did = Policy(_RecordedActions(agents, keys))
+    told = first_disagreement(first or did, second or did, percepts, tolerance=tolerance, groups=())
+    axes = axes_of(agents[0].actuator_infos, keys)
     if len(axes) != len(told.components):
         axes = [Axis(name, -1.0, 1.0) for name in told.components]
     # numbers without effect are not trained, and differ at random
@@ -69,6 +89,9 @@ def compare(
     baseline: Baseline = mean_of(percepts) if is_long else middle_of_infos(agent.sensor_infos)
     sentences = []
     for policy in (first, second):
+        if policy is None:
+            sentences.append("")
+            continue
         inputs = set(policy.inputs(percept))
         groups = parts_of([info for info in agent.sensor_infos if info.key in inputs], agent)
         because = occlusion(policy, percept, baseline=baseline, groups=groups)

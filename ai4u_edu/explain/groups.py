@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import SetupError, suggest
-from ai4u_edu.blocks import CodeLegend, RayPicture
+from ai4u_edu.blocks import CodeLegend, RayPicture, SpotPicture
 from ai4u_edu.snapshot.block_info import SensorInfo, block_info_of, sensor_pictures_of
 
 Kind = Literal["slot", "sensor"]
@@ -27,7 +27,7 @@ class Group(NamedTuple):
     mask: Mask
     """(size,) True for each number of the flattened reading that belongs to it."""
     sees: str = ""
-    """Group that a ray meets at this moment; ``nothing`` if none, empty for what is no ray."""
+    """Group that a ray or an eye meets at this moment; ``nothing`` if none, empty for others."""
 
 
 def slots_of(percept: Mapping[str, Any], keys: Iterable[str]) -> list[Group]:
@@ -72,29 +72,39 @@ def groups_of_agent(agent: BasicAgent, *, whole: bool = False) -> list[Group]:
     """
     inputs = {each.perception_key for each in agent.bound_blocks.sensors if each.is_input}
     infos = [info for info in block_info_of(agent).sensor_infos if info.key in inputs]
-    rays = sensor_pictures_of(agent).rays
-    return groups_of(infos, rays, whole=whole)
+    pictures = sensor_pictures_of(agent)
+    return groups_of(infos, pictures.rays, pictures.spots, whole=whole)
 
 
 def groups_of(
-    infos: Sequence[SensorInfo], rays: Mapping[str, RayPicture], *, whole: bool = False
+    infos: Sequence[SensorInfo],
+    rays: Mapping[str, RayPicture],
+    spots: Mapping[str, SpotPicture],
+    *,
+    whole: bool = False,
 ) -> list[Group]:
     """Return the groups of sensors that are described, as :func:`groups_of_agent` does."""
     found: list[Group] = []
     for info in infos:
-        parts = _parts(info, rays.get(info.key))
+        parts = _parts(info, rays.get(info.key), spots.get(info.key))
         found += parts
         if whole and len(parts) > 1:
             found += _wholes(info, rays.get(info.key))
     return found
 
 
-def _parts(info: SensorInfo, picture: RayPicture | None) -> list[Group]:
+def _parts(info: SensorInfo, picture: RayPicture | None, spots: SpotPicture | None) -> list[Group]:
     if picture is not None:
         planes = _planes(info, len(picture.groups))
         if planes:
             return _rays(info, picture, planes)
     count = len(info.low)
+    if spots is not None and not info.slots and len(spots.lit) == count:
+        seen = info.groups[0] if info.groups else "something"
+        return [
+            _group(f"eye {index + 1}", info, [index], seen if is_lit else "nothing")
+            for index, is_lit in enumerate(spots.lit)
+        ]
     names = info.slots or tuple(map(str, range(count)))
     return [
         _group(f"{info.key}: {name.replace('_', ' ')}" if count > 1 else info.key, info, [index])

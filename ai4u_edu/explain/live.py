@@ -16,7 +16,15 @@ from ai4u_edu.explain.errors import NotExplainableError
 from ai4u_edu.explain.groups import Group, groups_of
 from ai4u_edu.explain.occlusion import Occlusion, occlusion
 from ai4u_edu.explain.policy import Policy
-from ai4u_edu.explain.sentence import MIN_SHARE, Axis, axes_of, sentence, shares_of
+from ai4u_edu.explain.sentence import (
+    MIN_SHARE,
+    Axis,
+    axes_of,
+    decisive,
+    explained,
+    sentence,
+    shares_of,
+)
 from ai4u_edu.explain.what_if import Changes, WhatIf, what_if
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.block_info import SensorInfo
@@ -39,6 +47,7 @@ MAX_MEAN_PERCEPTS = 600
 Floats = npt.NDArray[np.float64]
 
 KEYS_DRIVE = "A person drives: no slot of the percept decides. Choose a network or a controller."
+MIDDLE = "the middle of its range"
 GONE = "There is no such agent any more."
 SCRIPT_DRIVES = "A script elsewhere drives; only it can say why."
 
@@ -63,6 +72,10 @@ class Why:
     """The most important slot in words."""
     baseline: str = ""
     """The baseline in words."""
+    also: str = ""
+    """The sentence with the other baseline, if another slot is decisive there."""
+    explained: str = ""
+    """How much of what all slots do together the single ones explain."""
     axes: tuple[Axis, ...] = ()
     """The numbers of the action."""
     groups: tuple[Group, ...] = ()
@@ -234,11 +247,22 @@ class Driver:
         chosen = recorded or self._baseline(percept)
         told = occlusion(policy, percept, baseline=chosen.readings, groups=groups)
         axes = axes_of(agent.actuator_infos, list(policy.answer(percept)))
+        also = ""
+        if recorded is None and self._mean is not None:
+            other = NamedBaseline(MIDDLE, self._middle)
+            there = occlusion(policy, percept, baseline=other.readings, groups=groups)
+            if not decisive(told, axes) and decisive(there, axes):
+                # a robot that stands still makes the mean what it senses now
+                (chosen, told), (other, there) = (other, there), (chosen, told)
+            if decisive(told, axes) != decisive(there, axes):
+                also = f"Compared with {other.words} instead: {sentence(there, axes)}"
         shares = shares_of(told, axes)
         return Why(
             agent.id,
             sentence=sentence(told, axes),
             baseline=chosen.words,
+            also=also,
+            explained=explained(told, axes),
             axes=tuple(axes),
             groups=told.groups,
             shares=tuple(tuple(each) for each in shares),
@@ -251,7 +275,7 @@ class Driver:
             if len(self._seen) >= MIN_MEAN_PERCEPTS and len(self._seen) % MEAN_EVERY == 0:
                 self._mean = mean_of(self._seen)
         if self._mean is None:
-            return NamedBaseline("the middle of its range", self._middle)
+            return NamedBaseline(MIDDLE, self._middle)
         return NamedBaseline(f"the mean of the last {len(self._seen)} percepts", self._mean)
 
 
@@ -259,7 +283,7 @@ def parts_of(infos: Sequence[SensorInfo], agent: AgentState) -> list[Group]:
     """Return the groups of sensors to leave out; a large picture is left out as a whole."""
     found: list[Group] = []
     for info in infos:
-        parts = groups_of([info], agent.rays)
+        parts = groups_of([info], agent.rays, agent.spots)
         if len(parts) > MAX_PARTS:
             parts = [
                 Group(f"all of {info.key}", info.key, np.logical_or.reduce([p.mask for p in parts]))

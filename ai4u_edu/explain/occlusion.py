@@ -5,7 +5,8 @@ another one seems to matter less than it does, and a percept with one slot repla
 that never occurs, for which nobody trained the network.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,6 +25,18 @@ LIMITS = (
     "can both seem unimportant, and the changed percept may be one that never occurs."
 )
 """The method's limits, in words for people."""
+OTHER_NUMBERS = (
+    "the policy's action has other numbers for a changed percept; expected the same actuators in "
+    "each answer"
+)
+SAME_ACTION = 1e-6
+"""Largest difference of any number of two actions that count as the same."""
+FEW_ALONE = 0.25
+"""Share of what all groups do together below which a group alone hardly does anything."""
+PROBES = 8
+"""Percepts with random numbers that are tried to find out whether anything is looked at."""
+MAX_PROBE = 10.0
+"""Largest of these numbers."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +51,15 @@ class Occlusion:
     """(c,) the action with everything there."""
     without: Floats
     """(n, c) the action without each group."""
+    base: Floats | None = None
+    """(c,) the action without all groups: everything has the baseline's values."""
+    is_at_baseline: bool = False
+    """True if all groups have the baseline's values now, so that nothing was left out."""
+    together: tuple[int, ...] = ()
+    """Indices of groups that move the action if all of them are left out, while each of them alone
+    hardly does; empty if there are none."""
+    is_deaf: bool = False
+    """True if the action was the same for everything that was tried: nothing is looked at."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -55,6 +77,11 @@ class Occlusion:
         if not len(self.components):
             return np.zeros(len(self.groups))
         return np.asarray(np.abs(self.shift).max(axis=1, initial=0.0))
+
+    @property
+    def whole(self) -> Floats:
+        """(c,) how far all groups together move each number: the action minus the base."""
+        return np.asarray(self.action - (self.action if self.base is None else self.base))
 
     def strongest(self) -> int:
         """Return the index of the group that matters most."""
@@ -104,12 +131,26 @@ def occlusion(
             "remembers"
         )
     if any(len(row) != len(action) for row in rows):
-        raise NotExplainableError(
-            "the policy's action has other numbers for a changed percept; expected the same "
-            "actuators in each answer"
-        )
+        raise NotExplainableError(OTHER_NUMBERS)
     table = np.stack(rows) if rows else np.zeros((0, len(action)))
-    return Occlusion(tuple(chosen), asked.components, action, table)
+    components = asked.components
+    search = _Search(asked, percept, chosen, baseline, action)
+    everything = range(len(chosen))
+    base = asked.decide(search.without(everything))
+    if len(base) != len(action):
+        raise NotExplainableError(OTHER_NUMBERS)
+    whole, alone = _moved(base, action), max((_moved(row, action) for row in rows), default=0.0)
+    is_still = whole <= SAME_ACTION and alone <= SAME_ACTION
+    return Occlusion(
+        tuple(chosen),
+        components,
+        action,
+        table,
+        base,
+        is_at_baseline=bool(chosen) and search.is_at_baseline(),
+        together=search.needed(whole) if alone < FEW_ALONE * whole else (),
+        is_deaf=is_still and search.is_deaf(),
+    )
 
 
 def without(percept: Percepts, group: Group, baseline: Baseline) -> Percepts:
@@ -129,6 +170,73 @@ def without(percept: Percepts, group: Group, baseline: Baseline) -> Percepts:
         )
     changed = np.where(group.mask.reshape(reading.shape), other.reshape(reading.shape), reading)
     return changed_percept(percept, {group.key: changed.astype(reading.dtype)})
+
+
+class _Search:
+    """Leaves out several groups at once.
+
+    Args:
+        policy: the policy.
+        percept: the percept.
+        groups: all groups.
+        baseline: a reading for each key.
+        action: the action on the percept.
+    """
+
+    def __init__(
+        self,
+        policy: Policy,
+        percept: Percepts,
+        groups: Sequence[Group],
+        baseline: Baseline,
+        action: Floats,
+    ) -> None:
+        self._policy, self._percept, self._groups = policy, percept, groups
+        self._baseline, self._action = baseline, action
+
+    def without(self, numbers: Iterable[int], baseline: Baseline | None = None) -> Percepts:
+        """Return the percept without the groups of these indices."""
+        percept = self._percept
+        for number in numbers:
+            percept = without(percept, self._groups[number], baseline or self._baseline)
+        return percept
+
+    def is_at_baseline(self) -> bool:
+        """Return True if all groups have the baseline's values now."""
+        changed = self.without(range(len(self._groups)))
+        keys = dict.fromkeys(group.key for group in self._groups)
+        return all(
+            np.array_equal(np.asarray(changed[key]), np.asarray(self._percept[key])) for key in keys
+        )
+
+    def needed(self, whole: float) -> tuple[int, ...]:
+        """Return groups that move the action together, of which none can stay; in n decisions."""
+        left = list(range(len(self._groups)))
+        for index in range(len(self._groups)):
+            fewer = [each for each in left if each != index]
+            moved = _moved(self._policy.decide(self.without(fewer)), self._action)
+            if moved >= whole / 2:
+                left = fewer
+        return tuple(left)
+
+    def is_deaf(self) -> bool:
+        """Return True if the action stays the same whatever the groups' numbers are."""
+        keys = dict.fromkeys(group.key for group in self._groups)
+        rng = np.random.default_rng(0)
+        for size in np.geomspace(1.0, MAX_PROBE, PROBES):
+            other = {key: rng.uniform(-size, size, np.shape(self._percept[key])) for key in keys}
+            percept = self.without(range(len(self._groups)), other)
+            if _moved(self._policy.decide(percept), self._action) > SAME_ACTION:
+                return False
+        return True
+
+
+def _moved(one: Floats, other: Floats) -> float:
+    """Return the largest difference of any number of two actions; infinite for other numbers."""
+    if len(one) != len(other):
+        return math.inf
+    apart = np.abs(one - other)[~(np.isnan(one) & np.isnan(other))]
+    return float(np.nan_to_num(apart, nan=math.inf, posinf=math.inf).max(initial=0.0))
 
 
 def changed_percept(percept: Percepts, values: Mapping[str, npt.NDArray[Any]]) -> Percepts:

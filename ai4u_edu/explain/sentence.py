@@ -1,7 +1,10 @@
 """The reason for an action as a sentence, from the slot that matters most."""
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
+
+import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.explain.groups import Group
@@ -11,6 +14,15 @@ from ai4u_edu.snapshot.numbers import number
 
 MIN_SHARE = 0.05
 """Share of a component's range that a movement needs to be told."""
+SAME_SHARE = 0.01
+"""Difference of two movements, relative to the larger one, up to which they are equal."""
+MAX_NAMES = 3
+"""Most slots that a sentence names."""
+NO_NUMBER = "Its action has a number that is none (NaN), so nothing can be said about it."
+SMALL_SHARE = 0.001
+"""Least share that is told of a slot that moves the action little."""
+TOLERANCE = 0.25
+"""Share of what all slots do together by which the sum of the single ones may differ unnoticed."""
 NEUTRAL_SHARE = 0.05
 """Share of a component's range around 0 that counts as doing nothing."""
 
@@ -21,6 +33,14 @@ SIDES = {
     "forward": ("drives forward", "drives backward", "stands still"),
     "throttle": ("drives forward", "drives backward", "stands still"),
     "jump": ("jumps", "jumps", "does not jump"),
+    "forward jump": ("jumps forward", "jumps forward", "does not jump forward"),
+    "left": ("turns its left wheel forward", "turns its left wheel back", "stops its left wheel"),
+    "right": (
+        "turns its right wheel forward",
+        "turns its right wheel back",
+        "stops its right wheel",
+    ),
+    "grip": ("closes its hand", "opens its hand", "opens its hand"),
 }
 """Words for a number above 0, below 0 and near 0, by the component's name."""
 
@@ -68,8 +88,7 @@ def shares_of(told: Occlusion, axes: Sequence[Axis]) -> list[list[float]]:
     A number that has no effect counts as 0; so does one of an action with other numbers. A choice
     that changes counts as 1, as it can't change by half.
     """
-    if len(axes) != len(told.components):
-        axes = [Axis(name, -1.0, 1.0) for name in told.components]
+    axes = _fitting(told, axes)
     return [
         [_share(float(moved), axis) for moved, axis in zip(row, axes, strict=True)]
         for row in told.shift
@@ -83,9 +102,11 @@ def sentence(told: Occlusion, axes: Sequence[Axis]) -> str:
         told: the result of :func:`~ai4u_edu.explain.occlusion`.
         axes: the action's numbers, as :func:`axes_of_agent` gives them.
     """
+    axes = _fitting(told, axes)
+    has_effect = [axis.has_effect for axis in axes]
+    if not np.isfinite(told.action[has_effect]).all():
+        return NO_NUMBER
     shares = shares_of(told, axes)
-    if len(axes) != len(told.components):
-        axes = [Axis(name, -1.0, 1.0) for name in told.components]
     sizes = [
         (abs(share), row, axis)
         for row, each in enumerate(shares)
@@ -94,21 +115,118 @@ def sentence(told: Occlusion, axes: Sequence[Axis]) -> str:
     # the first of several that are equal
     size, row, index = max(sizes, key=lambda each: each[0], default=(0.0, 0, 0))
     if size < MIN_SHARE:
+        return _no_single(told, axes, size, row)
+    axis, now = axes[index], float(told.action[index])
+    otherwise = float(told.without[row, index])
+    equal = [
+        number
+        for number, each in enumerate(shares)
+        if abs(each[index]) >= (1 - SAME_SHARE) * size
+        and _words(axis, float(told.without[number, index])) == _words(axis, otherwise)
+    ]
+    without = "it" if len(equal) == 1 else "one of them"
+    return _because(axis, now, otherwise, _reasons(told, equal), without)
+
+
+def explained(told: Occlusion, axes: Sequence[Axis]) -> str:
+    """Return how much of what all slots do together the single ones explain, in a sentence.
+
+    Empty if that is not known, or for an action that can't change by half.
+
+    Args:
+        told: as for :func:`sentence`.
+        axes: as for :func:`sentence`.
+    """
+    axes = _fitting(told, axes)
+    if told.base is None or not told.groups:
+        return ""
+    shares = np.array(shares_of(told, axes)).reshape(len(told.groups), len(axes))
+    whole = np.array(
+        [_share(float(each), axis) for each, axis in zip(told.whole, axes, strict=True)]
+    )
+    index = int(np.abs(whole).argmax()) if len(whole) else 0
+    if not len(whole) or axes[index].is_choice or abs(whole[index]) < MIN_SHARE:
+        return ""
+    part = float(shares[:, index].sum() / whole[index])
+    text = f"Left out one by one, the slots explain {max(0.0, part):.0%} of what all do together"
+    if part > 1 + TOLERANCE:
+        return f"{text}: some need each other."
+    return f"{text}: some stand in for others." if part < 1 - TOLERANCE else f"{text}."
+
+
+def decisive(told: Occlusion, axes: Sequence[Axis]) -> frozenset[str]:
+    """Return the names of the slots that matter most; empty if no single one decides."""
+    sizes = [max(map(abs, each), default=0.0) for each in shares_of(told, axes)]
+    size = max(sizes, default=0.0)
+    if size < MIN_SHARE:
+        return frozenset()
+    least = (1 - SAME_SHARE) * size
+    return frozenset(told.names[row] for row, each in enumerate(sizes) if each >= least)
+
+
+def _no_single(told: Occlusion, axes: Sequence[Axis], size: float, row: int) -> str:
+    """Return a sentence for a decision that no slot alone explains, with its cause."""
+    text = (
+        f"No single slot decides: without any one of them the action moves by less than "
+        f"{MIN_SHARE:.0%} of its range."
+    )
+    none = np.flatnonzero(~np.isfinite(told.without).all(axis=1))
+    if len(none):
+        return f"Without {told.names[none[0]]}, its action would have a number that is none (NaN)."
+    if told.base is None:
+        return text
+    whole = [abs(_share(float(each), axis)) for each, axis in zip(told.whole, axes, strict=True)]
+    largest = max(whole, default=0.0)
+    if largest >= MIN_SHARE:
+        index = whole.index(largest)
+        now, base = float(told.action[index]), float(told.base[index])
+        if 1 < len(told.together) <= MAX_NAMES:
+            reasons = _reasons(told, told.together)
+            without = "both" if len(told.together) == 2 else "all of them"
+            return _because(axes[index], now, base, reasons, without, " together")
         return (
-            f"No single slot decides: without any one of them the action moves by less than "
-            f"{MIN_SHARE:.0%} of its range."
+            f"Many slots decide together: each of them alone moves the action by less than "
+            f"{MIN_SHARE:.0%} of its range, all of them by {largest:.0%}."
         )
-    axis, group = axes[index], told.groups[row]
-    now, otherwise = float(told.action[index]), float(told.without[row, index])
+    if told.is_deaf:
+        return "It looks at nothing: the action is the same whatever it senses."
+    if told.is_at_baseline:
+        return (
+            "All that it senses now is as in the comparison, so there is nothing to leave out. "
+            "Let it move on."
+        )
+    if size >= SMALL_SHARE:
+        return (
+            f"Nothing that it senses moves the action much: {told.names[row]} moves it most, by "
+            f"{size:.1%} of its range."
+        )
+    return (
+        "Nothing that it senses now decides: it would do the same if all of it were as in the "
+        "comparison."
+    )
+
+
+def _because(
+    axis: Axis, now: float, otherwise: float, reasons: str, without: str, how: str = ""
+) -> str:
     words, other = _words(axis, now), _words(axis, otherwise)
-    reason = _reason(group)
     if words != other:
-        return f"It {words} because {reason}; without it, it would {_infinitive(other)}."
+        return (
+            f"It {words} because {reasons}{how}; without {without}, it would {_infinitive(other)}."
+        )
     only = ("", "only ") if abs(now) > abs(otherwise) else ("only ", "")
     return (
-        f"It {words} by {only[0]}{number(abs(now))} because {reason}; without it, it would by "
-        f"{only[1]}{number(abs(otherwise))}."
+        f"It {words} by {only[0]}{number(abs(now))} because {reasons}{how}; without {without}, it "
+        f"would by {only[1]}{number(abs(otherwise))}."
     )
+
+
+def _reasons(told: Occlusion, rows: Sequence[int]) -> str:
+    """Return the reasons of groups, joined; a few of many."""
+    named = [_reason(told.groups[row]) for row in rows[:MAX_NAMES]]
+    if len(rows) > MAX_NAMES:
+        return f"{', '.join(named)} and {len(rows) - MAX_NAMES} more"
+    return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
 
 
 def _reason(group: Group) -> str:
@@ -118,8 +236,14 @@ def _reason(group: Group) -> str:
     return f"of {group.name}"
 
 
+def _fitting(told: Occlusion, axes: Sequence[Axis]) -> Sequence[Axis]:
+    if len(axes) == len(told.components):
+        return axes
+    return [Axis(name, -1.0, 1.0) for name in told.components]
+
+
 def _share(moved: float, axis: Axis) -> float:
-    if not axis.has_effect:
+    if not axis.has_effect or not math.isfinite(moved):
         return 0.0
     if axis.is_choice:
         return float(moved != 0)

@@ -94,7 +94,7 @@ def _dials(info: SensorInfo, agent: AgentState) -> list[Dial]:
         return []
     latest = reading.reshape(info.stack, -1)[-1]
     found = []
-    for group in groups_of([info], agent.rays):
+    for group in groups_of([info], agent.rays, agent.spots):
         numbers = np.flatnonzero(group.mask[: len(info.low)])
         parts = ("",) if len(numbers) == 1 else (": code", ": distance")
         found += [

@@ -102,7 +102,7 @@ def _summary(module: ModuleType, name: str) -> str:
     value = getattr(module, name)
     if inspect.isclass(value) or inspect.isroutine(value):
         return (inspect.getdoc(value) or "").partition("\n")[0]
-    return _text_of(name)
+    return constant_text(module.__name__, name)
 
 
 def _entry(module: ModuleType, name: str) -> str:
@@ -120,30 +120,39 @@ def _entry(module: ModuleType, name: str) -> str:
         )
     if inspect.isroutine(value):
         return f".. autofunction:: {full}\n"
-    return f".. py:data:: {full}\n   :value: {value!r}\n\n   {_text_of(name)}\n"
+    text = constant_text(module.__name__, name)
+    return f".. py:data:: {full}\n   :value: {value!r}\n\n   {text}\n"
 
 
-@cache
-def _constants() -> dict[str, str]:
-    """Return the texts under the package's constants and type aliases, by name.
+def constant_text(module: str, name: str) -> str:
+    """Return the text under a constant or type alias, where the module or a package got it from.
 
     Sphinx finds the text of a class and a function in the object, and a constant has none.
     """
-    found: dict[str, str] = {}
-    for file in sorted((ROOT / "ai4u_edu").rglob("*.py")):
-        body = ast.parse(file.read_text(encoding="utf-8")).body
-        for assigned, text in pairwise(body):
-            match assigned, text:
-                case (
-                    ast.Assign(targets=[ast.Name(id=name)]),
-                    ast.Expr(value=ast.Constant(value=str(words))),
-                ):
-                    found[name] = " ".join(words.split())
-    return found
+    own = _module_body(module)
+    for assigned, text in pairwise(own):
+        match assigned, text:
+            case (
+                ast.Assign(targets=[ast.Name(id=each)]) | ast.AnnAssign(target=ast.Name(id=each)),
+                ast.Expr(value=ast.Constant(value=str(words))),
+            ) if each == name:
+                return " ".join(words.split())
+    for each in own:
+        match each:
+            case ast.ImportFrom(module=str(other), names=names):
+                for alias in names:
+                    if (alias.asname or alias.name) == name:
+                        return constant_text(other, alias.name)
+    return ""
 
 
-def _text_of(name: str) -> str:
-    return _constants().get(name, "")
+@cache
+def _module_body(module: str) -> list[ast.stmt]:
+    """Return the statements of a module of this package, and of its stub; none of any other."""
+    path = ROOT / module.replace(".", "/")
+    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    files = [each for each in (file, file.with_suffix(".pyi")) if each.is_file()]
+    return [node for each in files for node in ast.parse(each.read_text(encoding="utf-8")).body]
 
 
 def _rows(cls: type) -> list[ParameterRow]:

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from ai4u_edu import ControlRequestor, LocalBrain, Scene, trained_brain
+from ai4u_edu.blocks import Percept
 from ai4u_edu.explain import groups_of_agent, mean_of, middle_of, occlusion
 from ai4u_edu.explain import live as live_explainer
-from ai4u_edu.explain.live import Driver, LiveExplainer, Why
+from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, Driver, LiveExplainer, Why
+from ai4u_edu.explain.occlusion import changed_percept
 from ai4u_edu.snapshot import AgentState, capture_snapshot, capture_static_scene
 from tests.explain.test_sentence import turns_for_ray
 from tests.explain.worlds import robot_and_box
@@ -64,6 +66,22 @@ def test_after_a_while_the_baseline_is_the_mean_of_what_was_sensed() -> None:
     (index,) = [i for i, group in enumerate(found.groups) if group.name == "bearing: sine"]
     moved = seen[-1]["bearing"][0] - mean_of(seen)["bearing"][0]
     assert found.shares[index][1] == pytest.approx(moved / 2, abs=1e-5)
+
+
+def test_a_robot_that_stands_still_is_compared_with_the_middle_and_says_so() -> None:
+    sim = robot_and_box(lambda percept: {"move": [0.3, percept["bearing"][1], 0, 0]})
+    state = state_of(sim)
+    driver = Driver(sim.agents[0].brain, state)
+    found = driver.why(state)
+    assert found.also == ""  # there is no mean yet
+    for _ in range(MIN_MEAN_PERCEPTS):
+        same = changed_percept(state.percept, {})
+        assert isinstance(same, Percept)
+        found = driver.why(state._replace(percept=same))
+    assert found.baseline == "the middle of its range"
+    assert "bearing: cosine" in found.sentence
+    assert found.also.startswith("Compared with the mean of the last 50 percepts instead: All that")
+    assert found.explained == "Left out one by one, the slots explain 100% of what all do together."
 
 
 def test_who_can_not_be_explained_is_told_why() -> None:

@@ -1,5 +1,7 @@
 """The names of rays, and the sentence about the one that matters."""
 
+import math
+import re
 from typing import Any
 
 import numpy as np
@@ -12,10 +14,19 @@ from ai4u_edu import (
     ControlRequestor,
     LocalBrain,
     RayCastingSensor,
+    Scene,
     World,
 )
-from ai4u_edu.explain import axes_of_agent, groups_of_agent, middle_of, occlusion, sentence
+from ai4u_edu.explain import (
+    axes_of_agent,
+    explained,
+    groups_of_agent,
+    middle_of,
+    occlusion,
+    sentence,
+)
 from ai4u_edu.explain.groups import Group
+from ai4u_edu.explain.sentence import Axis
 from tests.explain.worlds import robot_and_box
 
 
@@ -98,12 +109,121 @@ def test_all_codes_and_all_distances_of_a_fan(distances: bool) -> None:
         assert 0 < seen[groups["all distances of eyes"].mask].max() < 1
 
 
-def test_nothing_decides() -> None:
-    said = told_of(robot_and_box(lambda percept: {"move": [1, 0, 0, 0]}))
-    assert said == (
-        "No single slot decides: without any one of them the action moves by less than 5% of its "
-        "range."
+ZERO = {"a": np.zeros(()), "b": np.zeros(())}
+ONE = {"a": np.float64(1.0), "b": np.float64(1.0)}
+
+
+def of(policy: Any, percept: dict[str, Any] = ONE, axes: tuple[Axis, ...] = ()) -> list[str]:
+    """Return the sentence about a policy of two numbers, and how much of the whole it explains."""
+    told = occlusion(lambda percept: [policy(**percept)], percept, baseline=ZERO)
+    return [sentence(told, axes), explained(told, axes)]
+
+
+@pytest.mark.parametrize(
+    ("policy", "percept", "words"),
+    [
+        pytest.param(
+            lambda a, b: 0.5,
+            ONE,
+            "It looks at nothing: the action is the same whatever it senses.",
+            id="nothing-is-looked-at",
+        ),
+        pytest.param(
+            lambda a, b: 0.3 + max(0.0, a - 2),
+            ONE,
+            "Nothing that it senses now decides: it would do the same if all of it were as in the "
+            "comparison.",
+            id="bias-only",
+        ),
+        pytest.param(
+            lambda a, b: max(a, b),
+            ONE,
+            "It has action above 0 because of a and of b together; without both, it would have "
+            "action near 0.",
+            id="two-together",
+        ),
+        pytest.param(
+            lambda a, b: a + b,
+            {"a": np.float64(0.0), "b": np.float64(0.0)},
+            "All that it senses now is as in the comparison, so there is nothing to leave out. "
+            "Let it move on.",
+            id="at-the-baseline",
+        ),
+        pytest.param(
+            lambda a, b: 0.03 * a,
+            ONE,
+            "Nothing that it senses moves the action much: a moves it most, by 1.5% of its range.",
+            id="small-effect",
+        ),
+    ],
+)
+def test_each_cause_of_no_single_slot_has_its_sentence(
+    policy: Any, percept: dict[str, Any], words: str
+) -> None:
+    assert of(policy, percept)[0] == words
+
+
+def test_equal_slots_are_all_named_and_the_sum_of_the_parts_is_told() -> None:
+    assert of(lambda a, b: a * b) == [
+        "It has action above 0 because of a and of b; without one of them, it would have action "
+        "near 0.",
+        "Left out one by one, the slots explain 200% of what all do together: some need each "
+        "other.",
+    ]
+    assert of(lambda a, b: a + b / 10)[1] == (
+        "Left out one by one, the slots explain 100% of what all do together."
     )
+    assert of(lambda a, b: max(a, b))[1] == (
+        "Left out one by one, the slots explain 0% of what all do together: some stand in for "
+        "others."
+    )
+
+
+def test_many_small_parts_are_told_as_that() -> None:
+    many = {"all": np.ones(30)}
+    told = occlusion(
+        lambda percept: [percept["all"].sum() / 30], many, baseline={"all": np.zeros(30)}
+    )
+    assert sentence(told, []) == (
+        "Many slots decide together: each of them alone moves the action by less than 5% of its "
+        "range, all of them by 50%."
+    )
+
+
+def test_no_sentence_has_a_number_that_is_none() -> None:
+    for nan in (math.nan, math.inf, -math.inf):
+        for said in (
+            *of(lambda a, b, nan=nan: nan),
+            *of(lambda a, b, nan=nan: nan if a == 0 else 0.5 * b),
+            *of(lambda a, b, nan=nan: nan if a * b == 0 else 1.0),
+            *of(lambda a, b, nan=nan: nan if a + b == 0 else 1.0),
+        ):
+            assert not re.search(r"\b(nan|inf)\b", said), said
+    assert of(lambda a, b: math.nan)[0].startswith("Its action has a number that is none")
+    assert of(lambda a, b: math.nan if a == 0 else 0.5)[0].startswith("Without a, its action")
+
+
+def test_wheels_and_eyes_have_words_of_their_own() -> None:
+    sim = Scene.load("line_follow").build()
+    sim.reset(seed=1)
+    agent = sim.agents[0]
+    groups = [each for each in groups_of_agent(agent) if each.name.startswith("eye ")]
+    lit = next(each for each in groups if each.sees == "line")
+    assert {each.sees for each in groups} <= {"line", "nothing"}
+    key, index = lit.key, int(np.flatnonzero(lit.mask)[0])
+    told = occlusion(
+        lambda percept: {"move": [0.0, float(percept[key][index])]},
+        agent.percept,
+        baseline=middle_of(agent) | {key: np.zeros(len(groups))},
+        groups=groups,
+    )
+    assert sentence(told, [Axis("left", -1, 1), Axis("right", -1, 1)]) == (
+        f"It turns its right wheel forward because {lit.name} sees the line; without it, it would "
+        "stop its right wheel."
+    )
+    jumps = [Axis("jump", 0, 1)]
+    jump = occlusion(lambda percept: [percept["a"]], ONE, baseline=ZERO)
+    assert "it would not jump" in sentence(jump, jumps)
 
 
 def test_more_and_less_of_the_same() -> None:
@@ -124,7 +244,7 @@ def test_more_and_less_of_the_same() -> None:
 def test_what_has_no_effect_is_not_told() -> None:
     # the robot's jump_power is 0
     said = told_of(robot_and_box(lambda percept: {"move": [0, 0, percept["bearing"][1], 0]}))
-    assert said.startswith("No single slot decides")
+    assert said.startswith("Nothing that it senses now decides")
 
 
 def test_an_action_nobody_described_has_its_own_names() -> None:

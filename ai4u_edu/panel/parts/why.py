@@ -35,6 +35,8 @@ def why_part(why: Why) -> dict[str, Any]:
         "problem": why.problem,
         "sentence": why.sentence,
         "baseline": why.baseline,
+        "also": why.also,
+        "explained": why.explained,
         "limits": LIMITS,
         "components": [axis.name.replace("_", " ") for axis in why.axes],
         "slots": slots,
