@@ -4,9 +4,13 @@ The extra ``train`` is for learning, ``onnx`` for running a trained network; the
 needs neither.
 """
 
+import sys
 from importlib.util import find_spec
 
 from ai4u_edu.base.errors import SetupError
+
+CPU_TORCH = "pip install torch --index-url https://download.pytorch.org/whl/cpu"
+"""Command that installs torch without its files for graphics cards."""
 
 
 def has(*modules: str) -> bool:
@@ -29,5 +33,12 @@ def need(extra: str, *modules: str) -> None:
         raise SetupError(
             f"this needs {' and '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "
             f'installed; install with: pip install "ai4u-edu[{extra}]" '
-            f'(in a checkout: pip install -e ".[{extra}]")'
+            f'(in a checkout: pip install -e ".[{extra}]"){_torch_advice(missing)}'
         )
+
+
+def _torch_advice(missing: list[str]) -> str:
+    """Return how to install a small torch first, where the usual one is large."""
+    if "torch" not in missing or sys.platform != "linux":
+        return ""
+    return f". Without a graphics card for it, first: {CPU_TORCH} (0.7 GB in place of 5.9 GB)"

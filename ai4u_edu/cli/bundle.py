@@ -19,7 +19,10 @@ from ai4u_edu.base.version import __version__
 FILES = "ai4u_edu.cli.bundle_files"
 SCRIPTS = {"start.py": "\n", "start.sh": "\n", "start.command": "\n", "start.bat": "\r\n"}
 """Line ends of each file; Windows reads no others in a .bat."""
-EXTRAS = "lessons", "data", "multi", "onnx", "ray", "train", "video"
+EXTRAS = (
+    *("lessons", "data", "hub", "multi", "onnx", "ray", "sweep"),
+    *("tournament", "train", "video"),
+)
 
 
 def bundle(
@@ -121,6 +124,8 @@ def write_scripts(folder: Path, extras: list[str]) -> list[str]:
     for name in (*SCRIPTS, "README.txt"):
         text = resources.files(FILES).joinpath(name).read_text(encoding="utf-8")
         if name != "start.py":
+            names = " ".join(f"python{each}" for each in reversed(pythons))
+            text = re.sub(r"\bPYTHONS\b", names, text)
             text = re.sub(r"\bVERSIONS\b", " ".join(reversed(pythons)), text)
         text = text.replace("\r\n", "\n").replace("\n", SCRIPTS.get(name, "\n"))
         executable = name in {"start.sh", "start.command"}

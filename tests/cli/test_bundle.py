@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli import bundle
 from tests.waiting import LIMIT_S
 
+ROOT = Path(__file__).parents[2]
 THIS = f"{sys.platform} {sys.version_info[0]}.{sys.version_info[1]}"
 PLAY = f"""
 import subprocess, sys, urllib.request
@@ -38,6 +40,33 @@ def test_scripts_are_written_for_each_system(tmp_path: Path) -> None:
     if os.name == "posix":
         assert os.access(tmp_path / "start.sh", os.X_OK)
         assert not os.access(tmp_path / "start.py", os.X_OK)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="start.bat is for Windows")
+@pytest.mark.parametrize("script", ["start.sh", "start.command"])
+def test_a_python_that_can_not_run_is_passed_over(tmp_path: Path, script: str) -> None:
+    bundle.write_scripts(tmp_path, [])
+    (tmp_path / "start.py").write_text("import sys; print('started', *sys.argv[1:])")
+    stubs = tmp_path / "stubs"
+    stubs.mkdir()
+
+    def stub(name: str, text: str) -> None:
+        (stubs / name).write_text(f"#!/bin/sh\n{text}\n")
+        (stubs / name).chmod(0o755)
+
+    def start() -> subprocess.CompletedProcess[str]:
+        paths = {"PATH": f"{stubs}:/usr/bin:/bin"}
+        command: list[str | Path] = ["sh", tmp_path / script, "play", "a b"]
+        return subprocess.run(command, env=paths, capture_output=True, text=True, check=False)
+
+    # as a version manager's, of a version that is not chosen
+    for name in (f"python{THIS.split()[1]}", "python3"):
+        stub(name, "echo 'command not found' >&2; exit 127")
+    done = start()
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith("Expected Python (")
+    stub("python3", f'exec "{sys.executable}" "$@"')
+    assert start().stdout == "started play a b\n"
 
 
 def test_a_bundle_of_another_system_is_added_to(tmp_path: Path) -> None:
@@ -71,6 +100,14 @@ def test_course_and_scenes_can_be_changed_and_stay(tmp_path: Path) -> None:
 def test_an_unknown_extra_is_told(tmp_path: Path) -> None:
     with pytest.raises(SetupError, match=r"expected one of lessons, .* got 'all'"):
         bundle.bundle(tmp_path, extra=["all"])
+
+
+def test_every_extra_for_users_is_offered_and_in_the_docs() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = {*project["optional-dependencies"]} - {"dev", "docs", "fuzz", "test"}
+    assert {*bundle.EXTRAS} == extras
+    page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
+    assert {name for name in extras if f"| `{name}` |" not in page} == set()
 
 
 @pytest.mark.nightly

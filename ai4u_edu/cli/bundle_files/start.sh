@@ -1,9 +1,9 @@
 #!/bin/sh
 # Starts AI4U Edu on Linux: sh start.sh
 cd "$(dirname "$0")" || exit 1
-for version in VERSIONS; do
-    command -v "python$version" >/dev/null && exec "python$version" start.py "$@"
+# a name may be a version manager's, which starts no Python
+for python in PYTHONS python3; do
+    "$python" -c "" >/dev/null 2>&1 && exec "$python" start.py "$@"
 done
-command -v python3 >/dev/null && exec python3 start.py "$@"
 echo "Expected Python (VERSIONS) on this machine, and found none." >&2
 exit 1
