@@ -224,6 +224,21 @@ def test_networks_that_are_slow_or_strange_are_refused_and_the_class_goes_on(
         assert verdicts(served, student) == [("policy.onnx", "right")]
 
 
+@pytest.mark.slow
+def test_a_network_of_another_scene_is_refused_in_words_for_students(tmp_path: Path) -> None:
+    with served_class(tmp_path / "class") as served:
+        ada = served.joined()
+        chases = zoo.network_of("box_chase").read_bytes()
+        assert hand_in(ada, chases).status_code == 200
+        assert verdicts(served, ada) == [
+            (
+                "policy.onnx",
+                "It was trained in “Box chase”; this tournament is “Sumo”. "
+                "Hand in a network that was trained in “Sumo”.",
+            )
+        ]
+
+
 def elsewhere(path: Path) -> None:
     """Write a network whose numbers lie in a file outside of its folder."""
     model = onnx.load(network(path, INPUTS))

@@ -76,13 +76,15 @@ def test_a_new_episode_when_one_is_over(tmp_path: Path, repeat: bool) -> None:
 
 
 def test_a_sensor_is_missing(tmp_path: Path) -> None:
-    about = json.dumps({"sensors": {"bearing": {"type": "BearingSensor", "target": "box"}}})
+    sensors = {"bearing": {"type": "BearingSensor", "target": "box"}}
+    about = json.dumps({"sensors": sensors, "scene": "sumo"})
     file = network(tmp_path / "a.onnx", {"bearing": (2,), "heading": (2,)}, about=about)
     with pytest.raises(
         BlockError,
         match=(
             r"the network a.onnx does not fit agent '0': sensor 'bearing' of shape \(2,\) \(a "
-            r"BearingSensor, where it was trained\) is missing; did you mean 'heading'\?"
+            r"BearingSensor, where it was trained\) is missing; did you mean 'heading'\?; "
+            r"it was trained in the scene 'sumo'"
         ),
     ):
         sim_with(file, HeadingSensor())

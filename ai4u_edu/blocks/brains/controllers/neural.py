@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.base.errors import BlockError, shorten, suggest
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
@@ -21,6 +21,9 @@ from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.world import WorldView
 
+TRAINED_IN = "it was trained in the scene "
+"""Beginning of the words about a network that does not fit, before its scene's name in quotes."""
+MAX_SCENE_CHARS = 60
 
 class NeuralNetController(Controller):
     """Takes each action from a trained network (an ONNX file).
@@ -72,6 +75,9 @@ class NeuralNetController(Controller):
         sensors = {each.perception_key: each for each in agent.sensors if each.is_active}
         wrong = [_misfit(port, sensors, network.about) for port in network.inputs]
         found = "; ".join(filter(None, wrong))
+        trained_in = network.about.get("scene")
+        if found and isinstance(trained_in, str) and trained_in:
+            found += f"; {TRAINED_IN}{shorten(trained_in, MAX_SCENE_CHARS)!r}"
         if found:
             raise BlockError(f"the network {name} does not fit agent {agent.id!r}: {found}")
         actuators = {each.action_name: each for each in agent.actuators if each.is_active}
