@@ -49,6 +49,29 @@ def _shown(kind: str, room: str = "") -> dict[str, Any]:
     return {"shown": {"kind": kind, "room": room}}
 
 
+SENTENCE = "nothing is called 'speeed'; did you mean 'speed'?"
+SOURCE = """# It senses: rays, speed
+def decide(percept):
+    if speeed > 0.2:
+        return {"move": [0.4, 0.1]}
+    return {"move": [1.0, 0.0]}
+"""
+PROGRAMS = {
+    "runs": {
+        "2": {"state": "mistake", "text": SENTENCE, "line": 3},
+        "5": {"state": "running", "text": "", "line": 0},
+    },
+    "program_mistakes": [
+        {
+            "kind": "unknown-name",
+            "title": "A name that has no value",
+            "count": 7,
+            "seats": [2, 9, 14],
+            "examples": [SENTENCE],
+            "guide": "Search for the line in which the name gets its value.",
+        }
+    ],
+}
 ATTENTION = {"kind": "blank", "message": "Eyes to the front, please", "ends_in": 95.0}
 SHOTS = [
     Shot("class_join", "join", (390, 844)),
@@ -63,6 +86,15 @@ SHOTS = [
     Shot("class_projector", "projector", (1280, 720), state=_shown("join")),
     Shot("class_projector_room", "projector", (1280, 720), state=_shown("room", "room5")),
     Shot("class_race", "projector", (1280, 720), state={**_shown("race"), "race": race(9)}),
+    Shot(
+        "class_podium",
+        "projector",
+        (1280, 720),
+        state={**_shown("race"), "race": race(9, "over")},
+        is_in_docs=False,
+    ),
+    Shot("class_programs", "teacher", click="#tab-programs", state=PROGRAMS, is_in_docs=False),
+    Shot("class_assign_1400", "teacher", (1400, 900), click="#assign", is_in_docs=False),
     Shot(
         "class_tournament",
         "teacher",
@@ -155,6 +187,10 @@ def take(chromium: Browser, shot: Shot, scheme: Scheme) -> Image.Image:
     context = chromium.new_context(viewport=viewport, color_scheme=scheme)
     with wall_server(shot.rooms) as school, contextlib.closing(context):
         school.state.update(shot.state)
+        school.programs = [
+            {"seat": seat, "name": "", "source": SOURCE, "scene": "maze", "agent": "0", "age": 70.0}
+            for seat in range(1, min(shot.rooms, 9))
+        ]
         page = context.new_page()
         page.goto(f"{school.url}{shot.page}")
         page.wait_for_timeout(SETTLE_MS)

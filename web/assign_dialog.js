@@ -31,7 +31,9 @@ export function showAssign(state, room = "") {
   update();
 
   const text = "What students have built stays among their saved scenes.";
-  const content = [...scene.nodes, to, list, choice("The same start for all", same), seed.node, field("Starting program (Python)", program, PROGRAM_HINT)];
+  const more = element("details", { className: "ai4u-more" }, element("summary", { textContent: "More: start and program" }));
+  more.append(choice("The same start for all", same), seed.node, field("Starting program (Python)", program, PROGRAM_HINT));
+  const content = [...scene.nodes, to, list, more];
   return showForm({ title: "Assign a scene or a lesson", text, content, yes: "Assign" }, async () => {
     const some = boxes.filter((box) => box.checked).map((box) => box.value);
     const rooms = chosenIn(to) === "all" ? "all" : some;

@@ -23,6 +23,7 @@ export class ClassBar {
   #name = element("strong");
   #lesson = element("span", { className: "ai4u-class-lesson" });
   #others = element("ul", { className: "ai4u-class-others", ariaLabel: "Also in this world" });
+  #teacher = element("span", { className: "ai4u-class-teacher", role: "status" });
   #message = element("p", { className: "ai4u-class-message", role: "status" });
   #time = element("span", { className: "ai4u-class-time", role: "timer" });
   #race = element("span", { className: "ai4u-class-race" });
@@ -50,7 +51,7 @@ export class ClassBar {
     this.#race.append(icon("race", 16), this.#best, this.#boardButton, this.#board);
     const news = element("div", { className: "ai4u-class-news" }, this.#message, this.#time);
     const self = element("span", { className: "ai4u-class-self" }, this.#dot, this.#name, this.#lesson);
-    this.#bar.append(self, this.#others, news, this.#race, this.#actions);
+    this.#bar.append(self, this.#others, this.#teacher, news, this.#race, this.#actions);
     // the page of a class's own machine; elsewhere there is no such address
     if (location.pathname.includes("/r/")) this.#actions.append(...studentActions());
     new ResizeObserver(() => this.#reserveHeight()).observe(this.#bar);
@@ -74,6 +75,7 @@ export class ClassBar {
     if (!this.#bar.isConnected) document.body.prepend(this.#bar);
     this.#drawPeople(event);
     this.#drawRace(race);
+    setText(this.#teacher, event.has_teacher ? "Your teacher looks in" : "");
     setText(this.#lesson, event.lesson ? `Lesson ${event.lesson}` : "");
     setText(this.#message, attention.kind ? "" : attention.message);
     this.#actions.hidden = event.role === "teacher";

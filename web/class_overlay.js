@@ -4,6 +4,8 @@ import { element, setText } from "./dom.js";
 
 /** How long "Go!" is shown (ms). */
 const GO_MS = 900;
+/** How long its words are there for screen readers (ms). */
+const GO_WORDS_MS = 3000;
 
 /** Return a time in milliseconds as a countdown, such as "1:05". */
 export function clockText(ms) {
@@ -53,6 +55,21 @@ export class BlankScreen {
   }
 }
 
+/** Hide the page of somebody who is not in the class any more, and lead to the page on which one joins. */
+export function showLeft(reason) {
+  if (document.querySelector(".ai4u-left")) return;
+  const title = element("h1", { id: "ai4u-left-title", textContent: "This world is closed for you now" });
+  const words = `${reason.charAt(0).toUpperCase()}${reason.slice(1)}.`.replace(/\.+$/, ".");
+  const message = element("p", { className: "ai4u-blank-message", textContent: words });
+  const link = element("a", { className: "ai4u-button", href: "../../", textContent: "To the class’s start page" });
+  const dialog = element("dialog", { className: "ai4u-blank ai4u-left" }, title, message, link);
+  dialog.setAttribute("aria-labelledby", title.id);
+  dialog.addEventListener("cancel", (event) => event.preventDefault());
+  document.body.append(dialog);
+  for (const other of document.querySelectorAll("dialog:modal")) other.close();
+  dialog.showModal();
+}
+
 /** The seconds before a race, large above the world. */
 export class RaceCountdown {
   #number = element("div", { className: "ai4u-countdown", ariaHidden: "true", hidden: true });
@@ -72,7 +89,10 @@ export class RaceCountdown {
     const isCounting = ms > 0;
     const isGo = !isCounting && ms > -GO_MS && (this.#wasCounting || this.isShown);
     if (isCounting && !this.#wasCounting) setText(this.#words, `A race starts in ${Math.ceil(ms / 1000)} seconds`);
-    if (isGo) setText(this.#words, "Go!");
+    if (isGo && this.#words.textContent !== "Go!") {
+      setText(this.#words, "Go!");
+      setTimeout(() => this.#wasCounting || setText(this.#words, ""), GO_WORDS_MS);
+    }
     this.#wasCounting = isCounting;
     this.#number.hidden = !(isCounting || isGo);
     setText(this.#number, isCounting ? String(Math.ceil(ms / 1000)) : "Go!");

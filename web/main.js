@@ -4,6 +4,8 @@ import "./panel_shortcuts.js"; // the first one: its listener comes before the o
 import { Banners } from "./banners.js";
 import { ClassBar } from "./class_bar.js";
 import { noteHandout } from "./class_handout.js";
+import { showLeft } from "./class_overlay.js";
+import { roomOfPage } from "./class_programs.js";
 import { element } from "./dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
@@ -16,7 +18,7 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "./share.js";
-import { Results } from "./results.js";
+import { KEYS, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "./socket.js";
 import { playTone } from "./tone.js";
 
@@ -26,6 +28,8 @@ const NEW_START_CODE = "KeyN";
 const LOST_MS = 3000;
 /** What a world waits for while a teacher holds it. */
 const HELD = "teacher";
+
+const HAS_PANEL = "ai4uPanel" in document.documentElement.dataset;
 
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
@@ -98,10 +102,12 @@ socket.onclose = (reason) => {
     isLost = true;
     draw();
   }, LOST_MS);
-  banners.setConnectionError(reason);
+  if (reason && roomOfPage()) showLeft(reason);
+  else banners.setConnectionError(reason);
   draw();
 };
 socket.onworldreplaced = () => {
+  if (panel) panel.program = null;
   hasActed = false;
   socket.path = `ws/input?after_another&agent=${encodeURIComponent(hello.agent ?? "")}`;
 };
@@ -147,20 +153,33 @@ function draw() {
   keycaps.draw(!isHeld() && (isMine || held.length) ? held : (state?.held ?? []));
   const isWaiting = state?.waiting === "key";
   const isReached = dock.hasAttribute("data-touch") || keysReachPage();
-  const status = { connected, hello: panel?.named(hello) ?? hello, control, howToDrive: howToDrive(), isWaiting, isHeld: isHeld(), isReached };
+  const status = { connected, hello: panel?.named(hello) ?? hello, control, howToDrive: howToDrive(), isPaused: Boolean(state?.paused), isWaiting, isHeld: isHeld(), isReached };
   driverStatus.draw(status);
   panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");
   const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
+  const scene = panel?.part("scene");
+  const task = HAS_PANEL && !scene ? "" : scene?.key || state?.title;
+  const result = results.of(connected ? state : null, task, task ? driverOfEpisode(isDriven) : "");
+  const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : "";
+  panel?.drawBest(driver && results.best(task, driver), driver === PROGRAM);
   banners.draw(connected ? state : null, {
     restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
     isLost,
-    result: results.of(connected ? state : null, isDriven),
+    result,
     howToStart: canDrive() ? howToDrive() : "",
     held: isHeld() ? (classBar?.heldText ?? "Your teacher has stopped this world") : "",
   });
+}
+
+/** Return who drives the present episode, for its time; empty for networks, scripts and tests. */
+function driverOfEpisode(isDriven) {
+  const { agent, episode, isTest } = panel?.program ?? {};
+  const isPrograms = agent === hello.agent && episode === state?.agent_episode;
+  if (isPrograms) return isTest ? "" : PROGRAM;
+  return isDriven ? KEYS : "";
 }
 
 /** Return true while a teacher holds the world, or a race counts down. */
@@ -189,8 +208,9 @@ loadLayout().then(arrange);
 socket.open();
 trackCanvasEdges();
 watchSharedScene();
-if ("ai4uPanel" in document.documentElement.dataset) {
+if (HAS_PANEL) {
   const { startPanel } = await import("./panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
+  panel.addEventListener("part:scene", draw);
   draw();
 }

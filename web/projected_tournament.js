@@ -1,34 +1,40 @@
 /** The tournament on the projector page: standings, the cross table, and the match that was played last. */
 
 import { element, setText } from "./dom.js";
+import { Podium } from "./podium.js";
 import { counted } from "./room_words.js";
 import { contestLine, dot, standingsTable } from "./tournament_tables.js";
 
 /** Entries up to which there is a table with ratings; more have a list in columns. */
 const MAX_ROWS = 10;
 const MAX_LISTED = 36;
+const PODIUM_PLACES = 3;
 
 export class ProjectedTournament {
   #place;
   #title = element("h1");
   #state = element("p", { className: "ai4u-course" });
   #last = element("p", { className: "ai4u-last", role: "status" });
+  #podium = new Podium();
   #tables = element("div", { className: "ai4u-tables" });
   #told = "";
 
   constructor(place) {
     this.#place = place;
-    place.append(this.#title, this.#state, this.#last, this.#tables);
+    place.append(this.#title, this.#state, this.#last, this.#podium.element, this.#tables);
   }
 
   show({ tournament }) {
     setText(this.#title, tournament ? `Tournament: ${tournament.title}` : "No tournament now");
     setText(this.#state, tournament ? courseOf(tournament) : "");
     const results = tournament?.results ?? null;
-    const told = JSON.stringify(results);
+    const told = JSON.stringify([results, tournament?.phase]);
     if (told === this.#told) return;
     this.#told = told;
-    const last = results?.latest[0];
+    const isOver = tournament?.phase === "over";
+    const winners = isOver ? results.standings.slice(0, PODIUM_PLACES) : [];
+    this.#podium.show(tournament?.id, winners.map((row) => ({ name: row.name, colour: row.colour, text: `${row.won} – ${row.drawn} – ${row.lost}` })));
+    const last = isOver ? null : results?.latest[0];
     this.#last.replaceChildren(...(last ? [contestLine(last)] : []));
     this.#place.dataset.size = results && results.standings.length > MAX_ROWS ? "many" : "few";
     this.#tables.replaceChildren(...(results ? tablesOf(results) : []));

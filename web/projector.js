@@ -3,6 +3,7 @@
 import { openClassSocket } from "./class_socket.js";
 import { Countdown } from "./class_strips.js";
 import { element, keyed, setText } from "./dom.js";
+import { Podium, soundButton } from "./podium.js";
 import { clock, counted } from "./room_words.js";
 import { ProjectedTournament } from "./projected_tournament.js";
 import { Wall } from "./wall.js";
@@ -10,10 +11,17 @@ import { Wall } from "./wall.js";
 const TICK_MS = 100;
 const MARGIN_PX = 16;
 const MAX_PLACES = 12;
+const PODIUM_PLACES = 3;
+/** Names of students up to which they are large. */
+const FEW_NAMES = 12;
 /** Words for how a drive of a race ended, if it did not reach the goal. */
 const OUTCOMES = { lost: "lost", fell: "fell", time: "out of time", over: "ended" };
 const find = (selector) => document.querySelector(selector);
 const starts = new Countdown();
+const podium = new Podium();
+find("#board").before(podium.element);
+const sound = soundButton();
+document.body.append(sound);
 const tournament = new ProjectedTournament(find("#tournament"));
 let state = null;
 
@@ -35,6 +43,7 @@ function show(message) {
   find("#tournament").hidden = kind !== "tournament";
   find("#game").hidden = kind !== "game";
   find("#rooms").hidden = kind !== "room" && kind !== "board";
+  sound.hidden = kind !== "race" && kind !== "tournament";
   setText(find("#attention"), state.attention.message);
   showJoin();
   showRace();
@@ -53,7 +62,20 @@ function showJoin() {
   if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
   const count = state.seats.filter((seat) => seat.state === "in").length;
   const here = count ? `${counted(count, "student")} ${count === 1 ? "is" : "are"} here` : "Nobody is here yet";
+  showNames();
   setText(find("#here"), state.open ? here : `${here}. Nobody else may join now.`);
+}
+
+/** Show who has joined, the latest at the end. */
+function showNames() {
+  const seats = state.seats.filter((seat) => seat.state === "in");
+  const make = ({ colour }) => {
+    const dot = element("span", { className: "ai4u-dot" });
+    dot.style.background = colour;
+    return element("li", {}, dot, element("span"));
+  };
+  find("#join").dataset.size = seats.length === 0 ? "none" : seats.length > FEW_NAMES ? "many" : "few";
+  keyed(find("#names"), seats, ({ number }) => number, make, (item, { name }) => setText(item.lastChild, name));
 }
 
 function showRace() {
@@ -65,8 +87,11 @@ function showRace() {
   starts.set(race?.starts_in ?? 0);
   showCountdown(race);
   const rows = isHidden || !race ? [] : race.board.slice(0, MAX_PLACES).map((row, index) => ({ ...row, place: index + 1 }));
-  find("#race ol").dataset.columns = rows.length > MAX_PLACES / 2 ? "2" : "1";
-  keyed(find("#race ol"), rows, (row) => row.room || row.name, raceRow, updateRow);
+  const best = race?.phase === "over" ? rows.filter(({ outcome }) => !(outcome in OUTCOMES)) : [];
+  podium.show(race?.id, best.map(({ name, colour, seconds }) => ({ name, colour, text: `${seconds.toFixed(1)} s` })));
+  const others = best.length ? rows.slice(Math.min(PODIUM_PLACES, best.length)) : rows;
+  find("#board").dataset.columns = others.length > MAX_PLACES / 2 ? "2" : "1";
+  keyed(find("#board"), others, (row) => row.room || row.name, raceRow, updateRow);
 }
 
 /** Show the recording of a game, which plays by itself; it is in a frame, as it may do nothing else. */

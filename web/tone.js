@@ -17,16 +17,21 @@ export function setTone(isOn) {
 
 /** Play the tone if it is on. Browsers allow sound only after a key or click, and a win follows one. */
 export function playTone() {
-  if (!isToneOn() || typeof AudioContext === "undefined") return;
+  if (isToneOn()) playNotes(NOTES_HZ);
+}
+
+/** Play notes (Hz) one after another. */
+export function playNotes(notes) {
+  if (typeof AudioContext === "undefined") return;
   const audio = new AudioContext();
   const volume = new GainNode(audio, { gain: VOLUME });
   volume.connect(audio.destination);
-  NOTES_HZ.forEach((frequency, index) => {
+  notes.forEach((frequency, index) => {
     const note = new OscillatorNode(audio, { frequency, type: "triangle" });
     const start = audio.currentTime + index * NOTE_S;
     note.connect(volume);
     note.start(start);
     note.stop(start + NOTE_S);
-    if (index === NOTES_HZ.length - 1) note.addEventListener("ended", () => audio.close());
+    if (index === notes.length - 1) note.addEventListener("ended", () => audio.close());
   });
 }

@@ -36,11 +36,12 @@ export class TournamentBoard {
   show(state) {
     this.#state = state;
     const { tournament, handed_in: handedIn, seats } = state;
-    const phase = tournament?.phase ?? "";
     const results = tournament?.results ?? null;
-    this.#draw("head", [tournament?.id, tournament?.title, phase], () => this.#head());
+    // a part is told all that the tournament is, except for results, which are large
+    const about = { ...tournament, results: null };
+    this.#draw("head", [about], () => this.#head());
     this.#draw("problem", [handedIn?.missing, tournament?.problem], () => [[handedIn?.missing, tournament?.problem].filter(Boolean).join(" ")]);
-    this.#draw("course", [phase, results?.games, results?.total], () => [tournament ? courseOf(tournament) : ""]);
+    this.#draw("course", [about, results?.games, results?.total], () => [tournament ? courseOf(tournament) : ""]);
     const students = seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat.name, this.#realNames.of(seat)]);
     this.#draw("networks", [tournament?.scene, handedIn?.networks, students], () => this.#networks());
     this.#draw("results", [results, students], () => (results ? this.#results(results) : []));

@@ -23,6 +23,8 @@ export class Wall {
   #order = [];
   #pointerUntil = 0;
   #view = { by: "help", filter: "all", width: 0 };
+  /** The number of cards, the wall's width, and the columns that fit them. */
+  #fitted = { count: 0, width: 0, columns: 0 };
 
   /**
    * @param {HTMLElement} wall has a canvas and a list
@@ -114,10 +116,17 @@ export class Wall {
     const most = Math.max(1, Math.floor((width + GAP_PX) / (wanted + GAP_PX)));
     const { columns, cardWidth } = wanted
       ? { columns: most, cardWidth: (width - GAP_PX * (most - 1)) / most }
-      : fitting(this.#order.length, width, this.#heightLeft(), GAP_PX, { minWidth: MIN_CARD_PX, heightOf, widthOf });
+      : this.#fitting(this.#order.length, width);
+    if (!wanted) this.#fitted = { count: this.#order.length, width, columns };
     this.#list.style.gridTemplateColumns = `repeat(${columns}, minmax(0, ${Math.floor(cardWidth)}px))`;
     this.#list.style.gap = `${GAP_PX}px`;
     this.#canvas.layOut();
+  }
+
+  #fitting(count, width) {
+    const isSame = count === this.#fitted.count && width === this.#fitted.width;
+    const card = { minWidth: MIN_CARD_PX, heightOf, widthOf };
+    return fitting(count, width, this.#heightLeft(), GAP_PX, card, isSame ? this.#fitted.columns : 0);
   }
 
   #buttons() {

@@ -4,6 +4,8 @@ import { needsHelp } from "./room_words.js";
 
 /** Needs of help that differ by less count as the same, so that cards don't change places all the time. */
 const HELP_STEP = 10;
+/** Share of the largest width of cards with which they keep their places, such as when a strip appears above them. */
+const KEPT_SHARE = 0.6;
 
 export const FILTERS = {
   all: { text: "All", keeps: () => true },
@@ -33,16 +35,20 @@ export function ordered(rooms, by, nameOf, held) {
 /**
  * Return columns and width of cards: the largest ones of which all fit into a width and a height.
  * @param card {minWidth, heightOf, widthOf}: least width, and height and width from each other, without the gap
+ * @param kept number of columns to keep if cards become little smaller by that; 0 for none
  */
-export function fitting(count, width, height, gap, { minWidth, heightOf, widthOf }) {
+export function fitting(count, width, height, gap, { minWidth, heightOf, widthOf }, kept = 0) {
   const most = Math.max(1, Math.floor((width + gap) / (minWidth + gap)));
   let best = { columns: most, cardWidth: 0 };
+  let same = best;
   for (let columns = 1; columns <= most; columns += 1) {
     const widest = (width - gap * (columns - 1)) / columns;
     const rowHeight = (height + gap) / Math.ceil(count / columns) - gap;
     const cardWidth = heightOf(widest) <= rowHeight ? widest : widthOf(rowHeight);
     if (cardWidth > best.cardWidth) best = { columns, cardWidth };
+    if (columns === kept) same = { columns, cardWidth };
   }
+  if (same.cardWidth >= Math.max(minWidth, KEPT_SHARE * best.cardWidth)) return same;
   // they don't fit: as many columns as possible, and the page scrolls
   return best.cardWidth < minWidth ? { columns: most, cardWidth: (width - gap * (most - 1)) / most } : best;
 }

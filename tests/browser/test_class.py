@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 
 from tests.browser.plain_page import CLASS_ROOM
 from tests.browser.served_viser import PLAIN, connected
@@ -89,12 +89,41 @@ def test_whoever_is_sent_out_is_told(chromium: Browser, school: ServedClass) -> 
     name = join(ada, school)
     teacher.goto(f"{school.url}teacher?token={school.token}")
     teacher.get_by_role("button", name=name).click()
-    teacher.get_by_role("button", name="Send out").click()
-    expect(ada.get_by_text("your teacher has sent you out")).to_be_visible()
+    teacher.get_by_role("button", name=f"Send out {name}").click()
+    question = teacher.get_by_role("dialog", name=f"Send {name} out?")
+    question.get_by_role("button", name="Cancel").click()
+    expect(question).to_have_count(0)
+    expect(ada.get_by_role("dialog")).to_have_count(0)
+    teacher.get_by_role("button", name=name).click()
+    teacher.get_by_role("button", name=f"Send out {name}").click()
+    question.get_by_role("button", name="Send out").click()
+    left = ada.get_by_role("dialog", name="This world is closed for you now")
+    expect(left).to_contain_text("Your teacher has sent you out; ask before you join again.")
     teacher.get_by_text("No longer here (1)").click()
     expect(teacher.get_by_role("listitem").filter(has_text=name)).to_contain_text("sent out")
     ada.unroute_all()
-    ada.reload()
+    left.get_by_role("link", name="start page").click()
     expect(ada.get_by_role("heading", name="Join the class")).to_be_visible()
     for page in (ada, teacher):
         page.context.close()
+
+
+def test_whoever_is_banned_while_the_page_opens_is_told(
+    chromium: Browser, school: ServedClass
+) -> None:
+    ben = new_page(chromium)
+    PLAIN.serve(ben, CLASS_ROOM)
+    name = join(ben, school)
+    (seat,) = (each for each in school.state()["seats"] if each["name"] == name)
+
+    def ban(route: Route) -> None:
+        assert school.command("ban", seat=seat["number"]).status_code == 200
+        route.continue_()
+
+    ben.route(re.compile(r"/socket\.js"), ban, times=1)
+    ben.reload()
+    left = ben.get_by_role("dialog", name="This world is closed for you now")
+    expect(left).to_contain_text("You have no place in this class now")
+    left.get_by_role("link", name="start page").click()
+    expect(ben.get_by_role("heading", name="Join the class")).to_be_visible()
+    ben.context.close()

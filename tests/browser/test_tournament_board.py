@@ -70,6 +70,10 @@ def test_the_teacher_begins_starts_and_ends_a_tournament_by_keyboard(
     wanted = {"do": "start tournament", "seeds": 3, "system": "swiss", "own_player": True}
     assert school.commands[-1] == wanted
 
+    school.send(tournament={**begun, "players": 0})
+    expect(board).to_contain_text("0 players can play.")
+    school.send(tournament={**begun, "players": 2})  # two were checked meanwhile
+    expect(board).to_contain_text("2 players can play.")
     school.send(tournament=tournament(6))
     board.get_by_role("button", name="Cancel").click()
     until(lambda: school.commands[-1] == {"do": "cancel tournament"})

@@ -199,7 +199,7 @@ def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
     with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
         page.receive("hello")
         assert served.command("kick", seat=number).status_code == 200
-        assert page.end() == (1008, "your teacher has sent you out; reload to join again")
+        assert page.end() == (1008, "your teacher has sent you out; ask before you join again")
     assert ada.get("api/snapshot").status_code == 403
     before = ada.room
     assert ada.join(request="a" * 20).status_code == 200

@@ -4,6 +4,7 @@ import threading
 
 from viser import FrameHandle, LabelHandle, SceneApi
 
+from ai4u_edu.base.colors import rgb
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Ghost, ghost_of
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -20,6 +21,10 @@ PALE: Rgb = (255, 255, 255)
 OPACITY = 0.4
 LABEL_DISTANCE = 1.5
 """Distance of a ghost's label from its centre, in radii."""
+LABEL_SPACING = 0.9
+"""Distance between the labels of ghosts at one place, in radii."""
+COLOURS = tuple(rgb(name) for name in ("orange", "purple", "green"))
+"""Colours of several ghosts, none of which is that of the living robot."""
 
 Pose = tuple[float, float, float, float]
 
@@ -33,11 +38,19 @@ class GhostDrive:
         episode: the recorded episode.
         name: the episode's name.
         label: text at the ghost.
+        place: index among several ghosts, which differ by it.
     """
 
     def __init__(
-        self, scene: SceneApi, node: str, episode: Episode, name: str, label: str = "ghost"
+        self,
+        scene: SceneApi,
+        node: str,
+        episode: Episode,
+        name: str,
+        label: str = "ghost",
+        place: int | None = None,
     ) -> None:
+        self._place = place
         self._scene, self._subtree = scene, Subtree(scene, node)
         self._episode, self.name, self._label = episode, name, label
         self.problem = ""
@@ -85,7 +98,7 @@ class GhostDrive:
             for number, body in enumerate(recorded.bodies):
                 if body.name in drivers:
                     node = f"{parent}/{number}"
-                    self.bodies.append(_Body(self._scene, node, body, layers))
+                    self.bodies.append(_Body(self._scene, node, body, layers, self._place))
 
     def _compute(self) -> None:
         try:
@@ -104,11 +117,20 @@ class GhostDrive:
 class _Body:
     """A ghost's translucent body; its meshes are built once, and only their parent node moves."""
 
-    def __init__(self, scene: SceneApi, node: str, body: BodyDescription, layers: Layers) -> None:
+    def __init__(
+        self,
+        scene: SceneApi,
+        node: str,
+        body: BodyDescription,
+        layers: Layers,
+        place: int | None,
+    ) -> None:
         self.name = body.name
         outline = body.shape.outline()
-        self._radius = radius = half_width(outline)
-        colour = mix_colours(body_colour(body, is_agent=True), PALE, 0.35)
+        radius = half_width(outline)
+        own = body_colour(body, is_agent=True)
+        colour = mix_colours(own if place is None else COLOURS[place % len(COLOURS)], PALE, 0.35)
+        self._label_distance = (LABEL_DISTANCE + LABEL_SPACING * (place or 0)) * radius
         self.frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
         drawer = MeshDrawer(scene, node)
         # a bit lower than a real body, against z-fighting between the two
@@ -128,7 +150,7 @@ class _Body:
             x, y, z, heading = pose
             self.frame.position = (x, y, z + layers.body)
             self.frame.wxyz = heading_wxyz(heading)
-            self.label.position = (x, y + LABEL_DISTANCE * self._radius, z + layers.body)
+            self.label.position = (x, y + self._label_distance, z + layers.body)
         if text != self._text:
             self._text = self.label.text = text
         self._pose = pose

@@ -42,7 +42,9 @@ class Ghosts:
         Args:
             drives: recorded episodes with the names of who drove.
         """
-        self.drives = tuple(self._drive(episode, name, name) for episode, name in drives)
+        self.drives = tuple(
+            self._drive(episode, name, name, place) for place, (episode, name) in enumerate(drives)
+        )
 
     @property
     def name(self) -> str:
@@ -75,6 +77,8 @@ class Ghosts:
             for each in drives:
                 each.draw(snapshot, layers)
 
-    def _drive(self, episode: Episode, name: str, label: str) -> GhostDrive:
+    def _drive(
+        self, episode: Episode, name: str, label: str, place: int | None = None
+    ) -> GhostDrive:
         self._count += 1
-        return GhostDrive(self._scene, f"ghost{self._count}-", episode, name, label)
+        return GhostDrive(self._scene, f"ghost{self._count}-", episode, name, label, place)
