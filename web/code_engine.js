@@ -27,12 +27,19 @@ function json(value) {
   return JSON.stringify(value, (_, each) => (Object.is(each, -0) ? "-0" : (NUMBER_WORDS.get(each) ?? each)));
 }
 
-/** Methods may be called one after another or all at once; each waits for the one before. */
+/**
+ * Methods may be called one after another or all at once; each waits for the one before.
+ *
+ * Each program has a worker of its own, which ends with it: so none of its timers, tasks, files or changed modules is left
+ * for the next one.
+ */
 export class CodeEngine {
-  /** The worker that has the program. */
+  /** The worker that has the program, or will have the next one. */
   #runtime = null;
   /** A worker that is ready for when the other one is ended. */
   #spare = null;
+  /** Counts ends of programs: what was asked before is not done later. */
+  #ends = 0;
   /** The end of the latest call. */
   #last = Promise.resolve();
   /** Until the spare worker is started. */
@@ -57,25 +64,37 @@ export class CodeEngine {
    * @param {object} room
    * @param {Object<string, [number[], number[]]>} room.outputs lowest and highest values by actuator
    * @param {{key: string, dtype: string}[]} room.readings those of RemoteClient.welcome
+   * @param {number} spareDelay time until the worker of the program after it is started (ms)
    * @returns {Promise<{ok: boolean, text?: string, line?: number, kind?: string}>}
    */
-  load(source, room) {
-    return this.#queue(() => this.#load(source, room));
+  load(source, room, spareDelay = SPARE_DELAY_MS) {
+    const ends = this.#ends;
+    return this.#queue(() => this.#load(source, room, spareDelay, () => ends !== this.#ends));
   }
 
-  async #load(source, { outputs, readings }) {
+  async #load(source, { outputs, readings }, spareDelay, isOver) {
     this.#isLoaded = false;
+    if (this.#runtime?.isUsed) this.#replace();
     try {
       await this.warm();
     } catch (error) {
       return problem("unavailable", error.message);
     }
+    if (isOver()) return problem("ended", NOT_LOADED);
+    this.#runtime.isUsed = true;
     const dtypes = Object.fromEntries(readings.map(({ key, dtype }) => [key, dtype]));
     const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: codeLimits.programS }));
     this.#isLoaded = answer.ok;
     clearTimeout(this.#timer);
-    if (answer.ok) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), SPARE_DELAY_MS);
+    if (answer.ok && !isOver()) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), spareDelay);
     return answer;
+  }
+
+  /** End the program at once, with all that it left behind; Python is loaded for the next one. */
+  finish() {
+    this.#ends += 1;
+    clearTimeout(this.#timer);
+    if (this.#runtime?.isUsed) this.#replace();
   }
 
   /** Tell the program that an episode begins. */
@@ -95,6 +114,7 @@ export class CodeEngine {
 
   /** End all workers. */
   end() {
+    this.#ends += 1;
     clearTimeout(this.#timer);
     this.#runtime?.end();
     this.#spare?.end();
@@ -117,12 +137,15 @@ export class CodeEngine {
     const runtime = this.#runtime;
     if (runtime === null) return problem("ended", NOT_LOADED); // while Python was loaded
     const answer = await runtime.call(method, text);
-    if (runtime.isStuck && this.#runtime === runtime) {
-      runtime.end();
-      [this.#runtime, this.#spare] = [this.#spare ?? new Runtime(), null];
-      this.#isLoaded = false;
-    }
+    if (runtime.isStuck && this.#runtime === runtime) this.#replace();
     return answer;
+  }
+
+  /** End the program's worker, and take another one. */
+  #replace() {
+    this.#runtime.end();
+    [this.#runtime, this.#spare] = [this.#spare ?? new Runtime(), null];
+    this.#isLoaded = false;
   }
 }
 
@@ -141,6 +164,8 @@ class Runtime {
   #onbegun = () => {};
   /** True if the worker can't be called any more. */
   isStuck = false;
+  /** True if it has got a program. */
+  isUsed = false;
 
   constructor() {
     this.#worker.onmessage = ({ data: { id, text, line, isBegun } }) => {

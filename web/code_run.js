@@ -17,7 +17,7 @@ export class ProgramMistake extends Error {
 
 /**
  * Events: "change" (phase, decision), "decision" (what it told, with percept, action, episode, number and source), "printed", and "end", whose detail is
- * {reason: "over" | "stopped" | "mistake" | "lost", text, line, percept}.
+ * {reason: "over" | "stopped" | "mistake" | "lost", text, line, kind, percept}.
  */
 export class CodeRun extends EventTarget {
   /** "off", "loading" (Python), "joining" (the world gives the agent), "running", or "stepping". */
@@ -68,12 +68,16 @@ export class CodeRun extends EventTarget {
   }
 
   /**
-   * Drive an agent with a program, at the world's own pace.
-   * @param {number} [seed] begins an episode with it; left out, the program drives from where the agent stands
+   * Drive an agent with a program, at the world's own pace. An episode with the same start begins, but after steps of
+   * the same program it goes on.
+   * @param {number} [from.seed] begins an episode with it instead
+   * @param {boolean} [from.isHere] drives from where the agent stands instead
    */
-  async run(source, agent, seed = null) {
+  async run(source, agent, { seed = null, isHere = false } = {}) {
     await this.#guarded(async (ticket) => {
-      let percept = await this.#start(source, agent, "realtime", ticket, seed);
+      const isNext = this.phase === "stepping" && source === this.#source;
+      const isFresh = seed === null && !isHere && !isNext;
+      let percept = await this.#start(source, agent, "realtime", ticket, { seed, isFresh });
       this.#set("running");
       for (;;) percept = await this.#decide(percept, ticket);
     });
@@ -109,19 +113,21 @@ export class CodeRun extends EventTarget {
       if (error === STOPPED || ticket !== this.#ticket) return;
       const reason = error instanceof ProgramMistake ? "mistake" : "lost";
       const text = error.code === "lockstep_refused" ? NO_STEPS : error.message;
-      this.#end({ reason, text, line: error.line ?? null });
+      this.#end({ reason, text, line: error.line ?? null, kind: error.kind ?? "" });
     }
   }
 
   /** Connect, load the program, and return the first percept. */
-  async #start(source, agent, mode, ticket, seed = null) {
+  async #start(source, agent, mode, ticket, { seed = null, isFresh = false } = {}) {
     // from Step to Run and back, the same program goes on with what it remembers
-    const goesOn = seed === null && this.isOn && this.#client !== null && source === this.#source;
+    const goesOn = seed === null && !isFresh && this.isOn && this.#client !== null && source === this.#source;
     this.#leave();
+    if (!goesOn) this.#endProgram();
     this.#source = null;
     if (!this.#isWarm) this.#set("loading");
     const engine = await valid(this.warm(), () => this.#isStale(ticket));
     this.#set("joining");
+    if (isFresh) await this.#until(this.#parts.beginAgain(), ticket);
     let percept = await this.#join(agent, mode, ticket);
     if (isOver(percept) && seed === null) percept = await this.#beginAgain(agent, mode, ticket);
     if (!goesOn) {
@@ -206,9 +212,18 @@ export class CodeRun extends EventTarget {
   #end(detail) {
     this.#ticket += 1;
     this.#leave();
+    this.#endProgram();
     this.#source = null;
     this.#set("off");
     this.#emit("end", { text: "", line: null, percept: null, ...detail });
+  }
+
+  /** End the program with all that it left running; Python is loaded again for the next one. */
+  #endProgram() {
+    if (!this.#isWarm) return;
+    this.#isWarm = false;
+    this.#engine.then((engine) => engine.finish());
+    this.warm().catch(() => {}); // the next run tells of it
   }
 
   #leave() {

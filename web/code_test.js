@@ -27,6 +27,7 @@ export class CodeTest extends EventTarget {
   agent = "";
   #parts;
   #client = null;
+  #engine = null;
   #ticket = 0;
   #current = null;
 
@@ -78,7 +79,7 @@ export class CodeTest extends EventTarget {
       if (isMistake && this.#current !== null) this.#current.outcome = "mistake";
       const isRefused = error.code === "lockstep_refused" || error.code === "seed_refused";
       const text = isRefused ? REFUSED : error.message;
-      this.#end({ reason: isMistake ? "mistake" : "lost", text, line: error.line ?? null });
+      this.#end({ reason: isMistake ? "mistake" : "lost", text, line: error.line ?? null, kind: error.kind ?? "" });
     }
   }
 
@@ -98,7 +99,7 @@ export class CodeTest extends EventTarget {
   /** @param until returns what a promise gives, and throws if the test was ended meanwhile */
   async #drive(source, agent, until) {
     this.#set("loading");
-    const engine = await until(this.#parts.warm());
+    this.#engine = await until(this.#parts.warm());
     this.#set("joining");
     await until(this.#parts.prepare());
     const client = await this.#parts.connect({ agent, mode: "lockstep" });
@@ -109,12 +110,13 @@ export class CodeTest extends EventTarget {
     this.#client = client;
     await until(this.#parts.speed.max());
     this.#set("testing");
-    for (const row of this.rows) await this.#driveStart(row, source, engine, client, until);
+    for (const row of this.rows) await this.#driveStart(row, source, client, until);
   }
 
-  async #driveStart(row, source, engine, client, until) {
-    // a program that remembers something in global variables must not depend on the start before
-    checked(await until(engine.load(source, programFacts(client.welcome))));
+  async #driveStart(row, source, client, until) {
+    const engine = this.#engine;
+    // nothing that the program remembers of the start before is there in a new interpreter; the next one loads meanwhile
+    checked(await until(engine.load(source, programFacts(client.welcome), 0)));
     await until(client.reset(row.seed));
     let percept = await until(client.sense());
     this.#current = row;
@@ -143,6 +145,8 @@ export class CodeTest extends EventTarget {
     this.#ticket += 1;
     Promise.resolve(this.#client?.close()).catch(() => {}); // it is gone already
     this.#client = null;
+    this.#engine?.finish();
+    this.#engine = null;
     this.#parts.speed.restore();
     this.#set("off");
     this.dispatchEvent(new CustomEvent("end", { detail: { text: "", line: null, percept: null, ...detail } }));

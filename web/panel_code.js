@@ -16,6 +16,8 @@ import { TestTable, testWords } from "./code_test_table.js";
 import { runWords } from "./code_words.js";
 import { button, element, setAttributes, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
+import { retried } from "./retry.js";
+import { ProgramReports } from "./program_reports.js";
 
 const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
@@ -29,9 +31,10 @@ export class CodeTab {
   #editor;
   #blocks;
   #program;
+  #reports;
   #console = new CodeConsole();
   #variables = new VariableList();
-  #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", this.#test.failure));
+  #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", { seed: this.#test.failure }));
   #nameList = new NameList((code) => this.#editor.insert(code));
   #key = null;
   #agent = null;
@@ -53,6 +56,7 @@ export class CodeTab {
   #wasPerson = false;
 
   #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
+  #here = button("Go on from here", () => this.#go("run", { isHere: true }), { kind: "quiet", title: "Run from where the robot is now" });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
   #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
   #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as it goes" });
@@ -74,6 +78,7 @@ export class CodeTab {
       outcome: (percept, seed) => outcomeOf(panel, percept, seed),
       ...parts,
     });
+    this.#reports = new ProgramReports(this.#run, this.#test);
     const stars = new CodeStars(panel, this.#run, this.#test);
     this.#stateRow.append(stars.row.element);
     this.#active = this.#run;
@@ -101,7 +106,7 @@ export class CodeTab {
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
     const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
-    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
+    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#here, this.#blocks.bar);
     const head = element("div", { className: "ai4u-code-head" }, buttons, way);
     const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
     const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
@@ -137,6 +142,7 @@ export class CodeTab {
     for (const each of [this.#run, this.#test]) {
       each.addEventListener("decision", ({ detail }) => {
         this.#timeline.add(detail.episode, detail.number, detail.source, detail);
+        this.#panel.program = { agent: each.agent, episode: detail.episode, isTest: each === this.#test };
       });
       each.addEventListener("change", () => {
         this.#panel.hasProgram = this.#active.isOn && this.#active.phase !== "loading";
@@ -148,7 +154,10 @@ export class CodeTab {
       if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
     });
     this.#panel.addEventListener("driver", () => {
-      if (this.#isPerson && !this.#wasPerson) this.#test.stop("You drive, so the test was ended.");
+      if (this.#isPerson && !this.#wasPerson) {
+        this.#test.stop("You drive, so the test was ended.");
+        this.#reports.end();
+      }
       this.#wasPerson = this.#isPerson;
     });
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
@@ -177,6 +186,7 @@ export class CodeTab {
     if (key === this.#key) return;
     this.#run.stop();
     this.#test.clear();
+    this.#reports.end();
     this.#key = key;
     this.#timeline.clear();
     this.#console.clear();
@@ -196,14 +206,14 @@ export class CodeTab {
   // -- runs --------------------------------------------------------------------------------------
 
   /** Begin to run, or make a step. Returns true: the key is used. */
-  #go(way, seed = null) {
+  #go(way, from = {}) {
     if (this.#agent === null) return true;
     this.#test.stop();
     this.#active = this.#run;
     const source = this.#editor.text;
     if (this.#run.phase === "off" || way === "run") this.#console.clear();
     this.#noteStart(source);
-    this.#run[way](source, this.#agent.id, seed);
+    this.#run[way](source, this.#agent.id, from);
     return true;
   }
 
@@ -253,12 +263,18 @@ export class CodeTab {
       this.#mistake.append(this.#goTo);
       this.#markMistake(end.line);
     }
+    if (end.reason === "mistake") this.#hold();
     this.#drawSoon();
+  }
+
+  /** Let the world wait while the person looks for a mistake, unless that disturbs another person. */
+  #hold() {
+    if (this.#isAlone) this.#panel.send("pause", {}, { quiet: true });
   }
 
   async #warm() {
     try {
-      await this.#run.warm();
+      await retried(() => this.#run.warm());
       this.#python = "ready";
     } catch (error) {
       this.#python = error.message;
@@ -271,6 +287,12 @@ export class CodeTab {
     return Boolean(this.#panel.driver?.hello?.instead);
   }
 
+  /** True unless another person drives in this world, too. */
+  get #isAlone() {
+    const agents = this.#panel.part("scene")?.agents ?? [];
+    return !agents.some(({ id, is_person: isPerson }) => isPerson && id !== this.#agent.id);
+  }
+
   /** Let a paused world run. */
   async #wake() {
     if (this.#panel.part("run")?.is_paused) await this.#panel.send("resume", {}, { quiet: true });
@@ -278,8 +300,7 @@ export class CodeTab {
 
   /** Begin an episode with the same start, unless that disturbs another person. */
   async #tryAgain() {
-    const agents = this.#panel.part("scene")?.agents ?? [];
-    if (agents.some(({ id, is_person: isPerson }) => isPerson && id !== this.#agent.id)) return false;
+    if (!this.#isAlone) return false;
     return (await this.#panel.send("try_again", {}, { quiet: true })).ok;
   }
 

@@ -26,6 +26,7 @@ export class CodeEngine {
     fake.calls.push(["decide", percept, number]);
     return fake.decide(percept, number);
   }
+  finish() { fake.finished = (fake.finished ?? 0) + 1; }
   end() {}
 }
 """

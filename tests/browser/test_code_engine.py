@@ -154,9 +154,60 @@ def test_an_answer_has_a_limited_size(page: Page) -> None:
 
 def test_many_programs_run_one_after_another(page: Page) -> None:
     workers = len(page.workers)
-    for number in range(100):
+    for number in range(5):
         assert run(page, f"return {number}")["values"] == number
-    assert len(page.workers) <= workers + 1
+    until_on(page, lambda: len(page.workers) <= workers + 1)  # Chromium ends them a bit later
+
+
+TICKS = """
+import asyncio, sys, math
+def tick():
+    loop.call_later(0, tick)
+def decide(percept):
+    global loop
+    loop = asyncio.get_event_loop()
+    tick()
+    open("/tmp/kept", "w").write("x")
+    math.kept = sys.kept = True
+    return {}
+"""
+"""A program that goes on computing, and leaves something in modules and in a file."""
+LOOKS = """
+import math, os, sys
+def decide(percept):
+    return [os.path.exists("/tmp/kept"), hasattr(math, "kept"), hasattr(sys, "kept")]
+"""
+
+
+@pytest.mark.parametrize("way", ["finish", "load"])
+def test_nothing_of_a_program_is_left_or_goes_on_after_it(page: Page, way: str) -> None:
+    page.evaluate("engine.end()")
+    until_on(page, lambda: not page.workers)  # Chromium ends them a bit later
+    assert load(page, TICKS)["ok"]
+    worker = page.workers[0]  # there may be a spare one, too
+    assert decide(page)["ok"]
+    ended = []
+    worker.on("close", lambda _: ended.append(True))
+    if way == "finish":
+        page.evaluate("engine.finish()")
+        assert decide(page)["kind"] == "not_loaded"
+    assert load(page, LOOKS)["ok"]
+    assert decide(page)["values"] == [False, False, False]
+    until_on(page, lambda: bool(ended))
+
+
+def test_a_program_whose_run_has_ended_meanwhile_is_not_loaded(page: Page) -> None:
+    load(page, "def decide(percept):\n    return {}")
+    answer = page.evaluate(
+        """async (room) => {
+            const loaded = engine.load("", room);
+            engine.finish();
+            return loaded;
+        }""",
+        ROOM,
+    )
+    assert (answer["ok"], answer["kind"]) == (False, "ended")
+    assert run(page, "return 1")["values"] == 1
 
 
 @pytest.mark.parametrize(
