@@ -28,8 +28,11 @@ from ai4u_edu.classroom.room_process import (
     run_room,
 )
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.server.token_auth import is_same_secret
 
+TIMEOUTS = DEFAULT_TIMEOUTS
+"""Time limits of the rooms' servers."""
 KILL_TIMEOUT_S = 60.0
 """Time in which the system removes a process that was killed; a busy machine takes seconds."""
 FIRST_BACKOFF_S = 1.0
@@ -73,6 +76,7 @@ class LocalRooms:
         blocks: Python files with the teacher's blocks, which every room loads.
         limits: of each process.
         are_shared: True if several students may be in a room.
+        receive_timeout_ms: time for which a room's world waits for a program or a script.
         clock: returns seconds; to be replaced in tests.
     """
 
@@ -83,9 +87,11 @@ class LocalRooms:
         limits: RoomLimits | None = None,
         *,
         are_shared: bool = False,
+        receive_timeout_ms: int = 2000,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._are_shared, self._clock = are_shared, clock
+        self._receive_timeout_ms = receive_timeout_ms
         self._limits = limits or RoomLimits()
         self._watching: asyncio.Task[None] | None = None
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
@@ -204,7 +210,15 @@ class LocalRooms:
         token = self._secrets[room] = secrets.token_urlsafe(24)
         folder = self._folder / "rooms" / room
         order = RoomOrder(
-            room, scene, folder, token, self._blocks, self.class_url, self._are_shared
+            room,
+            scene,
+            folder,
+            token,
+            self._blocks,
+            self.class_url,
+            self._are_shared,
+            self._receive_timeout_ms,
+            TIMEOUTS,
         )
         process = self._context.Process(  # type: ignore[attr-defined]  # all contexts have it
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True

@@ -2,6 +2,7 @@
 
 import signal
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing.connection import Connection
@@ -20,6 +21,7 @@ from ai4u_edu.room import Room, RoomSettings
 from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
 from ai4u_edu.server import Rules, serve
 from ai4u_edu.server.app import RoomMount
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
@@ -47,6 +49,10 @@ class RoomOrder:
     is_shared: bool = False
     """True if several students are in it: then no program of one may halt or restart the world of
     all, unless it drives the only agent."""
+    receive_timeout_ms: int = 2000
+    """Time for which the world waits for a program's or a script's answer."""
+    timeouts: Timeouts = DEFAULT_TIMEOUTS
+    """Time limits of the room's server."""
 
 
 @dataclass(frozen=True)
@@ -108,13 +114,22 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
     ports = partial(RoomReady, viser_port=room.viser_port)
     scene_file = SceneFile(order.folder, room.editor, room.runner)
     with tuned_process(), released_memory(), room, scene_file:
-        serve(app, HOST, 0, on_ready=lambda url: parent.send(ports(_port(url))))
+        ready = partial(_tell, parent, ports)
+        serve(app, HOST, 0, on_ready=ready, timeouts=order.timeouts)
 
 
 def _rules(order: RoomOrder) -> Rules:
-    if order.is_shared:
-        return Rules(token=order.token)
-    return Rules(token=order.token, seeded_resets=True, lockstep=True)
+    own = not order.is_shared
+    return Rules(
+        receive_timeout=order.receive_timeout_ms,
+        token=order.token,
+        seeded_resets=own,
+        lockstep=own,
+    )
+
+
+def _tell(parent: Connection, ports: Callable[[int], RoomReady], url: str) -> None:
+    parent.send(ports(_port(url)))
 
 
 def _end_with(parent: Connection) -> None:

@@ -71,6 +71,7 @@ def classroom(
     language: Language = "en",
     sleep_after: SleepAfter = 5.0,
     room_memory: RoomMemory = 600.0,
+    receive_timeout: o.ReceiveTimeout = 2000,
     max_folder: MaxFolder = 5.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
@@ -99,7 +100,13 @@ def classroom(
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
     rule, blocks = RoomRule.parse(rooms), own_blocks or ()
-    made = LocalRooms(folder, blocks, limits, are_shared=rule.kind != "each")
+    made = LocalRooms(
+        folder,
+        blocks,
+        limits,
+        are_shared=rule.kind != "each",
+        receive_timeout_ms=receive_timeout,
+    )
     with ClassStore(folder, max_folder) as store, closing(made) as local:
         local.quota = store.quota
         seats = Seats(store, scene, rule, code, language)

@@ -11,7 +11,7 @@ from tests.browser.test_code_drives import CodeTab
 from tests.chromium import DRAW_NOTHING, new_page
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.code_sheet import programs_in_docs
-from tests.waiting import until
+from tests.waiting import LIMIT_MS, until
 
 pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
@@ -44,7 +44,8 @@ def program_shown(teacher: Page, school: ServedClass, name: str) -> str:
 
 
 def test_the_teacher_sees_both(chromium: Browser, tmp_path_factory: pytest.TempPathFactory) -> None:
-    with served_class(tmp_path_factory.mktemp("class")) as school:
+    patient = ("--receive-timeout", str(round(LIMIT_MS)))
+    with served_class(tmp_path_factory.mktemp("class"), *patient) as school:
         ada, ben = school.joined(name="Red Fox"), school.joined(name="Blue Otter")
         first, second = tab_of(chromium, ada), tab_of(chromium, ben)
         chase = programs_in_docs()[0]

@@ -30,13 +30,14 @@ def be_patient() -> None:
     import dataclasses
     import functools
 
-    from ai4u_edu.classroom import gateway, room_watch
+    from ai4u_edu.classroom import gateway, local_rooms, room_watch
     from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS
     from tests.waiting import LIMIT_S
 
     connections = ("request", "linger", "stall", "handshake", "ping", "close")
     limits = dict.fromkeys(connections, LIMIT_S)
     gateway.SERVER_LIMITS["timeouts"] = dataclasses.replace(DEFAULT_TIMEOUTS, **limits)
+    local_rooms.TIMEOUTS = gateway.SERVER_LIMITS["timeouts"]
     of_rooms = ("answer_timeout_s", "start_timeout_s", "end_timeout_s")
     patient = functools.partial(room_watch.RoomLimits, **dict.fromkeys(of_rooms, LIMIT_S))
     room_watch.RoomLimits = patient  # type: ignore[assignment, misc]  # it makes them, too
