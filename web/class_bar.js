@@ -23,7 +23,7 @@ export class ClassBar {
   #name = element("strong");
   #lesson = element("span", { className: "ai4u-class-lesson" });
   #others = element("ul", { className: "ai4u-class-others", ariaLabel: "Also in this world" });
-  #teacher = element("span", { className: "ai4u-class-teacher", role: "status" });
+  #teacher = element("span", { className: "ai4u-class-teacher", ariaLive: "polite" });
   #message = element("p", { className: "ai4u-class-message", role: "status" });
   #time = element("span", { className: "ai4u-class-time", role: "timer" });
   #race = element("span", { className: "ai4u-class-race" });

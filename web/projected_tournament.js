@@ -31,7 +31,7 @@ export class ProjectedTournament {
     const told = JSON.stringify([results, tournament?.phase]);
     if (told === this.#told) return;
     this.#told = told;
-    const isOver = tournament?.phase === "over";
+    const isOver = results !== null && tournament.phase === "over";
     const winners = isOver ? results.standings.slice(0, PODIUM_PLACES) : [];
     this.#podium.show(tournament?.id, winners.map((row) => ({ name: row.name, colour: row.colour, text: `${row.won} – ${row.drawn} – ${row.lost}` })));
     const last = isOver ? null : results?.latest[0];

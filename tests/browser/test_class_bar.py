@@ -146,6 +146,10 @@ def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -
     expect(bar.locator("strong")).to_have_text("Red Fox")
     expect(bar.get_by_role("listitem")).to_have_text(["<b>Blue</b> Owl", "Green Hare(not here)"])
     assert bar.locator("b").count() == 0
+    school.tell(People((FOX, OWL, HARE), has_teacher=True))
+    expect(bar).to_contain_text("Your teacher looks in")
+    school.tell(People((FOX, OWL, HARE)))
+    expect(bar).not_to_contain_text("Your teacher looks in")
     school.tell(Assignment("a1", "Two wires", "", None, "05 Two wires"))
     expect(bar).to_contain_text("Lesson 05 Two wires")
     school.tell(Attention("", "Five <i>minutes</i> left", 300.0))

@@ -249,6 +249,7 @@ def test_a_teachers_program_is_offered_and_replaces_nothing(
     dialog = teacher.get_by_role("dialog", name="Assign a scene")
     dialog.get_by_label("Which scene").select_option("box_chase")
     given = "# from the teacher\ndef decide(percept):\n    return {}\n"
+    dialog.get_by_text("More: start and program").click()
     dialog.get_by_label("Starting program (Python)").fill(given)
     dialog.get_by_role("button", name="Assign").click()
 

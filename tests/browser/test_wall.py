@@ -103,6 +103,22 @@ def test_who_needs_help_comes_first_but_not_under_the_pointer(
     assert names(page) == sorted(names(page))
 
 
+def test_cards_keep_their_places_when_a_strip_appears(
+    chromium: Browser, school: WallServer
+) -> None:
+    school.state = class_message(4)
+    page = quick_page(chromium, 1280, 800)
+    page.goto(f"{school.url}teacher")
+    expect(cards(page)).to_have_count(4)
+    columns = "getComputedStyle(document.querySelector('#wall ul')).gridTemplateColumns.split(' ')"
+    before = page.evaluate(columns)
+    school.send(attention={"kind": "pause", "message": "Look", "ends_in": 0.0}, race=race(3))
+    expect(page.get_by_role("button", name="End race")).to_be_visible()
+    page.evaluate("() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)))")
+    assert len(page.evaluate(columns)) == len(before)
+    close_page(page)
+
+
 def test_filters_count_and_keep(page: Page, school: WallServer) -> None:
     school.send(rooms=rooms_with(status="asleep"))
     page.get_by_role("button", name="Asleep 1").click()
@@ -266,6 +282,7 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     expect_picture(dialog, "Box chase from above")
     dialog.get_by_label("Which scene").select_option(label="Maze")
     expect_picture(dialog, "Maze from above")
+    expect(dialog.get_by_role("button", name="Assign")).to_be_in_viewport()
     dialog.get_by_label("Some rooms").check()
     dialog.get_by_role("button", name="Assign").click()
     expect(dialog.get_by_role("alert")).to_have_text("Choose at least one room.")
@@ -280,6 +297,7 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     expect_picture(dialog, "Box chase from above")
     dialog.get_by_label("Which lesson").select_option(label="03 Build an agent")
     expect(dialog.get_by_role("img")).to_have_count(0)
+    dialog.get_by_text("More: start and program").click()
     dialog.get_by_label("Starting program (Python)").fill("def decide(percept):\n    return {}\n")
     dialog.get_by_role("button", name="Assign").click()
     expect(dialog).to_have_count(0)
@@ -423,7 +441,7 @@ def test_the_pages_have_no_grave_finding(
     page.goto(f"{school.url}teacher")
     expect(cards(page)).to_have_count(COUNT)
     found = {"wall": findings(page)}
-    for tab in ("Progress", "Misconceptions"):
+    for tab in ("Progress", "Misconceptions", "Programs"):
         page.get_by_role("tab", name=tab).click()
         found[tab] = findings(page)
     page.get_by_role("button", name="Assign a scene…").click()
@@ -451,6 +469,9 @@ def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer
     page.goto(f"{school.url}projector")
     expect(page.locator("#code")).to_have_text(CODE)
     expect(page.get_by_text(f"{COUNT} students are here")).to_be_visible()
+    names = page.get_by_role("list", name="Students who are here").get_by_role("listitem")
+    expect(names).to_have_count(COUNT)
+    expect(names.first).to_have_text(name_of(1))
     school.send(shown={"kind": "room", "room": "room5"})
     expect(page.locator("#wall li")).to_have_count(1)
     expect(page.locator("#wall")).to_contain_text(name_of(5))
@@ -462,6 +483,14 @@ def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer
     school.send(race=race(9))
     expect(page.locator("#race li")).to_have_count(9)
     expect(page.locator("#race li").first).to_contain_text("12.4 s")
+    expect(page.locator(".ai4u-podium")).to_be_hidden()
+    school.send(race=race(9, "over"))
+    steps = page.locator(".ai4u-podium > li")
+    expect(steps).to_contain_text(["12.4 s", "14.1 s", "15.8 s"])
+    expect(steps.first).to_contain_text(name_of(3))
+    expect(page.locator("#board li")).to_have_count(6)
+    expect(page.locator("#board li").first).to_contain_text("17.5 s")
+    expect(page.get_by_role("button", name="Sound")).to_have_attribute("aria-pressed", "false")
     school.send(race={**race(9), "is_board_hidden": True})
     expect(page.locator("#race li")).to_have_count(0)
     school.send(shown={"kind": "board", "room": ""})

@@ -1,7 +1,9 @@
 """A race in a real class: results are replayed, a forged one is refused, and ghosts go round."""
 
 import asyncio
+import io
 import math
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal
@@ -13,7 +15,7 @@ from ai4u_edu.classroom.commands import MAX_COUNTDOWN_S
 from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck, find_fault
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.file import decode, encode
-from ai4u_edu.wire.class_link import Ack, EpisodeResult, Race
+from ai4u_edu.wire.class_link import Ack, Assignment, EpisodeResult, Race, race_assignment
 from tests.classroom.link_client import RawLink, TeacherSocket, key
 from tests.classroom.served_class import ServedClass, served_class
 from tests.waiting import LIMIT_S
@@ -52,6 +54,10 @@ def result(
     return EpisodeResult(
         key(), "Box chase", seed, outcome, took, 1.0, "A person", race, encode(episode)
     )
+
+
+def fell(race: str) -> EpisodeResult:
+    return EpisodeResult(key(), "Box chase", SEED, "fell", 1.5, 0.0, "A person", race)
 
 
 @pytest.fixture(scope="module")
@@ -182,6 +188,24 @@ def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Epis
         assert news.board[0].seconds == pytest.approx(fast.seconds)
         assert decode(Episode, news.ghosts[0], "ghost").seconds == fast.seconds
 
+        two.send(fell(race.id))  # it changes nothing of a room that has arrived
+        with RawLink(served, served.joined(name="Calm Owl")) as late_one:
+            assigned = late_one.next(Assignment, lambda message: message.id != "")
+            assert (assigned.id, assigned.scene) == (race_assignment(race.id), "box_chase")
+            assert late_one.next(Race, lambda message: message.id == race.id).own_best == 0
+            end = fell(race.id)
+            late_one.send(end)
+            late_one.next(Ack, lambda message: message.key == end.key)
+        with RawLink(served, ada) as one:  # as after a restart
+            again = one.next(Race, lambda message: message.id == race.id)
+            assert again.own_best == pytest.approx(slow.seconds)
+            one.next(Race, lambda message: len(message.board) == 3)
+            with zipfile.ZipFile(io.BytesIO(served.export())) as archive:
+                page = archive.read("results.html").decode()
+            assert "<td>3</td><td>Calm Owl</td>" not in page
+            assert "<td></td><td>Calm Owl</td><td>fell</td>" in page
+
+        one = RawLink(served, ada)
         assert served.command("board", hide=True).status_code == 200
         assert one.next(Race, lambda message: message.board == ()).phase == "running"
         with TeacherSocket(served, "projector") as projector:

@@ -207,6 +207,36 @@ def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
     assert ada.get("api/snapshot").status_code == 200
 
 
+def test_a_student_is_told_while_the_teacher_looks_in(served: ServedClass) -> None:
+    ada, teacher = served.joined(), served.student()
+    assert teacher.client.get("teacher", params={"token": served.token}).is_success
+    teacher.room = ada.room
+    with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
+        page.receive("class", has_teacher=False)
+        with Page(teacher.address + "ws/input", additional_headers=teacher.cookies) as look:
+            look.receive("class", role="teacher")
+            page.receive("class", has_teacher=True)
+        page.receive("class", has_teacher=False)
+
+
+def test_what_the_wall_knows_of_a_room_outlasts_the_class(tmp_path: Path) -> None:
+    folder = tmp_path / "class"
+    with served_class(folder) as served:
+        ada = served.joined()
+        counts = folder / "rooms" / ada.room.split("/")[2] / "counts.json"
+        with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
+            page.receive("hello")
+            until(counts.exists)
+            for episodes in (2, 3):
+                page.send("command", name="new_start")
+                until(lambda: served.state()["rooms"][0]["episodes"] == episodes)  # noqa: B023
+            until(lambda: json.loads(counts.read_text())["episodes"] == 3)
+        os.kill(served.process.pid, signal.SIGKILL)
+    with served_class(folder) as served:
+        (room,) = served.state()["rooms"]
+        assert (room["status"], room["episodes"], room["scene"]) == ("asleep", 3, "Box chase")
+
+
 def test_a_command_that_can_not_be_done_is_a_sentence(served: ServedClass) -> None:
     answer = served.command("kick", seat=10**6)
     assert (answer.status_code, answer.json()) == (400, {"problem": "there is no seat 1000000"})
