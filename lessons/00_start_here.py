@@ -158,7 +158,7 @@ check("00.3", curve)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** What does this action do? `{"move": [0.5, -1, 0, 0]}`
 #

@@ -302,7 +302,7 @@ check("01.5", plan)
 # | `KeyError`, `NameNotFoundError` | there is no entry of this name | spelling of the word in quotes |
 # | `IndexError` | the list is not that long | Python counts from 0 |
 # | `TypeError` | this can't be done with such values | is one of them a text, a list, `None`? |
-# | `SyntaxError` | this is no Python | brackets, colons, quotes, `=` or `==` |
+# | `SyntaxError` | this isn't valid Python | brackets, colons, quotes, `=` or `==` |
 #
 # And then there are mistakes **without** a message: the program runs, but does the wrong thing. Then
 # `print` helps: put it into your function, and look at what the function really gets.

@@ -37,12 +37,12 @@ from ai4u_edu.lessons import (
 # ## Drive, and watch
 #
 # Run the cell, and drive with **W A S D**. **Space** jumps, **J** jumps forward: you need that for the
-# low wall. Reach the cube. Then open the panel (the button at the top right), drive again, and keep an
-# eye on:
+# low wall. Reach the cube. Then open the panel (the button at the top right), and choose **Details** at
+# its top. Drive again, scroll down in the panel, and keep an eye on:
 #
-# - **Action**: the four numbers that your keys turn into,
-# - **Senses**: the readings of the robot's sensors. Turn on the spot: which numbers change, and which
+# - **Sensors**: the readings of the robot's sensors. Turn on the spot: which numbers change, and which
 #   don't?
+# - **Action**, below them: the four numbers that your keys turn into.
 
 # %%
 show("sample_scene", seed=1)
@@ -200,7 +200,9 @@ film("sample_scene", face_it, seed=7, limit=30)
 # The robot faces the box. It should drive towards the box and stop **2 metres** from its centre. The
 # distance is different in each world, so counting does not help: the robot has to look.
 #
-# Here the distance is in metres: `percept["orientation"][1]`. You need an `if`, as in `face_it`.
+# Here the distance is in metres: `percept["orientation"][1]`. You need an `if`, as in `face_it`. At the
+# end the robot has to stand still, without turning. Zeros brake; an empty action, `{}`, leaves the motor
+# as it is, and the robot rolls on.
 
 
 # %% tags=["exercise-02.3"]
@@ -225,7 +227,7 @@ check("02.3", stop_in_time)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A robot has the heading 0: it faces right. For a few decisions its action is `{"move": [0, 0.5,
 # 0, 0]}`. What happens to the heading?

@@ -258,7 +258,7 @@ show(sim)
 # %% [markdown]
 # ### Exercise 03.5: gold: the fewest decisions
 #
-# *For the quick; you can leave it out.* The usual `steer` needs about 21 decisions, on average over 30
+# *For fast finishers; optional.* The usual `steer` needs 21 to 23 decisions, on average over 30
 # worlds. Write one that needs **20 or fewer**. The robot and its legs are the same as in 03.4. What takes
 # so long?
 
@@ -275,11 +275,11 @@ check("03.5", quick_steer)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** An agent has a body, sensors, actuators and rewards, but its controller returns `{}`. What happens?
 #
-# - a: nothing moves: nobody decides on an action
+# - a: it stays where it is: nobody decides on an action
 # - b: the rewards make it move
 # - c: it drives at random
 #

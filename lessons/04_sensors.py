@@ -214,7 +214,7 @@ check("04.4", my_sensors)
 # | `normalized=True` | divides the reading by its largest possible value, so that it is at most 1 |
 # | `noise=0.1`, `delay=5` | makes the reading inexact, or five decisions old |
 # | `is_active=False` | leaves the sensor out, although its line stays in your program |
-# | `resetable=False` | keeps the stack when a new episode begins; otherwise it is filled anew |
+# | `resetable=False` | keeps the stack when a new episode begins; otherwise it is filled again |
 #
 # Why would you **stack**? A single distance does not tell you whether the box comes nearer. Three of them do.
 # And why **normalise**? A network learns badly if one number goes up to 1 and another one up to 300.
@@ -279,7 +279,7 @@ print(
 # %% [markdown]
 # ### Exercise 04.5: gold: as few numbers as possible
 #
-# *For the quick; you can leave it out.* Tell the three pairs of exercise 04.4 apart once more. This time
+# *For fast finishers; optional.* Tell the three pairs of exercise 04.4 apart once more. This time
 # only the numbers of the percept count, not the sensors: **three numbers** are enough. (61 rays are 122
 # numbers.) `help` prints what a sensor can do, for example `help(OrientationSensor)`.
 
@@ -293,7 +293,7 @@ check("04.5", my_few_numbers)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A robot has a cosine as its only sensor, and reads 0. Where is the target?
 #

@@ -239,7 +239,7 @@ show(vehicle(love))
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A lamp shines from the front left. Each eye is connected to the wheel on its own side: the
 # brighter, the faster. What does the vehicle do?

@@ -32,6 +32,7 @@ from ai4u_edu.lessons import (
     solution,
 )
 
+COLOURS = {"red": "vermillion", "blue": "blue"}
 ANYWHERE = Variation(x=(-3.5, 3.5), y=(-3.5, 3.5), heading_deg=(-180, 180), clearance=1)
 
 
@@ -41,7 +42,8 @@ def room(controller, sensors, **bodies):
     world.add_floor("plate", BoxShape(size=(10, 10)))
     world.add_body("robot", CircleShape(radius=0.5), random=ANYWHERE)
     for name, shape in bodies.items():
-        world.add_body(name, shape, kind="static", random=ANYWHERE)
+        colour = COLOURS.get(name, "grey")
+        world.add_body(name, shape, kind="static", random=ANYWHERE, colour=colour, label=name)
     agent = BasicAgent(
         body="robot",
         sensors=sensors,
@@ -112,13 +114,15 @@ film(room(stroll, [feelers()]), seed=1, limit=150)
 # ## What rules can't do
 #
 # Two posts stand on the plate, a red one and a blue one. The robot is a guard: it drives to red, stands
-# still there for **2 seconds**, drives to blue, stands still for 2 seconds, and so on. It senses the
-# bearing of both posts, and whether it touches one.
+# still there for **2 seconds**, with its wheels at zero, drives to blue, stands still for 2 seconds, and so
+# on. It senses the bearing of both posts, and whether it touches one.
 #
 # Think of the robot as it stands at the red post. Nothing moves, so **the percept is the same at every
 # decision**: after a tenth of a second, after one second, after two. A rule sees nothing but the percept,
 # so it gives the same answer each time. If the answer is "stand still", the robot stands there for ever;
 # if it is "go", the robot never rests. No rule can do this. It takes a **memory**: somebody has to count.
+# (A robot that turns by a hair at each decision could read the bearing like the hand of a clock. But then
+# it does not stand still.)
 #
 # (Running between the posts without a rest is different. Rules can do that, because the post that you
 # come from is behind you: the percept is *not* the same on the way there and on the way back.)
@@ -183,11 +187,14 @@ class Counter(Controller):
 film(room(Counter(), [feelers()]), seed=5, limit=100)
 
 # %% [markdown]
-# (`%` gives the rest of a division: `self.count % 40` counts from 0 to 39, again and again.)
+# (`%` gives the remainder of a division: `self.count % 40` counts from 0 to 39, again and again.)
 #
 # ### Exercise 06.2: patrol
 #
 # Rest at red, at blue, at red, and so on: at least six rests of 2 seconds (24 decisions) in a minute.
+# Standing still means an action of zeros: an empty action, `{}`, leaves the motor as it is. In each world
+# the posts are another way apart, and a robot that touches one must not push against it for longer than a
+# second.
 # `to` is a helper that drives towards a bearing. Two things have to last: where the robot is going
 # (`self.goal`), and for how long it has stood there (`self.waited`).
 
@@ -231,8 +238,8 @@ show(room(Patrol(), posts, red=post, blue=post), seed=1)
 #
 # A smaller task, and this time you make the plan. The robot stands between two walls, and its bumper is its
 # only sensor. It drives forward until it bumps, then backward until it bumps, then forward again. After the
-# **third bump** it stops, and stays where it is. In each world the walls are in different places. What does
-# the robot have to remember?
+# **third bump** it stops, and stays where it is. In each world the walls are in different places, and the
+# robot must not push against a wall for more than 3 decisions. What does it have to remember?
 
 
 # %% tags=["exercise-06.3"]
@@ -252,7 +259,7 @@ check("06.3", ThreeBumps)
 # %% [markdown]
 # ### Exercise 06.4: gold: a fast stroll
 #
-# *For the quick; you can leave it out.* At full speed the robot could cover 60 metres in 30 seconds. The
+# *For fast finishers; optional.* At full speed the robot could cover 60 metres in 30 seconds. The
 # usual `stroll` covers 51, as it stops each time to turn. Cover **55 metres** in every world, without a
 # fall.
 
@@ -269,7 +276,7 @@ check("06.4", quick_stroll)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A controller has these two rules, in this order. The robot is at the edge, and its battery is
 # low. What does it do?

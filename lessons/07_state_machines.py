@@ -114,7 +114,8 @@ compare("07.1", 4 * (24 + 6))
 #
 # A long wall stands between robot and box; some walls have a corner, like an L. The robot has a bumper,
 # which reads 1 while it touches the wall. It also knows the bearing of the box, as if it could smell the box
-# through the wall. A rule would push against the wall for ever. Here is a machine:
+# through the wall. A rule would push against the wall for ever. In some worlds the wall is not in the way:
+# there the robot should drive straight to the box. Here is a machine:
 #
 # ```
 #            bumps                6 decisions later            20 decisions later
@@ -126,7 +127,8 @@ compare("07.1", 4 * (24 + 6))
 #
 # ### Exercise 07.1: around the wall
 #
-# Write the machine of the drawing, or one of your own. Begin with the arrows.
+# Write the machine of the drawing, or one of your own. Begin with the arrows. The robot has to read its
+# bumper: it must not push against the wall for longer than a second.
 
 
 # %% tags=["exercise-07.1"]
@@ -148,7 +150,7 @@ check("07.1", AroundTheWall)
 
 # %%
 senses = [TouchSensor(target="wall", perception_key="bumper"), BearingSensor(target="box")]
-film(robot_in(wall_world(3, has_arm=True), AroundTheWall(), senses), seed=3, limit=300)
+film(robot_in(wall_world(3, has_arm=True), AroundTheWall(), senses), seed=3, limit=720)
 
 # %% [markdown]
 # If it does not get there, find out in which state it is: put `print(self.state)` into the method, and
@@ -187,7 +189,8 @@ plot({"battery": battery_of(one_number)}, xlabel="decision", ylabel="level of th
 # on the road nearly all the time. It needs **two** numbers: one at which it goes to the station, and
 # another one at which it leaves. In between, at 0.6 say, it does one thing or the other. Which one
 # depends on what it was doing before, and that is its state. (A heater works like that, too: on below 19
-# degrees, off above 21.)
+# degrees, off above 21. There is a way without a variable for the state: in between, drive on to the place
+# that the robot faces. Then its heading is its memory.)
 #
 # ```
 #             battery low
@@ -201,6 +204,8 @@ plot({"battery": battery_of(one_number)}, xlabel="decision", ylabel="level of th
 #
 # Write the machine of the drawing. In two minutes the robot has to be at the site for at least **30
 # seconds**, and its battery must never be empty. The way to the station costs up to a quarter of the battery.
+# Stations charge at different speeds, and one becomes slower or faster after a minute: so the robot has to
+# read its battery, and leave within 3 seconds once it is full.
 
 
 # %% tags=["exercise-07.2"]
@@ -272,7 +277,7 @@ run(arrows, "patrol", ["noise", "quiet", "thief", "noise", "gone", "thief"])
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A lift stands at floor 2 with open doors. Somebody presses the button for floor 5. What does the
 # lift need to know, besides the button, to do the right thing?

@@ -79,8 +79,9 @@ def go(percept):
 # The number `skip_frame` says how many ticks pass without thinking. With `skip_frame=4`, as in most of
 # our scenes, a decision takes 5 ticks, so there are 60 / 5 = 12 decisions a second.
 #
-# Run the cell, open the panel, choose the speed **0.1x**, and drive. Watch the strip with the four steps:
-# it shows where in the cycle the agent is.
+# Run the cell, open the panel, and choose **Details** at its top. Now there is **Speed**: choose **0.1x**,
+# and drive. Scroll down to **Action**. Its first line shows where in the cycle the agent is, and which of
+# the 5 ticks this is.
 
 # %%
 show("box_chase", seed=4)
@@ -206,7 +207,12 @@ agent = sim.agents[0]
 
 @agent.end_of_step.connect
 def told(agent):
-    print("decision", agent.steps, "is over, the robot is at x =", agent.body.position[0])
+    print(
+        "decision",
+        agent.steps + 1,
+        "is over, the robot is at x =",
+        round(agent.body.position[0], 2),
+    )
 
 
 sim.reset()
@@ -266,7 +272,7 @@ check("08.3", diary)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A robot drives at 2 m/s and decides with `skip_frame=29`. How far does it drive from one decision
 # to the next?

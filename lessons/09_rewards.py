@@ -147,8 +147,9 @@ for name, rewards in well_meant.items():
 #
 # ### Exercise 09.2: a trail that can't be tricked
 #
-# Find rewards with which the **runner** wins clearly, and which pay on the way to the box, too: at least
-# half of the runner's decisions have to be paid above 0. Look for reward functions that take back what
+# Find rewards with which **runner** and **stroller**, who drive to the box, clearly get more than all
+# others, and which pay on the way to the box, too: at least half of the runner's decisions have to be paid
+# above 0. (Which of the two gets more does not matter yet.) Look for reward functions that take back what
 # they paid when the robot goes away again: `ai4u-edu blocks ProgressReward`.
 
 
@@ -256,7 +257,7 @@ print(agent.ledger.episode_terms)
 # %% [markdown]
 # ## Exit ticket
 #
-# Three questions to see what stays with you. Write your three letters into the list.
+# Three questions to see what has stuck. Write your three letters into the list.
 #
 # **1.** A robot is paid 1 for each decision in which it is near the box, and 10 for touching it, which
 # ends the episode. An episode takes at most 120 decisions. What pays most?

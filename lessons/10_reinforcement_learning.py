@@ -94,7 +94,8 @@ print("grid world:", grid_world.action_space)
 
 # %% [markdown]
 # What pays in the box chase? Touching the box pays 100, falling costs 1, and both end the episode. Each
-# decision that brings the robot closer than ever before pays 0.01; any other decision costs 0.001.
+# decision that brings the robot closer than ever before pays 0.01; any other decision costs 0.001. (The
+# first decision pays 0: there is no distance before it to compare with.)
 #
 # ## Now or later
 #

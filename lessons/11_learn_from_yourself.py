@@ -157,7 +157,7 @@ cards(
 predict("11.clone", ...)
 
 # %% [markdown]
-# Train it, and check it. Then give it what it needs to reach the box in at least 50 of 100 worlds.
+# Train it, and check it. Then give it what it needs to reach the box in at least 20 of 40 other worlds.
 
 # %% tags=["exercise-11.2"]
 my_clone = clone(one_drive(), "clone.onnx", quiet=True)
@@ -264,7 +264,7 @@ film(track("clone.onnx", best_network()), seed=4, limit=200)
 # car, in an operating theatre?
 
 # %% [markdown]
-# ## Because of what?
+# ## Why did it do that?
 #
 # Here is another world: in it a lamp stands behind the box, always. The robot senses both, the lamp a bit
 # better. Somebody drove to the box 25 times and never looked at the lamp. A clone learns from that, and it
@@ -285,7 +285,7 @@ compare("11.lamp", lamp_successes("lamp.onnx", "elsewhere"))
 film(lamp_world("elsewhere"), trained_brain("lamp.onnx"), seed=101, limit=40)
 
 # %% [markdown]
-# It fails. But *because of what*? Ask it. Take away one reading (put its mean in its place), and see how far
+# It fails. But *why*? Ask it. Take away one reading (put its mean in its place), and see how far
 # the action moves: that is called **occlusion**. A reading that the clone does not need moves nothing.
 
 # %%
@@ -318,16 +318,16 @@ def blind(policy, percept, baseline):
 check("11.4", blind)
 
 # %% [markdown]
-# Now you know what to mend. It was never shown a drive in which the lamp and the box are apart. So show it some: the lamp
+# Now you know what to fix. It was never shown a drive in which the lamp and the box are apart. So show it some: the lamp
 # stands somewhere else in each.
 
 # %%
-clone(lamp_drives("anywhere"), "mended.onnx", quiet=True)
-print("the lamp elsewhere:", lamp_successes("mended.onnx", "elsewhere"), "of 20")
+clone(lamp_drives("anywhere"), "fixed.onnx", quiet=True)
+print("the lamp elsewhere:", lamp_successes("fixed.onnx", "elsewhere"), "of 20")
 bars(
-    looked_at("mended.onnx", lamp_drives("behind", 4)[3]),
+    looked_at("fixed.onnx", lamp_drives("behind", 4)[3]),
     ylabel="moves the action by",
-    title="the mended clone",
+    title="the fixed clone",
 )
 
 # %% [markdown]

@@ -81,7 +81,7 @@ compare("13.inputs", sum(int(np.prod(port.shape)) for port in network.inputs))
 print("ticks that it skipped between two decisions:", network.about["skip_frame"])
 
 # %% [markdown]
-# What if it is asked more often, or more seldom? Here is the network of another scene, which learned with
+# What if it is asked more often, or less often? Here is the network of another scene, which learned with
 # `skip_frame=14`. If you say nothing, a `LocalBrain` has `skip_frame=4`.
 
 

@@ -171,7 +171,7 @@ film("soccer", strike, seed=4, limit=400)
 # %% [markdown]
 # ### Exercise 17.5: gold: quick goals
 #
-# *For the quick; you can leave it out.* With our `go_to`, half of the goals come within 10 seconds (120
+# *For fast finishers; optional.* With our `go_to`, half of the goals come within 10 seconds (120
 # decisions). Score that quickly in at least **16 of 24** games.
 
 

@@ -92,7 +92,7 @@ def to(bearing):
 # ### Exercise 18.2: stay alive
 #
 # Keep the creature alive for a minute. In some of the worlds it begins with hardly any energy, or hardly
-# any water.
+# any water: then it reaches what it lacks just in time, if it goes there first.
 
 
 # %% tags=["exercise-18.2"]
@@ -150,7 +150,7 @@ plot(levels(live_well), xlabel="decision (12 a second)", ylabel="level")
 # %% [markdown]
 # ### Exercise 18.4: gold: a dry summer
 #
-# *For the quick; you can leave it out.* In a dry summer both levels fall faster: energy by 4 a second,
+# *For fast finishers; optional.* In a dry summer both levels fall faster: energy by 4 a second,
 # water by 6. Resting until a level is low, and then going, keeps the creature well in about 82 of 100
 # decisions at best. Reach **83**, on average over 20 lives. What could it do while it rests?
 

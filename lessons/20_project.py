@@ -1,7 +1,7 @@
 # %% [markdown]
 # # 20 Project: your own world
 #
-# ![A world of one's own, and the way through it](pictures/20.png)
+# ![A world of your own, and the way through it](pictures/20.png)
 #
 # You have driven in worlds that others made, and found out what makes their creatures tick. Now you make
 # one yourself: a place, a task, and an agent that can do it.

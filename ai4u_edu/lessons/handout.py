@@ -14,6 +14,8 @@ from ai4u_edu.lessons.progress_file import FOLDER
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
 """Settings of JupyterLab that keep it from asking to fetch news from the internet."""
+LAB_PLUGINS = {"@jupyterlab/docmanager-extension:plugin": {"autosaveInterval": 10}}
+"""Settings of JupyterLab's plugins: notebooks are saved every 10 s, in place of 120 s."""
 BOOK = "handed-out.json"
 """File in the hidden folder with the version of each notebook that was handed out."""
 
@@ -47,6 +49,8 @@ def hand_out(folder: Path) -> HandedOut:
         config = lab_config(folder) / "labconfig"
         config.mkdir(parents=True, exist_ok=True)
         write_atomically(config / "page_config.json", json.dumps(LAB, indent=1))
+        overrides = config / "default_setting_overrides.json"
+        write_atomically(overrides, json.dumps(LAB_PLUGINS, indent=1))
         book = _read(folder / FOLDER / BOOK)
         for lesson in lessons():
             text = dumps(lesson.cells)

@@ -95,4 +95,5 @@ def is_students(file: str) -> bool:
         return not file.startswith(("<frozen", "<doctest", "<__array_function__", "<string>"))
     if "ipykernel_" in file:  # what was typed into a cell
         return True
-    return not file.startswith((_OURS, *_LIBRARIES))
+    # a library's part that was compiled names its source without a folder: "numpy/random/x.pyx"
+    return file.endswith(".py") and not file.startswith((_OURS, *_LIBRARIES))

@@ -140,3 +140,23 @@ import random
 
 def moth(percept):
     return {"move": [random.choice([0, 0.4, 1]), 0, 0, 0]}
+
+
+# %% tags=["wrong", "number", "7 for 0.7"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 7:
+        return {"move": [0, 0, 0, 0]}
+    elif brightness > 0.2:
+        return {"move": [0.4, 0, 0, 0]}
+    return {"move": [1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "number", "a gap between two cases"]
+def moth(percept):
+    brightness = percept["light"][0]
+    if brightness > 0.7:
+        return {"move": [0, 0, 0, 0]}
+    elif 0.3 < brightness < 0.7:
+        return {"move": [0.4, 0, 0, 0]}
+    return {"move": [1, 0, 0, 0]}

@@ -102,7 +102,7 @@ def count_near(distances):
     return count
 
 
-# %% tags=["wrong", "endless", "a while loop that never ends"]
+# %% tags=["wrong", "endless-loop", "a while loop that never ends"]
 def count_near(distances):
     count = 0
     while distances[0] > 0:
@@ -135,3 +135,22 @@ import random
 
 def count_near(distances):
     return random.randint(0, 3)
+
+
+# %% tags=["wrong", "limit", "2 m is near"]
+def count_near(distances):
+    count = 0
+    for distance in distances:
+        if distance <= 2:
+            count = count + 1
+    return count
+
+
+# %% tags=["wrong", "endless-loop", "counts by adding to the list"]
+def count_near(distances):
+    count = 0
+    for distance in distances:
+        if distance < 2:
+            distances.append(distance)
+            count = count + 1
+    return count

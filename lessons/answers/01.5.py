@@ -169,3 +169,25 @@ import random
 
 def plan(ahead, left):
     return [random.choice(["forward", "left"]) for _ in range(ahead + left + 1)]
+
+
+# %% tags=["wrong", "turns", "turns in the loop"]
+def plan(ahead, left):
+    steps = []
+    for _ in range(ahead):
+        steps.append("forward")
+        steps.append("left")
+    for _ in range(left):
+        steps.append("forward")
+    return steps
+
+
+# %% tags=["wrong", "early", "returns in the second loop"]
+def plan(ahead, left):
+    steps = []
+    for _ in range(ahead):
+        steps.append("forward")
+    steps.append("left")
+    for _ in range(left):
+        steps.append("forward")
+        return steps

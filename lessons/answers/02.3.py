@@ -110,3 +110,36 @@ def stop_in_time(percept):
 def stop_in_time(percept):
     distance = percept["orientation"][1]
     return {"move": [1 if distance > 2 else -1, 0, 0, 0]}
+
+
+# %% tags=["wrong", "spins", "turns on the spot when it is near"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2.1:
+        return {"move": [1, 0, 0, 0]}
+    return {"move": [0, 1, 0, 0]}
+
+
+# %% tags=["wrong", "empty", "rolls on when it is near"]
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if distance > 2.1:
+        return {"move": [1, 0, 0, 0]}
+    return {}
+
+
+# %% tags=["wrong", "empty", "does nothing"]
+def stop_in_time(percept):
+    return {}
+
+
+# %% tags=["wrong", "once", "looks once"]
+left = []
+
+
+def stop_in_time(percept):
+    distance = percept["orientation"][1]
+    if not left:
+        left.append((distance - 2) * 12 / 3)
+    left[0] = left[0] - 1
+    return {"move": [1 if left[0] >= 0 else 0, 0, 0, 0]}

@@ -97,3 +97,9 @@ def attack(percept):
     left_eye = percept["left eye"][0]
     right_eye = percept["right eye"][0]
     return {"wheels": [left_eye, 0.3]}
+
+
+# %% tags=["wrong", "reverse", "crossed, and with a minus"]
+def attack(percept):
+    left, right = percept["left eye"][0], percept["right eye"][0]
+    return {"wheels": [-right, -left]}

@@ -197,3 +197,70 @@ import random
 
 def Patrol(percept):
     return to(percept[random.choice(["to red", "to blue"])])
+
+
+# %% tags=["lucky", "turns by a hair at a post, and reads the bearing as a clock"]
+def Patrol(percept):
+    for here, there in (("red", "blue"), ("blue", "red")):
+        left, ahead = percept["to " + here]
+        if percept["at " + here][0] == 1 and ahead > 0 and left < 0.03:
+            return {"move": [0, 0.0035, 0, 0]}
+        if percept["at " + here][0] == 1:
+            return to(percept["to " + there])
+    return to(max(percept["to red"], percept["to blue"], key=lambda bearing: bearing[1]))
+
+
+# %% tags=["wrong", "pushes", "changes the post by the clock"]
+class Patrol(Controller):
+    """Guards the posts."""
+
+    goal = "red"
+    waited = 0
+
+    def get_action(self, percept):
+        self.waited = self.waited + 1
+        if self.waited == 110:
+            self.goal = "blue" if self.goal == "red" else "red"
+            self.waited = 0
+        return to(percept["to " + self.goal])
+
+
+# %% tags=["wrong", "pushes", "rests by the clock"]
+class Patrol(Controller):
+    """Guards the posts."""
+
+    goal = "red"
+    waited = 0
+
+    def get_action(self, percept):
+        self.waited = self.waited + 1
+        if self.waited == 110:
+            self.goal = "blue" if self.goal == "red" else "red"
+            self.waited = 0
+        if self.waited > 84:
+            return {"move": [0, 0, 0, 0]}
+        return to(percept["to " + self.goal])
+
+
+# %% tags=["wrong", "empty", "does nothing at all"]
+def Patrol(percept):
+    return {}
+
+
+# %% tags=["right", "an empty action for a rest"]
+class Patrol(Controller):
+    """Guards the posts."""
+
+    goal = "red"
+    waited = 0
+
+    def get_action(self, percept):
+        if percept["at " + self.goal][0] == 1:
+            self.waited = self.waited + 1
+            if self.waited == 1:
+                return {"move": [0, 0, 0, 0]}
+            if self.waited <= 30:
+                return {}
+            self.goal = "blue" if self.goal == "red" else "red"
+            self.waited = 0
+        return to(percept["to " + self.goal])

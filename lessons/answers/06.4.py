@@ -118,3 +118,16 @@ import random
 
 def quick_stroll(percept):
     return {"move": [1, random.uniform(-1, 1), 0, 0]}
+
+
+# %% tags=["wrong", "dithers", "turns to and fro"]
+count = 0
+
+
+def quick_stroll(percept):
+    global count
+    count = count + 1
+    left, ahead, right = percept["feelers"]
+    if ahead == 0:
+        return {"move": [0, 1 if count % 2 else -1, 0, 0]}
+    return {"move": [1, 0, 0, 0]}

@@ -191,3 +191,50 @@ import random
 
 def Worker(percept):
     return to(percept[random.choice(["to site", "to station"])])
+
+
+# %% tags=["right", "its heading is its memory"]
+def Worker(percept):
+    battery = percept["battery"][0]
+    if battery < 0.3:
+        return to(percept["to station"])
+    if battery > 0.9:
+        return to(percept["to site"])
+    return to(max(percept["to station"], percept["to site"], key=lambda bearing: bearing[1]))
+
+
+# %% tags=["wrong", "percent", "30 for 0.3"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    state = "work"
+
+    def get_action(self, percept):
+        battery = percept["battery"][0]
+        if battery < 30:
+            self.state = "charge"
+        elif battery > 90:
+            self.state = "work"
+        return to(percept["to station" if self.state == "charge" else "to site"])
+
+
+# %% tags=["lucky", "half of the time at the station"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    count = 0
+
+    def get_action(self, percept):
+        self.count = self.count + 1
+        return to(percept["to station" if self.count % 300 < 150 else "to site"])
+
+
+# %% tags=["lucky", "more than half of the time at the station"]
+class Worker(Controller):
+    """Works, and charges its battery in time."""
+
+    count = 0
+
+    def get_action(self, percept):
+        self.count = self.count + 1
+        return to(percept["to station" if self.count % 240 < 130 else "to site"])

@@ -99,3 +99,21 @@ def diary(agent):
 def diary(agent):
     notes = []
     return notes
+
+
+# %% tags=["wrong", "late", "functions made in a loop"]
+def diary(agent):
+    notes = []
+    events = [agent.begin_of_episode, agent.end_of_step, agent.end_of_episode]
+    for event, word in zip(events, ["begin", "decision", "end"]):
+        event.connect(lambda agent: notes.append(word))
+    return notes
+
+
+# %% tags=["wrong", "copy", "returns a copy"]
+def diary(agent):
+    notes = []
+    agent.begin_of_episode.connect(lambda agent: notes.append("begin"))
+    agent.end_of_step.connect(lambda agent: notes.append("decision"))
+    agent.end_of_episode.connect(lambda agent: notes.append("end"))
+    return list(notes)

@@ -51,3 +51,14 @@ def paid_most(told):
 # %% tags=["lucky", "nothing"]
 def paid_most(told):
     return ""
+
+
+# %% tags=["lucky", "always near"]
+def paid_most(told):
+    return "near"
+
+
+# %% tags=["wrong", "rows", "rows and columns mixed up"]
+def paid_most(told):
+    sums = [sum(told.amounts[n]) for n in range(len(told.terms))]
+    return told.terms[sums.index(max(sums))]

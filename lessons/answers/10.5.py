@@ -47,3 +47,8 @@ def looks_most_at(told):
 # %% tags=["lucky", "the longest name"]
 def looks_most_at(told):
     return max(told.names, key=len)
+
+
+# %% tags=["lucky", "always ray 2"]
+def looks_most_at(told):
+    return "ray 2"

@@ -62,3 +62,15 @@ def blind(policy, percept, baseline):
 # %% tags=["lucky", "nothing at all"]
 def blind(policy, percept, baseline):
     return None
+
+
+# %% tags=["wrong", "little", "less than a tenth"]
+def blind(policy, percept, baseline):
+    told = explain.occlusion(policy, percept, baseline=baseline, groups="sensor")
+    return [name for name, size in zip(told.names, told.importance) if size < 0.1]
+
+
+# %% tags=["wrong", "little", "less than a twentieth"]
+def blind(policy, percept, baseline):
+    told = explain.occlusion(policy, percept, baseline=baseline, groups="sensor")
+    return [name for name, size in zip(told.names, told.importance) if size < 0.05]

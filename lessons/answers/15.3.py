@@ -57,3 +57,9 @@ def full_power(robot):
 # %% tags=["lucky", "a dictionary"]
 def full_power(robot):
     return {"move": [1, 1, 1, 1]}
+
+
+# %% tags=["lucky", "a table by the number of numbers"]
+def full_power(robot):
+    count = len(robot.spaces.action.high)
+    return {4: [1, 1, 1, 1], 3: [3, 0.5, 0.25], 2: [1, 1]}.get(count, [1] * count)

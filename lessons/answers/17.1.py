@@ -76,3 +76,23 @@ import random
 
 def same_way(ball, goal):
     return random.random() < 0.5
+
+
+# %% tags=["wrong", "wrap", "the other way round, and forgets the wrap"]
+def same_way(ball, goal):
+    return abs(math.atan2(ball[0], ball[1]) - math.atan2(goal[0], goal[1])) < 0.5
+
+
+# %% tags=["wrong", "wrap", "the same in two steps"]
+def same_way(ball, goal):
+    to_ball = math.atan2(ball[0], ball[1])
+    to_goal = math.atan2(goal[0], goal[1])
+    difference = to_ball - to_goal
+    return -0.5 < difference < 0.5
+
+
+# %% tags=["wrong", "wrap", "the same in degrees"]
+def same_way(ball, goal):
+    first = math.degrees(math.atan2(ball[0], ball[1]))
+    second = math.degrees(math.atan2(goal[0], goal[1]))
+    return abs(first - second) < 28

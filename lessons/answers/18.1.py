@@ -39,7 +39,7 @@ def seconds_of_comfort(level, loss):
     return seconds
 
 
-# %% tags=["wrong", "endless", "counts until it is exactly 40"]
+# %% tags=["wrong", "endless-loop", "counts until it is exactly 40"]
 def seconds_of_comfort(level, loss):
     seconds = 0
     while level != 40:

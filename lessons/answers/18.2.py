@@ -93,3 +93,19 @@ import random
 
 def live(percept):
     return random.choice([to(percept["to food"]), to(percept["to water"])])
+
+
+# %% tags=["wrong", "thirst", "food first, always"]
+def live(percept):
+    energy, water = percept["inside"]
+    if energy < 0.9:
+        return to(percept["to food"])
+    return to(percept["to water"])
+
+
+# %% tags=["wrong", "thirst", "water first, always"]
+def live(percept):
+    energy, water = percept["inside"]
+    if water < 0.9:
+        return to(percept["to water"])
+    return to(percept["to food"])

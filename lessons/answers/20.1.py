@@ -351,3 +351,88 @@ agents:
 
 # %% tags=["lucky", "the name of a scene"]
 my_scene = "box_chase"
+
+
+# %% tags=["wrong", "random", "a place that hardly differs"]
+my_scene = """
+name: my_world
+title: Behind the wall
+goal: Get to the box behind the wall. Do not fall off the plate.
+controls: W forward, S backward, A left, D right, R restart
+rewards: +10 for touching the box (the end), -1 for falling (the end)
+success: arrived
+floors:
+  - name: plate
+    shape: {type: box, size: [12, 12]}
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.5}
+    random: {x: [-3, -2.9999]}
+    tags: [agent]
+    colour: blue
+  - name: wall
+    shape: {type: box, size: [0.4, 3]}
+    kind: static
+    tags: [wall]
+  - name: box
+    shape: {type: box, size: [1, 1]}
+    position: [3, 0]
+    tags: [target]
+    colour: orange
+agents:
+  - body: robot
+    max_steps_per_episode: 400
+    sensors:
+      - {type: BearingSensor, target: box}
+      - {type: TouchSensor, target: wall, perception_key: bumper}
+    actuators:
+      - {type: RBMoveActuator, move_amount: 3, turn_amount: 3}
+    rewards:
+      - {type: TouchRewardFunc, name: arrived, target: box, reward: 10, cause_episode_to_end: true}
+      - {type: FallReward, cause_episode_to_end: true}
+    brains:
+      - {type: LocalBrain, controller: {type: WASDRBMoveController}}
+"""
+
+
+# %% tags=["right", "another heading each time"]
+my_scene = """
+name: my_world
+title: Behind the wall
+goal: Get to the box behind the wall. Do not fall off the plate.
+controls: W forward, S backward, A left, D right, R restart
+rewards: +10 for touching the box (the end), -1 for falling (the end)
+success: arrived
+floors:
+  - name: plate
+    shape: {type: box, size: [12, 12]}
+bodies:
+  - name: robot
+    shape: {type: circle, radius: 0.5}
+    position: [-3, 0]
+    random: {heading_deg: [-30, 30]}
+    tags: [agent]
+    colour: blue
+  - name: wall
+    shape: {type: box, size: [0.4, 3]}
+    kind: static
+    tags: [wall]
+  - name: box
+    shape: {type: box, size: [1, 1]}
+    position: [3, 0]
+    tags: [target]
+    colour: orange
+agents:
+  - body: robot
+    max_steps_per_episode: 400
+    sensors:
+      - {type: BearingSensor, target: box}
+      - {type: TouchSensor, target: wall, perception_key: bumper}
+    actuators:
+      - {type: RBMoveActuator, move_amount: 3, turn_amount: 3}
+    rewards:
+      - {type: TouchRewardFunc, name: arrived, target: box, reward: 10, cause_episode_to_end: true}
+      - {type: FallReward, cause_episode_to_end: true}
+    brains:
+      - {type: LocalBrain, controller: {type: WASDRBMoveController}}
+"""

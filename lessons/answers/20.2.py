@@ -37,7 +37,7 @@ agents:
 """
 
 
-# %% tags=["wrong", "seldom"]
+# %% tags=["wrong", "never"]
 def solve(percept):
     left, ahead = percept["bearing"]
     return {"move": [1, left, 0, 0]}

@@ -15,6 +15,7 @@ import pytest
 from playwright.sync_api import Browser, FrameLocator, Page
 
 from ai4u_edu import Recorder, Scene
+from ai4u_edu.lessons.handout import hand_out
 from ai4u_edu.lessons.live import Live
 from ai4u_edu.runtime.runner import Runner
 from tests.chromium import browser, new_page
@@ -212,3 +213,12 @@ def _pose(where: str, query: str) -> list[float]:
     with urllib.request.urlopen(f"{where}api/snapshot?{query}", timeout=LIMIT_S) as answer:  # noqa: S310
         found: dict[str, Any] = json.load(answer)
     return [float(each) for each in found["agents"][0]["pose"]]
+
+
+def test_a_handed_out_course_is_saved_every_ten_seconds(tmp_path: Path) -> None:
+    hand_out(tmp_path)
+    setting = "lab/api/settings/@jupyterlab/docmanager-extension:plugin"
+    with lab(tmp_path) as url:
+        answer = urllib.request.urlopen(url + setting, timeout=LIMIT_S)  # noqa: S310 - our own
+        schema = json.load(answer)["schema"]["properties"]
+    assert (schema["autosave"]["default"], schema["autosaveInterval"]["default"]) == (True, 10)

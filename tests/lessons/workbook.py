@@ -101,7 +101,7 @@ def try_answer(lesson: Lesson, exercise: str, answer: Answer) -> Verdict:
     Only one that is to be found endless, or on which any verdict is right, has a time limit that
     it may reach.
     """
-    may_be_endless = not answer.is_right and answer.hint in {"", "endless", "slow"}
+    may_be_endless = not answer.is_right and answer.hint in {"", "endless", "endless-loop", "slow"}
     return tried(lesson, exercise, answer.code, may_be_endless=may_be_endless)
 
 

@@ -146,7 +146,8 @@ def _turning_mistake(said: dict[str, float]) -> str:
         "asked as well, and changes the speed again. `elif` is asked only if the one before did "
         "not fit.",
         "reversed": "It is fast in the light and slow in the dark: turn the comparisons round.",
-        "number": "The cases are right, one of the numbers is not. Compare them with the table.",
+        "number": "The cases are right, one of the numbers is not. Compare them with the table: "
+        "the speeds, and the brightness at which one case ends and the next one begins.",
     },
 )
 def flies_like_a_moth(moth: Any) -> Done:
@@ -158,7 +159,7 @@ def flies_like_a_moth(moth: Any) -> Done:
     )
     start = Variation(x=(-10.5, -3), y=(0, 0.01))
     sim = ControlRequestor(with_lamp((24, 6), random=start), [agent])
-    speeds: dict[str, float] = {}
+    speeds: dict[str, set[float]] = {}
     reason: NotYet | None = None
     for seed in seeds_of("01.3", 8):
         light: list[float] = []
@@ -168,7 +169,7 @@ def flies_like_a_moth(moth: Any) -> Done:
             if light:
                 case = _case(light[-1])
                 speed, turn = (*next(iter(done.agent.last_action.values()), ()), 0.0, 0.0)[:2]
-                speeds.setdefault(case, speed)
+                speeds.setdefault(case, set()).add(speed)
                 if reason is None and not is_close([speed, turn], [MOTH[case], 0], 0.01):
                     reason = done.not_yet(
                         f"At a brightness of {light[-1]:.2f} expected the numbers {MOTH[case]:g} "
@@ -178,7 +179,7 @@ def flies_like_a_moth(moth: Any) -> Done:
 
         done = drive(sim, agent, seed, 12 * DECISIONS_A_SECOND, watch)
     if reason is not None:
-        reason.hint = _moth_mistake(speeds)
+        reason.hint = _moth_mistake(speeds, moth)
         raise reason
     return Done(
         "In 8 worlds: fast in the dark, slow in dim light, at rest close to the lamp.",
@@ -191,11 +192,22 @@ def _case(brightness: float) -> str:
     return "bright" if brightness > BRIGHT else "dim" if brightness > DIM else "dark"
 
 
-def _moth_mistake(speeds: dict[str, float]) -> str:
+def _stops_in_glare(moth: Any) -> bool:
+    """Return True for a function that stops at a brightness which no lamp has here."""
+    if isinstance(moth, type) or not callable(moth):
+        return False
+    answers = [moth({"light": [brightness]}) for brightness in (0.99, 1000.0)]
+    speeds = [next(iter(each.values()), [0])[0] for each in answers if isinstance(each, dict)]
+    return len(speeds) == len(answers) and speeds[0] != 0 == speeds[1]
+
+
+def _moth_mistake(speeds: dict[str, set[float]], moth: Any) -> str:
     """Return the diagnosis that fits the speeds in the three cases."""
-    dark, dim, bright = (speeds.get(case, MOTH[case]) for case in MOTH)
-    if not any(speeds.values()):
+    if not any(speed for case in speeds.values() for speed in case):
         return "begin"
+    if any(len(case) > 1 for case in speeds.values()) or _stops_in_glare(moth):
+        return "number"  # a case begins or ends at another brightness
+    dark, dim, bright = (min(speeds.get(case, {MOTH[case]})) for case in MOTH)
     if dark < bright or (dark < dim and not bright):
         return "reversed"
     if bright == dim:

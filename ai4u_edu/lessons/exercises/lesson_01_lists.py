@@ -23,6 +23,7 @@ MAX_WORDS = 40
         "reset": "The count begins anew for each distance. `count = 0` has to stand before the "
         "`for`, not in it.",
         "all": "That is the number of all posts. Count only if the distance is below 2.",
+        "limit": "A post at exactly 2 m is not nearer than 2 m: compare with `<`.",
         "far": "You counted the posts that are far away: turn the comparison round.",
         "sum": "You added up distances. Here each near post counts as 1, whatever its distance.",
     },
@@ -35,6 +36,8 @@ def counts_the_near_ones(count_near: Any) -> Done:
     # near ones and far ones, of which neither the first nor the last says how many there are
     for near, far in ((2, 3), (0, 4), (5, 0), (1, 2), (3, 4), (4, 1), (2, 1), (1, 5)):
         away = [*chance.uniform(1.2, 1.9, near), *chance.uniform(2.1, 4.2, far)]
+        if far:
+            away[-1] = NEAR_M  # just not near
         distances = [round(float(each), 1) for each in chance.permutation(away)]
         asked.append((distances, finite_number(count_near(list(distances)))))
     for distances, found in asked:
@@ -54,12 +57,14 @@ def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
         "early": lambda given: float(given[0] < NEAR_M),
         "reset": lambda given: float(given[-1] < NEAR_M),
         "all": lambda given: float(len(given)),
+        "limit": lambda given: float(sum(each <= NEAR_M for each in given)),
         "far": lambda given: float(sum(each > NEAR_M for each in given)),
+        "far ": lambda given: float(sum(each >= NEAR_M for each in given)),
         "sum": lambda given: float(sum(each for each in given if each < NEAR_M)),
     }
     for name, wrong in mistakes.items():
         if all(is_close(found, wrong(given), 1e-6) for given, found in asked):
-            return name
+            return name.strip()
     return "begin"
 
 
@@ -73,6 +78,8 @@ def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
         "to the left, so that it comes after the loops.",
         "reset": "The list begins anew in the loop. `steps = []` has to stand before it.",
         "turn": "It drives straight on. Between the two loops the robot has to turn: once.",
+        "turns": "It turns at each step. The turn has to stand after the first loop, not in it: "
+        "further to the left.",
         "mirrored": "It turns to the wrong side.",
         "swapped": "The two numbers are swapped: first `ahead` metres, then `left` metres.",
         "count": "It stops beside the flag. Count the steps in the picture: `range(3)` gives three "
@@ -127,6 +134,10 @@ def _planning_mistake(words: list[str], ahead: int, left: int) -> str:
         return "begin"
     if words == ["forward"]:
         return "early"
+    if words == way(ahead, ["left"], 1):
+        return "early"
+    if words.count("left") > 1:
+        return "turns"
     if words == way(ahead, [], left):
         return "turn"
     if words == way(ahead, ["right"], left):

@@ -157,6 +157,12 @@ def turns_a_quarter(made: Any) -> Done:
         "early": "It stands still, but too far away: drive on while the distance is above 2.",
         "never": "It never stands still. A distance is hardly ever exactly 2: compare with `>` or "
         "`<`, and return an action with 0 where it has to stop.",
+        "spins": "It is near enough, but turns on the spot. To stand still, both numbers have to "
+        "be 0.",
+        "empty": "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
+        "An action of zeros brakes.",
+        "once": "It looked once, and kept what it saw. Read the distance in the function, at every "
+        "decision: it is called anew each time.",
         "reversed": "It drives away from the box. Drive where the distance is above 2, not below.",
     },
 )
@@ -170,24 +176,33 @@ def stops_in_time(drive_it: Any) -> Done:
     falls = 0
     reason: NotYet | None = None
     for seed in seeds_of("02.3", 8):
-        last = drive(sim, agent, seed, limit=SECONDS_TO_STOP * DECISIONS_A_SECOND)
+        headings = [0.0]
+
+        def watch(done: Drive, headings: list[float] = headings) -> None:
+            headings.append(done.agent.body.heading)
+
+        last = drive(sim, agent, seed, SECONDS_TO_STOP * DECISIONS_A_SECOND, watch)
         moved.add(round(last.moved, 1))
         falls += last.fell
-        reason = reason or _not_stopped(last)
+        reason = reason or _not_stopped(last, abs(headings[-1] - headings[-2]) > 0.01)
     if reason is not None:
         # a robot that pushes the box off the plate goes as far in each world, and may well look
         if len(moved) == 1 and not falls and reason.hint in {"late", "early"}:
             reason.hint = "blind"
+        elif reason.hint == "look" and max(moved) > 0:
+            reason.hint = "once"
         raise reason
     return Done("In 8 worlds the robot stopped about 2 m before the box.", last.picture())
 
 
-def _not_stopped(last: Drive) -> NotYet | None:
+def _not_stopped(last: Drive, spins: bool) -> NotYet | None:
     """Return the reason why a robot has not stopped where it should, if it has not."""
     away = float(last.agent.percept["orientation"][1])
     rests = math.dist(last.trail[-1], last.trail[-2]) < 0.02 if last.steps else True
     if not last.fell and rests and is_close(away, 2, 0.5):
-        return None
+        if not spins:
+            return None
+        return last.not_yet("The robot turns on the spot, and does not rest ({where}).", "spins")
     if last.fell:
         how = "The robot fell"
     elif away < 1.5:
@@ -202,9 +217,11 @@ def _not_stopped(last: Drive) -> NotYet | None:
 def _why(last: Drive, away: float, rests: bool) -> str:
     """Return the diagnosis that fits how a robot did not stop."""
     if last.moved < 0.05:
-        return "look"
+        return "look" if last.agent.last_action else "empty"
     if last.trail[-1][0] < last.trail[0][0]:
         return "reversed"
+    if not last.agent.last_action:
+        return "empty"
     acts = any(next(iter(last.agent.last_action.values()), ()))
     if acts and (last.fell or away < 1.5 or not rests):
         return "never"

@@ -72,6 +72,7 @@ def _aside(done: Drive) -> float:
     hints={
         "begin": "Each wheel gets the number of one eye. There are only two ways to do that: try "
         "both, and watch.",
+        "reverse": "It backs away. A number above 0 turns a wheel forward: no minus is needed.",
         "sides": "It turns away from the lamp. The wheel on the lamp's side is faster: connect "
         "each eye with the other wheel.",
         "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
@@ -80,9 +81,18 @@ def _aside(done: Drive) -> float:
 )
 def attacks(wires: Any) -> Done:
     """Check that it hits the lamp."""
-    for done, away in _drives(wires, "05.1", 150):
+    speeds: list[float] = []
+
+    def watch(done: Drive) -> None:
+        if done.steps == 0:
+            speeds.clear()
+        speeds.append(sum(done.agent.last_action.get("wheels", ())))
+
+    for done, away in _drives(wires, "05.1", 150, watch):
         if done.moved < 0.2:
             raise done.not_yet("The vehicle stands still ({where}).", "begin")
+        if min(away) > TOUCH and sum(speeds) < 0:
+            raise done.not_yet("The vehicle runs backward ({where}).", "reverse")
         if min(away) > TOUCH:
             hint = "sides" if _aside(done) > 100 else ""
             raise done.not_yet(
@@ -154,6 +164,7 @@ def is_afraid(wires: Any) -> Done:
     hints={
         "begin": "In the dark the wheels have to turn: begin with 1, and take something away for "
         "the light that an eye sees.",
+        "reverse": "It backs away. A number above 0 turns a wheel forward: no minus is needed.",
         "sides": "It turns away from the lamp. The wheel on the bright side has to be the slower "
         "one: each eye brakes the wheel on its own side.",
         "weak": "It runs into the lamp: the brakes are too weak. Take a larger number times the "

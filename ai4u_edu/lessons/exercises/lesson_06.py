@@ -33,6 +33,15 @@ REST_DECISIONS = 24
 AT_POST_M = 1.25
 """Distance of the centres within which a robot is at a post; they touch at 1 m."""
 STILL_M = 0.001
+"""Largest change of position (m) and heading (rad) since a rest began."""
+SLOW_TURN_RAD = 0.1
+"""A robot that turns by less in a decision is not on its way to another post."""
+MAX_PUSHING_DECISIONS = 12
+"""Decisions for which a robot may push against a post before it rests there."""
+BETWEEN_POSTS_M = (3.2, 7.5, 4.0, 6.5, 5.0, 3.6, 7.0, 4.5)
+"""Distance of the posts in each world of 06.2: no way takes as long as another one."""
+MAX_BUMP_DECISIONS = 3
+"""Decisions for which a robot may push against a wall in 06.3 before it leaves it or stops."""
 EDGE = Variation(x=(-4.3, 4.3), y=(3.4, 4.2), heading_deg=(-180, 180))
 """Places near an edge: a robot that drives a circle blindly falls there."""
 GOLD_M = 55.0
@@ -106,10 +115,12 @@ def stays_on_the_plate(stroll: Any) -> Done:
     "06.4",
     "Gold: a fast stroll",
     hints={
-        "begin": "Begin with your `stroll` of 06.1: first it has to stay on the plate.",
+        "begin": "Begin with your `stroll` of 06.1: it has to stay on the plate, and to get on.",
         "brake": "It falls. Where there is no floor *ahead*, it must not drive at all.",
         "towards": "It turns towards the edge. Where the left feeler reads 0, turn to the right, "
         "and the other way round.",
+        "dithers": "It stays on the plate, but in a corner it turns left, right, left. Always turn "
+        "the same way, until all feelers read 1.",
         "stops": "It stays on the plate. But it loses metres each time that it stops in order to "
         "turn. When the edge is only beside the robot, it can drive and turn.",
         "blind": "It drives in a circle without looking. Read the feelers.",
@@ -118,12 +129,12 @@ def stays_on_the_plate(stroll: Any) -> Done:
 def strolls_fast(quick_stroll: Any) -> Done:
     """Check for 55 metres in 30 seconds without a fall."""
     shortest = math.inf
-    for done, _turns in _strolls(quick_stroll, "06.4"):
+    for done, turns in _strolls(quick_stroll, "06.4"):
         shortest = min(shortest, _length(done))
         if shortest < GOLD_M:
             raise done.not_yet(
                 f"In 30 seconds the robot covered {shortest:.1f} m, not {GOLD_M:g} ({{where}}).",
-                "stops" if shortest > 15 else "begin",
+                "stops" if shortest > 15 else "dithers" if len(turns) > 1 else "begin",
             )
     return Done(
         f"Gold: at least {shortest:.1f} m in each of 10 worlds, and no fall.", done.picture()
@@ -194,6 +205,12 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
     hints={
         "begin": "It rests at one post, and stays there. When it has rested, set `self.goal` to "
         "the other post; and drive to the post that `self.goal` names.",
+        "pushes": "It gets to a post and goes on pushing for more than a second. It rests where it "
+        "*touches* the post, not after a number of decisions: the way is longer in some worlds.",
+        "turns": "It turns a little while it should stand still. Standing still means an action of "
+        "zeros.",
+        "empty": "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
+        "To stand still, return an action of zeros.",
         "short": "It does not rest. Count the decisions in which it stands still, in "
         "`self.waited`: 2 seconds are 24 of them.",
         "forgets": "It never rests anywhere for 2 seconds, nor does it get from post to post. What "
@@ -204,12 +221,16 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
 )
 def patrols(patrol: Any) -> Done:
     """Check that it rests at the posts in turn."""
-    for seed in seeds_of("06.2", 8):
+    for seed, between in zip(seeds_of("06.2", 8), BETWEEN_POSTS_M, strict=True):
         world = World()
         world.add_floor("plate", BoxShape(size=(10, 10)))
+        chance = np.random.default_rng(seed)
+        angle = float(chance.uniform(0.4, 1.1) + chance.integers(4) * math.pi / 2)
+        x, y = between / 2 * math.cos(angle), between / 2 * math.sin(angle)
+        post = CircleShape(radius=0.5)
+        world.add_body("red", post, kind="static", position=(x, y), colour="vermillion")
+        world.add_body("blue", post, kind="static", position=(-x, -y), colour="blue")
         world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=ANYWHERE)
-        for name in POSTS:
-            world.add_body(name, CircleShape(radius=0.5), kind="static", random=ANYWHERE)
         senses: list[Sensor] = []
         for name in POSTS:
             senses.append(BearingSensor(target=name, perception_key=f"to {name}"))
@@ -234,24 +255,51 @@ class _Visits:
     def __init__(self) -> None:
         self.touched: list[str] = []
         self.rested: list[str] = []
-        self._still = 0
-        self._pose = (0.0, 0.0, 0.0)
+        self._empty = 0
+        self._still = self._pushing = 0
+        self._pose = self._last_pose = (0.0, 0.0, 0.0)
+        self._pushes = self._turns = 0
 
     def watch(self, done: Drive) -> None:
         """Look after a decision."""
         body = done.agent.body
         pose = (*body.position, body.heading)
-        self._still = self._still + 1 if math.dist(pose, self._pose) < STILL_M else 0
-        self._pose = pose
+        drives = any(next(iter(done.agent.last_action.values()), ()))
+        self._empty += done.steps > 0 and not done.agent.last_action
+        # compared with the rest's beginning: a slow movement is a movement
+        if drives or math.dist(pose, self._pose) >= STILL_M:
+            self._pose, self._still = pose, 0
+        else:
+            self._still += 1
         for name in POSTS:
-            if done.agent.percept[f"at {name}"][0] == 1 and self.touched[-1:] != [name]:
+            is_touched = done.agent.percept[f"at {name}"][0] == 1
+            if is_touched and self.touched[-1:] != [name]:
                 self.touched.append(name)
-            is_there = body.distance(done.sim.world[name]) < AT_POST_M
-            if is_there and self._still >= REST_DECISIONS and self.rested[-1:] != [name]:
+                self._pushing = 0
+            if self.rested[-1:] == [name]:
+                continue
+            if is_touched and drives:
+                self._count_push(done, pose)
+            is_at_rest = self._still >= REST_DECISIONS and self._pushing <= MAX_PUSHING_DECISIONS
+            if is_at_rest and body.distance(done.sim.world[name]) < AT_POST_M:
                 self.rested.append(name)
+        self._last_pose = pose
+
+    def _count_push(self, done: Drive, pose: tuple[float, float, float]) -> None:
+        """Count a decision in which the robot drives at a post where it has not rested yet."""
+        self._pushing += 1
+        way, turn = math.dist(pose[:2], self._last_pose[:2]), abs(pose[2] - self._last_pose[2])
+        if way < STILL_M and turn < SLOW_TURN_RAD:
+            goes_on = any(next(iter(done.agent.last_action.values()), ())[:1])
+            self._pushes += goes_on
+            self._turns += not goes_on
 
     def why(self) -> str:
         """Return the diagnosis."""
+        if self._empty > REST_DECISIONS:
+            return "empty"
+        if max(self._pushes, self._turns) > REST_DECISIONS:
+            return "pushes" if self._pushes > self._turns else "turns"
         if self.rested:
             return "back" if len(self.rested) > 1 else "begin"
         return "short" if len(self.touched) > 3 else "forgets"
@@ -268,6 +316,8 @@ class _Visits:
         "for?",
         "still": "It rests for a moment at the third bump, and then drives on. While it rests at "
         "the wall, the bumper still reads 1, so the count goes on: ask for 3 *or more*.",
+        "pushes": "It goes on pushing against a wall. Ask the bumper at each decision, and change "
+        "the direction at once where it reads 1: in each world the walls are somewhere else.",
         "early": "It rests too early. Count the bumps, in `self.bumps`, and only where the bumper "
         "reads 1.",
         "on": "It drives on after the third bump. Count the bumps in `self.bumps`, and return an "
@@ -281,16 +331,27 @@ def rests_after_three_bumps(machine: Any) -> Done:
         agent = _robot(as_brain(machine), [bumper])
         touched: list[str] = []
         pauses: list[bool] = []
+        pushing = longest_push = 0
 
         def watch(done: Drive, touched: list[str] = touched, pauses: list[bool] = pauses) -> None:
+            nonlocal pushing, longest_push
             pauses.append(done.steps > 0 and not any(done.agent.last_action.get("move", ())))
-            if done.agent.percept["bumper"][0] == 1:
+            bumps = done.agent.percept["bumper"][0] == 1
+            pushing = pushing + 1 if bumps and not pauses[-1] else 0
+            longest_push = max(longest_push, pushing)
+            if bumps:
                 wall = "ahead" if done.agent.body.position[0] > done.trail[0][0] else "behind"
                 if touched[-1:] != [wall]:
                     touched.append(wall)
 
         done = drive(ControlRequestor(_corridor(seed), [agent]), agent, seed, 360, watch)
         rests = math.dist(done.trail[-1], done.trail[-REST_DECISIONS]) < STILL_M
+        if touched == ["ahead", "behind", "ahead"] and longest_push > MAX_BUMP_DECISIONS:
+            raise done.not_yet(
+                f"The robot pushed against a wall for {longest_push} decisions ({{where}}); "
+                f"{MAX_BUMP_DECISIONS} are enough to notice it.",
+                "pushes",
+            )
         if touched != ["ahead", "behind", "ahead"] or not rests:
             shown = ", ".join(touched[:6]) or "none"
             raise done.not_yet(
@@ -305,11 +366,11 @@ def _corridor(seed: int) -> World:
     """Return a corridor with a wall at each end, and a robot somewhere in it."""
     chance = np.random.default_rng(seed)
     world = World()
-    world.add_floor("plate", BoxShape(size=(14, 4)))
+    world.add_floor("plate", BoxShape(size=(16, 4)))
     start = float(chance.uniform(-1, 1))
     world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), position=(start, 0))
     for name, side in (("ahead", 1), ("behind", -1)):
-        place = (side * float(chance.uniform(2.5, 6)), 0)
+        place = (start + side * float(chance.uniform(1.8, 6)), 0)
         shape = BoxShape(size=(0.4, 3))
         world.add_body(name, shape, kind="static", position=place, tags=("wall",))
     return world

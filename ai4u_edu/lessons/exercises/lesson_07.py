@@ -1,5 +1,6 @@
 """State machines."""
 
+import math
 from collections.abc import Mapping
 from itertools import pairwise, product
 from typing import Any
@@ -25,16 +26,32 @@ from ai4u_edu.lessons.worlds import ANYWHERE
 from ai4u_edu.world import BodyView, BoxShape, CircleShape, Variation, World, WorldView
 
 PLACES = ("station", "site")
+STILL_M = 0.01
+"""Way (m) in a decision below which a robot that touches a wall does not get on."""
 AT_M = 1.25
 """Distance of the centres within which a robot is at a place; they touch at 1 m."""
-CHARGE = 0.01
-"""Part of a full battery that the station gives in a decision."""
+FULL = 0.999
+"""Level at which a battery counts as full."""
+NOT_LOW = 0.35
+"""Level of a battery from which on a robot need not go to the station."""
+MAX_FULL_DECISIONS = 36
+"""Decisions for which a robot may stay at the station with a full battery: 3 s."""
+MAX_PUSHING_DECISIONS = 12
+"""Decisions for which a robot may push against the wall of 07.1 before it does something."""
+MAX_DETOUR = 1.5
+"""Longest way to the box where no wall is in between, as a multiple of the straight one."""
+STRAIGHT_WORLDS = (2, 6)
+"""Worlds of 07.1 in which no wall is in the way."""
 LIMIT = 1440
 """Decisions of an episode in 07.2: 2 minutes."""
 ENOUGH_WORK = 360
 """Decisions at the site that are enough in 07.2: half a minute."""
 SHORT_VISITS = 8
 """Visits of the station in 2 minutes that are not more than a full battery needs."""
+
+
+CHARGES = (0.01, 0.018, 0.006)
+"""Parts of a full battery that a station gives in a decision; which one is drawn."""
 
 
 class BatterySensor(Sensor):
@@ -49,6 +66,10 @@ class BatterySensor(Sensor):
     """Level at the beginning of an episode."""
     drain: float = 0.004
     """Part of a full battery that a decision costs."""
+    charge: float = 0.01
+    """Part of a full battery that the station gives in a decision."""
+    later_charge: float = 0.01
+    """The same from the episode's second minute on."""
 
     def space(self) -> Box:
         """Return the range 0..1."""
@@ -56,12 +77,14 @@ class BatterySensor(Sensor):
 
     def on_reset(self, _agent: AgentView, _view: WorldView) -> None:
         """Begin with the first level."""
-        self._level = self.full
+        self._level, self._reads = self.full, 0
 
     def read(self, body: BodyView, view: WorldView) -> float:
         """Return the level after another decision."""
         is_there = body.distance(view[self.station]) < AT_M
-        self._level += CHARGE if is_there else -self.drain
+        self._reads += 1
+        charge = self.charge if self._reads <= LIMIT / 2 else self.later_charge
+        self._level += charge if is_there else -self.drain
         self._level = min(1.0, max(0.0, self._level))
         return self._level
 
@@ -86,7 +109,9 @@ def battery_world(controller: Any, seed: int = 1) -> ControlRequestor:
         station="station",
         perception_key="battery",
         full=float(chance.uniform(0.5, 1)),
-        drain=float(chance.uniform(0.003, 0.005)),
+        drain=float(chance.uniform(0.002, 0.0033)),
+        charge=CHARGES[seed % 3],
+        later_charge=CHARGES[(seed + 1 + seed // 3 % 2) % 3],
     )
     bearings = [BearingSensor(target=name, perception_key=f"to {name}") for name in PLACES]
     sensors: list[Sensor] = [battery, *bearings]
@@ -112,6 +137,10 @@ def robot_with(brain: Any, sensors: list[Sensor], *rewards: TouchRewardFunc) -> 
         "the state; in the state `back off`, drive backward.",
         "again": "It backs off and drives at the same place of the wall again. It needs a third "
         "state: turn aside and drive for a while, before it seeks.",
+        "pushes": "It gets there, but pushes against the wall for more than a second before it "
+        "does something. Ask the bumper at each decision.",
+        "detour": "No wall is in the way here, and it drives a detour all the same. Only the "
+        "bumper can tell whether there is a wall: leave the state `seek` where it reads 1.",
         "forever": "It leaves the wall and does not come back. Count the decisions that are left "
         "in a state, and change the state when there are none.",
     },
@@ -119,14 +148,20 @@ def robot_with(brain: Any, sensors: list[Sensor], *rewards: TouchRewardFunc) -> 
 def gets_around(machine: Any) -> Done:
     """Check that it gets to the box behind the wall."""
     for number, seed in enumerate(seeds_of("07.1", 10)):
-        world = wall_world(seed, has_arm=number % 2 == 1)
+        is_straight = number in STRAIGHT_WORLDS
+        world = wall_world(seed, has_arm=number % 2 == 1, is_aside=is_straight)
         bumper = TouchSensor(target="wall", perception_key="bumper")
         arrived = TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)
         agent = robot_with(as_brain(machine), [bumper, BearingSensor(target="box")], arrived)
         sim = ControlRequestor(world, [agent])
         bumps: list[int] = []
+        pushing = longest_push = 0
 
         def watch(done: Drive, bumps: list[int] = bumps) -> None:
+            nonlocal pushing, longest_push
+            is_still = done.steps > 0 and math.dist(*done.trail[-2:]) < STILL_M
+            pushing = pushing + 1 if is_still and done.agent.percept["bumper"][0] == 1 else 0
+            longest_push = max(longest_push, pushing)
             if done.agent.percept["bumper"][0] == 1:
                 bumps.append(done.steps)
 
@@ -137,14 +172,32 @@ def gets_around(machine: Any) -> Done:
             if done.fell or (bumps and done.steps - bumps[-1] > 60):
                 hint = "forever"
             raise done.not_yet("The robot did not get to the box ({where}).", hint)
-    return Done("In 10 worlds the robot got around the wall.", done.picture())
+        if longest_push > MAX_PUSHING_DECISIONS:
+            raise done.not_yet(
+                f"The robot pushed against the wall for {longest_push} decisions ({{where}}).",
+                "pushes",
+            )
+        straight = math.dist(done.trail[0], done.trail[-1])
+        way = sum(math.dist(*step) for step in pairwise(done.trail))
+        if is_straight and way > MAX_DETOUR * straight:
+            raise done.not_yet(
+                f"No wall was in the way, and the robot drove {way:.1f} m for {straight:.1f} m "
+                "({where}).",
+                "detour",
+            )
+    return Done("In 10 worlds the robot got to the box.", done.picture())
 
 
-def wall_world(seed: int, *, has_arm: bool) -> World:
+def wall_world(seed: int, *, has_arm: bool, is_aside: bool = False) -> World:
     """Return a plate with a wall between robot and box.
 
     The wall is 8 m long, or 6 m with an arm at one end that points to the robot's side: a curve
     drawn blindly around it ends in the corner or beyond the box.
+
+    Args:
+        seed: seed of the places.
+        has_arm: True for the shorter wall with an arm.
+        is_aside: True for a wall that is not between robot and box.
     """
     chance = np.random.default_rng(seed)
     length = 6.0 if has_arm else 8.0
@@ -153,15 +206,15 @@ def wall_world(seed: int, *, has_arm: bool) -> World:
     world.add_floor("plate", BoxShape(size=(24, 24)))
     start = Variation(x=(-5, -3.5), y=(-1.5, 1.5), heading_deg=(-180, 180))
     world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=start)
-    place = (float(x), float(shift))
+    place = (float(x), float(shift) + 9 * is_aside)
     world.add_body(
         "wall", BoxShape(size=(0.4, length)), kind="static", position=place, tags=("wall",)
     )
     if has_arm:
-        end = (place[0] - 0.75, float(shift + side * length / 2))
+        end = (place[0] - 0.75, place[1] + float(side * length / 2))
         arm = BoxShape(size=(1.5, 0.4))
         world.add_body("arm", arm, kind="static", position=end, tags=("wall",))
-    there = Variation(x=(3, 5), y=(-1, 1))
+    there = Variation(x=(7, 9), y=(-3, -2)) if is_aside else Variation(x=(3, 5), y=(-1, 1))
     world.add_body("box", BoxShape(size=(1, 1)), kind="static", tags=("target",), random=there)
     return world
 
@@ -179,6 +232,10 @@ def wall_world(seed: int, *, has_arm: bool) -> World:
         "to a quarter of the battery: leave earlier.",
         "stays": "It stays at the station. In the state `charge`, ask whether the battery is "
         "nearly full; a reading of more than 1 never comes.",
+        "percent": "It drives to the station although the battery is not low. The battery reads "
+        "from 0 to 1: 30 percent are 0.3.",
+        "clock": "It stays at the station although the battery is full. Don't count decisions: "
+        "stations charge at different speeds, and only the battery says when it is full.",
         "seldom": "It works too little. How full does the battery have to be before it leaves?",
     },
 )
@@ -186,16 +243,27 @@ def works_and_charges(worker: Any) -> Done:
     """Check that the battery never gets empty, and that the robot works."""
     for seed in seeds_of("07.2", 8):
         sim = battery_world(worker, seed)
-        at_site, at_station, visits, empty = 0, 0, 0, False
+        at_site, at_station, visits, empty, full, low = 0, 0, 0, False, 0, 1.0
 
         def watch(done: Drive) -> None:
-            nonlocal at_site, at_station, visits, empty
+            nonlocal at_site, at_station, visits, empty, full, low
             body, world = done.agent.body, done.sim.world
+            level = float(done.agent.percept["battery"][0])
             at_site += body.distance(world["site"]) < AT_M
             is_there = body.distance(world["station"]) < AT_M
             visits += is_there and not at_station
             at_station = is_there
-            empty = empty or done.agent.percept["battery"][0] <= 0
+            low = level if visits == 0 else low
+            empty = empty or level <= 0
+            full = full + 1 if is_there and level > FULL else 0
+            if full > MAX_FULL_DECISIONS:
+                is_early = not at_site and low > NOT_LOW
+                why = "clock" if visits > 1 else "percent" if is_early else "stays"
+                raise done.not_yet(
+                    f"The robot stayed at the station for {full // 12} s with a full battery "
+                    "({where}).",
+                    why,
+                )
 
         done = drive(sim, sim.agents[0], seed, LIMIT, watch)
         if empty:

@@ -139,6 +139,10 @@ def is_lazy(skip_frame: Any) -> Done:
     hints={
         "begin": "Connect a function that appends to `notes`, like `agent.end_of_step.connect("
         'lambda agent: notes.append("decision"))`.',
+        "copy": "Your functions were called, but what they wrote is not in the list that you "
+        "returned. Return `notes` itself, and no copy of it; and don't make a new list later.",
+        "late": "All notes say the same. A function that is made in a loop looks at the loop's "
+        "variable when it is called, and by then the loop is over. Write a line for each event.",
         "begins": 'The first note has to be "begin": connect with `begin_of_episode`.',
         "counted": "It is right as long as an episode takes as many decisions as you thought. This "
         "one ended earlier: connect a function, so that each note is written when it happens.",
@@ -165,7 +169,11 @@ def keeps_a_diary(diary: Any) -> Done:
         if notes != wanted:
             count = notes.count("decision")
             hint = "begin"
-            if count == limit > done.steps:
+            if not notes and _listens(agent):
+                hint = "copy"
+            elif len(notes) == len(wanted) and len(set(map(repr, notes))) == 1:
+                hint = "late"
+            elif count == limit > done.steps:
                 hint = "counted"
             elif count > done.steps:
                 hint = "ticks"
@@ -177,6 +185,12 @@ def keeps_a_diary(diary: Any) -> Done:
                 hint=hint,
             )
     return Done("Three episodes, three diaries without a mistake.")
+
+
+def _listens(agent: BasicAgent) -> bool:
+    """Return True if a function is connected to one of the diary's events."""
+    events = (agent.begin_of_episode, agent.end_of_step, agent.begin_of_step, agent.end_of_episode)
+    return any(event.handlers for event in events)
 
 
 exit_ticket(

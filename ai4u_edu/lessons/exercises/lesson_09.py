@@ -237,7 +237,9 @@ def has_a_trail(make: Any) -> Done:
                 f"The runner was paid above 0 for {good} of {len(paid) - 1} decisions ({{where}}).",
                 "trail",
             )
-    return Done(f"The runner wins, and the way is paid: {_shown(found)}.", done.picture())
+    return Done(
+        f"Who drives to the box wins, and the way is paid: {_shown(found)}.", done.picture()
+    )
 
 
 def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> float:
@@ -286,6 +288,8 @@ def is_quick(make: Any) -> Done:
     hints={
         "first": "That is the first name. Add up what each term paid over all decisions, and "
         "compare the sums.",
+        "rows": "`told.amounts[n]` is what all terms paid in decision n. Term n is the n-th number "
+        "of each row: `row[n] for row in told.amounts`.",
         "once": "That term paid the largest single amount. Another one paid less at a time, but "
         "more in all: add the amounts up.",
         "size": "A term can cost a lot: then its sum is far below 0, and it did not pay.",
@@ -297,22 +301,32 @@ def finds_what_paid(paid_most: Any) -> str:
     a_function(paid_most)
     rng = chance_for("09.4", paid_most)
     names = ("near", "time", "touch", "fall")
-    for shift in range(len(names)):
-        terms = names[shift:] + names[:shift]
+    mistakes = {"often": "", "cost": "size", "once": "once", "fall": "size"}
+    winners = rng.permutation(names)
+    for shift, winner in enumerate(winners):
+        others = iter(rng.permutation([name for name in names if name != winner]))
+        named_by = {part: winner if part == "often" else next(others) for part in mistakes}
+        parts = [*mistakes][shift:] + [*mistakes][:shift]
+        terms = tuple(str(named_by[part]) for part in parts)
         small = rng.integers(2, 5, size=(20, 1)) * [[1.0, -9.0, 0.0, 0.0]]
         small[-1] += [0.0, 0.0, 30.0, -40.0]
-        order = [names.index(name) for name in terms]
+        order = [[*mistakes].index(part) for part in parts]
         told = RewardTerms(np.arange(20) / 4, terms, small[:, order])
         got = paid_most(told)
         if got is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(got, str) or got not in terms:
             raise NotYet(f"Expected one of {terms!r}, got {named(got)}.", hint="name")
-        if got != "near":
-            reasons = {"touch": "once", "time": "size", "fall": "size"}
-            hint = "first" if got == terms[0] else reasons[got]
+        if got != winner:
+            rows = [float(row.sum()) for row in told.amounts[: len(terms)]]
+            if got == terms[rows.index(max(rows))]:
+                hint = "rows"
+            elif got == terms[0]:
+                hint = "first"
+            else:
+                hint = mistakes[parts[terms.index(got)]]
             sums = dict(zip(terms, told.totals.round(1).tolist(), strict=True))
-            raise NotYet(f"Expected 'near', got {got!r}. The sums are {sums}.", hint=hint)
+            raise NotYet(f"Expected '{winner}', got {got!r}. The sums are {sums}.", hint=hint)
     return "You found the term that paid most in four episodes."
 
 

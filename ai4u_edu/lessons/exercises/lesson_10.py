@@ -344,10 +344,15 @@ def finds_what_matters(looks_most_at: Any) -> str:
     a_function(looks_most_at)
     rng = chance_for("10.5", looks_most_at)
     names = ("ray 1", "ray 2", "speed", "box")
+    mistakes = ("first", "", "sum", "sign")
     moved = np.array([[0.5, 0.0, 0.4], [0.0, -0.8, 0.1], [0.6, 0.6, 0.6], [-0.7, 0.1, 0.7]])
-    for shift in range(len(names)):
+    for shift, winner in enumerate(rng.permutation(names)):
+        others = iter(rng.permutation([name for name in names if name != winner]))
+        named_by = [str(next(others) if mistake else winner) for mistake in mistakes]
         order = [(number + shift) % len(names) for number in range(len(names))]
-        groups = tuple(Group(names[each], "all", np.arange(4) == each) for each in order)
+        groups = tuple(
+            Group(named_by[row], "all", np.arange(4) == number) for number, row in enumerate(order)
+        )
         action = rng.uniform(-1, 1, size=3)
         told = Occlusion(groups, ("left", "right", "jump"), action, action - moved[order])
         got = looks_most_at(told)
@@ -355,10 +360,11 @@ def finds_what_matters(looks_most_at: Any) -> str:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(got, str) or got not in names:
             raise NotYet(f"Expected one of {told.names!r}, got {named(got)}.", hint="name")
-        if got != "ray 2":
-            reasons = {"box": "sign", "speed": "sum", "ray 1": "first"}
-            hint = "first" if got == told.names[0] else reasons[got]
-            raise NotYet(f"Expected 'ray 2', which moves a number by -0.8, got {got!r}.", hint=hint)
+        if got != winner:
+            hint = "first" if got == told.names[0] else mistakes[named_by.index(got)]
+            raise NotYet(
+                f"Expected '{winner}', which moves a number by -0.8, got {got!r}.", hint=hint
+            )
     return "You found the slot that matters most in four explanations."
 
 

@@ -45,6 +45,8 @@ agents:
       - {type: TouchRewardFunc, name: touch, target: box, reward: 1, cause_episode_to_end: true}
     brains: [{type: LocalBrain, controller: {type: WASDRBMoveController}}]
 """
+LITTLE = 0.015
+"""Weight of the reading that a policy hardly looks at."""
 POLICIES = 12
 """Policies on which the exercise is checked."""
 HINTS = {
@@ -55,6 +57,8 @@ HINTS = {
     "used": "Those are the readings that it looks at. You are looking for the others.",
     "side": "A reading may move the action to either side: below 0 counts too. "
     "`told.importance` is never below 0.",
+    "little": "A policy that looks at a reading a little looks at it. It does not look at those "
+    "that move the action by 0.",
     "slots": 'Names of readings are wanted, as `told.names` has them with `groups="sensor"`, and '
     "not names of single numbers.",
     "one": "There may be several, or none at all: go through all names.",
@@ -116,11 +120,14 @@ def is_blind(blind: Any) -> str:
         used = [key for key, looks in zip(keys, _pattern(number), strict=True) if looks]
         percept = {key: rng.uniform(0.2, 1.0, size=2) for key in keys}
         baseline = {key: np.zeros(2) for key in keys}
-        policy = _planted(used, {key: rng.uniform(-1, 1, size=(2, 2)) for key in keys})
+        little = used[number % len(used)] if used else ""
+        sizes = {key: LITTLE if key == little else 1.0 for key in used}
+        signed = {key: rng.choice([-1, 1]) * rng.uniform(0.3, 1, size=(2, 2)) for key in keys}
+        policy = _planted(sizes, signed)
         right = [key for key in keys if key not in used]
         got = _names(blind(policy, percept, baseline))
         if sorted(got) != sorted(right):
-            raise _wrong(number, used, right, got)
+            raise _wrong(number, used, right, got, little)
     return f"You found what {POLICIES} policies do not look at."
 
 
@@ -130,11 +137,14 @@ def _pattern(number: int) -> tuple[bool, ...]:
     return tuple(bool(looks >> bit & 1) for bit in range(4))
 
 
-def _planted(used: list[str], weights: Mapping[str, npt.NDArray[np.float64]]) -> Any:
+def _planted(sizes: Mapping[str, float], weights: Mapping[str, npt.NDArray[np.float64]]) -> Any:
     """Return a policy that looks at some readings only; a reading moves all numbers to one side."""
 
     def policy(percept: Mapping[str, Any]) -> dict[str, Any]:
-        moved = [percept[key] @ np.abs(weights[key]) * np.sign(weights[key][0, 0]) for key in used]
+        moved = [
+            size * percept[key] @ np.abs(weights[key]) * np.sign(weights[key][0, 0])
+            for key, size in sizes.items()
+        ]
         return {"move": np.sum([np.zeros(2), *moved], axis=0)}
 
     return policy
@@ -148,7 +158,7 @@ def _names(given: Any) -> list[str]:
     return list(given)
 
 
-def _wrong(number: int, used: list[str], right: list[str], got: list[str]) -> NotYet:
+def _wrong(number: int, used: list[str], right: list[str], got: list[str], little: str) -> NotYet:
     hint = "one"
     if not got:
         hint = "begin"
@@ -157,7 +167,7 @@ def _wrong(number: int, used: list[str], right: list[str], got: list[str]) -> No
     elif any(name not in ("box", "lamp", "speed", "wall") for name in got):
         hint = "slots"
     elif set(right) < set(got):
-        hint = "side"
+        hint = "little" if set(got) - set(right) == {little} else "side"
     return NotYet(
         f"Policy {number + 1} looks at {', '.join(used) or 'nothing'}. Expected {right!r}, got "
         f"{got!r}.",

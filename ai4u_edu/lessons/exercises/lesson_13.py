@@ -1,6 +1,9 @@
 """Using networks: a brain from a file."""
 
-from collections.abc import Mapping, Sequence
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, cast
 
 import numpy as np
@@ -8,6 +11,7 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks import (
     FallReward,
     LocalBrain,
@@ -18,6 +22,7 @@ from ai4u_edu.blocks import (
     TouchRewardFunc,
     trained_brain,
 )
+from ai4u_edu.blocks.brains.network import TRAINING_KEY
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise, named
 from ai4u_edu.lessons.exercises.lesson_12 import ZOO, decide
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
@@ -91,22 +96,61 @@ def blinded(*keys: str) -> LocalBrain:
 def is_a_brain(driver: Any) -> Done:
     """Check the brains that are made from three files."""
     make = a_function(driver)
+    interval = int(chance_for("13.1", driver).integers(10, 30))
+    with TemporaryDirectory() as folder:
+        told = _told_of_brains(make, _network_of_interval(interval, Path(folder)))
+    return Done(f"Each at the interval of its training. Worlds won: {', '.join(told)}.")
+
+
+def _told_of_brains(make: Callable[..., Any], unknown: Path) -> list[str]:
+    """Return what the brains of the library's networks won, in words.
+
+    Args:
+        make: a student's function.
+        unknown: a network whose interval no message has told.
+    """
     told = []
-    for scene in SCENES:
-        path = f"zoo:{scene}"
+    for scene in (*SCENES, ""):
+        path = f"zoo:{scene}" if scene else str(unknown)
         wanted = NeuralNetController(model_path=path).network.about["skip_frame"]
         brain = _brain_of(make(path), path)
         if brain.skip_frame != wanted:
+            if not scene:
+                raise NotYet(
+                    "A fourth network, which is in no library, decided at another interval when it "
+                    "learned than your brain asks it.",
+                    hint="fixed",
+                )
             default = brain.skip_frame == LocalBrain(controller=lambda _: {}).skip_frame
             raise NotYet(
                 f"The network {path} decided every {wanted + 1} ticks when it learned. Your brain "
                 f"asks it every {brain.skip_frame + 1} ticks.",
                 hint="default" if default and scene == SCENES[0] else "fixed",
             )
-        worlds = seeds_of("13.1", 5)
-        won = sum(each.won for each in drives(scene, brain, worlds, limit=200))
-        told.append(f"{scene} {won} of {len(worlds)}")
-    return Done(f"Each at the interval of its training. Worlds won: {', '.join(told)}.")
+        if scene:
+            worlds = seeds_of("13.1", 5)
+            won = sum(each.won for each in drives(scene, brain, worlds, limit=200))
+            told.append(f"{scene} {won} of {len(worlds)}")
+    return told
+
+
+def _network_of_interval(interval: int, folder: Path) -> Path:
+    """Write the box chase's network, as one that decides after so many ticks.
+
+    Args:
+        interval: ticks that are left out after each decision, as ``skip_frame``.
+        folder: of the file.
+    """
+    need("train", "onnx")
+    import onnx
+
+    network = onnx.load(str(NeuralNetController(model_path=ZOO).network.path))
+    for entry in network.metadata_props:
+        if entry.key == TRAINING_KEY:
+            entry.value = json.dumps(json.loads(entry.value) | {"skip_frame": interval})
+    path = folder / "unknown.onnx"
+    path.write_bytes(network.SerializeToString())
+    return path
 
 
 def _brain_of(given: Any, path: str) -> LocalBrain:

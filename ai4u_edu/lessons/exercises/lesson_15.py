@@ -27,7 +27,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.envs.spaces_of import outputs_of
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import finite_numbers, is_close
+from ai4u_edu.lessons.numeric import chance_for, finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.scenes import Scene
@@ -51,9 +51,13 @@ SCENES = ("box_chase", "line_follow", "strong", "parking")
 class Winch(Actuator):
     """Robot's motor with ranges of its own."""
 
+    high: tuple[float, ...] = (3.0, 0.5, 0.25)
+    """Highest numbers: forward, turn, and spare ones."""
+
     def space(self) -> Box:
-        """Return the ranges: forward to 3, turn to 0.5, a spare to 0.25."""
-        return Box(np.array([-1, -0.5, 0], np.float32), np.array([3, 0.5, 0.25], np.float32), (3,))
+        """Return the ranges, from -1 on."""
+        high = np.array(self.high, np.float32)
+        return Box(np.full_like(high, -1), high)
 
     def act(self, body: Body, action: Any) -> None:
         """Drive and turn."""
@@ -157,14 +161,19 @@ def _said(sim: ControlRequestor, script: socket.socket, answers: list[str]) -> I
     yield f"world:  {status().reason}"
 
 
-def _short(name: str) -> ControlRequestor:
-    """Return a scene whose episodes end soon, whatever a script does."""
-    if name == "strong":
+def _short(name: str, high: Sequence[float] = (3.0, 0.5, 0.25)) -> ControlRequestor:
+    """Return a scene whose episodes end soon, whatever a script does.
+
+    Args:
+        name: a scene's name, or ``strong`` or ``unknown`` for a robot with ranges of its own.
+        high: highest numbers that such a robot takes.
+    """
+    if name in ("strong", "unknown"):
         agent = BasicAgent(
             body="robot",
             max_steps_per_episode=LIMIT,
             sensors=[BearingSensor(target="box")],
-            actuators=[Winch(action_name="winch")],
+            actuators=[Winch(action_name="winch", high=tuple(high))],
             brains=[LocalBrain(controller=lambda _: {})],
         )
         return ControlRequestor(plate(), [agent])
@@ -269,8 +278,10 @@ def _why(careful: Callable[..., Any]) -> str:
 def asks_the_robot(full_power: Any) -> str:
     """Check the function with four robots."""
     ask = a_function(full_power)
-    for name in SCENES:
-        sim = _short(name)
+    chance = chance_for("15.3", full_power)
+    drawn = chance.uniform(0.3, 6, int(chance.integers(2, 6))).round(2).tolist()
+    for name in (*SCENES, "unknown"):
+        sim = _short(name, drawn) if name == "unknown" else _short(name)
         (output,) = outputs_of(sim.agents[0])
         with served(sim) as robot:
             robot.reset()
@@ -285,7 +296,7 @@ def asks_the_robot(full_power: Any) -> str:
             robot.sense()
             robot.act({output: got})
             robot.sense()
-    return "Four different robots, each at full power."
+    return "Five different robots, each at full power."
 
 
 exit_ticket(

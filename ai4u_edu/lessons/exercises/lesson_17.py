@@ -41,6 +41,7 @@ def _steep(place: Place) -> float:
 
 ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
     "wrap": lambda ball, goal: abs(_angle(ball) - _angle(goal)) < SAME_WAY_RAD,
+    "wrap ": lambda ball, goal: abs(_angle(ball[::-1]) - _angle(goal[::-1])) < SAME_WAY_RAD,
     "sign": lambda ball, goal: math.remainder(_angle(ball) - _angle(goal), math.tau) < 0.5,
     "sign ": lambda ball, goal: math.remainder(_angle(goal) - _angle(ball), math.tau) < 0.5,
     "atan": lambda ball, goal: abs(_steep(ball) - _steep(goal)) < SAME_WAY_RAD,
@@ -58,8 +59,8 @@ ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
     hints={
         "begin": "It gives the same answer to everything. `math.atan2(ball[1], ball[0])` is the "
         "direction to the ball, in radians; the goal's is computed in the same way.",
-        "wrap": "Two directions straight behind the robot can be 3.1 and -3.1: hardly different, "
-        "and yet 6.2 apart. `math.remainder(a - b, math.tau)` brings a difference of angles back "
+        "wrap": "Two directions that are hardly different can have numbers such as 3.1 and -3.1, "
+        "which are 6.2 apart. `math.remainder(a - b, math.tau)` brings a difference of angles back "
         "to the range from -3.14 to 3.14.",
         "sign": "A difference can be below 0, too: then it is always less than 0.5. Take `abs`.",
         "atan": "`math.atan` can't tell ahead from behind. `math.atan2(left, ahead)` can: left is "
@@ -94,10 +95,15 @@ def same_direction(same_way: Any) -> str:
 def _directions(chance: np.random.Generator) -> list[tuple[Place, Place]]:
     """Return places of a ball and a goal, none of them at the limit of what counts as the same."""
     cases: list[tuple[Place, Place]] = []
+    axes = (0.0, math.pi / 2, math.pi, -math.pi / 2)
     for number in range(60):
         towards = chance.uniform(-math.pi, math.pi) if number % 3 else math.pi + 0.01
         small, large = chance.uniform(0, 0.4), chance.uniform(0.65, math.pi)
         apart = (small if number % 2 else large) * chance.choice([-1, 1])
+        if number < 2 * len(axes):  # across each axis: at one of them every formula jumps
+            side = 1 if number % 2 else -1
+            towards = axes[number // 2] - side * chance.uniform(0.03, 0.15)
+            apart = side * chance.uniform(0.2, 0.4)
         places = []
         for angle, away in ((towards, chance.uniform(0.05, 0.3)), (towards + apart, 0.4)):
             places.append((round(away * math.cos(angle), 3), round(away * math.sin(angle), 3)))
