@@ -65,6 +65,11 @@ export class ClassBar {
     return attention?.message || "Your teacher has stopped all worlds";
   }
 
+  /** Return the name of a seat; empty if it is not known. */
+  nameOf(number) {
+    return this.#event?.people.find((each) => each.number === number)?.name ?? "";
+  }
+
   /** Show an event of the input socket. */
   show(event) {
     const now = performance.now();

@@ -23,15 +23,18 @@ export class DriverStatus {
 
   /**
    * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
+   * @param {boolean} shown.isPaused true while the world is paused
    * @param {boolean} shown.isWaiting true while the world waits for a key
    * @param {boolean} shown.isHeld true while a teacher holds the world
    * @param {boolean} shown.isReached false while the keyboard goes elsewhere, such as into a text field
    */
-  draw({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached }) {
-    const [kind, text] = status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached });
+  draw({ connected, hello, control, howToDrive, isPaused, isWaiting, isHeld, isReached }) {
+    const [kind, who] = status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached });
+    // whoever drives, no key and no stick moves anything now
+    const isStill = isPaused && !["lost", "none"].includes(kind);
     this.#dot.dataset.kind = kind;
-    setText(this.#text, text);
-    setText(this.#hint, kind === "auto" ? ` – ${howToDrive} to take over` : "");
+    setText(this.#text, isStill ? "Paused" : who);
+    setText(this.#hint, kind === "auto" && !isStill ? ` – ${howToDrive} to take over` : "");
     this.#take.hidden = kind !== "other" && kind !== "auto";
     this.#letGo.hidden = kind !== "mine" || !(hello.instead || control.pages > 1);
     this.#letGo.title = hello.instead && `${hello.instead} goes on then`;
@@ -56,6 +59,6 @@ function status({ connected, hello, control, howToDrive, isWaiting, isHeld, isRe
   if (!isReached && (isMine || control.driver === null)) return [isMine ? "mine" : "free", "Click the picture to drive"];
   if (isWaiting && (isMine || control.driver === null)) return [isMine ? "mine" : "free", `${capitalized(howToDrive)} to start`];
   if (control.driver === null) return ["free", `${capitalized(howToDrive)} to drive`];
-  if (!isMine) return ["other", `Page ${control.driver} drives`];
-  return ["mine", control.pages > 1 ? `You drive (page ${hello.you})` : "You drive"];
+  if (!isMine) return ["other", `${control.name || "Another page"} drives`];
+  return ["mine", "You drive"];
 }

@@ -153,7 +153,8 @@ function draw() {
   keycaps.draw(!isHeld() && (isMine || held.length) ? held : (state?.held ?? []));
   const isWaiting = state?.waiting === "key";
   const isReached = dock.hasAttribute("data-touch") || keysReachPage();
-  const status = { connected, hello: panel?.named(hello) ?? hello, control, howToDrive: howToDrive(), isPaused: Boolean(state?.paused), isWaiting, isHeld: isHeld(), isReached };
+  const named = { ...control, name: classBar?.nameOf(control.seat) };
+  const status = { connected, hello: panel?.named(hello) ?? hello, control: named, howToDrive: howToDrive(), isPaused: Boolean(state?.paused), isWaiting, isHeld: isHeld(), isReached };
   driverStatus.draw(status);
   panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");

@@ -39,7 +39,8 @@ class PageOfClass:
         self._feed = feed
         self._role = headers.get(ROLE_HEADER, "student")
         digits = headers.get(SEAT_HEADER, "")[:MAX_SEAT_DIGITS]
-        self._seat = int(digits) if digits.isascii() and digits.isdigit() else 0
+        self.seat = int(digits) if digits.isascii() and digits.isdigit() else 0
+        """Number of the page's seat; 0 if it is not known."""
         self._version = 0
 
     def news(self) -> dict[str, Any] | None:
@@ -51,4 +52,4 @@ class PageOfClass:
         if feed is None or feed.version == self._version:
             return None
         self._version = feed.version
-        return feed.event(self._role, self._seat)
+        return feed.event(self._role, self.seat)

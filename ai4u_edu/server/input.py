@@ -4,7 +4,7 @@ import asyncio
 import json
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from itertools import count
@@ -64,6 +64,8 @@ class Inputs:
         self._runner, self._title, self._class_feed = runner, title, class_feed
         self._controls: dict[str, _Controls] = {}
         self._numbers = count(1)
+        self._seats: dict[int, int] = {}
+        """Numbers of the seats of a class by the numbers of their open pages."""
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's socket until it is closed."""
@@ -80,8 +82,13 @@ class Inputs:
                     return
                 agent = choose_agent(sim, None)
             controls, number = self._controls_of(agent), next(self._numbers)
-            page = _Page(socket, self._runner, sim, controls, number, self._title)
-            await page.serve(PageOfClass(self._class_feed, socket.headers))
+            page = _Page(socket, self._runner, sim, controls, number, self._title, self._seats)
+            class_page = PageOfClass(self._class_feed, socket.headers)
+            self._seats[number] = class_page.seat
+            try:
+                await page.serve(class_page)
+            finally:
+                del self._seats[number]
 
     def _controls_of(self, agent: BasicAgent) -> "_Controls":
         """Return an agent's lock and override; those of an agent in an earlier world are replaced.
@@ -113,8 +120,9 @@ class _Page:
         controls: _Controls,
         number: int,
         title: Callable[[], str],
+        seats: Mapping[int, int],
     ) -> None:
-        self._title = title
+        self._title, self._seats = title, seats
         self._socket = socket
         self._runner = runner
         self._sim = sim
@@ -238,7 +246,7 @@ class _Page:
             changed.clear()
             if (news := class_page.news()) is not None:
                 await self._send(json.dumps(news))
-            events = [page_events.lock_event(self._lock)]
+            events = [page_events.lock_event(self._lock, self._seats)]
             if is_changed or now >= hello_at:
                 hello_at, known = now + HELLO_S, driver
                 events.insert(0, page_events.hello_event(self._agent, self._number, self._override))

@@ -1,5 +1,6 @@
 """The messages from the input socket to a page."""
 
+from collections.abc import Mapping
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
@@ -37,9 +38,16 @@ def hello_event(agent: BasicAgent, number: int, override: HumanOverride) -> Even
     }
 
 
-def lock_event(lock: ControlLock) -> Event:
-    """Return the number of the page that drives, and of all pages at this agent."""
-    return {"type": "seat", "driver": lock.driver, "pages": lock.page_count}
+def lock_event(lock: ControlLock, seats: Mapping[int, int]) -> Event:
+    """Return the number of the page that drives, and of all pages at this agent.
+
+    Args:
+        lock: of the agent.
+        seats: numbers of the seats of a class by the numbers of their pages.
+    """
+    event: Event = {"type": "seat", "driver": lock.driver, "pages": lock.page_count}
+    seat = 0 if lock.driver is None else seats.get(lock.driver, 0)
+    return {**event, "seat": seat} if seat else event
 
 
 def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | None:
@@ -56,6 +64,7 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
         "past": picture.past,
         "error": picture.error,
         "episode": picture.episode,
+        "agent_episode": agent.episode,
         "seed_locked": picture.is_seed_locked,
         "terminated": agent.terminated,
         "truncated": agent.truncated,

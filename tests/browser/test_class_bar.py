@@ -33,6 +33,7 @@ from tests.builders import small_sim
 from tests.chromium import close_page, new_page, quick_page
 from tests.class_member.fake_link import FakeLink
 from tests.server.rooms import Clock, Room, SharedServer, served
+from tests.server.rooms import Page as RawPage
 from tests.waiting import until
 
 pytestmark = pytest.mark.browser
@@ -48,10 +49,10 @@ class AsSeat:
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
-        self.role = "student"
+        self.role, self.seat = "student", 1
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        own = [(ROLE_HEADER, self.role), (SEAT_HEADER, "1")]
+        own = [(ROLE_HEADER, self.role), (SEAT_HEADER, str(self.seat))]
         headers = [*scope["headers"], *((name.encode(), text.encode()) for name, text in own)]
         await self._app({**scope, "headers": headers}, receive, send)
 
@@ -191,6 +192,15 @@ def test_a_blank_screen_keeps_focus_and_keys_whatever_is_pressed(school: RoomOfC
     page.keyboard.down("KeyW")
     until(lambda: school.x > x)
     page.keyboard.up("KeyW")
+
+
+def test_whoever_else_drives_is_called_by_name(school: RoomOfClass) -> None:
+    page = school.page()
+    school.tell(Welcome(1, "", ""), People((FOX, OWL)))
+    school.entrance.seat = 2
+    with RawPage(f"{school.room.url}r/a1/ws/input") as other:
+        other.send("take")
+        expect(driver_status(page)).to_have_text("<b>Blue</b> Owl drives")
 
 
 def test_the_teachers_own_page_is_not_blanked(school: RoomOfClass) -> None:
