@@ -3,6 +3,7 @@
 import { joinProgram, splitProgram } from "./blocks_text.js";
 import { button, element, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
+import { retried } from "./retry.js";
 
 const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
 const DAMAGED = "The blocks of this program are damaged. This is the Python that came with them.";
@@ -194,7 +195,7 @@ export class BlocksMode {
     this.#say("Loading the blocks …");
     try {
       const names = ["agent", "python", "workspace", "steps"];
-      const modules = await Promise.all(names.map((name) => import(`./blocks_${name}.js`)));
+      const modules = await retried(() => Promise.all(names.map((name) => import(`./blocks_${name}.js`))));
       this.#loaded = Object.assign({}, ...modules);
     } catch {
       this.#say(FAILED);

@@ -50,7 +50,7 @@ export class Help {
       title: "Help (?)",
     });
     button.addEventListener("click", () => this.open());
-    row.append(button);
+    row.prepend(button); // the line beside it changes its length
     this.#build();
     // asked at each key: a dialog's close event comes too late
     keys.isSuspended = () => document.querySelector("dialog:modal") !== null;

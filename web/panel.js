@@ -13,6 +13,7 @@ import { ScenePicker } from "./panel_scenes.js";
 import { PanelSocket } from "./panel_socket.js";
 import { Tabs } from "./panel_tabs.js";
 import { ViewControls } from "./panel_view.js";
+import { retried } from "./retry.js";
 import { recall, remember } from "./storage.js";
 
 const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["code", "Code"], ["past", "Past"]];
@@ -45,11 +46,14 @@ export class Panel extends EventTarget {
   shown;
   /** True while a program of this page has the agent. */
   hasProgram = false;
+  /** The latest episode in which a program of this page decided: {agent, episode, isTest}; null if there is none. */
+  program = null;
   /** The person drives with it: {agent, take(), letGo()} of the page. */
   driving;
   #parts = new Map();
   #opened = new Map();
   #socket;
+  #run;
   #notices = new Notices();
   #body = element("div", { className: "ai4u-panel-body" });
   #fold = button("", () => this.layout.fold(!this.layout.isFolded), { label: "Fold the panel", kind: "quiet", icon: "down" });
@@ -75,8 +79,9 @@ export class Panel extends EventTarget {
     const scenes = new ScenePicker(this);
     const head = element("header", { className: "ai4u-panel-head" }, scenes.element, this.#modes.element, this.#fold);
     const history = element("div", { className: "ai4u-history" }, this.#undo, this.#redo);
+    this.#run = new RunControls(this);
     this.#body.append(
-      element("div", { className: "ai4u-panel-top" }, new RunControls(this).element, new ViewControls(this, history).element),
+      element("div", { className: "ai4u-panel-top" }, this.#run.element, new ViewControls(this, history).element),
       element("div", { className: "ai4u-panel-rest" }, ...this.#tabs.elements),
     );
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
@@ -121,9 +126,9 @@ export class Panel extends EventTarget {
     if (before.agent !== this.shown.agent) this.dispatchEvent(new Event("agent"));
   }
 
-  /** Say something in a fixed place; level "error" stays until it is closed. */
-  notice(text, level = "info") {
-    this.#notices.show(text, level);
+  /** Say something in a fixed place; level "error" stays until it is closed. @param action as of Notices.show */
+  notice(text, level = "info", action = null) {
+    this.#notices.show(text, level, action);
   }
 
   /** Return the latest part of a name, or null. */
@@ -155,6 +160,11 @@ export class Panel extends EventTarget {
     this.driver = status;
     if (status.hello.agent && !this.shown.agent) this.show({ agent: status.hello.agent });
     this.dispatchEvent(new CustomEvent("driver", { detail: status }));
+  }
+
+  /** Show the best time (s) of whoever drives, the person or the program; nothing for null or "". */
+  drawBest(time, isPrograms) {
+    this.#run.drawBest(time, isPrograms);
   }
 
   #setDetails(isOn) {
@@ -208,7 +218,7 @@ export class Panel extends EventTarget {
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);
       try {
-        const Tab = await LOADERS[name]();
+        const Tab = await retried(LOADERS[name]);
         this.#opened.set(name, new Tab(root, this));
       } catch (error) {
         this.#opened.delete(name);

@@ -5,15 +5,14 @@ import { Bars, changedRow } from "./panel_bars.js";
 import { Curve } from "./panel_curve.js";
 import { choice, freeId, section } from "./panel_parts.js";
 
-const PRESENT = { value: "", text: "The driver that it has now" };
-
 export class Comparison {
   #panel;
   #number = null;
   #asked = 0;
   #rivals = [];
   #step = null;
-  #names = { first: "", second: "" };
+  /** Values of the chosen ones; null before any is known. */
+  #names = { first: null, second: null };
   #choices = {
     first: choice("One driver", (name) => this.#choose("first", name)),
     second: choice("Another one", (name) => this.#choose("second", name)),
@@ -27,13 +26,14 @@ export class Comparison {
     element("div", { className: "ai4u-what-if-row" }, this.#checkpoint, this.#learned),
   );
   #start = button("Compare", () => this.#compare(), { kind: "main" });
+  #none = element("p", { className: "ai4u-hint-text", hidden: true, textContent: "There is no network yet that could be asked. Train one, or open a scene of the library." });
   #says = element("p", { role: "status" });
   #distance = new Curve("Difference of the two actions over the steps");
   #jump = button("Show step", () => this.#goTo(), { icon: "forward" });
   #reasons = element("dl", { className: "ai4u-compare-reasons" });
   #action = new Bars();
   #result = element("div", { className: "ai4u-maps", hidden: true }, this.#says, this.#distance.element, this.#jump, this.#reasons, this.#action.element);
-  #body = element("div", { className: "ai4u-maps" }, this.#choices.first.element, this.#choices.second.element, this.#checkpoints, this.#start, this.#result);
+  #body = element("div", { className: "ai4u-maps" }, this.#choices.first.element, this.#choices.second.element, this.#checkpoints, this.#none, this.#start, this.#result);
   element;
 
   constructor(panel) {
@@ -63,16 +63,18 @@ export class Comparison {
     if (!answer.ok) return;
     this.#rivals = answer.rivals;
     const isKnown = (name) => this.#rivals.some(({ value }) => value === name);
-    if (!isKnown(this.#names.second)) this.#names.second = this.#rivals.findLast(({ reason }) => !reason)?.value ?? "";
-    if (!isKnown(this.#names.first)) this.#names.first = PRESENT.value;
+    // what was done comes first, and the best guess at who knows better last
+    if (!isKnown(this.#names.first)) this.#names.first = this.#rivals[0]?.value ?? null;
+    if (!isKnown(this.#names.second)) this.#names.second = this.#rivals.slice(1).at(-1)?.value ?? null;
     this.#draw();
   }
 
   #draw() {
-    const options = this.#rivals.map(({ value, text, reason }) => ({ value, text, reason }));
-    this.#choices.first.set([PRESENT, ...options], this.#names.first);
-    this.#choices.second.set(options, this.#names.second);
-    this.#start.disabled = !this.#names.second;
+    const options = this.#rivals.map(({ value, text }) => ({ value, text }));
+    this.#choices.first.set(options, this.#names.first);
+    this.#choices.second.set(options, this.#names.second ?? "");
+    this.#start.disabled = this.#names.second === null;
+    this.#none.hidden = this.#names.second !== null;
     const checkpoints = this.#checkpointsInOrder();
     this.#checkpoints.hidden = checkpoints.length < 2;
     setAttributes(this.#checkpoint, { max: Math.max(checkpoints.length - 1, 1) });
@@ -125,7 +127,7 @@ export class Comparison {
     if (!differs) return;
     setText(this.#jump.querySelector("span"), `Show step ${step + 1}`);
     this.#reasons.replaceChildren(
-      ...[["One driver", first], ["Another one", second]].flatMap(([name, text]) => [
+      ...[["One driver", first], ["Another one", second]].filter(([, text]) => text).flatMap(([name, text]) => [
         element("dt", { textContent: name }),
         element("dd", { textContent: text }),
       ]),

@@ -31,11 +31,11 @@ export class EpisodeCard {
   /** @param downloads of the chosen episode: [{format, url}] */
   update(episode, isOpen, downloads = []) {
     this.#episode = episode;
-    const { number, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;
+    const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;
     const reads = [resultOf(episode), `reward ${shortNumber(reward)}`, `${seconds.toFixed(1)} s`].filter(Boolean);
     this.#card.update({
       icon: episode.is_person ? "person" : "network",
-      title: `Episode ${number}`,
+      title: `Episode ${number} · ${scene}`,
       reads: reads.join(" · "),
       isOpen,
       mark: isBest ? "★ best" : "",

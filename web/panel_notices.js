@@ -12,7 +12,8 @@ export class Notices {
   #timer = 0;
   element = element("div", { className: "ai4u-notices" }, this.#error, this.#info);
 
-  show(text, level = "info") {
+  /** @param {?{text: string, icon: string, run: () => void}} action what a button of an info does, which stays until it is closed */
+  show(text, level = "info", action = null) {
     const isError = level === "error";
     clearTimeout(this.#timer);
     this.#info.replaceChildren();
@@ -20,7 +21,8 @@ export class Notices {
     if (!text) return;
     const region = isError ? this.#error : this.#info;
     const close = button("", () => region.replaceChildren(), { icon: "remove", label: "Close", kind: "quiet" });
-    region.replaceChildren(element("p", { textContent: text }), close);
-    if (!isError) this.#timer = setTimeout(() => region.replaceChildren(), INFO_MS);
+    const act = action && button(action.text, action.run, { icon: action.icon });
+    region.replaceChildren(element("p", { textContent: text }), ...(act ? [act] : []), close);
+    if (!isError && !action) this.#timer = setTimeout(() => region.replaceChildren(), INFO_MS);
   }
 }

@@ -33,8 +33,10 @@ export class PastTab {
     const open = fileButton("Open a recording", ".episode", (file) => this.#open(file));
     this.#groups = [
       group("past-pinned", "Pinned", (episode) => episode.is_pinned),
-      group("past-person", "Your drives", (episode) => !episode.is_pinned && episode.is_person),
-      group("past-program", "Networks and scripts", (episode) => !episode.is_pinned && !episode.is_person),
+      group("past-person", "Your drives", (episode) => isRecordedHere(episode) && episode.is_person),
+      group("past-program", "Networks and programs", (episode) => isRecordedHere(episode) && !episode.is_person),
+      group("past-files", "Opened recordings", (episode) => !episode.is_pinned && episode.source),
+      group("past-others", "In other scenes", isOfOtherScene, { isOpen: false }),
     ];
     const tools = element("div", { className: "ai4u-tools" }, current, open);
     root.append(this.#player.element, this.#paid.element, this.#comparison.element, tools, this.#none, ...this.#groups.map((each) => each.element));
@@ -44,7 +46,7 @@ export class PastTab {
   update(part) {
     this.#player.update(part);
     this.#paid.update(part.playing?.number ?? null);
-    this.#comparison.update(part.playing?.number ?? null);
+    this.#comparison.update(part.playing?.is_here ? part.playing.number : null);
     if (this.#wantsRunning && part.playing?.number === RUNNING_EPISODE) {
       this.#wantsRunning = false;
       this.#panel.send("step", { step: part.playing.step }, { quiet: true });
@@ -92,7 +94,15 @@ export class PastTab {
   }
 }
 
-function group(key, title, isIn) {
+function group(key, title, isIn, options = {}) {
   const list = element("div", { className: "ai4u-card-list" });
-  return { element: section(key, title, {}, list), list, isIn };
+  return { element: section(key, title, options, list), list, isIn };
+}
+
+function isRecordedHere({ is_pinned: isPinned, is_here: isHere, source }) {
+  return !isPinned && isHere && !source;
+}
+
+function isOfOtherScene({ is_pinned: isPinned, is_here: isHere, source }) {
+  return !isPinned && !isHere && !source;
 }

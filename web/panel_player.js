@@ -65,10 +65,10 @@ export class Player {
     if (playing) this.#show(playing);
   }
 
-  #show({ number, step, steps, is_playing: isPlaying, speed }) {
+  #show({ number, scene, is_here: isHere, step, steps, is_playing: isPlaying, speed }) {
     // as in the banner over the picture: steps count from 1, and the end comes after the last one
     const text = step < steps ? `Step ${step + 1} of ${steps}` : `The end, after ${steps} steps`;
-    setText(this.#title, number ? `Showing episode ${number}` : "Current episode");
+    setText(this.#title, number ? `Showing episode ${number}${isHere ? "" : ` · ${scene}`}` : "Current episode");
     setText(this.#moment, text);
     setAttributes(this.#slider, { max: steps, "aria-valuetext": text });
     if (document.activeElement !== this.#slider || isPlaying) this.#slider.value = String(step);

@@ -4,17 +4,22 @@ import { button, element, keyed, setAttributes, setText } from "./dom.js";
 import { fact, freeId, toggle } from "./panel_parts.js";
 import { number, seconds } from "./panel_numbers.js";
 
+/** Most characters of a goal, as a scene's file takes. */
+const MAX_GOAL_CHARS = 2000;
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, "max"];
 
 export class RunControls {
   #panel;
   #isPaused = false;
-  #goal = element("p", { className: "ai4u-goal-text" });
+  #goalText = element("span");
+  #goal = element("p", { className: "ai4u-goal-text" }, this.#goalText);
   #facts = { time: fact("Time"), score: fact("Score"), best: fact("Best") };
   #stages = element("ol", { className: "ai4u-stages", ariaLabel: "Stages" });
-  #result = element("p", { className: "ai4u-result", role: "status" });
+  /** For screen readers: the banner over the picture says it, too, and a line that comes would move the buttons. */
+  #result = element("p", { className: "ai4u-hidden-text", role: "status" });
   #problem = element("p", { className: "ai4u-run-problem", role: "alert" });
-  #status = element("p", { className: "ai4u-soft ai4u-details-only" });
+  #status = element("p", { className: "ai4u-soft ai4u-details-only ai4u-run-status" });
+  #change = button("", () => this.#changeGoal(), { icon: "text", label: "Change the goal", kind: "quiet" });
   #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }), { kind: "main" });
   #speed = element("select", { id: freeId() });
   #seed = element("input", { type: "text", inputMode: "numeric", id: freeId(), autocomplete: "off" });
@@ -23,6 +28,9 @@ export class RunControls {
 
   constructor(panel) {
     this.#panel = panel;
+    this.#goal.append(this.#change);
+    this.#goalText.addEventListener("click", () => this.#change.hidden || this.#changeGoal());
+    this.drawBest(null);
     const quietly = (command) => panel.send(command, {}, { quiet: true });
     const again = button("Try again", () => quietly("try_again"), { title: "Begin an episode with the same start" });
     const fresh = button("New start", () => quietly("new_start"), { title: "Begin an episode with a new start" });
@@ -32,12 +40,12 @@ export class RunControls {
       { className: "ai4u-run", ariaLabel: "Run" },
       this.#goal,
       facts,
-      this.#stages,
-      this.#result,
-      this.#problem,
       element("div", { className: "ai4u-buttons" }, this.#pause, again, fresh),
+      this.#stages,
       this.#details(),
       this.#status,
+      this.#result,
+      this.#problem,
     );
     panel.addEventListener("part:run", ({ detail }) => this.#draw(detail));
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
@@ -72,13 +80,20 @@ export class RunControls {
     );
   }
 
+  /** Show the best time (s) of whoever drives, the person or the program; nothing for null or "". */
+  drawBest(time, isPrograms) {
+    const { best } = this.#facts;
+    best.element.hidden = typeof time !== "number";
+    if (best.element.hidden) return;
+    setText(best.element.firstChild, isPrograms ? "Best (code)" : "Best");
+    best.set(seconds(time));
+  }
+
   #draw(run) {
     this.#isPaused = run.is_paused;
     setText(this.#pause.querySelector("span"), run.is_paused ? "Resume" : "Pause");
     this.#facts.time.set(seconds(run.time_s));
     this.#facts.score.set(number(run.score));
-    this.#facts.best.set(number(run.best));
-    this.#facts.best.element.hidden = run.best === null || run.best === undefined;
     setText(this.#result, run.result ? (run.result_text ?? run.result) : "");
     setAttributes(this.#result, { "data-result": run.result || null });
     setText(this.#problem, run.error || "");
@@ -95,8 +110,9 @@ export class RunControls {
   }
 
   #drawScene(scene) {
-    setText(this.#goal, scene.goal);
-    this.#goal.hidden = !scene.goal;
+    setText(this.#goalText, scene.goal);
+    this.#change.hidden = !scene.can_edit_goal;
+    this.#goal.hidden = !scene.goal && !scene.can_edit_goal;
     if (scene.stages?.length) this.#drawStages(scene.stages);
   }
 
@@ -114,6 +130,20 @@ export class RunControls {
         setAttributes(item, { "data-done": Boolean(isDone), "aria-current": isNow ? "step" : null });
       },
     );
+  }
+
+  /** Ask the person for another goal, in words. */
+  #changeGoal() {
+    const text = element("textarea", { rows: 3, maxLength: MAX_GOAL_CHARS, id: freeId(), value: this.#goalText.textContent });
+    const problem = element("p", { className: "ai4u-problem", role: "alert" });
+    const save = async () => {
+      const answer = await this.#panel.send("change_settings", { values: { goal: text.value.trim() } });
+      if (answer.ok) return close();
+      setText(problem, answer.problems.map((each) => each.text).join(" ") || answer.text);
+    };
+    const label = element("label", { htmlFor: text.id, textContent: "What is to be done, in a sentence" });
+    const { close } = this.#panel.dialog("Goal", label, text, problem, button("Save", save, { kind: "main" }));
+    text.focus();
   }
 
   async #setSeed() {

@@ -2,7 +2,8 @@
 
 import { button, element, setText } from "./dom.js";
 import { freeId } from "./panel_parts.js";
-import { copyLink } from "./share.js";
+import { section } from "./panel_parts.js";
+import { copyLink, isThisComputer } from "./share.js";
 
 /** Largest file that is read here; the server has limits of its own (bytes). */
 const MAX_SCENE_BYTES = 4_000_000;
@@ -12,7 +13,10 @@ export class SceneFiles {
   #when = element("p");
   #save = button("Save", () => this.#openSaving(), { icon: "save" });
   #unsaved;
+  #kept = element("p");
   element = element("div");
+  /** What is left after a restart, in words. */
+  kept = section("world-kept", "What is kept after a restart?", { isOpen: false }, this.#kept);
 
   constructor(panel) {
     this.#panel = panel;
@@ -28,7 +32,7 @@ export class SceneFiles {
       { className: "ai4u-tools" },
       this.#save,
       button("Download", () => this.#download(), { icon: "download" }),
-      button("Copy link", async () => panel.notice(await copyLink()), {
+      button("Copy link", () => this.#copyLink(), {
         icon: "copy",
         title: "Copy a link that holds this scene",
       }),
@@ -37,7 +41,8 @@ export class SceneFiles {
     this.element.append(this.#unsaved, tools);
   }
 
-  update({ unsaved, can_save: canSave = true }) {
+  update({ unsaved, can_save: canSave = true, is_autosaved: isAutosaved = false }) {
+    setText(this.#kept, keptWords(canSave, isAutosaved));
     this.#save.hidden = !canSave;
     this.#unsaved.hidden = !unsaved;
     if (unsaved) setText(this.#when, `You have an unsaved scene from ${unsaved.when}.`);
@@ -71,6 +76,12 @@ export class SceneFiles {
     input.focus();
   }
 
+  async #copyLink() {
+    const text = await copyLink();
+    const offer = { text: "Download the file", icon: "download", run: () => this.#download() };
+    this.#panel.notice(text, "info", isThisComputer() ? offer : null);
+  }
+
   async #download() {
     const answer = await this.#panel.send("download", {});
     if (answer.ok) saveFile(answer.file, answer.content);
@@ -84,6 +95,17 @@ export class SceneFiles {
     this.#panel.show({ body: null, block: null });
     await this.#panel.sendFile("load_text", file);
   }
+}
+
+/** Return what is left of a scene and of a person's work when the world is started again. */
+function keptWords(canSave, isAutosaved) {
+  const scenes = [
+    canSave ? "Scenes that you save are under “Choose a scene”, in My scenes." : "Nothing can be saved here: download what you want to keep.",
+    isAutosaved ? "Changes that you did not save are offered to you at the top of this tab." : "Changes that you did not save are lost.",
+    "Your programs, stars and best times stay in this browser.",
+    "Episodes in Past and the steps of Undo are gone: download the episodes that you want to keep.",
+  ];
+  return scenes.join(" ");
 }
 
 /** Return a button that asks for a file. */

@@ -39,12 +39,13 @@ export class WorldTab {
         "Things",
         {},
         element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
-        this.#hint,
         element("h4", { textContent: "Add" }),
         this.#add,
+        this.#hint, // below the buttons, which its other texts would move
         this.#list,
       ),
       section("world-settings", "Scene's settings", { isOpen: false }, this.#settings.element),
+      this.#files.kept,
     );
     panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));
   }

@@ -10,6 +10,7 @@ import { keepShared } from "./shared_program.js";
 
 const PREFIX = "#scene=";
 const BRINGS_PROGRAM = "It brings a program along, which the tab “Code” will offer you. Nothing of it runs by itself.";
+const ONLY_HERE = " In a browser it opens on this computer only. To give the scene to someone else, send its file (World, Download).";
 let isAsking = false;
 
 /**
@@ -34,7 +35,12 @@ export async function copyLink(program = null) {
     await showLink(made.title, link); // no secure page, or in a frame that may not copy
     return `Here is the link.${needs}`;
   }
-  return `Link copied.${needs}`;
+  return `Link copied.${isThisComputer() ? ONLY_HERE : ""}${needs}`;
+}
+
+/** Return true if the page's address leads to its world from this computer only. */
+export function isThisComputer() {
+  return /^(localhost|127(\.\d+){3}|\[::1\])$/.test(location.hostname);
 }
 
 async function showLink(title, link) {
@@ -42,7 +48,7 @@ async function showLink(title, link) {
   box.addEventListener("focus", () => box.select());
   const answered = ask({
     title: `Link to “${title}”`,
-    text: "Select the link and copy it (Ctrl+C, or ⌘C).",
+    text: `Select the link and copy it (Ctrl+C, or ⌘C).${isThisComputer() ? ONLY_HERE : ""}`,
     yes: "Close",
     no: "",
     content: [box],

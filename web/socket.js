@@ -1,12 +1,9 @@
 /** A WebSocket for JSON messages that reconnects with backoff: of the keys and of the panel. */
 
+import { codeLimits } from "./code_limits.js";
+
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
-/** Time without an answer (ms) after which a page gives up to connect; a room of a class may have to start first. */
-const CONNECT_MS = 20_000;
-/** Time without a message (ms) after which a connection counts as lost, if its server sends `keepalive`, which it
- * does every 2 s: a network that is gone closes no connection. */
-const SILENCE_MS = 8000;
 /** Close code of a refusal: the server would refuse again, so the page doesn't reconnect. */
 const CLOSE_REFUSED = 1008;
 /** Close code when another world has replaced this one. */
@@ -40,7 +37,7 @@ export class JsonSocket {
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const socket = (this.#socket = new WebSocket(url));
     this.#hasKeepalives = false;
-    this.#giveUpAfter(CONNECT_MS);
+    this.#giveUpAfter(codeLimits.openMs);
     socket.onopen = () => {
       this.#reconnectMs = MIN_RECONNECT_MS;
       clearTimeout(this.#silence);
@@ -67,7 +64,7 @@ export class JsonSocket {
   #receive(message) {
     const isKeepalive = message.type === "keepalive";
     this.#hasKeepalives ||= isKeepalive;
-    if (this.#hasKeepalives) this.#giveUpAfter(SILENCE_MS);
+    if (this.#hasKeepalives) this.#giveUpAfter(codeLimits.silenceMs);
     if (!isKeepalive) this.onmessage(message);
   }
 

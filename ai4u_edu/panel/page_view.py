@@ -10,6 +10,8 @@ from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
 
 TEXTS_PER_CURVE = 4
 """Times that the other texts are sent for each curve of rewards, which is longer than all else."""
+EXPLANATIONS = {"why", "maps"}
+"""Names of the parts that a page clears when it shows another agent."""
 MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
 
@@ -50,6 +52,7 @@ class PageView:
         self._curve: tuple[str, int] = ("", 0)
         self.sensors: dict[tuple[str, str], bool] = {}
         """Sensors that were switched on or off, by agent and key."""
+        self._asked_again: set[str] = set()
 
     @property
     def agent(self) -> str:
@@ -71,6 +74,14 @@ class PageView:
         """Viser's client of this page; None while there is none."""
         return self._client
 
+    def take_asked_again(self) -> set[str]:
+        """Return the names of the parts that the page waits for again, since the last call.
+
+        It shows nothing of them until they come, so they are sent even if they are as before.
+        """
+        names, self._asked_again = self._asked_again, set()
+        return names
+
     def refresh(self) -> None:
         """Find viser's client of this page, and give a new one all that was chosen."""
         client = self._viewer_clients.find(self._page_id)
@@ -82,11 +93,14 @@ class PageView:
 
     def look_at(self, show: Show) -> None:
         """Look at something else."""
+        if show.agent != self.agent:
+            self._asked_again |= EXPLANATIONS
         self.show = show
         self._apply(self._choose_shown)
 
     def choose_agent(self, agent: str) -> None:
         """Look at another agent."""
+        self._asked_again |= EXPLANATIONS
         self.show = Show(
             type="show",
             agent=agent,
@@ -128,11 +142,13 @@ class PageView:
     def show_why(self, on: bool) -> None:
         """Show why the agent acts as it does, or no longer."""
         self.is_why_shown = on
+        self._asked_again.add("why")
         self._apply(self._choose_shown)
 
     def show_maps(self, maps: MapChoice) -> None:
         """Show these maps over the floor."""
         self.maps = maps
+        self._asked_again.add("maps")
         self._apply(self._choose_shown)
 
     def show_elsewhere(self, elsewhere: Elsewhere | None) -> None:

@@ -219,6 +219,8 @@ class _Connection:
             self._changed.clear()
             self._view.refresh()
             self._settle()
+            for name in self._view.take_asked_again():
+                self._sent.pop(name, None)
             with _error_log.caught():
                 for name, text in due_parts(self._context, self._view):
                     if self._sent.get(name) != text:

@@ -1,6 +1,8 @@
 """Archive of recent episodes, by number."""
 
 import re
+import warnings
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -39,8 +41,8 @@ class ArchiveEntry:
 
     @cached_property
     def is_person(self) -> bool:
-        """True if a person drove the agent that acts first, by keys."""
-        names = re.findall(r"\w+", self.first.driver)
+        """True if a person took most decisions of the agent that acts first, by keys."""
+        names = re.findall(r"\w+", self.first.driver.partition(", ")[0])
         return any(name in Block.types and listens_to_keys(Block.types[name]) for name in names)
 
     @property
@@ -121,14 +123,23 @@ class Archive(Sequence[Episode]):
                 size -= size_of(entry.episode)
         return tuple(entry for entry in entries if entry.number not in dropped)
 
+    def bests(self) -> frozenset[int]:
+        """Return the numbers of the best entries of each scene: a person's, and one of the others.
+
+        The best one reached the goal soonest, or else got the highest reward. One that has no other
+        to compare with is none, and episodes that were loaded from files don't count.
+        """
+        alike: defaultdict[tuple[str, bool], list[ArchiveEntry]] = defaultdict(list)
+        for entry in self.entries:
+            if not entry.source:
+                alike[entry.episode.scene.name, entry.is_person].append(entry)
+        return frozenset(max(each, key=_rank).number for each in alike.values() if len(each) > 1)
+
     @property
     def best(self) -> ArchiveEntry | None:
-        """The entry with the highest reward among those that reached the goal, or else among all.
-
-        Episodes that were loaded from files don't count.
-        """
-        own = [entry for entry in self.entries if not entry.source]
-        return max(own, key=lambda entry: (entry.success is True, entry.first.total), default=None)
+        """Return the best entry of all scenes and drivers; deprecated."""
+        warnings.warn("use Archive.bests", DeprecationWarning, stacklevel=2)
+        return max((each for each in self.entries if not each.source), key=_rank, default=None)
 
     def find(self, number: int) -> ArchiveEntry | None:
         """Return the entry of a number; None if it was dropped."""
@@ -148,6 +159,10 @@ class Archive(Sequence[Episode]):
 
     def __iter__(self) -> Iterator[Episode]:
         return (entry.episode for entry in self.entries)
+
+
+def _rank(entry: ArchiveEntry) -> tuple[bool, float]:
+    return bool(entry.success), -entry.episode.seconds if entry.success else entry.first.total
 
 
 def size_of(episode: Episode) -> int:

@@ -69,7 +69,7 @@ class AgentRecord:
     firsts: npt.NDArray[np.uint32]
     """(m,) checksum of the first percept of each of these episodes."""
     driver: str = ""
-    """Title of the brain that decided; titles of several are joined."""
+    """Title of the brain that decided; of several, that of the most decisions is the first."""
     carried: Table = NO_ROWS
     """(n,) reward terms that were paid before each was taken, as by a controller, which no replay
     can compute; no rows if none were."""

@@ -1,5 +1,6 @@
 """Builds the record of an episode while it happens."""
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 
@@ -51,7 +52,10 @@ class _AgentColumns:
         self.starts: list[int] = []
         self.firsts: list[int] = []
         self.brain: Brain | None = None
-        self.drivers: dict[str, None] = {}
+        self.driver = ""
+        """Title of that brain."""
+        self.drivers: Counter[str] = Counter()
+        """Number of decisions by the title of the brain that took them."""
         self.open_step = -1
         """The agent's step count when its unfinished decision began; -1 if there is none."""
 
@@ -71,7 +75,7 @@ class _AgentColumns:
             worlds=np.array(self.worlds[:count], np.uint32),
             starts=np.array(self.starts, np.uint32),
             firsts=np.array(self.firsts, np.uint32),
-            driver=", ".join(self.drivers)[:MAX_DRIVER_CHARS],
+            driver=", ".join(each for each, _ in self.drivers.most_common())[:MAX_DRIVER_CHARS],
         )
 
 
@@ -151,7 +155,8 @@ class EpisodeBuilder:
         column.open_step = agent.steps
         if brain is not column.brain:
             column.brain = brain
-            column.drivers[brain.title()] = None
+            column.driver = brain.title()
+        column.drivers[column.driver] += 1
 
     def end_decision(self, agent: BasicAgent) -> None:
         """Record the end of a decision: the first percept after it, when all rewards are paid."""

@@ -47,6 +47,8 @@ PATIENT = {
     "beginMs": LIMIT_MS,
     "connectMs": LIMIT_MS,
     "outcomeMs": LIMIT_MS,
+    "openMs": LIMIT_MS,
+    "silenceMs": LIMIT_MS,
 }
 """Time limits of programs that only a fault reaches; see web/code_limits.js."""
 SET_LIMITS = """async (limits) => {

@@ -54,6 +54,11 @@ class FakePanel:
         self.parts[name] |= changes
         self.send(self.parts[name])
 
+    def let_network_drive(self) -> None:
+        """Let a network drive in the person's place."""
+        (agent,) = self.parts["scene"]["agents"]
+        self.change("scene", agents=[agent | {"driver": "Trained network", "is_person": False}])
+
     def drop(self) -> None:
         """Lose the connection."""
         assert self._socket is not None

@@ -87,13 +87,28 @@ def test_pressed_again_while_it_joins_it_connects_when_that_one_has_left(tab: Co
     assert (len(tab.calls("connect")), tab.page.evaluate("fake.closed")) == (2, 1)
 
 
-def test_after_the_end_it_begins_another_episode(tab: CodePage) -> None:
-    tab.sense(9, terminated=True)
-    tab.sense(0, episode=2)
+def test_run_begins_at_the_same_start(tab: CodePage) -> None:
+    tab.sense()
     tab.press("Run")
     tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'act')")
     assert tab.sent() == [{"command": "try_again"}]
+    tab.press("Run")  # also while it runs
+    tab.page.wait_for_function("panel.sent.length === 2")
+    assert tab.sent()[1] == {"command": "try_again"}
     assert tab.calls("reset") == []
+
+
+def test_it_goes_on_from_where_the_robot_is(tab: CodePage) -> None:
+    tab.sense(5)
+    tab.press("Go on from here")
+    tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'act')")
+    assert tab.sent() == []
+    tab.press("Stop")
+    tab.sense(9, terminated=True)  # from an end there is nowhere to go on
+    tab.sense(0, episode=2)
+    tab.press("Go on from here")
+    tab.page.wait_for_function("fake.calls.filter((each) => each[0] === 'act').length === 2")
+    assert tab.sent() == [{"command": "try_again"}]
 
 
 def test_where_another_person_drives_it_begins_only_its_own_episode(tab: CodePage) -> None:
@@ -121,7 +136,7 @@ def test_a_paused_world_goes_on(tab: CodePage) -> None:
     tab.sense()
     tab.press("Run")
     expect(tab.state).to_contain_text("The world is paused")
-    assert tab.sent() == [{"command": "resume"}]
+    assert tab.sent() == [{"command": "try_again"}, {"command": "resume"}]
     tab.give({**PARTS["run"], "is_paused": False}, "run")
     expect(tab.state).to_contain_text("Runs")
 
@@ -168,6 +183,7 @@ def test_a_mistake_is_a_sentence_at_its_line(tab: CodePage) -> None:
     tab.press("Go to the line")
     expect(tab.editor).to_be_focused()
     assert tab.page.evaluate("fake.closed") == 1
+    assert tab.sent() == [{"command": "try_again"}, {"command": "pause"}]  # while it is mended
     tab.press("Run")
     expect(tab.mistake).to_be_hidden()
     expect(marked).to_have_count(0)
@@ -178,6 +194,16 @@ def test_a_mistake_that_no_line_made_has_no_button(tab: CodePage) -> None:
     tab.sense()
     tab.press("Run")
     expect(tab.mistake).to_have_text("there is no decide")
+
+
+def test_a_mistake_does_not_stop_another_persons_world(tab: CodePage) -> None:
+    agents = PARTS["scene"]["agents"]
+    tab.give({**PARTS["scene"], "agents": [*agents, {**agents[0], "id": "1"}]}, "scene")
+    tab.fail("nothing is called 'neer'", 3, "unknown-name")
+    tab.sense()
+    tab.press("Run")
+    expect(tab.mistake).to_be_visible()
+    assert tab.sent() == []
 
 
 def test_a_world_that_refuses_is_told(tab: CodePage) -> None:

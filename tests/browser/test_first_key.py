@@ -118,7 +118,7 @@ def test_another_page_says_that_a_player_has_to_start(site: ServedViser) -> None
     page.keyboard.press("KeyR")
     expect(banner(page)).to_have_text("Press a key to start")
     expect(banner(other)).to_have_text("Waits until a player presses a key")
-    expect(driver_status(other)).to_have_text("Page 1 drives")
+    expect(driver_status(other)).to_have_text("Another page drives")
 
 
 def has_seed(server: Played, seed: int) -> bool:

@@ -50,15 +50,19 @@ def test_two_pages_and_one_seat(site: ServedViser) -> None:
     first, second = site.page(), site.page()
     expect(driver_status(first)).to_have_text("Press a key to drive")
     first.keyboard.down("KeyW")
-    expect(driver_status(first)).to_have_text("You drive (page 1)")
-    expect(driver_status(second)).to_have_text("Page 1 drives")
+    expect(driver_status(first)).to_have_text("You drive")
+    expect(driver_status(second)).to_have_text("Another page drives")
     with recorded_holds(site.room) as holds:
         second.keyboard.press("KeyS")
         second.get_by_role("button", name="Take over").click()
-        expect(driver_status(second)).to_have_text("You drive (page 2)")
-        expect(driver_status(first)).to_have_text("Page 2 drives")
+        expect(driver_status(second)).to_have_text("You drive")
+        expect(driver_status(first)).to_have_text("Another page drives")
         assert ["KeyS"] not in holds
     until(lambda: site.room.held == [])
+    site.room.runner.pause().result(LIMIT_S)
+    for each in (first, second):
+        expect(driver_status(each)).to_have_text("Paused")
+    site.room.runner.resume().result(LIMIT_S)
     second.keyboard.down("KeyD")
     until(lambda: site.room.held == ["KeyD"])
     site.close(second)

@@ -40,10 +40,45 @@ def test_goal_time_and_score_are_shown(desk: PanelPage) -> None:
     expect(run).to_contain_text("Push the box into the goal")
     expect(run).to_contain_text("12.3 s")
     expect(run).to_contain_text("2.75")
-    desk.panel.change("run", time_s=125.04, score=-0.004, best=None)
+    desk.panel.change("run", time_s=125.04, score=-0.004)
     expect(run).to_contain_text("2:05 min")
     expect(run).to_contain_text("Score0.00")
     expect(run.get_by_text("Best")).to_be_hidden()
+    desk.page.evaluate(
+        "times => localStorage.setItem('ai4u-best-times', JSON.stringify(times))",
+        {"box_chase-1": {"keys": 14.5, "program": 9}},
+    )
+    desk.page.reload()
+    desk.wait()
+    expect(run).to_contain_text("Best14.5 s")
+    desk.panel.change("scene", key="donut-2", title="Donut")  # where nobody has won yet
+    expect(run.get_by_text("Best")).to_be_hidden()
+
+
+def test_texts_that_come_move_no_button(desk: PanelPage) -> None:
+    buttons = [desk.button("Pause"), desk.button("Try again"), desk.button("Arena")]
+    buttons.append(desk.tab("Drive"))
+    stages = [{"title": f"mark {n}", "is_done": False, "is_now": not n} for n in range(8)]
+    desk.panel.change("run", stages=stages)
+    expect(desk.page.get_by_role("list", name="Stages").get_by_role("listitem")).to_have_count(8)
+    before = [each.bounding_box() for each in buttons]
+    done = [stage | {"is_done": True, "is_now": False} for stage in stages]
+    desk.panel.change("run", stages=done, result="goal", result_text="Reached the goal")
+    expect(desk.page.locator(".ai4u-stages > [data-done]")).to_have_count(8)
+    assert [each.bounding_box() for each in buttons] == before
+
+
+def test_the_goal_is_changed_by_a_click(desk: PanelPage) -> None:
+    desk.page.get_by_text("Push the box into the goal").click()
+    text = desk.page.get_by_label("What is to be done, in a sentence")
+    expect(text).to_have_value(re.compile("Push the box into the goal"))
+    text.fill(" Catch it! ")
+    desk.page.get_by_role("dialog").get_by_role("button", name="Save").click()
+    desk.until(lambda: desk.panel.commands("change_settings"))
+    assert desk.panel.commands("change_settings") == [{"values": {"goal": "Catch it!"}}]
+    expect(desk.page.get_by_role("dialog")).to_have_count(0)
+    desk.panel.change("scene", can_edit_goal=False)
+    expect(desk.button("Change the goal")).to_be_hidden()
 
 
 def test_pause_becomes_resume(desk: PanelPage) -> None:
@@ -326,6 +361,7 @@ def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> No
 
 def test_what_if(desk: PanelPage) -> None:
     desk.panel.let_network_drive()
+
     def reply(message: Json) -> Json:
         then = message["changes"][0]["value"] if message["changes"] else 0.1
         dials = [

@@ -48,9 +48,23 @@ def warm(chromium: Browser, room: Room, request: pytest.FixtureRequest) -> Itera
 
 @pytest.fixture
 def desk(warm: PanelPage) -> PanelPage:
-    """A page with nothing remembered."""
+    """A page with nothing remembered, of an agent that a network drives."""
     warm.reset()
+    warm.panel.let_network_drive()
     return warm
+
+
+def test_a_person_is_not_asked_for_reasons(desk: PanelPage) -> None:
+    sections = [
+        desk.page.locator("summary", has_text=title)
+        for title in ("Because of what", "What it would do elsewhere")
+    ]
+    for each in sections:
+        expect(each).to_be_visible()
+    (agent,) = desk.panel.parts["scene"]["agents"]
+    desk.panel.change("scene", agents=[agent | {"driver": "You", "is_person": True}])
+    for each in sections:
+        expect(each).to_be_hidden()
 
 
 def test_maps_over_the_floor(desk: PanelPage) -> None:

@@ -14,6 +14,9 @@ from tests.chromium import until_on
 
 MINE = {
     "number": 3,
+    "scene": "Donut",
+    "is_here": True,
+    "source": "",
     "driver": "Keys W, A, S, D",
     "is_person": True,
     "result": True,
@@ -34,6 +37,8 @@ NETWORKS = {
 }
 PLAYING = {
     "number": 3,
+    "scene": "Donut",
+    "is_here": True,
     "step": 11,
     "steps": 80,
     "is_playing": False,
@@ -65,13 +70,30 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
 def test_a_persons_drives_stand_apart(tab: TabPage) -> None:
     drives = tab.page.locator("details").filter(has_text="Your drives")
     expect(drives.locator("article")).to_have_count(1)
-    expect(drives).to_contain_text("Episode 3goal reached · reward 9.73 · 14.2 s★ best")
-    programs = tab.page.locator("details").filter(has_text="Networks and scripts")
-    expect(programs).to_contain_text("Episode 4goal missed")
+    expect(drives).to_contain_text("Episode 3 · Donutgoal reached · reward 9.73 · 14.2 s★ best")
+    programs = tab.page.locator("details").filter(has_text="Networks and programs")
+    expect(programs).to_contain_text("Episode 4 · Donutgoal missed")
     expect(tab.page.get_by_text("Finished episodes appear here.")).to_be_hidden()
     tab.give({**PART, "episodes": []})
     expect(tab.page.get_by_text("Finished episodes appear here.")).to_be_visible()
     expect(drives).to_be_hidden()
+
+
+def test_what_was_driven_elsewhere_stands_apart(tab: TabPage) -> None:
+    maze = {**MINE, "number": 5, "scene": "Maze", "is_here": False}
+    loaded = {**maze, "number": 6, "source": "friend.episode"}
+    tab.give({**PART, "episodes": [MINE, maze, loaded]})
+    expect(tab.page.locator("details").filter(has_text="Your drives")).not_to_contain_text("Maze")
+    files = tab.page.locator("details").filter(has_text="Opened recordings")
+    expect(files.locator("article")).to_contain_text("Episode 6 · Maze")
+    others = tab.page.locator("details").filter(has_text="In other scenes")
+    expect(others).not_to_have_attribute("open", "")
+    expect(others.locator("article")).to_have_count(1)
+    expect(others).to_contain_text("Episode 5 · Maze")
+    tab.give({**PART, "playing": {**PLAYING, "number": 5, "scene": "Maze", "is_here": False}})
+    expect(tab.page.get_by_text("Showing episode 5 · Maze")).to_be_visible()
+    # its drivers are those of another scene
+    expect(tab.page.get_by_text("Two drivers on this episode")).to_be_hidden()
 
 
 def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
@@ -241,6 +263,7 @@ def test_what_paid_in_the_episode(tab: TabPage) -> None:
 
 def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     rivals = [
+        {"value": "what-it-did", "text": "What I did", "steps": None},
         {"value": "network:zoo:box_chase", "text": "Network zoo:box_chase", "steps": None},
         {"value": "network:checkpoint-2.onnx", "text": "Network checkpoint-2.onnx", "steps": 2000},
         {"value": "network:checkpoint-1.onnx", "text": "Network checkpoint-1.onnx", "steps": 1000},
@@ -248,21 +271,23 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     tab.answer("rivals", rivals=rivals)
     turn = {"name": "turn", "low": -1, "high": 1, "has_effect": True, "now": 0.5, "then": -0.5}
     found = {"step": 11, "count": 80, "distance": [0, 0.1, 1.0], "largest": 1.0, "action": [turn]}
-    reasons = {"first": "It turns right because of ray 1.", "second": "It turns left."}
+    reasons = {"first": "", "second": "It turns right because of ray 1."}
     tab.answer("compare", **found, **reasons)
     title = tab.page.locator("summary").filter(has_text="Two drivers on this episode")
     expect(title).to_be_hidden()
     tab.give({**PART, "playing": PLAYING})
     title.click()
     first, second = tab.page.get_by_label("One driver"), tab.page.get_by_label("Another one")
-    expect(first).to_have_value("")
+    expect(first).to_have_value("what-it-did")
     expect(second).to_have_value("network:checkpoint-1.onnx")
     second.select_option("Network zoo:box_chase")
     tab.page.get_by_role("button", name="Compare").click()
     says = tab.page.get_by_text("They first disagree at step 12 of 80.")
     expect(says).to_be_visible()
     sent = [each for each in tab.sent() if each["command"] == "compare"]
-    assert sent == [{"command": "compare", "first": "", "second": "network:zoo:box_chase"}]
+    assert sent == [
+        {"command": "compare", "first": "what-it-did", "second": "network:zoo:box_chase"}
+    ]
     expect(tab.page.get_by_text("It turns right because of ray 1.")).to_be_visible()
     expect(tab.page.locator(".ai4u-bar-row")).to_have_text(re.compile("^turn0.50 . .0.50$"))
     tab.page.get_by_role("button", name="Show step 12").click()

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Route, expect
 
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.served_viser import record_texts, recorded_holds
@@ -201,7 +201,7 @@ def test_the_drivers_line_is_one_line_beside_the_open_panel_of_a_phone(
             "all => all.map(each => Math.round(each.getBoundingClientRect().bottom))"
         )
         assert len(set(places)) == 1, places
-        assert row.evaluate("row => row.firstElementChild.offsetHeight") <= 40
+        assert row.evaluate("row => row.querySelector('.ai4u-driver').offsetHeight") <= 40
         assert row.evaluate("row => row.scrollWidth <= row.clientWidth")
 
 
@@ -212,3 +212,28 @@ def test_the_banner_of_a_folded_phone_is_below_the_world(chromium: Browser, room
         assert banner
         assert dock
         assert 844 / 2 < banner["y"] + banner["height"] < dock["y"]
+
+
+def test_a_tab_whose_script_failed_to_load_tries_again(chromium: Browser, room: Room) -> None:
+    with panel_page(chromium, room) as page:
+        page.page.evaluate(
+            """async () => {
+                const own = [...document.scripts].find(({ src }) => src.endsWith("/main.js")).src;
+                const { codeLimits } = await import(new URL("code_limits.js", own));
+                codeLimits.retryMs = 1;
+            }"""
+        )
+        asked: list[str] = []
+
+        def fail_twice(route: Route) -> None:
+            asked.append(route.request.url)
+            if len(asked) <= 2:
+                route.abort()
+            else:
+                route.continue_()
+
+        page.page.route("**/panel_past.js", fail_twice)
+        page.tab("Past").click()
+        expect(page.page.get_by_role("button", name="Current episode")).to_be_visible()
+        assert len(asked) == 3
+        expect(page.page.locator(".ai4u-notice[role=alert]")).to_be_empty()

@@ -52,6 +52,34 @@ def test_the_time_is_compared_with_the_best_one_of_this_browser(site: ServedVise
     assert win(site, page, 18) == "Reached the goal in 1.5 s (your best: 0.5 s)"
 
 
+def test_times_of_scenes_and_drivers_are_apart(site: ServedViser) -> None:
+    page = site.page()
+    found = page.evaluate(
+        """async () => {
+            const { KEYS, PROGRAM, Results, timeText } = await import("./web/results.js");
+            const results = new Results(() => {});
+            let episode = 0;
+            const win = (seconds, task, by) => timeText(results.of(
+                { outcome: "goal", title: "Any", episode: (episode += 1), seconds }, task, by));
+            localStorage.setItem("ai4u-best-times", JSON.stringify({ "Box chase": 3, chase: 2 }));
+            return [
+                win(9, "chase", KEYS), win(1, "chase", PROGRAM), win(8, "chase", KEYS),
+                win(2, "chase", PROGRAM), win(20, "donut", KEYS),
+                results.best("chase", KEYS), results.best("donut", PROGRAM),
+            ];
+        }"""
+    )
+    assert found == [
+        " in 9.0 s",
+        " in 1.0 s",
+        " in 8.0 s, your best",
+        " in 2.0 s (your program's best: 1.0 s)",
+        " in 20.0 s",
+        8,
+        None,
+    ]
+
+
 def test_a_tone_is_played_once_it_is_turned_on(site: ServedViser) -> None:
     page = site.page()
     page.add_init_script(COUNT_TONES)

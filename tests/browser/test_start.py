@@ -14,6 +14,7 @@ from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.server import LessonView, room_app
+from tests.browser.contrast import low_contrasts
 from tests.browser.plain_page import ASKED, WITHOUT_VISER
 from tests.browser.schemes import SCHEMES
 from tests.chromium import close_page, quick_page
@@ -175,6 +176,17 @@ def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
     question.get_by_role("button", name="Open").click()
     page.wait_for_url(world.url)
     assert world.scene == "tag"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_its_controls_can_be_read_in_all_states(
+    world: World, chromium: Browser, scheme: Any
+) -> None:
+    page = quick_page(chromium, extra_http_headers=ASKED, color_scheme=scheme)
+    open_start(page, world)
+    page.get_by_role("button", name="Learn").click()
+    assert low_contrasts(page, controls=len(Scene.names()) + 3) == []
+    close_page(page)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)

@@ -44,9 +44,12 @@ def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
         assert found["network:checkpoint-000002000.onnx"] == 2000
         assert found["network:zoo:box_chase"] is None
         assert not any("Keyboard" in each["text"] for each in rivals)
-        reasons = {each["text"]: each["reason"] for each in rivals}
-        assert reasons["Program: BreadthFirstController"].startswith("prepares itself")
-        assert reasons["Network zoo:box_chase"] == ""
+        assert rivals[0] == {"value": "what-it-did", "text": "What it did", "steps": None}
+        texts = [each["text"] for each in rivals]
+        assert texts[1] == "The driver that it has now"
+        assert "Network zoo:box_chase" in texts
+        # what decides by more than the percept can't be asked
+        assert not any(text.startswith("Program: BreadthFirst") for text in texts)
 
         told = page.done("compare", first="", second="network:checkpoint-000002000.onnx")
         assert (told["step"], told["count"]) == (0, 4)
@@ -57,8 +60,34 @@ def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
         assert forward["then"] == pytest.approx(0.7 - percepts[0], abs=1e-3)
         assert told["first"].startswith("No single slot")
         assert told["second"]
+        did = page.done("compare", first="what-it-did", second="")
+        assert (did["step"], did["largest"]) == (None, pytest.approx(0, abs=1e-6))
+        other = "network:checkpoint-000002000.onnx"
+        did = page.done("compare", first="what-it-did", second=other)
+        assert did["distance"] == pytest.approx(far, abs=1e-3)
+        assert did["first"] == ""
+        assert did["second"] == told["second"]
         same = page.done("compare", first="", second="network:checkpoint-000001000.onnx")
         assert same["step"] is None
         assert same["largest"] == 0
         text = page.failed("compare", first="network:none.onnx", second="")["text"]
         assert "none.onnx" in text
+
+
+def test_what_i_did_is_a_driver_and_my_keys_are_none() -> None:
+    with panel_room() as room, room.page() as page:
+        page.show("0", "past")
+        for _ in range(4):
+            page.done("decision")
+        page.done("new_start")
+        number = page.part("past", lambda m: m["episodes"])["episodes"][0]["number"]
+        page.done("episode", number=number)
+        until(lambda: room.viewer.player.frame_cache)
+        rivals = page.done("rivals")["rivals"]
+        assert rivals[0]["text"] == "What I did"
+        assert "The driver that it has now" not in [each["text"] for each in rivals]
+        told = page.done("compare", first="what-it-did", second="network:zoo:box_chase")
+        assert told["count"] == 4
+        assert told["step"] == 0
+        assert told["action"][0]["now"] == 0  # no key was pressed
+        assert told["first"] == ""

@@ -49,6 +49,26 @@ def playing(page: PanelPage, **wanted: object) -> Message:
     return page.part("past", lambda m: m["playing"] and wanted.items() <= m["playing"].items())
 
 
+def test_episodes_and_titles_are_those_of_their_scene(page: PanelPage) -> None:
+    number = episode(page)
+    assert page.part("past")["episodes"][0]["is_here"]
+    here = page.part("scene")
+    page.done("open_scene", name="donut")
+    donut = page.part("scene", title="Donut")
+    assert donut["key"] != here["key"]
+    assert donut["can_edit_goal"]
+    entry = page.part("past", lambda m: not m["episodes"][-1]["is_here"])["episodes"][-1]
+    assert (entry["number"], entry["scene"]) == (number, "Box chase")
+    page.done("episode", number=number)
+    page.done("step", step=1)
+    assert not playing(page, number=number, step=1)["playing"]["is_here"]
+    shown = page.part("scene", title="Box chase")
+    assert (shown["goal"], shown["scene"], shown["key"]) == (here["goal"], "donut", donut["key"])
+    assert not shown["can_edit_goal"]
+    page.done("back_to_live")
+    page.part("scene", title="Donut")
+
+
 def test_an_episode_is_stepped_through_and_left(page: PanelPage) -> None:
     number = episode(page)
     page.done("episode", number=number)

@@ -28,6 +28,10 @@ def test_it_comes_when_it_is_asked_for() -> None:
         assert "Two slots that say the same" in part["limits"]
         shares = [slot["share"] for slot in part["top"]]
         assert shares == sorted(shares, reverse=True)
+        page.done("why", on=False)
+        page.parts.clear()
+        page.done("why", on=True)  # the world stands still, so it is as before
+        assert page.part("why")["sentence"] == part["sentence"]
         other.done("gallery", kind="sensors")  # now it has read what was sent before
         assert "why" not in other.parts
 

@@ -50,19 +50,39 @@ def test_its_size_is_about_that_of_its_columns() -> None:
     assert 90 * 60 < more < 90 * 250
 
 
-def test_the_best_one_reached_the_goal() -> None:
-    assert Archive().best is None
+def test_the_best_one_reached_the_goal_first() -> None:
     archive = Archive()
     drives = [take("box_chase", seed=seed, decisions=60).episode for seed in range(40)]
     for episode in drives:
         archive.append(episode)
-    assert any(each.success for each in drives)
-    lucky = archive.best
+    (best,) = archive.bests()
+    lucky = archive.find(best)
     assert lucky is not None
     assert lucky.success
-    assert lucky.first.total == max(each.agents[0].total for each in drives if each.success)
+    assert lucky.episode.seconds == min(each.seconds for each in drives if each.success)
     archive.append(lucky.episode, "friend.episode")
-    assert archive.best is lucky
+    assert archive.bests() == {best}
+
+
+def test_the_best_ones_of_scenes_and_drivers_are_apart() -> None:
+    archive = Archive()
+    assert archive.bests() == frozenset()
+    chase = take("box_chase", decisions=20).episode
+    (agent,) = chase.agents
+    by_keys = "LocalBrain(WASDRBMoveController)"
+    person = replace(chase, agents=(replace(agent, driver=by_keys),))
+    other = replace(chase, scene=chase.scene.model_copy(update={"name": "donut"}))
+    for episode in (chase, chase, person, person, other):
+        archive.append(episode)
+    assert archive.bests() == {1, 3}  # one of a kind is no best one
+
+
+def test_a_program_that_took_most_decisions_is_no_person() -> None:
+    (agent,) = take("box_chase", decisions=20).episode.agents
+    by_both = "RemoteBrain(a script), LocalBrain(WASDRBMoveController)"
+    for driver, is_person in ((by_both, False), (", ".join(by_both.split(", ")[::-1]), True)):
+        episode = replace(episodes(1)[0], agents=(replace(agent, driver=driver),))
+        assert Archive().append(episode).is_person == is_person
 
 
 def test_no_number_is_given_twice() -> None:

@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks import Block, Controller, LocalBrain, NeuralNetController
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.explain.comparison import Comparison, compare
@@ -26,6 +27,8 @@ from ai4u_edu.snapshot import AgentState
 
 NOT_COMPARED = ("recording:", "ai4u://", "Keyboard: ")
 """Beginnings of the names and titles of drivers that are no policies."""
+WHAT_IT_DID = "what-it-did"
+"""Value of the choice for the recorded actions, in place of a driver's name."""
 CHECKPOINT = re.compile(r"checkpoint-(\d+)\.onnx$")
 """A network of a training's check, with the number of decisions that it learned from."""
 MAX_POINTS = 300
@@ -33,19 +36,7 @@ MAX_POINTS = 300
 
 
 async def _rivals(page: Page, _command: m.ListRivals) -> Answer:
-    editor = page.context.required_editor()
-    agent_id = page.view.agent
-    found = [
-        {
-            "value": each.name,
-            "text": each.title,
-            "steps": _steps_of(each.name),
-            "reason": _reason_against(each.title),
-        }
-        for each in await page.in_thread(partial(editor.drivers, agent_id))
-        if not each.name.startswith(NOT_COMPARED) and not each.title.startswith(NOT_COMPARED)
-    ]
-    return Answer(more={"rivals": found})
+    return Answer(more={"rivals": await page.in_thread(partial(_choices, page))})
 
 
 async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
@@ -53,14 +44,39 @@ async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     policy = page.context.viewer.explainer.policy
 
+    def asked(name: str) -> Policy:
+        return _policy(editor, agent_id, name) if name else policy(agent_id)
+
     def compared() -> Comparison:
         first, second = (
-            _policy(editor, agent_id, name) if name else policy(agent_id)
-            for name in (command.first, command.second)
+            None if name == WHAT_IT_DID else asked(name) for name in (command.first, command.second)
         )
         return compare(first, second, _states(frame_cache, agent_id, page.context.frame_timeout))
 
     return Answer(more=_plain(await page.in_thread(compared)))
+
+
+def _choices(page: Page) -> list[dict[str, Any]]:
+    """Return what can be asked about an episode: what was done, and all drivers by the percept."""
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    player = page.context.viewer.player
+    entry = None if player.archive is None else player.archive.find(player.number or 0)
+    is_person = entry is not None and entry.is_person
+    found: list[dict[str, Any]] = [
+        {"value": WHAT_IT_DID, "text": "What I did" if is_person else "What it did"}
+    ]
+    with suppress(AI4UError):
+        page.context.viewer.explainer.policy(agent_id)
+        found.append({"value": "", "text": "The driver that it has now"})
+    found += [
+        {"value": each.name, "text": each.title}
+        for each in editor.drivers(agent_id)
+        if not each.name.startswith(NOT_COMPARED)
+        and not each.title.startswith(NOT_COMPARED)
+        and not _reason_against(each.title)
+        and not editor.reason_against_driver(agent_id, each.name)
+    ]
+    return [choice | {"steps": _steps_of(choice["value"])} for choice in found]
 
 
 def _policy(editor: SceneEditor, agent_id: str, driver: str) -> Policy:

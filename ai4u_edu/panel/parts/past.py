@@ -25,14 +25,18 @@ def past_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
     player, recorder = context.viewer.player, context.runner.recorder
     archive, frame_cache = player.archive, player.frame_cache
     entries = () if archive is None else archive.entries
-    best = archive.best if archive is not None and len(entries) > 1 else None
+    bests = frozenset() if archive is None else archive.bests()
+    here = _scene_name(context)
     problem = player.problem or (frame_cache.problem if frame_cache is not None else "")
     if not problem and recorder is not None:
         problem = recorder.problem or recorder.save_problem
     return {
         "type": "part",
         "name": "past",
-        "episodes": [_episode(each, is_best=each is best) for each in reversed(entries)],
+        "episodes": [
+            _episode(each, is_best=each.number in bests, is_here=each.episode.scene.name == here)
+            for each in reversed(entries)
+        ],
         "playing": _playing(context),
         "is_showing": bool(snapshot.past),
         "shown": snapshot.past,
@@ -54,11 +58,20 @@ def driver_words(title: str) -> str:
     return ", ".join(words_of(part).title if part in Block.types else part for part in parts)
 
 
-def _episode(entry: ArchiveEntry, *, is_best: bool) -> dict[str, Any]:
+def _scene_name(context: PanelContext) -> str:
+    """Return the name of the scene that runs now; empty if it has none."""
+    if context.editor is not None:
+        return context.editor.state.description.name
+    recorder = context.runner.recorder
+    return "" if recorder is None or recorder.scene is None else recorder.scene.name
+
+
+def _episode(entry: ArchiveEntry, *, is_best: bool, is_here: bool) -> dict[str, Any]:
     episode = entry.episode
     return {
         "number": entry.number,
         "scene": episode.scene.title or episode.scene.name,
+        "is_here": is_here,
         "driver": entry.source or driver_words(entry.first.driver),
         "is_person": entry.is_person,
         "result": entry.success,
@@ -78,8 +91,11 @@ def _playing(context: PanelContext) -> dict[str, Any] | None:
     frame_cache = player.frame_cache
     if frame_cache is None or player.number is None or frame_cache.last < 0:
         return None
+    scene = frame_cache.episode.scene
     return {
         "number": player.number,
+        "scene": scene.title or scene.name,
+        "is_here": scene.name == _scene_name(context),
         "step": player.step,
         "steps": max(frame_cache.last, 1),
         "world_episode": _world_episode(context, player.number),

@@ -21,8 +21,6 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
     """Return the state of the episode, for a page that shows an agent."""
     agent = next((each for each in snapshot.agents if each.id == agent_id), snapshot.agents[0])
     stall = context.runner.stall
-    recorder = context.runner.recorder
-    best = recorder.episodes.best if recorder is not None else None
     return {
         "type": "part",
         "name": "run",
@@ -41,7 +39,6 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[s
         "seconds_left": agent.seconds_left,
         "result": outcome(agent, snapshot.agents, snapshot.static_scene.success),
         "result_text": _result_text(agent),
-        "best": None if best is None else best.first.total,
         "status": _status(snapshot),
         "slow": slow_warning(snapshot),
         "error": snapshot.error,

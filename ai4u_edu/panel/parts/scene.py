@@ -8,6 +8,7 @@ from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.blocks import changes_json
 from ai4u_edu.panel.parts.colours import hex_colour
+from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.agent_words import driver_title, title
@@ -21,12 +22,18 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
     """Return the scene's texts, the legend of its groups, and its agents."""
     static_scene, editor = snapshot.static_scene, context.editor
     description = None if editor is None else editor.state.description
+    other = _shown_scene(context, snapshot)
+    if other is not None and description is not None and other.name == description.name:
+        other = None
+    texts = other or description
     return {
         "type": "part",
         "name": "scene",
         "scene": "" if description is None else description.name,
-        "title": "" if editor is None else editor.title,
-        "goal": static_scene.goal if description is None else description.goal,
+        "title": "" if texts is None else texts.title or texts.name,
+        "goal": static_scene.goal if texts is None else texts.goal,
+        "key": "" if editor is None else editor.state.task_key,
+        "can_edit_goal": editor is not None and other is None,
         "controls": "" if description is None else description.controls,
         "rewards": "" if description is None else description.rewards,
         "stars": None if editor is None else _stars(editor.state.star_goals),
@@ -36,6 +43,12 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "has_past": context.runner.recorder is not None,
         **({} if editor is None else changes_json(editor)),
     }
+
+
+def _shown_scene(context: PanelContext, snapshot: Snapshot) -> SceneDescription | None:
+    """Return the scene of the recorded episode that pages see; None while they see the present."""
+    frame_cache = context.viewer.player.frame_cache
+    return frame_cache.episode.scene if snapshot.past and frame_cache is not None else None
 
 
 def _stars(goals: StarGoals | None) -> dict[str, Any] | None:

@@ -41,6 +41,7 @@ def world_part(editor: SceneEditor, view: PageView) -> dict[str, Any]:
         "unsaved": None if unsaved is None else {"name": unsaved.name, "when": unsaved.when},
         "problem": "" if autosave is None else autosave.problem,
         "can_save": editor.scene_store is not None,
+        "is_autosaved": autosave is not None and not autosave.problem,
         "is_dragging": editor.is_dragging,
         "is_move_mode": view.is_move_mode,
         "snap": view.snap_m,
