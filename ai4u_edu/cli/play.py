@@ -72,7 +72,24 @@ def play(
         autosave=autosave,
     )
     settings = with_class(_with_work(settings), class_url, code, name_choice, port)
+    if autosave and settings.saved_scenes is None and settings.class_folder is None:
+        settings = replace(settings, saved_scenes=_own_scenes())
     _serve(settings, host, port, open_page, connections)
+
+
+def _own_scenes() -> Path | None:
+    """Return the user's folder for saved scenes; None if it can't be used."""
+    from ai4u_edu.base.atomic_write import make_folder
+    from ai4u_edu.base.errors import SetupError
+    from ai4u_edu.editing.autosave import unsaved_folder
+
+    folder = unsaved_folder().with_name("scenes")
+    try:
+        make_folder(folder, "saved scenes")
+    except SetupError as error:
+        _warn(f"{error}; pages can only download scenes")
+        return None
+    return folder
 
 
 def _serve(

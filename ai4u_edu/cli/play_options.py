@@ -136,7 +136,8 @@ SavedScenes = Annotated[
     Path | None,
     typer.Option(
         "--scenes",
-        help="Folder in which pages can save scenes. Default: pages can only download them.",
+        help="Folder in which pages can save scenes. Default: one of yours; with --no-autosave, "
+        "pages can only download them.",
     ),
 ]
 Restore = Annotated[
