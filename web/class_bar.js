@@ -12,6 +12,8 @@ import { ask, tell } from "./question.js";
 
 /** Interval at which countdowns are drawn (ms). */
 const TICK_MS = 200;
+/** Interval at which the class is asked whether a code was used (ms). */
+const CODE_POLL_MS = 3000;
 /** Most names of others in the bar. */
 const MAX_NAMES = 3;
 const OUTCOMES = { fell: "fell", time: "time is up", lost: "lost" };
@@ -204,5 +206,14 @@ async function showMoveCode() {
   const home = new URL("../../", document.baseURI);
   const text = `Open ${home.host}${home.pathname.replace(/\/$/, "")} there and type this code. It is yours alone, and works for ${minutes} minutes.`;
   const content = [element("p", { className: "ai4u-move-code", textContent: code })];
-  await ask({ title: "Go on at another device", text, yes: "Close", no: "", content });
+  const shown = ask({ title: "Go on at another device", text, yes: "Close", no: "", content });
+  const timer = setInterval(() => closeIfUsed(content[0]), CODE_POLL_MS);
+  await shown;
+  clearInterval(timer);
+}
+
+/** Close the dialog with a code that the other device has used, or whose time is over. */
+async function closeIfUsed(content) {
+  const answer = await fetch("../../api/move-code", { cache: "no-store" }).catch(() => null);
+  if (answer?.ok && !(await answer.json()).is_open) content.closest("dialog")?.close();
 }

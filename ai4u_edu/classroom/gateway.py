@@ -94,7 +94,7 @@ def class_app(
             Route("/", join.page),
             Route("/api/names", join.names),
             Route("/api/join", join.join, methods=["POST"]),
-            Route("/api/move-code", join.move_code, methods=["POST"]),
+            Route("/api/move-code", join.move_code, methods=["GET", "POST"]),
             Route("/api/my-work", my_work_route(live)),
             *_work_routes(live, programs),
             Route("/api/program/run", programs.run, methods=["PUT"]),

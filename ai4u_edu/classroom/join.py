@@ -77,10 +77,16 @@ class Join:
         return JSONResponse({"names": self._seats.offered_names()}, headers=NO_STORE)
 
     async def move_code(self, request: Request) -> Response:
-        """Return a code with which another device takes this seat, too."""
+        """Return a code with which another device takes this seat, too.
+
+        Asked with GET, tell only whether the last one can still be used.
+        """
         seat = seat_of(self._seats, request)
         if seat is None:
             return _problem("You have no place in this class. Join with the code.", 403)
+        if request.method != "POST":
+            is_open = self._seats.has_move_code(seat.number)
+            return JSONResponse({"is_open": is_open}, headers=NO_STORE)
         code = self._seats.new_move_code(seat.number)
         return JSONResponse({"code": code, "minutes": LIFE_S // 60}, headers=NO_STORE)
 

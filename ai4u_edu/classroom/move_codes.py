@@ -68,6 +68,13 @@ class MoveCodes:
         found.request = request
         return found.seat, found.is_teachers
 
+    def is_open(self, seat: int) -> bool:
+        """Return True while a seat has a code that nobody has used yet."""
+        return any(
+            each.seat == seat and not each.request and each.ends_at > self._clock()
+            for each in self._codes.values()
+        )
+
     def clear(self) -> None:
         """Make all codes void."""
         self._codes.clear()

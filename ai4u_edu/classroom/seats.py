@@ -156,9 +156,10 @@ class Seats:
                     self._check_open()
             if own:
                 seat = self._take_again(own[0], request, token, replaced)
-            elif not may_be_new:
-                raise NewSeatError("expected a seat that is there already")
             else:
+                self._check_name(name)
+                if not may_be_new:
+                    raise NewSeatError("expected a seat that is there already")
                 seat = self._new_seat(name, TokenRow(hash_of(token), 0, request))
         return seat, token
 
@@ -172,7 +173,10 @@ class Seats:
             self._make_room()
         kept = [each for each in before if each not in replaced][-(MAX_DEVICES - 1) :]
         tokens = [*kept, TokenRow(hash_of(token), seat.number, request)]
-        others = [each for each in replaced if each.seat != seat.number]
+        # its own seat before may have made room just now
+        others = [
+            each for each in replaced if each.seat != seat.number and each.seat in self._seats
+        ]
         seat = replace(seat, state=State.IN.value)
         for each in others:  # a device that moves to another seat leaves its own
             left = self._seats[each.seat]
@@ -193,10 +197,6 @@ class Seats:
 
     def _new_seat(self, name: str, device: TokenRow) -> SeatRow:
         """Store a new seat with its device, whose number is set here, and return it."""
-        if not is_name(name):
-            raise JoinError("Choose one of the names that are offered.")
-        if name in {each.name for each in self._seats.values()}:
-            raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
         self._store.quota.check()
         self._make_room()
         number = max(self._seats, default=0) + 1
@@ -213,6 +213,12 @@ class Seats:
         self._seats[number], self._tokens[device.hash] = seat, device
         self._made_at[number] = self._clock()
         return seat
+
+    def _check_name(self, name: str) -> None:
+        if not is_name(name):
+            raise JoinError("Choose one of the names that are offered.")
+        if name in {each.name for each in self._seats.values()}:
+            raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
 
     def _make_room(self) -> None:
         """In a full class, take back the oldest seat that never opened its room.
@@ -314,6 +320,11 @@ class Seats:
         with self._lock:
             self._known(number)
             return self._move_codes.new(number, {self.code}, is_teachers=is_teachers)
+
+    def has_move_code(self, number: int) -> bool:
+        """Return True while a code of a seat can be used; see :meth:`new_move_code`."""
+        with self._lock:
+            return self._move_codes.is_open(number)
 
     def set_state(self, number: int, state: State) -> None:
         """Store that somebody left, was kicked (and may join again) or banned.

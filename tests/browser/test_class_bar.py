@@ -50,6 +50,7 @@ class AsSeat:
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
         self.role, self.seat = "student", 1
+        self.is_code_open = True
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         own = [(ROLE_HEADER, self.role), (SEAT_HEADER, str(self.seat))]
@@ -105,13 +106,15 @@ def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfCla
     found: list[ClassMember] = []
     entrances: list[AsSeat] = []
 
-    async def move_code(_: Request) -> Response:
+    async def move_code(request: Request) -> Response:
+        if request.method == "GET":
+            return JSONResponse({"is_open": entrances[0].is_code_open})
         return JSONResponse({"code": "K7QPM", "minutes": 5})
 
     def wrap(app: ASGIApp) -> ASGIApp:
         routes = [
             RoomMount("/r/a1", app=PLAIN.app(app)),
-            Route("/api/move-code", move_code, methods=["POST"]),
+            Route("/api/move-code", move_code, methods=["GET", "POST"]),
         ]
         entrances.append(AsSeat(Starlette(routes=routes)))
         return entrances[0]
@@ -162,6 +165,12 @@ def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -
     bar.get_by_role("button", name="Other device").click()
     expect(page.get_by_role("dialog")).to_contain_text("K7QPM")
     expect(page.get_by_role("dialog")).to_contain_text("5 minutes")
+    with page.expect_response("**/api/move-code"):
+        page.clock.run_for(3000)
+    expect(page.get_by_role("dialog")).to_have_count(1)
+    school.entrance.is_code_open = False  # the other device has used it
+    page.clock.run_for(3000)
+    expect(page.get_by_role("dialog")).to_have_count(0)
 
 
 def test_a_blank_screen_keeps_focus_and_keys_whatever_is_pressed(school: RoomOfClass) -> None:

@@ -176,8 +176,11 @@ def test_a_file_that_is_no_database_is_said(tmp_path: Path) -> None:
 
 def test_a_move_code_lets_another_device_in_once(seats: Seats) -> None:
     seat, token = joined(seats, "a")
+    assert not seats.has_move_code(seat.number)
     code = seats.new_move_code(seat.number)
+    assert seats.has_move_code(seat.number)
     moved, second = seats.join(code.lower(), "", "b")
+    assert not seats.has_move_code(seat.number)
     assert moved == seat
     assert seats.by_token(token) == seats.by_token(second) == seat
     again, _ = seats.join(code, "", "b")  # whose answer got lost
