@@ -206,6 +206,11 @@ class BasicAgent(Parameterized):
         return self.ledger.total
 
     @property
+    def episode_reward(self) -> float:
+        """The reward of all decisions of this episode (AI4U's EpisodeReward)."""
+        return self.ledger.episode_total
+
+    @property
     def reward_terms(self) -> dict[str, float]:
         """The reward of the last decision, by named term."""
         return dict(self.ledger.terms)

@@ -82,6 +82,10 @@ class AgentView(Protocol):
         """The reward of the last decision."""
 
     @property
+    def episode_reward(self) -> float:
+        """The reward of all decisions of this episode."""
+
+    @property
     def reward_terms(self) -> dict[str, float]:
         """The reward of the last decision, by named term."""
 

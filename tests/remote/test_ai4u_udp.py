@@ -16,6 +16,7 @@ from ai4u_edu import (
     LocalBrain,
     RBMoveActuator,
     RemoteBrain,
+    RewardFunc,
     World,
 )
 from ai4u_edu.base.errors import SetupError
@@ -298,6 +299,34 @@ def test_the_fields_of_a_command_drive_other_actuators(script: UDPScript) -> Non
         "move": (1.0, 0.0, 0.0, 0.0),
         "other": (0.0, 1.0, 0.0, 0.0),
     }
+    brain.close()
+
+
+class One(RewardFunc):
+    """Pays 1 for each decision."""
+
+    def on_update(self, body: Any, view: Any) -> float:
+        return 1.0
+
+
+def test_a_late_script_is_told_the_rewards_of_all_decisions_since(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, mode="realtime", skip_frame=0, rewards=[One()])
+    told = script.meet(sim)["reward"]
+
+    def go_on() -> None:
+        last = sim.agents[0].steps + 3
+        until(lambda: sim.agents[0].steps > last, lambda _: script.tick(sim, 0.001))
+
+    for _ in range(5):
+        go_on()
+        script.say(AHEAD)
+        state = script.next(sim)
+        told += state["reward"]
+        assert told == state["steps"]
+    go_on()
+    script.say(RESET)
+    state = script.next(sim)
+    assert state["reward"] == state["steps"]
     brain.close()
 
 

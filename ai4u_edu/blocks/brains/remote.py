@@ -245,6 +245,7 @@ class RemoteBrain(Brain):
                 truncated=agent.truncated,
                 paused=agent.paused,
                 stopped=self._is_stopped,
+                episode_reward=agent.episode_reward,
             )
         self._current = observation
         self._patience.restart()

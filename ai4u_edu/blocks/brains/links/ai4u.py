@@ -305,6 +305,7 @@ class AI4ULink:
         self.reason = reason
         self._asked = self._state = None
         self._malformed = ""
+        self._codec.begin()
         self._dialogue.begin()
 
     def _say_goodbye(self) -> None:

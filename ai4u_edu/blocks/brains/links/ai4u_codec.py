@@ -22,12 +22,24 @@ class AI4UCodec(AgentCodec):
             super().__init__(spec.readings, spec.outputs)
         except WireError as error:
             raise SetupError(str(error)) from None
+        self._last: Observation | None = None
+
+    def begin(self) -> None:
+        """Forget what was sent: another session begins."""
+        self._last = None
 
     def state(self, observation: Observation) -> State:
-        """Return what the script is sent."""
+        """Return what the script is sent; its reward is that of all decisions since the last."""
+        last, self._last = self._last, observation
+        reward = observation.reward
+        if last is not None and last.episode == observation.episode:
+            if observation.steps > last.steps + 1:
+                reward = observation.episode_reward - last.episode_reward
+        elif observation.steps > 1:
+            reward = observation.episode_reward
         return State(
             sensors=self.sensors(observation.percept),
-            reward=observation.reward,
+            reward=reward,
             steps=observation.steps,
             done=observation.done,
             truncated=observation.truncated,

@@ -87,6 +87,8 @@ class Observation(NamedTuple):
     """True if the episode was cut off: by its limit, or by a reset that is not the script's."""
     paused: bool
     stopped: bool
+    episode_reward: float = 0.0
+    """Reward of all decisions of this episode; a script may miss some of them."""
 
 
 class Reset(NamedTuple):
