@@ -93,7 +93,7 @@ SHOTS = [
         state={**_shown("race"), "race": race(9, "over")},
         is_in_docs=False,
     ),
-    Shot("class_programs", "teacher", click="#tab-programs", state=PROGRAMS, is_in_docs=False),
+    Shot("class_programs", "teacher", click="#tab-programs", state=PROGRAMS),
     Shot("class_assign_1400", "teacher", (1400, 900), click="#assign", is_in_docs=False),
     Shot(
         "class_tournament",
