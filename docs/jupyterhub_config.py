@@ -1,5 +1,6 @@
 """Settings of a JupyterHub for the course; see jupyterhub.md."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +34,15 @@ culler = {
 }
 # end kernels that have been idle for an hour, and whose notebook is closed
 c.Spawner.args = ["--MappingKernelManager.cull_idle_timeout=3600"]
+if hasattr(os, "geteuid") and os.geteuid() == 0:
+    # a server that runs as root, as SimpleLocalProcessSpawner starts it in a container, refuses to
+    # start without it; one that runs as its student takes no notice of it
+    c.Spawner.args.append("--allow-root")
+
+# a class logs in within a minute, and each server takes seconds of a core until it answers
+c.JupyterHub.concurrent_spawn_limit = 10  # others wait for their turn, and their pages say so
+c.Spawner.start_timeout = 300
+c.Spawner.http_timeout = 120
 
 # a class, at /services/ai4u-class/
 ai4u_class = {

@@ -17,6 +17,11 @@ c.Spawner.cmd = ["sh", "-c", COPY_COURSE, "sh"]
 c.Spawner.default_url = "/lab/tree/course/00_start_here.ipynb"
 c.Spawner.args = ["--MappingKernelManager.cull_idle_timeout=3600"]
 
+# a class logs in within a minute, and each server takes seconds of a core until it answers
+c.JupyterHub.concurrent_spawn_limit = 10  # others wait for their turn, and their pages say so
+c.Spawner.start_timeout = 300
+c.Spawner.http_timeout = 120
+
 # the class, at /services/ai4u-class/; runs as a system account that has its folder, not as root
 c.JupyterHub.services.append(
     {

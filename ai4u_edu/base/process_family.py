@@ -16,16 +16,17 @@ ROUND_S = 0.05
 """Time that the system has in a round to remove those that were killed."""
 
 
-def end_with_parent(parent: int, number: int = signal.SIGKILL) -> None:
+def end_with_parent(parent: int, number: int = 0) -> None:
     """Have the system send this process a signal when the thread that started it ends; on Linux.
 
     If that has happened already, the signal comes at once.
 
     Args:
         parent: id of the process that started this one; 0 if it can't be seen from here.
-        number: of the signal.
+        number: of the signal; by default SIGKILL.
     """
     if sys.platform.startswith("linux"):
+        number = number or signal.SIGKILL
         _prctl(PR_SET_PDEATHSIG, int(number))
         if parent and os.getppid() != parent:  # it ended before the system knew of the wish
             os.kill(os.getpid(), number)

@@ -1,12 +1,13 @@
 """Options that several commands share."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import typer
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import MAX_SEED, MAX_TRAINING_SEED
 
 MAX_EPISODES = 1_000_000
@@ -38,6 +39,41 @@ def finite(value: float | None) -> float | None:
     return value
 
 
+SCENE_AND_MORE = {"allow_extra_args": True}
+"""Settings of a command that explains further words itself; see :func:`expect_scene`."""
+
+
+def expect_scene(command: str, words: Sequence[str]) -> None:
+    """Refuse a driver beside a scene or in its place; all commands take it as an option.
+
+    Raises:
+        BadParameter: there are several words, or one that names a driver.
+    """
+    drivers = [word for word in words if is_driver(word)]
+    if len(words) <= 1 and not drivers:
+        return
+    scene = next((word for word in words if word not in drivers), "SCENE")
+    right = " ".join([scene, *(f"--brain {word}" for word in drivers or ["DRIVER"])])
+    raise typer.BadParameter(
+        f"expected one scene, got {' '.join(words)}; the driver is an option: "
+        f"ai4u-edu {command} {right}"
+    )
+
+
+def is_driver(word: str) -> bool:
+    """Return True for a word that names a driver by its form.
+
+    >>> [is_driver(word) for word in ("zoo:maze", "mine.py:drive", "maze", "maze.yaml")]
+    [True, True, False, False]
+    """
+    return (
+        word in ("zoo", "random", "scene")
+        or word.startswith(("zoo:", "ai4u://"))
+        or word.endswith(".onnx")
+        or ".py:" in word
+    )
+
+
 def seed_option(help_text: str) -> Any:
     """Return an option for the seed of an episode or a network."""
     return typer.Option(help=help_text, min=0, max=MAX_SEED)
@@ -58,3 +94,23 @@ def load_own_blocks(files: Iterable[Path] | None) -> None:
 
     for file in files or ():
         load_blocks(file)
+
+
+def check_blocks(scene: Mapping[str, Any], files: Iterable[Path] | None) -> None:
+    """Check that the Python files that a kept scene runs were named with ``--blocks``.
+
+    The folder that it comes from may be somebody else's.
+
+    Args:
+        scene: see :func:`ai4u_edu.scenes.scene_data.scene_data`.
+        files: those that were named.
+
+    Raises:
+        SetupError: one was not.
+    """
+    given = {str(each.absolute()) for each in files or ()}
+    unnamed = [str(each) for each in scene.get("blocks", ()) if str(each) not in given]
+    if unnamed:
+        raise SetupError(
+            f"its scene runs the Python file {unnamed[0]}; read it, then say --blocks {unnamed[0]}"
+        )

@@ -14,7 +14,7 @@ from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.seeding import MAX_TRAINING_SEED
 from ai4u_edu.cli import training_options as o
-from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, load_own_blocks
+from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, check_blocks, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.training.settings import Algorithm
@@ -103,6 +103,7 @@ def sweep(
     load_own_blocks(own_blocks)
     if resume:
         plan, folder = _kept_plan(scene, out, trials)
+        check_blocks(plan.scene, own_blocks)
     else:
         plan = _plan(scene, algo, seeds, vary or (), trials, batch, steps, settings, own_blocks)
         plan = with_rewards_left_out(plan) if leave_out_rewards else plan
@@ -110,6 +111,13 @@ def sweep(
         folder = out or Path("runs") / f"{name}-sweep"
         plan = _begun(plan, folder)
     plan.check()
+    if steps is not None and plan.steps is not None and plan.steps > steps:
+        typer.echo(
+            f"{plan.steps} steps and not {steps}, for all trials alike: PPO learns from so many "
+            "decisions at once"
+        )
+    if unlike := plan.unlike_budgets():
+        typer.echo(unlike)
     plan.save(folder)
     _report(_run(plan, folder, engine, address), engine)
 
@@ -141,7 +149,7 @@ def _plan(
     for name in names:
         if names.count(name) > 1:
             raise SetupError(f"--set: expected each setting once, got {name!r} twice")
-    return Plan(
+    plan = Plan(
         scene=data,
         algorithms=_algorithms(algo or how.algorithm),
         seeds=parse_seeds(seeds),
@@ -151,6 +159,7 @@ def _plan(
         steps=steps,
         settings=how.model_dump(mode="json"),
     )
+    return plan.with_equal_budgets()
 
 
 def with_rewards_left_out(plan: "Plan") -> "Plan":
@@ -241,12 +250,14 @@ def _begun(plan: "Plan", folder: Path) -> "Plan":
 def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Sweep":
     from ai4u_edu.base.seeding import seeds_from
     from ai4u_edu.jobs import engine
+    from ai4u_edu.jobs.journal import count_done
     from ai4u_edu.training.progress_bar import ProgressBar
     from ai4u_edu.training.sweep.result import ranked
     from ai4u_edu.training.sweep.run import evaluated, run_sweep, total_of, write_report
 
     results: list[TrialResult] = []
-    bar = ProgressBar(total_of(plan), "trials")
+    kept = min(count_done(folder), total_of(plan))
+    bar = ProgressBar(total_of(plan), "trials", done=kept)
 
     def tell(result: "TrialResult") -> None:
         results.append(result)
@@ -254,7 +265,7 @@ def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Sweep":
             bar.note(f"trial {result.number} ({result.label}) failed: {result.error}")
         best = ranked(results)[0]
         shown = f"best {best.cells(())['success'] or f'{best.value:.2f}'}" if best.checks else ""
-        bar.show(len(results), shown)
+        bar.show(max(kept, len(results)), shown)
 
     with closing(bar), engine(engine_name, address=address) as running:
         done = run_sweep(plan, folder, running, tell=tell)
@@ -273,6 +284,7 @@ def _report(done: "Sweep", engine: str) -> None:
 
     folder = done.folder
     again = f"ai4u-edu sweep --resume --out {shlex.quote(str(folder))}"
+    again += "".join(f" --blocks {shlex.quote(each)}" for each in done.plan.scene.get("blocks", ()))
     if engine != "processes":
         again += f" --engine {engine}"
     if done.results:

@@ -2,6 +2,7 @@
 
 import shlex
 from contextlib import closing
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -12,7 +13,7 @@ from rich.table import Table
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.cli import training_options as o
-from ai4u_edu.cli.options import OwnBlocks, load_own_blocks, seed_option
+from ai4u_edu.cli.options import OwnBlocks, check_blocks, load_own_blocks, seed_option
 from ai4u_edu.cli.sweep import INTERRUPTED
 
 if TYPE_CHECKING:
@@ -52,7 +53,8 @@ TrustPython = Annotated[
     bool,
     typer.Option(
         "--trust-python",
-        help="Run Python files, each in a process with limits. They can read your files.",
+        help="Run Python files, each in a process with limits. They can do what you can: read and "
+        "delete your files, end your programs.",
     ),
 ]
 
@@ -86,7 +88,7 @@ def tournament(
     if given[:1] == [VERIFY]:
         if len(given) != 2:
             raise SetupError("expected one folder: ai4u-edu tournament verify FOLDER")
-        _verify(Path(given[1]), engine, address)
+        _verify(Path(given[1]), engine, address, own_blocks)
         return
     if resume:
         if out is None or given:
@@ -97,6 +99,12 @@ def tournament(
         from ai4u_edu.tournament.plan import Plan
 
         plan, folder = Plan.load(out), out
+        check_blocks(plan.scene, own_blocks)
+        if not trust_python and not all(each.can_repeat for each in plan.entries):
+            raise SetupError(
+                f"{out}: it has Python programs, which may do on this machine what you may; read "
+                "them, then say --trust-python to let them play"
+            )
     else:
         first = range(seed, seed + seeds)
         plan = _plan(given, first, system, rounds, trust_python, own_blocks)
@@ -155,14 +163,16 @@ def _check_folder(plan: "Plan", folder: Path) -> None:
 
 def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournament":
     from ai4u_edu.jobs import engine
+    from ai4u_edu.jobs.journal import count_done
     from ai4u_edu.tournament.run import run_tournament, write_results
     from ai4u_edu.training.progress_bar import ProgressBar
 
-    count = len(plan.entries)
-    bar = ProgressBar(count + plan.games_for(count), "games")
+    total = len(plan.entries) + plan.games_for(len(plan.entries))
+    kept, ended = min(count_done(folder), total), count(1)
+    bar = ProgressBar(total, "games", done=kept)
 
     def tell(outcome: "Outcome") -> None:
-        bar.add(1)
+        bar.show(max(kept, next(ended)))
         result = outcome.result or {"reason": outcome.error, "forfeit": -1}
         if result["reason"]:
             entries = outcome.job.arguments["entries"]
@@ -191,18 +201,23 @@ def _report(done: "Tournament", engine: str) -> None:
     typer.echo(f"report: {done.folder / PAGE}\nverify: ai4u-edu tournament verify {folder}")
     if done.is_interrupted:
         again = f"ai4u-edu tournament --resume --out {folder}"
+        if not all(each.can_repeat for each in done.plan.entries):
+            again += " --trust-python"
+        blocks = done.plan.scene.get("blocks", ())
+        again += "".join(f" --blocks {shlex.quote(each)}" for each in blocks)
         again += f" --engine {engine}" if engine != "processes" else ""
         typer.echo(f"interrupted after {len(done.games)} games; go on with: {again}")
         raise typer.Exit(INTERRUPTED)
 
 
-def _verify(folder: Path, engine_name: str, address: str) -> None:
+def _verify(folder: Path, engine_name: str, address: str, own_blocks: list[Path] | None) -> None:
     from ai4u_edu.jobs import engine
     from ai4u_edu.tournament.plan import Plan
     from ai4u_edu.tournament.verify import verify
     from ai4u_edu.training.progress_bar import ProgressBar
 
     plan = Plan.load(folder)
+    check_blocks(plan.scene, own_blocks)
     bar = ProgressBar(len(plan.entries) + plan.games_for(len(plan.entries)), "games")
     with closing(bar), engine(engine_name, address=address) as running:
         count, problems = verify(folder, running, lambda: bar.add(1))

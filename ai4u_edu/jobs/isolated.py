@@ -54,14 +54,19 @@ class IsolatedJobs:
         # started anew and not forked, as this process has threads
         self._context = multiprocessing.get_context("spawn")
 
-    async def run(self, job: Job) -> Answer:
+    async def run(self, job: Job, max_cpu_s: float | None = None) -> Answer:
         """Run a job, and return its result or its error.
+
+        Args:
+            job: the job.
+            max_cpu_s: its processor time, if it is another one than for others.
 
         Raises:
             OSError: the process could not be started; a later try may succeed.
         """
         async with self._lock:
-            return await asyncio.to_thread(self._run, job)
+            limit_s = self.max_cpu_s if max_cpu_s is None else max_cpu_s
+            return await asyncio.to_thread(self._run, job, limit_s)
 
     async def end(self) -> None:
         """End the process, after the job that it has."""
@@ -78,15 +83,15 @@ class IsolatedJobs:
             if self._folder is not None:
                 shutil.rmtree(self._folder, ignore_errors=True)
 
-    def _run(self, job: Job) -> Answer:
+    def _run(self, job: Job, max_cpu_s: float) -> Answer:
         running = self._running = self._running or self._start()
         try:
             begin_cpu_s, end_at = _cpu_s(running.usage), time.monotonic() + self._max_wall_s
             running.connection.send(job)
             while not running.connection.poll(POLL_S):
-                if _cpu_s(running.usage) - begin_cpu_s > self.max_cpu_s:
+                if _cpu_s(running.usage) - begin_cpu_s > max_cpu_s:
                     self.close()
-                    limit = f"{self.max_cpu_s:g} s of processor time"
+                    limit = f"{max_cpu_s:g} s of processor time"
                     return Answer(error=f"it took more than {limit}")
                 if time.monotonic() > end_at:
                     self.close()

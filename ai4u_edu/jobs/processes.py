@@ -125,7 +125,7 @@ class _Worker:
         if now - self._stopped_at > STOP_TIMEOUT_S:
             self.problem = f"its process was stopped by another one for {STOP_TIMEOUT_S:g} s"
             process.kill()
-        elif hasattr(signal, "SIGCONT"):
+        else:
             process.resume()
 
     def answer(self) -> Answer | None:

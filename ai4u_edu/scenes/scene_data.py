@@ -6,6 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from ai4u_edu.base.errors import SceneError, shorten
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.scenes.scene import Scene
 
@@ -48,6 +49,13 @@ def scene_from(data: Mapping[str, Any]) -> Scene:
 @lru_cache(maxsize=4)  # a process has many jobs of one scene
 def _scene(text: str) -> Scene:
     data = json.loads(text)
+    wanted = {"name"} | ({"text", "folder"} if "text" in data else set())
+    blocks = data.get("blocks", [])
+    texts = [data.get(name) for name in wanted] + (blocks if isinstance(blocks, list) else [None])
+    if data.keys() - {"blocks"} != wanted or not all(isinstance(each, str) for each in texts):
+        raise SceneError(
+            f"expected a scene as data, with {', '.join(sorted(wanted))}, got {shorten(text, 200)}"
+        )
     for file in data.get("blocks", ()):
         _load_blocks(Path(file))
     if "text" not in data:

@@ -1,6 +1,7 @@
 """Controllers for an entry's drivers, made for one game."""
 
 import base64
+import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -28,6 +29,7 @@ from ai4u_edu.recording import Episode
 from ai4u_edu.recording.file import decode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.tournament.entry import Driver
+from ai4u_edu.tournament.limits import LOAD_CPU_S, OverTimeError, over_load_time
 from ai4u_edu.tournament.python_controller import PythonController
 from ai4u_edu.tournament.sides import Sides
 from ai4u_edu.world import WorldView
@@ -117,6 +119,7 @@ def make(
 
     Raises:
         AI4UError: it can't be made; a sentence on the entry.
+        OverTimeError: a network took too long to load.
     """
     own = agent.brain
     kind = driver["kind"]
@@ -151,12 +154,31 @@ def scripted_agents(scene: Scene, sides: Sides) -> frozenset[str]:
     return frozenset(found)
 
 
-def _network(driver: Driver, own: Brain, folder: Path) -> Made:
+def load_network(driver: Driver, folder: Path) -> NeuralNetController:
+    """Return the controller of a network, which is loaded.
+
+    Args:
+        driver: the network.
+        folder: gets its file.
+
+    Raises:
+        OverTimeError: that took too long.
+        BlockError: it is no network.
+    """
     place = folder / str(len([*folder.iterdir()]))
     place.mkdir()
     path = place / Path(driver["file"]).name[-100:]
     path.write_bytes(base64.b64decode(driver["data"]))
     controller = NeuralNetController(model_path=str(path), repeat=False)
+    began = time.thread_time()
+    _ = controller.network
+    if time.thread_time() - began > LOAD_CPU_S:
+        raise OverTimeError(over_load_time())
+    return controller
+
+
+def _network(driver: Driver, own: Brain, folder: Path) -> Made:
+    controller = load_network(driver, folder)
     rhythm = controller.network.rhythm
     given = LocalBrain(controller=controller).changed(
         **{"skip_frame": own.skip_frame, "repeat_action": own.repeat_action} | rhythm

@@ -17,7 +17,7 @@ from ai4u_edu.recording.file import encode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_data import scene_from
 from ai4u_edu.tournament.drivers import driver_for, make
-from ai4u_edu.tournament.limits import CpuMeter, memory_limit
+from ai4u_edu.tournament.limits import CpuMeter, OverTimeError, memory_limit
 from ai4u_edu.tournament.match_brain import MatchBrain, reason_of
 from ai4u_edu.tournament.sides import Sides, sides_of
 
@@ -86,7 +86,7 @@ def game(
             try:
                 _seat(sim, sides, index, entry, folder, seed, faults, ending)
             except Exception as error:  # whatever is wrong with an entry
-                if not isinstance(error, AI4UError | MemoryError):
+                if not isinstance(error, AI4UError | OverTimeError | MemoryError):
                     raise
                 faults.append((index, reason_of(error)))
         episode = None if faults else _played(sim, loaded, seed, faults)

@@ -10,6 +10,8 @@ from pathlib import Path
 if sys.platform != "win32":
     import resource
 
+LOAD_CPU_S = 5.0
+"""Processor time in which a network is loaded: onnxruntime computes what depends on nothing."""
 DECISION_CPU_S = 1.0
 """Processor time of one decision."""
 GAME_CPU_S = 60.0
@@ -88,6 +90,11 @@ def over_time(used_s: float) -> str:
 def is_over_time(reason: str) -> bool:
     """Return True if an entry failed by processor time, which is not the same twice."""
     return CPU_TIME in reason
+
+
+def over_load_time() -> str:
+    """Return the sentence on a network that took too long to load."""
+    return f"it took more than {LOAD_CPU_S:g} {CPU_TIME} to load"
 
 
 def over_game_time() -> str:

@@ -19,6 +19,7 @@ class ProgressBar:
     Args:
         total: the count at the end.
         unit: the things that are counted, such as ``steps``.
+        done: the count at the beginning, for what was done in another run.
         quiet: True shows nothing.
         keep: False removes the bar at the end, and shows none where that can't be done.
         file: the stream to write to, stderr by default.
@@ -29,6 +30,7 @@ class ProgressBar:
         total: int,
         unit: str,
         *,
+        done: int = 0,
         quiet: bool = False,
         keep: bool = True,
         file: TextIO | None = None,
@@ -40,6 +42,7 @@ class ProgressBar:
         if is_shown:  # tqdm makes a lock in the system, which a process that is killed leaves
             self._bar = tqdm(
                 total=total,
+                initial=done,  # so that the time that is left follows from what this run does
                 unit=unit,
                 file=file,
                 leave=keep,

@@ -119,3 +119,28 @@ def test_the_script_of_the_images_installs_a_students_server(tmp_path: Path) -> 
     subprocess.run([python, "-c", program], check=True, cwd=tmp_path, env={})
     server = python.with_name("jupyterhub-singleuser")
     subprocess.run([server, "--version"], check=True, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("name", ["jupyterhub_config.py", "jupyterhub_tljh.py"])
+@pytest.mark.parametrize("user", [0, 1000])
+def test_a_class_that_logs_in_at_once_has_time(
+    name: str, user: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("os.geteuid", lambda: user, raising=False)
+    found = Config()
+    exec(  # noqa: S102 - our own
+        compile((DOCS / name).read_text(encoding="utf-8"), name, "exec"),
+        {"get_config": lambda: found},
+    )
+    assert found.JupyterHub.concurrent_spawn_limit == 10
+    assert found.Spawner.start_timeout > 60
+    assert found.Spawner.http_timeout > 30
+    is_root = user == 0 and name == "jupyterhub_config.py"
+    assert ("--allow-root" in found.Spawner.args) == is_root
+
+
+def test_a_class_that_logs_in_at_once_has_time_in_the_chart() -> None:
+    values = yaml.safe_load((DOCS / "jupyterhub_values.yaml").read_text(encoding="utf-8"))
+    assert values["hub"]["concurrentSpawnLimit"] == 30
+    assert values["singleuser"]["startTimeout"] > 60
+    assert values["hub"]["config"]["KubeSpawner"]["http_timeout"] > 30

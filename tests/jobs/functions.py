@@ -97,3 +97,30 @@ def end(code: int) -> None:
     os.closerange(3, 1000)
     time.sleep(0.3)  # real time: a longer time changes nothing
     os._exit(code)
+
+
+def hold(path: str, busy: bool) -> None:
+    """Hold the lock on a file for as long as this process lives."""
+    import fcntl
+
+    with Path(path).open("wb") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        while busy:
+            pass
+        rest(3600)
+
+
+def stop_once(folder: str) -> str:
+    """Stop this process at the first call, as SIGSTOP does."""
+    if note_call(folder) == 1:
+        os.kill(os.getpid(), signal.SIGSTOP)
+    return "goes on"
+
+
+def play_among_others(**game_arguments: Any) -> Any:
+    """Play a game whose programs see all processes."""
+    from ai4u_edu.tournament import python_controller
+    from ai4u_edu.tournament.game import game
+
+    python_controller.MODULE = "tests.attacks.child_among_others"
+    return game(**game_arguments)

@@ -8,15 +8,17 @@ import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from functools import cache
 from pathlib import Path
+from threading import Thread
 
 import psutil
 import pytest
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.jobs import Engine, Job, Journal, Outcome, engine, processes, run_jobs
+from ai4u_edu.jobs import Engine, Job, Journal, Outcome, engine, processes, ray_engine, run_jobs
+from ai4u_edu.jobs.journal import count_done
 from tests.jobs import functions
 from tests.waiting import LIMIT_S
 
@@ -318,3 +320,45 @@ def test_a_cluster_that_is_not_there_is_told_at_once() -> None:
             engine("ray", address=address)
     with pytest.raises(SetupError, match="expected one such as 192"):
         engine("ray", address="somewhere")
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("answer", [b"", b"HTTP/1.1 200 OK\r\n\r\nhello"], ids=["silent", "web"])
+def test_what_is_no_cluster_at_an_address_is_told_and_nothing_is_left(
+    answer: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ray_engine, "START_TIMEOUT_S", 10.0)
+    before = {each.pid for each in psutil.Process().children(recursive=True)}
+    open_ones: list[socket.socket] = []
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def serve() -> None:
+            with suppress(OSError):
+                while True:
+                    open_ones.append(server.accept()[0])
+                    open_ones[-1].sendall(answer)
+
+        Thread(target=serve, daemon=True).start()
+        address = f"127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(SetupError, match=f"Ray on {address}"):
+            engine("ray", address=address)
+        server.shutdown(socket.SHUT_RDWR)
+    for each in open_ones:
+        each.close()
+    started = [
+        each
+        for each in psutil.Process().children(recursive=True)
+        if each.pid not in before and "resource_tracker" not in " ".join(each.cmdline())
+    ]
+    assert psutil.wait_procs(started, LIMIT_S)[1] == []
+
+
+def test_a_journal_tells_how_many_jobs_it_has(tmp_path: Path) -> None:
+    assert count_done(tmp_path) == 0
+    jobs = [Job.of(functions.square, number=number) for number in (2, 3)]
+    jobs.append(Job.of(functions.fail, text="no"))
+    with Journal(tmp_path) as journal, engine("inline") as inline:
+        [*run_jobs(jobs, inline, journal=journal)]
+        assert count_done(tmp_path) == 2, "also while it is open"
+    (tmp_path / "journal.jsonl").write_text("what?")
+    assert count_done(tmp_path) == 0

@@ -9,6 +9,7 @@ import random
 import shutil
 import time
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any, ClassVar
@@ -188,8 +189,8 @@ def changed_texts(path: Path, text: str) -> Iterator[tuple[str, str]]:
         for number, row in enumerate(rows):
             for place in range(len(row)):
                 cells = [*row[:place], f"{row[place]}1", *row[place + 1 :]]
-                others = [*rows[:number], cells, *rows[number + 1 :]]
-                yield f"cell {number}, {place}", "".join(f"{','.join(each)}\n" for each in others)
+                changed = [*rows[:number], cells, *rows[number + 1 :]]
+                yield f"cell {number}, {place}", "".join(f"{','.join(each)}\n" for each in changed)
     lines = text.splitlines(keepends=True)
     for number in range(len(lines)):
         yield f"line {number} removed", "".join([*lines[:number], *lines[number + 1 :]])
@@ -202,15 +203,15 @@ def changes(folder: Path) -> Iterator[tuple[str, Callable[[], object]]]:
         name, data = path.relative_to(folder).as_posix(), path.read_bytes()
         yield f"{name} removed", path.unlink
         beside = path.with_name(f"copy-{path.name}")
-        yield f"{name} doubled", lambda path=path, beside=beside: shutil.copy(path, beside)
+        yield f"{name} doubled", partial(shutil.copy, path, beside)
         middle = len(data) // 2
         flipped = data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :]
-        yield f"{name} altered", lambda path=path, data=flipped: path.write_bytes(data)
-        yield f"{name} longer", lambda path=path, data=data: path.write_bytes(data + b"\n")
-        yield f"{name} emptied", lambda path=path: path.write_bytes(b"")
+        yield f"{name} altered", partial(path.write_bytes, flipped)
+        yield f"{name} longer", partial(path.write_bytes, data + b"\n")
+        yield f"{name} emptied", partial(path.write_bytes, b"")
         if path.suffix in {".json", ".jsonl", ".csv"} or path.name == "SHA256SUMS":
             for what, text in changed_texts(path, data.decode()):
-                yield f"{name}: {what}", lambda path=path, text=text: path.write_text(text)
+                yield f"{name}: {what}", partial(path.write_text, text)
 
 
 def files_in(folder: Path) -> dict[Path, bytes]:

@@ -139,9 +139,14 @@ class Networks:
         self._on_change(seat)
         return True
 
-    def next_open(self) -> NetworkRow | None:
-        """Return the network that has waited for its check for the longest time."""
-        return next((each for each in self.rows if each.verdict == "open"), None)
+    def next_open(self, order: Callable[[int], float] = lambda _seat: 0.0) -> NetworkRow | None:
+        """Return the network to check next: of those that wait, the one handed in first.
+
+        Args:
+            order: of the seats; networks of one with a smaller number come before.
+        """
+        waiting = (each for each in self.rows if each.verdict == "open")
+        return min(waiting, key=lambda row: order(row.seat), default=None)
 
     def judge(self, row: NetworkRow, reason: str) -> None:
         """Note the verdict on a network; one that was replaced meanwhile has none.

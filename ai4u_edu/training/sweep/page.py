@@ -68,6 +68,11 @@ def _parts(
         text_columns=texts,
         marked=[0] if order[0].network else [],
     )
+    yield (
+        '<p class="soft">Success, reward and check length (decisions of an episode) are means of '
+        "the best check, whose episodes have the limit of the training; the length above is that "
+        "of episodes with the limit of the scene.</p>"
+    )
     failed = [each for each in results if each.error]
     if failed:
         yield "<h2>Trials that failed</h2>"
@@ -89,8 +94,10 @@ def _summary(plan: Plan, results: Sequence[TrialResult], total: int) -> str:
     how = "proposed by Optuna" if plan.is_search else "all combinations"
     missing = total - len(results)
     rest = f" {missing} have not run yet." if missing else ""
+    unlike = plan.unlike_budgets()
+    note = f"<p><strong>{escape(unlike)}.</strong></p>" if unlike else ""
     return (
-        f"<p>{total} trials ({how}) of {steps}: {told}.{rest}</p>"
+        f"<p>{total} trials ({how}) of {steps}: {told}.{rest}</p>{note}"
         f"<p class='soft'>Algorithms: {escape(', '.join(plan.algorithms))}. Seeds: "
         f"{escape(_seeds(plan.seeds))}. Varied: <code>{escape(varied)}</code></p>"
     )

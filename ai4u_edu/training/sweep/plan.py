@@ -1,5 +1,6 @@
 """Plan of a sweep: all that its results depend on, kept in its folder."""
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,10 @@ from ai4u_edu.training.sweep.search_space import Parameter, Value, changes_of, g
 from ai4u_edu.training.sweep.trial import CHECKS, trial
 
 FILE = "sweep.json"
+PPO_STEPS = 2048
+"""Decisions of a world in a rollout of PPO, where the settings say nothing else."""
+MAX_ROUNDING = 2
+"""Factor by which the steps may grow so that all trials have the same number of them."""
 
 
 class Choice(BaseModel):
@@ -91,6 +96,53 @@ class Plan(BaseModel):
             rivals=rivals or [],
         )
 
+    def with_equal_budgets(self) -> "Plan":
+        """Return the plan with steps that all trials can learn from to the last one.
+
+        PPO learns from the decisions of a whole rollout at once, and would take the rest of the
+        last one beyond its budget, where others end; so the steps of all are rounded up.
+        """
+        if self.steps is None or self.is_search or "ppo" not in self.algorithms:
+            return self
+        rollouts = [_rollout(self.job(each)) for each in self._kinds() if each.algorithm == "ppo"]
+        unit = math.lcm(*rollouts)
+        steps = math.ceil(self.steps / unit) * unit
+        is_near = steps <= MAX_ROUNDING * max(self.steps, *rollouts)
+        return self.model_copy(update={"steps": steps}) if is_near else self
+
+    def _kinds(self) -> list[Choice]:
+        """Return choices with all values, or with some of them if there are ranges; on one seed."""
+        if not self.is_search:
+            return [each for each in self.choices() if each.seed == self.seeds[0]]
+        return [self._first_choice(algorithm) for algorithm in self.algorithms]
+
+    def _first_choice(self, algorithm: Algorithm) -> Choice:
+        chosen = {
+            each.name: each.values[0] if each.values else _end(each)
+            for each in self.parameters
+            if each.is_for(algorithm)
+        }
+        return Choice(algorithm=algorithm, seed=self.seeds[0], settings=chosen)
+
+    def unlike_budgets(self) -> str:
+        """Return a sentence if trials learn from different numbers of decisions; else nothing."""
+        budgets: dict[str, set[int]] = {}
+        for algorithm in self.algorithms:
+            seen = budgets.setdefault(algorithm, set())
+            for each in self._kinds():
+                if each.algorithm != algorithm:
+                    continue
+                job = self.job(each)
+                budget, unit = int(job.arguments["budget"]), _rollout(job)
+                seen.add(math.ceil(budget / unit) * unit)
+        if len(set[int]().union(*budgets.values())) < 2:
+            return ""
+        told = "; ".join(
+            f"{name}: {' or '.join(f'{each:,}' for each in sorted(seen))}"
+            for name, seen in budgets.items()
+        )
+        return f"Trials learn from different numbers of decisions, which is no fair race: {told}"
+
     def check(self) -> None:
         """Check the settings before anything runs.
 
@@ -106,12 +158,7 @@ class Plan(BaseModel):
                 "the number of trials, or values as in NAME=0.001,0.01"
             )
         for algorithm in self.algorithms:
-            chosen = {
-                each.name: each.values[0] if each.values else _end(each)
-                for each in self.parameters
-                if each.is_for(algorithm)
-            }
-            job = self.job(Choice(algorithm=algorithm, seed=self.seeds[0], settings=chosen))
+            job = self.job(self._first_choice(algorithm))
             own = AlgorithmSettings.model_validate(job.arguments["settings"][algorithm])
             checked_options(algorithm, own)
 
@@ -145,6 +192,14 @@ class Plan(BaseModel):
             if getattr(self, name) != getattr(other, name):
                 return name
         return ""
+
+
+def _rollout(job: Job) -> int:
+    """Return the number of decisions after which a trial may end."""
+    if job.arguments["algorithm"] != "ppo":
+        return 1
+    own = job.arguments["settings"]["ppo"]
+    return int(own.get("n_steps", PPO_STEPS)) * int(own["worlds"])
 
 
 def _end(parameter: Parameter) -> Value:

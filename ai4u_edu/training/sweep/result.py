@@ -1,18 +1,43 @@
 """Results of a sweep's trials, their order, and the files made of them."""
 
 import base64
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from ai4u_edu.base.csv_table import csv_table
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.jobs import Outcome
 from ai4u_edu.training.run import Check
 from ai4u_edu.training.sweep.plan import Choice
 from ai4u_edu.training.sweep.search_space import text_of
 from ai4u_edu.training.sweep.trial import curve_of, value_of
+
+
+class _Told(BaseModel):
+    """Form of what a trial returns; see :func:`~ai4u_edu.training.sweep.trial.trial`."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    checks: Annotated[tuple[Check, ...], Field(min_length=1)]
+    steps: Annotated[int, Field(ge=0)]
+    pruned: bool
+    network: str
+
+    @field_validator("checks")
+    @classmethod
+    def _check_numbers(cls, checks: tuple[Check, ...]) -> tuple[Check, ...]:
+        numbers = [n for each in checks for n in (each.success, each.reward, each.length)]
+        if not all(math.isfinite(each or 0.0) for each in numbers):
+            raise ValueError("expected finite numbers")
+        return checks
+
+
+_NOTHING = _Told.model_construct(checks=(), steps=0, pruned=False, network="")
 
 
 @dataclass(frozen=True)
@@ -33,15 +58,26 @@ class TrialResult:
 
     @classmethod
     def of(cls, number: int, choice: Choice, outcome: Outcome, has_goal: bool) -> "TrialResult":
-        """Return the result that a job's outcome means."""
-        told: dict[str, Any] = outcome.result or {}
+        """Return the result that a job's outcome means.
+
+        Raises:
+            SetupError: it is none of a trial, as in a journal that something else wrote.
+        """
+        try:
+            told = _NOTHING if outcome.error else _Told.model_validate(outcome.result)
+            network = base64.b64decode(told.network, validate=True)
+        except ValueError as error:
+            raise SetupError(
+                f"trial {number}: expected the result of a training, got {error}; the journal in "
+                "this folder is none of a sweep: choose another folder"
+            ) from None
         return cls(
             number,
             choice,
-            tuple(Check.model_validate(each) for each in told.get("checks", ())),
-            told.get("steps", 0),
-            told.get("pruned", False),
-            base64.b64decode(told.get("network", "")),
+            told.checks,
+            told.steps,
+            told.pruned,
+            network,
             outcome.error,
             outcome.seconds,
             has_goal,
@@ -88,7 +124,7 @@ class TrialResult:
             "seed": str(self.choice.seed),
             "success": "" if success is None else f"{success:.0%}",
             "reward": "" if best is None else f"{best.reward:.2f}",
-            "length": "" if best is None else f"{best.length:.1f}",
+            "check length": "" if best is None else f"{best.length:.1f}",
             "at step": "" if best is None else str(best.steps),
             "steps": str(self.steps or ""),
             "state": self.state,
