@@ -43,15 +43,16 @@ def to(bearing):
     return {"move": [1, -left, 0, 0]}
 
 
-def robot_in(world, controller, sensors):
+def robot_in(world, controller, sensors, rewards=()):
     """A world with a robot that drives at 2 m/s and turns at 3 radians a second."""
     agent = BasicAgent(
         body="robot",
         sensors=sensors,
         actuators=[RBMoveActuator(move_amount=2, turn_amount=3)],
+        rewards=rewards,
         brains=[LocalBrain(controller=controller)],
     )
-    return ControlRequestor(world, [agent])
+    return ControlRequestor(world, [agent], success="arrived")
 
 
 # %% [markdown]
@@ -150,7 +151,8 @@ check("07.1", AroundTheWall)
 
 # %%
 senses = [TouchSensor(target="wall", perception_key="bumper"), BearingSensor(target="box")]
-film(robot_in(wall_world(3, has_arm=True), AroundTheWall(), senses), seed=3, limit=720)
+arrived = [TouchRewardFunc(name="arrived", target="box", reward=1, cause_episode_to_end=True)]
+film(robot_in(wall_world(3, has_arm=True), AroundTheWall(), senses, arrived), seed=3, limit=720)
 
 # %% [markdown]
 # If it does not get there, find out in which state it is: put `print(self.state)` into the method, and

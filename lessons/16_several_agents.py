@@ -68,8 +68,8 @@ for name, reading in sim.agents[0].percept.items():
 #
 # ### Exercise 16.1: the chaser
 #
-# Catch all three within the time. Chase one that is still free. Which one is the best choice? The runners
-# flee, but they are slower than you.
+# Catch all three within the time. Chase one that is still free, and don't stay for two seconds where you
+# have just caught somebody. Which one is the best choice? The runners flee, but they are slower than you.
 
 
 # %% tags=["exercise-16.1"]

@@ -59,9 +59,11 @@ class Schedule:
 
 @dataclass
 class Recorder:
-    """Records what a solution's driver sees and does in a check; passes no judgement."""
+    """Records what a solution's driver sees and does in a check."""
 
     episodes: list[list[tuple[Mapping[str, Any], Any]]] = field(default_factory=list)
+    read: set[str] = field(default_factory=set)
+    """Keys of the readings that the solution looked at."""
 
     def watch(self, drive: Drive) -> None:
         """Note the beginning of an episode."""
@@ -70,19 +72,30 @@ class Recorder:
 
     def decide(self, decide: Callable[[Any], Any], percept: Any) -> Any:
         """Ask the solution, and note percept and action."""
-        action = decide(percept)
+        action = decide(_Noted(self.read, percept))
         if self.episodes:
             self.episodes[-1].append((dict(percept), action))
         return action
+
+
+class _Noted(dict[str, Any]):
+    """Percept that notes which readings are looked at."""
+
+    def __init__(self, read: set[str], percept: Mapping[str, Any]) -> None:
+        super().__init__(percept)
+        self._read = read
+
+    def __getitem__(self, key: str) -> Any:
+        self._read.add(key)
+        return super().__getitem__(key)
 
 
 @dataclass
 class Clock:
     """Drives by a schedule, and counts how far a check gets."""
 
-    names: tuple[str, ...]
-    """Readings that come from the schedule, or ``ACTION``."""
-    values: Sequence[Any]
+    values: Sequence[Mapping[str, Any]]
+    """Readings by key, or the action under ``ACTION``, between which it changes."""
     schedule: Schedule
     decision: int = 0
     episodes: int = 0
@@ -98,9 +111,7 @@ class Clock:
         value = self.values[self.schedule.index_at(self.decision)]
         self.decision += 1
         self.decisions += 1
-        if self.names == (ACTION,):
-            return value
-        return decide({**percept, **dict.fromkeys(self.names, value)})
+        return value[ACTION] if ACTION in value else decide({**percept, **value})
 
 
 def driven_by(driver: Recorder | Clock, thing: Any) -> Any:
@@ -138,40 +149,48 @@ def survivor(exercise: str, tries: int, seed: int = 0) -> str:
     recorder.episodes = [episode for episode in recorder.episodes if episode]
     if sum(map(len, recorder.episodes)) < MIN_DECISIONS:
         return ""
-    for names, values, seen in _replaceable(recorder):
+    for values, seen in _replaceable(recorder):
         if len(values) < 2:
             continue
         best, best_score = None, (-1, -1)
         begin = _begin(seen)
         for _ in range(tries):
             schedule = next(begin, None) or _other(best, len(values), rng)
-            clock = Clock(names, values, schedule)
+            clock = Clock(values, schedule)
             if passes(exercise, clock):
-                return f"{', '.join(names)}: {schedule} of {values}"
+                return f"{schedule} of {values}"
             score = clock.episodes, clock.decisions
             if score >= best_score:
                 best, best_score = schedule, score
     return ""
 
 
-def _replaceable(
-    recorder: Recorder,
-) -> Iterator[tuple[tuple[str, ...], list[Any], list[list[int]]]]:
-    """Yield names of readings, their values, and which of these came in each episode."""
-    keys = list(recorder.episodes[0][0][0])
-    alike: dict[str, list[str]] = {}
-    for key in (*keys, ACTION):
-        episodes = [
-            [seen.get(key) if key in seen else action for seen, action in episode]
-            for episode in recorder.episodes
-        ]
-        values, indices = _few(episodes)
-        yield (key,), values, indices
-        if key != ACTION:
-            alike.setdefault(repr(sorted(map(_shown, values))), []).append(key)
-            group = alike[repr(sorted(map(_shown, values)))]
-            if len(group) > 1:
-                yield tuple(group), values, indices
+def _replaceable(recorder: Recorder) -> Iterator[tuple[list[Any], list[list[int]]]]:
+    """Yield what a schedule may give, and which of these values came in each episode.
+
+    A value is the reading of one or more sensors, by key, or the action. Two eyes, or the bearings
+    of two posts, come from a schedule together only: a robot that looks with one of them looks.
+    """
+    episodes = recorder.episodes
+    read = [key for key in episodes[0][0][0] if key in recorder.read]
+    families = [tuple(other for other in read if _are_siblings(key, other)) for key in read]
+    groups = dict.fromkeys(families)
+    groups |= dict.fromkeys((key,) for key in read if _is_few(episodes, key))
+    for group in groups:
+        yield _few([[{key: seen[key] for key in group} for seen, _ in each] for each in episodes])
+    yield _few([[{ACTION: action} for _, action in episode] for episode in episodes])
+
+
+def _are_siblings(one: str, other: str) -> bool:
+    """Return True for keys that differ in one word at most, such as "to red" and "to blue"."""
+    words = list(zip(one.split(), other.split(), strict=False))
+    differ = sum(first != second for first, second in words)
+    return one == other or (len(one.split()) == len(other.split()) > 1 and differ == 1)
+
+
+def _is_few(episodes: list[list[tuple[Mapping[str, Any], Any]]], key: str) -> bool:
+    shown = {_shown(seen[key]) for episode in episodes for seen, _ in episode}
+    return len(shown) <= MAX_VALUES
 
 
 def _few(episodes: list[list[Any]]) -> tuple[list[Any], list[list[int]]]:
@@ -194,8 +213,9 @@ def _few(episodes: list[list[Any]]) -> tuple[list[Any], list[list[int]]]:
 
 
 def _flat(value: Any) -> list[float]:
-    parts = value.values() if isinstance(value, Mapping) else [value]
-    return [float(number) for part in parts for number in np.ravel(part)]
+    if isinstance(value, Mapping):
+        return [number for part in value.values() for number in _flat(part)]
+    return [float(number) for number in np.ravel(value)]
 
 
 def _shown(value: Any) -> str:

@@ -48,6 +48,15 @@ def run(cell: Cell, names: dict[str, Any], file: str) -> None:
     exec(compile(cell.source, file, "exec"), names)  # noqa: S102 - as a notebook does
 
 
+def names_after_setup(lesson: Lesson) -> dict[str, Any]:
+    """Return the names that a lesson's helpers define."""
+    names: dict[str, Any] = {"__name__": "__main__"}
+    for number, cell in enumerate(lesson.cells):
+        if SETUP in cell.tags:
+            run(cell, names, f"<setup {lesson.number}:{number}>")
+    return names
+
+
 def handed_in(lesson: Lesson, exercise: str) -> str:
     """Return the answer passed to the exercise's check in the notebook, as an expression."""
     pattern = re.compile(rf'^check\("{re.escape(exercise)}"', re.MULTILINE)
@@ -81,10 +90,7 @@ def tried(
         may_be_endless: a call of the code ends after a second or some more, and any verdict on one
             that a busy machine keeps for so long is fine; else it has all the time that it takes.
     """
-    names: dict[str, Any] = {"__name__": "__main__"}
-    for number, cell in enumerate(lesson.cells):
-        if SETUP in cell.tags:
-            run(cell, names, f"<setup {lesson.number}:{number}>")
+    names = names_after_setup(lesson)
     try:
         run(Cell(code), names, f"<exercise {exercise}>")
         things = eval(handed_in(lesson, exercise), names)  # noqa: S307 - the course's own

@@ -26,6 +26,8 @@ from ai4u_edu.lessons.worlds import ANYWHERE
 from ai4u_edu.world import BodyView, BoxShape, CircleShape, Variation, World, WorldView
 
 PLACES = ("station", "site")
+WALL_DECISIONS = 720
+"""Decisions of an episode in 07.1: a minute."""
 STILL_M = 0.01
 """Way (m) in a decision below which a robot that touches a wall does not get on."""
 AT_M = 1.25
@@ -165,7 +167,7 @@ def gets_around(machine: Any) -> Done:
             if done.agent.percept["bumper"][0] == 1:
                 bumps.append(done.steps)
 
-        done = drive(sim, agent, seed, 720, watch)
+        done = drive(sim, agent, seed, WALL_DECISIONS, watch)
         if not is_close(agent.ledger.episode_total, 1, 1e-6):
             gaps = [later - sooner for sooner, later in pairwise(bumps)]
             hint = "again" if any(gap > 1 for gap in gaps) else "begin"
