@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.agent.options import add_optional_blocks
-from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim
+from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim, owner_of
 from ai4u_edu.agent.raw_values import as_amount, read_text, read_texts, refuse_amount
 from ai4u_edu.agent.setup_checks import check_unique, enabled_brain
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
@@ -51,7 +51,7 @@ class BoundBlocks:
             self.body = world[agent.body_name]
         self.view = WorldView(world)
         world.contacts.watch(self.body)
-        self.brain = enabled_brain(agent)
+        self.brain = enabled_brain(agent, agent.brains)
         self._switches = self._read_switches()
         """The agent's brains, and whether each was enabled, when the present one was chosen."""
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
@@ -128,8 +128,12 @@ class BoundBlocks:
         """
         if self._read_switches() == self._switches or isinstance(self.brain, LostBrain):
             return
+        agent = self._agent
         try:
-            brain = enabled_brain(self._agent)
+            # a brain that was lent to another agent is switched for that one
+            brain = enabled_brain(
+                agent, [each for each in agent.brains if owner_of(each) in (None, agent)]
+            )
         except SetupError as error:
             raise SetupError(f"{error}; or call agent.use_brain(brain)") from None
         if brain is not self.brain:

@@ -97,7 +97,7 @@ def claim(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
     """
     claimed = list(walk_blocks(blocks))
     for block in claimed:
-        owner = _owner_of(block)
+        owner = owner_of(block)
         if owner is None or owner is agent:
             continue
         if _are_together(agent, owner):
@@ -110,7 +110,7 @@ def claim(agent: "BasicAgent", blocks: Iterable[Block]) -> None:
         setattr(block, _OWNER, ref(agent))
 
 
-def _owner_of(block: Block) -> "BasicAgent | None":
+def owner_of(block: Block) -> "BasicAgent | None":
     """Return the agent that uses a block now."""
     reference: Any = getattr(block, _OWNER, None)
     owner: BasicAgent | None = reference() if reference is not None else None

@@ -11,13 +11,16 @@ if TYPE_CHECKING:
     from ai4u_edu.agent.agent import BasicAgent
 
 
-def enabled_brain(agent: "BasicAgent") -> Brain:
+def enabled_brain(agent: "BasicAgent", brains: Sequence[Brain]) -> Brain:
     """Return the one enabled brain of an agent.
+
+    Args:
+        agent: for the message.
+        brains: its brains.
 
     Raises:
         SetupError: none or several are enabled.
     """
-    brains = agent.brains
     enabled = [brain for brain in brains if brain.enabled]
     who = f"agent {agent.id!r}"
     if not enabled:

@@ -208,9 +208,9 @@ def test_in_real_time_a_script_is_told_as_soon_as_the_agent_has_sensed() -> None
     link.answers.append(Reply(FORWARD, link.told[-1]))  # in time for the very next tick
     sim.tick()
     assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
-    before = len(agent.end_of_update_state.handlers)
+    before = len(agent.percept_ready.handlers)
     brain.close()
-    assert len(agent.end_of_update_state.handlers) == before - 1
+    assert len(agent.percept_ready.handlers) == before - 1
 
 
 def test_in_lockstep_a_script_thinks_while_the_world_finishes_its_tick() -> None:

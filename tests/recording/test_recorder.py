@@ -48,7 +48,8 @@ def chase() -> tuple[ControlRequestor, Scene]:
 
 
 def handlers(sim: ControlRequestor) -> int:
-    return sum(len(getattr(agent, name).handlers) for agent in sim.agents for name in EVENTS)
+    names = (*EVENTS, "percept_ready")
+    return sum(len(getattr(agent, name).handlers) for agent in sim.agents for name in names)
 
 
 def test_it_keeps_the_last_ones() -> None:
