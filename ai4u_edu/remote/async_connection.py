@@ -7,8 +7,23 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from ai4u_edu.remote.address import Address
-from ai4u_edu.remote.connection_options import OPTIONS, authorization, connection_lost_from
-from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send, Step
+from ai4u_edu.remote.connection_options import (
+    OPTIONS,
+    authorization,
+    connection_lost_from,
+    log_note,
+)
+from ai4u_edu.remote.steps import (
+    Close,
+    ConnectionLostError,
+    Flow,
+    Note,
+    Open,
+    Pause,
+    Receive,
+    Send,
+    Step,
+)
 
 T = TypeVar("T")
 
@@ -48,6 +63,8 @@ class AsyncConnection:
                 await self._close()
             case Pause(seconds):
                 await asyncio.sleep(seconds)
+            case Note(text):
+                log_note(text)
         return None
 
     async def _open(self, timeout: float) -> None:

@@ -70,7 +70,8 @@ class Bridge:
         token: the world's, if it has one.
         mode: lockstep: the world waits for each action; realtime: it never waits.
         script_id: the id by which the script knows its agent.
-        patience: seconds for which the script may be silent.
+        patience: seconds for which the script may be silent, and for which the bridge waits for a
+            world that is not there, or for an agent that another script has.
         on_missing: substitute for an action that is missing; see
             :func:`~ai4u_edu.remote.connect`.
         tell: called with sentences for the person at this machine.
@@ -89,14 +90,14 @@ class Bridge:
         token: str = "",
         mode: native.Mode = "lockstep",
         script_id: str = "0",
-        patience: float = 5.0,
+        patience: float = 10.0,
         on_missing: native.OnMissing = "",
         tell: Callable[[str], object] = print,
     ) -> None:
         self._address = address_of(url)
         self._agent, self._token, self._mode = agent, token or self._address.token, mode
         self._on_missing = on_missing
-        self._secret = token_urlsafe(16)
+        self._secret, self._patience = token_urlsafe(16), patience
         self._is_over = threading.Event()
         self._tell = tell
         self._connection, self._robot = self._connect()
@@ -143,13 +144,14 @@ class Bridge:
     # -- steps -----------------------------------------------------------------------------------
 
     def _connect(self) -> tuple[SyncConnection, Dialogue]:
-        connection = SyncConnection(self._address, stop=self._is_over)
+        connection = SyncConnection(self._address, stop=self._is_over, tell=self._tell)
         # with the same secret, since the goodbye of the session before may have been lost
         robot = Dialogue(
             self._agent,
             token=self._token,
             mode=self._mode,
             session=f":{self._secret}",
+            patience=self._patience,
             on_missing=self._on_missing,
         )
         connection.run(robot.begin())

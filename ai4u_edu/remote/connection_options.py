@@ -1,7 +1,7 @@
-"""The options and errors that the synchronous and the asynchronous connection share."""
+"""The options, notes and errors that the synchronous and the asynchronous connection share."""
 
 import logging
-from socket import gaierror
+from socket import EAI_AGAIN, gaierror
 from typing import Any
 
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -13,7 +13,8 @@ from ai4u_edu.wire import native
 _MAX_BODY_CHARS = 400
 
 _logger = logging.getLogger("ai4u_edu.remote")
-_logger.setLevel(logging.CRITICAL)  # a lost connection is normal: the dialogue reconnects
+_silent = logging.getLogger("ai4u_edu.remote.websockets")
+_silent.setLevel(logging.CRITICAL + 1)  # a lost connection is normal: the dialogue reconnects
 
 OPTIONS: dict[str, Any] = {
     "subprotocols": [Subprotocol(native.SUBPROTOCOL)],
@@ -23,8 +24,17 @@ OPTIONS: dict[str, Any] = {
     "ping_interval": 2,
     "ping_timeout": 4,
     "close_timeout": 0.5,
-    "logger": _logger,
+    "logger": _silent,
 }
+
+
+def log_note(text: str) -> None:
+    """Log a note; a program that configures no logging prints it to stderr.
+
+    A dialogue notes each thing that it waits for once, so a process that serves worlds, too, need
+    not limit these lines as it limits others (:func:`ai4u_edu.base.log_limit.limited_logs`).
+    """
+    _logger.warning("%s", text, extra={"is_limited": True})
 
 
 def authorization(token: str) -> dict[str, str]:
@@ -42,8 +52,12 @@ def connection_lost_from(error: Exception) -> ConnectionLostError:
         code = error.rcvd.code
         return ConnectionLostError(error.rcvd.reason or f"closed with code {code}", code)
     if isinstance(error, InvalidStatus):
+        status = error.response.status_code
         body = (error.response.body or b"").decode(errors="replace").strip()
-        answer = f"answer {error.response.status_code} {body[:_MAX_BODY_CHARS]}"
-        return ConnectionLostError(answer.strip(), is_permanent=True)
-    is_nobody_there = isinstance(error, ConnectionRefusedError | gaierror)
-    return ConnectionLostError(str(error) or type(error).__name__, is_permanent=is_nobody_there)
+        answer = f"answer {status} {body[:_MAX_BODY_CHARS]}".strip()
+        # 5xx: a proxy whose world is about to start
+        return ConnectionLostError(answer, is_permanent=status < 500)
+    if isinstance(error, ConnectionRefusedError):
+        return ConnectionLostError("connection refused: nothing listens there")
+    is_unknown_host = isinstance(error, gaierror) and error.errno != EAI_AGAIN
+    return ConnectionLostError(str(error) or type(error).__name__, is_permanent=is_unknown_host)

@@ -2,7 +2,8 @@
 
 Its methods are generators of :mod:`~ai4u_edu.remote.steps`, which a connection carries out. If no
 answer arrives in time, the dialogue repeats its last frame; if the connection is lost, it
-reconnects, as long as the world keeps the agent for the script.
+reconnects. It resumes its session, or begins another one if the world has none of it any more,
+since it was restarted or the script was away for too long. Then the episode ends, truncated.
 """
 
 import time
@@ -18,7 +19,16 @@ from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.outputs import numbers_of
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send
+from ai4u_edu.remote.steps import (
+    Close,
+    ConnectionLostError,
+    Flow,
+    Note,
+    Open,
+    Pause,
+    Receive,
+    Send,
+)
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 
@@ -34,6 +44,18 @@ MAX_BACKOFF_S = 0.5
 """Longest pause between two attempts."""
 MIN_OPEN_TIMEOUT_S = 0.1
 """Time that opening a connection gets even if the deadline is nearer."""
+
+
+class _WaitError(ConnectionLostError):
+    """The world refuses the script for now: another one has the agent.
+
+    Attributes:
+        problem: the world's.
+    """
+
+    def __init__(self, problem: native.Problem) -> None:
+        super().__init__(problem.text)
+        self.problem = problem
 
 
 def _checked(hello: native.Hello) -> native.Hello:
@@ -64,7 +86,8 @@ class Dialogue:
         mode: lockstep: the world waits for each action; realtime: it never waits.
         keys: keys of the readings to get; empty for all.
         session: :attr:`session` of another dialogue, to resume it.
-        patience: timeout of the first welcome in seconds.
+        patience: seconds to wait for a world that is not there, at first or again, and for an agent
+            that another script has. One attempt is always made.
         on_missing: substitute for an action that is missing.
 
     Raises:
@@ -113,6 +136,11 @@ class Dialogue:
         """The latest problem that was raised."""
         self._stale_refusals = 0
         """Times that this problem may still arrive, for the other copies of that answer."""
+        self._latest_seq = 0
+        """Number of the latest percept in this session; 0 before the first."""
+        self._interrupted: RemotePercept | None = None
+        """The latest percept of a session that the world has not any more; the next one is the
+        truncated end of its episode."""
         self._ended: RemoteError | None = None
         """The error that ended the session; every method raises it from then on."""
         self.percept: RemotePercept | None = None
@@ -147,7 +175,7 @@ class Dialogue:
 
     def begin(self) -> Flow[None]:
         """Connect, and get the agent."""
-        lost = yield from self._connect(time.monotonic() + self._patience, is_first=True)
+        lost = yield from self._connect(self._patience)
         if lost is not None:
             yield Close()
             raise LostError(
@@ -210,43 +238,64 @@ class Dialogue:
         """Say goodbye, which gives the agent back, and close the connection."""
         if self._ended is None:
             self._ended = LostError("the robot was closed; expected connect(...) again")
-            with suppress(ConnectionLostError):
-                yield Send(native.encode(native.Bye(reason)))
-            yield Close()
+            yield from self._leave(reason)
+
+    def _leave(self, reason: str) -> Flow[None]:
+        with suppress(ConnectionLostError):
+            yield Send(native.encode(native.Bye(reason)))
+        yield Close()
 
     # -- connecting ------------------------------------------------------------------------------
 
-    def _connect(
-        self, deadline: float, *, is_first: bool = False
-    ) -> Flow[ConnectionLostError | None]:
-        """Connect, with a growing pause between two attempts.
+    def _connect(self, patience: float) -> Flow[ConnectionLostError | None]:
+        """Connect, with a growing pause between two attempts; say so if that takes several.
+
+        Args:
+            patience: seconds after which no other attempt is begun.
 
         Returns:
             None on success, else the last error.
         """
-        backoff, lost = FIRST_BACKOFF_S, ConnectionLostError("no answer")
-        while time.monotonic() < deadline:
+        is_first = self._welcome is None
+        deadline = time.monotonic() + patience
+        backoff, noted = FIRST_BACKOFF_S, ""
+        attempt_until = time.monotonic() + ATTEMPT_TIMEOUT_S
+        while True:
             try:
-                yield from self._attempt(min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S))
+                yield from self._attempt(attempt_until)
+                if self._ended is not None:
+                    yield from self._leave("it was written for another robot")
+                    raise self._ended
                 if self._is_answered and not is_first:
                     yield self._repeat()
             except ConnectionLostError as failed:
-                self._end_if_refused(failed)
-                lost = failed
-                if is_first and lost.is_permanent:
-                    break
+                lost = self._waitable(failed)
             else:
+                if noted:
+                    yield Note(f"connected: this script drives agent {self.welcome.agent!r}")
                 return None
-            yield Pause(backoff)
+            left = deadline - time.monotonic()
+            if left <= 0 or (is_first and lost.is_permanent):
+                if isinstance(lost, _WaitError):
+                    self._end_by_problem(lost.problem)
+                return lost
+            if str(lost) != noted:
+                noted = str(lost)
+                why = noted
+                if not isinstance(lost, _WaitError):
+                    missing = "no world answers yet" if is_first else "the connection is lost"
+                    why = f"{missing} ({noted})"
+                yield Note(f"{why}; trying again for up to {left:.0f} s")
+            yield Pause(min(backoff, left))
             backoff = min(2 * backoff, MAX_BACKOFF_S)
-        return lost
+            attempt_until = min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S)
 
     def _attempt(self, deadline: float) -> Flow[None]:
         """Open a connection, and send the hello until there is a welcome."""
         yield Open(max(deadline - time.monotonic(), MIN_OPEN_TIMEOUT_S))
         hello = native.encode(self._hello)
         timeout = FIRST_TIMEOUT_S
-        while time.monotonic() < deadline:
+        while True:
             yield Send(hello)
             if self._last_frame == self._last_hello:  # there was no percept to answer yet
                 self._last_frame = hello
@@ -257,24 +306,41 @@ class Dialogue:
                 frame = yield Receive(left)
                 if frame is not None and self._handle_welcome(frame):
                     return
-        raise ConnectionLostError("no answer")
+            if time.monotonic() >= deadline:
+                raise ConnectionLostError("no answer")
 
     def _reconnect(self, lost: ConnectionLostError) -> Flow[None]:
-        """Resume the session over a new connection, within the world's grace time.
+        """Resume the session over a new connection, or begin another one.
 
         Raises:
             LostError: that failed; the session is over.
         """
         self._check_open()
-        self._end_if_refused(lost)
-        final = yield from self._connect(time.monotonic() + self.welcome.grace)
+        self._waitable(lost)
+        # the grace time if it is longer, since the world keeps the agent for it
+        patience = max(self.welcome.grace, self._patience)
+        final = yield from self._connect(patience)
         if final is not None:
             self._ended = LostError(
                 f"the connection is lost ({final}), and could not be taken up again within "
-                f"{self.welcome.grace:g} s; expected connect(...) again"
+                f"{patience:g} s; expected connect(...) again"
             )
             yield Close()
             raise self._ended from None
+
+    def _waitable(self, lost: ConnectionLostError) -> ConnectionLostError:
+        """Return an error after which another attempt may succeed.
+
+        Raises:
+            RemoteError: the world closed on purpose. The frame that said why may have been lost.
+        """
+        name = _PROBLEM_NAMES.get(lost.code)
+        if name is None:
+            return lost
+        try:
+            self._refuse(native.Problem(name, str(lost), 0))
+        except ConnectionLostError as reason:
+            return reason
 
     # -- messages --------------------------------------------------------------------------------
 
@@ -299,23 +365,39 @@ class Dialogue:
             if message.code == "bad_message" and self._hello.on_missing:
                 text = f"{message.text}; if the world is an older one, leave out on_missing"
                 message = native.Problem(message.code, text, message.seq)
-            self._end_by_problem(message)
+            self._refuse(message)
         if not isinstance(message, native.Welcome):
             return False
-        self._welcome = message
+        before, self._welcome = self._welcome, message
         self._hello = replace(self._hello, session=message.session)
+        if before is not None and before.session != message.session:
+            self._begin_session_after(before, message)
         self.readings = {reading.key: reading for reading in message.readings}
         self.outputs = {output.name: output for output in message.outputs}
         return True
 
+    def _begin_session_after(self, before: native.Welcome, now: native.Welcome) -> None:
+        """Begin a session in place of one that the world has not any more."""
+        if (before.readings, before.outputs) != (now.readings, now.outputs):
+            self._ended = LostError(
+                "the robot has other sensors or actuators by now; expected connect(...) again"
+            )
+        self._interrupted = self.percept or self._interrupted
+        self._latest_seq = 0
+        self._last_frame, self._is_answered = self._last_hello, True
+        self._refusable_seq, self._copies = -1, 0
+        self._refusal, self._stale_refusals = None, 0
+
     def _handle(self, frame: bytes) -> None:
         """Handle a frame of the session; old percepts and repeated problems are ignored."""
         message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
-        latest = self.percept.seq if self.percept is not None else 0
+        latest = self._latest_seq
         match message:
             case native.Percept(seq=seq) if seq > latest:
                 self.percept = RemotePercept(self.readings, message)
-                self._is_answered = False
+                if self._interrupted is not None:
+                    self.percept, self._interrupted = self._interrupted.cut_off(seq), None
+                self._latest_seq, self._is_answered = seq, False
             case native.Problem(code=code) if code in native.PROBLEMS:
                 self._end_by_problem(message)
             case native.Problem(seq=0):
@@ -340,10 +422,19 @@ class Dialogue:
         if self._ended is not None:
             raise self._ended
 
-    def _end_if_refused(self, lost: ConnectionLostError) -> None:
-        """Raise if the world closed on purpose; the frame that said why may have been lost."""
-        if lost.code in _PROBLEM_NAMES:
-            self._end_by_problem(native.Problem(_PROBLEM_NAMES[lost.code], str(lost), 0))
+    def _refuse(self, problem: native.Problem) -> NoReturn:
+        """Raise the error of a refusal.
+
+        Raises:
+            ConnectionLostError: another attempt may succeed.
+            RemoteError: none will.
+        """
+        if problem.code == "agent_taken":
+            raise _WaitError(problem)
+        if problem.code == "session_over" and self._welcome is not None:
+            self._hello = replace(self._hello, session="")
+            raise ConnectionLostError("the world was restarted, or has given the agent back")
+        self._end_by_problem(problem)
 
     def _end_by_problem(self, problem: native.Problem) -> NoReturn:
         kind = LostError if self._welcome else RefusedError

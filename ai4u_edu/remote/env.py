@@ -7,6 +7,7 @@ import numpy as np
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import checked_seed
+from ai4u_edu.remote.own_frames import OWN_FRAMES_HIDDEN
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.robot import connect
 from ai4u_edu.remote.spaces import action_space, observation_space
@@ -29,7 +30,8 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
         agent: the agent's id; may be left out where there is only one.
         observation: ``"dict"``: by perception key; ``"flat"``: one float32 array.
         token: the world's, if it has one.
-        patience: timeout of the world's first answer in seconds.
+        patience: seconds to wait for a world that is not there, and for an agent that another
+            script has; see :func:`~ai4u_edu.remote.connect`.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}
@@ -44,25 +46,26 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
         patience: float = 10.0,
         render_mode: str | None = None,
     ) -> None:
-        if observation not in ("dict", "flat"):
-            raise SetupError(f"observation: expected 'dict' or 'flat', got {observation!r}")
-        if render_mode is not None:
-            raise SetupError(
-                f"render_mode: expected None (the page shows the world), got {render_mode!r}"
-            )
-        self.render_mode = None
-        self.robot = connect(url, agent, token=token, mode="lockstep", patience=patience)
-        """The same agent, for direct use."""
-        welcome = self.robot.welcome
-        self._flat = observation == "flat"
-        self._readings = [reading for reading in welcome.readings if reading.is_input]
-        self.observation_space = observation_space(self._readings, observation)
-        outputs = {output.name: output for output in welcome.outputs}
-        self.action_space = action_space(outputs)
-        self._one_output = next(output.name for output in welcome.outputs if output.is_output)
-        if isinstance(self.action_space, gymnasium.spaces.Dict):
-            self._one_output = ""
-        self._paid = 0.0
+        with OWN_FRAMES_HIDDEN:
+            if observation not in ("dict", "flat"):
+                raise SetupError(f"observation: expected 'dict' or 'flat', got {observation!r}")
+            if render_mode is not None:
+                raise SetupError(
+                    f"render_mode: expected None (the page shows the world), got {render_mode!r}"
+                )
+            self.render_mode = None
+            self.robot = connect(url, agent, token=token, mode="lockstep", patience=patience)
+            """The same agent, for direct use."""
+            welcome = self.robot.welcome
+            self._flat = observation == "flat"
+            self._readings = [reading for reading in welcome.readings if reading.is_input]
+            self.observation_space = observation_space(self._readings, observation)
+            outputs = {output.name: output for output in welcome.outputs}
+            self.action_space = action_space(outputs)
+            self._one_output = next(output.name for output in welcome.outputs if output.is_output)
+            if isinstance(self.action_space, gymnasium.spaces.Dict):
+                self._one_output = ""
+            self._paid = 0.0
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -77,17 +80,19 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
             RefusedError: there is a seed, there are other agents, and the world does not allow
                 scripts to reset it.
         """
-        if seed is not None:
-            seed = checked_seed(seed)
-        super().reset(seed=seed)
-        percept = self.robot.reset(seed)
-        self._paid = 0.0
-        return self._observe(percept), self._info(percept)
+        with OWN_FRAMES_HIDDEN:
+            if seed is not None:
+                seed = checked_seed(seed)
+            super().reset(seed=seed)
+            percept = self.robot.reset(seed)
+            self._paid = 0.0
+            return self._observe(percept), self._info(percept)
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Take one decision."""
-        self.robot.act({self._one_output: action} if self._one_output else action)
-        percept = self.robot.sense()
+        with OWN_FRAMES_HIDDEN:
+            self.robot.act({self._one_output: action} if self._one_output else action)
+            percept = self.robot.sense()
         return (
             self._observe(percept),
             percept.reward,

@@ -1,7 +1,8 @@
 """The percept of a remote agent."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any
+from copy import copy
+from typing import Any, Self
 
 import numpy as np
 
@@ -64,6 +65,13 @@ class RemotePercept(Mapping[str, Any]):
     def done(self) -> bool:
         """True if the episode is over."""
         return self.terminated or self.truncated
+
+    def cut_off(self, seq: int) -> Self:
+        """Return the same readings as the end of their episode, in a percept of another number."""
+        end = copy(self)
+        end.seq, end.reward, end.reward_terms = seq, 0.0, {}
+        end.truncated = not self.terminated
+        return end
 
     def __getitem__(self, key: str) -> Any:
         reading = self._readings.get(key)

@@ -5,6 +5,7 @@ from typing import Any, Self, SupportsIndex
 
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.dialogue import Dialogue
+from ai4u_edu.remote.own_frames import OWN_FRAMES_HIDDEN
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.robot_base import RobotBase
 from ai4u_edu.remote.sync_connection import SyncConnection
@@ -25,7 +26,8 @@ class Robot(RobotBase):
             print(robot.percept.reward_terms)
             robot.reset()
 
-    It reconnects if the connection is lost; the session goes on where it was.
+    It reconnects if the connection is lost, and goes on where it was. If the world was restarted
+    meanwhile, the episode is over (truncated), and :meth:`reset` begins another.
     """
 
     def __init__(self, connection: SyncConnection, dialogue: Dialogue) -> None:
@@ -35,7 +37,8 @@ class Robot(RobotBase):
 
     def sense(self) -> RemotePercept:
         """Return the current percept; after an action, wait until its decision is over."""
-        return self._connection.run(self._dialogue.sense())
+        with OWN_FRAMES_HIDDEN:
+            return self._connection.run(self._dialogue.sense())
 
     def act(self, action: Any = None, /, **numbers: Any) -> None:
         """Answer the latest percept with an action. Returns at once; :meth:`sense` waits.
@@ -48,7 +51,8 @@ class Robot(RobotBase):
             ActionError: it names an unknown actuator, its numbers don't fit, or the episode is
                 over.
         """
-        self._connection.run(self._dialogue.act(numbers if action is None else action))
+        with OWN_FRAMES_HIDDEN:
+            self._connection.run(self._dialogue.act(numbers if action is None else action))
 
     def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begin an episode, and return its first percept.
@@ -63,7 +67,8 @@ class Robot(RobotBase):
             RefusedError: there is a seed, there are other agents, and the world does not allow
                 scripts to reset it.
         """
-        return self._connection.run(self._dialogue.reset(seed))
+        with OWN_FRAMES_HIDDEN:
+            return self._connection.run(self._dialogue.reset(seed))
 
     def close(self) -> None:
         """Give the agent back to the brain that it had before. It may be called twice."""
@@ -74,9 +79,10 @@ class Robot(RobotBase):
 
     def __iter__(self) -> Iterator[RemotePercept]:
         """Yield every percept that needs an action, until the episode is over."""
-        while not (percept := self.sense()).done:
-            yield percept
-            self._dialogue.expect_answer_to(percept)
+        with OWN_FRAMES_HIDDEN:
+            while not (percept := self.sense()).done:
+                yield percept
+                self._dialogue.expect_answer_to(percept)
 
     def __enter__(self) -> Self:
         return self
@@ -112,7 +118,9 @@ def connect(
             script answers.
         keys: keys of the readings to get, such as ``["ray_casting"]``; left out, all.
         session: :attr:`Robot.session` of a script that is gone, to resume its session.
-        patience: timeout of the world's first answer in seconds.
+        patience: seconds to wait for a world that is not there, at first or again after it was
+            restarted, and for an agent that another script has. The script says that it waits: in
+            the log ``ai4u_edu.remote``, by default on stderr. 0 for one attempt.
         on_missing: substitute for an action that is missing when a decision is due, also while the
             connection is lost: ``"hold"``: the last action; ``"coast"``: nothing; ``"stop"``: zeros
             for all actuators. Left out, the world's setting (``ai4u-edu play --on-missing``): by
@@ -123,18 +131,19 @@ def connect(
         LostError: no world answers.
         RemoteError: an argument is wrong.
     """
-    address = address_of(url, token)
-    before = _robots.pop((address.url, agent), None)
-    if before is not None:
-        before.close()
-    dialogue = Dialogue(
-        agent,
-        token=address.token,
-        mode=mode,
-        keys=keys,
-        session=session,
-        patience=patience,
-        on_missing=on_missing,
-    )
-    robot = _robots[address.url, agent] = Robot(SyncConnection(address), dialogue)
-    return robot
+    with OWN_FRAMES_HIDDEN:
+        address = address_of(url, token)
+        before = _robots.pop((address.url, agent), None)
+        if before is not None:
+            before.close()
+        dialogue = Dialogue(
+            agent,
+            token=address.token,
+            mode=mode,
+            keys=keys,
+            session=session,
+            patience=patience,
+            on_missing=on_missing,
+        )
+        robot = _robots[address.url, agent] = Robot(SyncConnection(address), dialogue)
+        return robot

@@ -41,7 +41,13 @@ class Close(NamedTuple):
     """Close the connection; never fails."""
 
 
-Step = Open | Send | Receive | Pause | Close
+class Note(NamedTuple):
+    """Tell the person at this machine something, such as that the script waits."""
+
+    text: str
+
+
+Step = Open | Send | Receive | Pause | Close | Note
 Flow = Generator[Step, Any, T]
 
 
@@ -50,7 +56,7 @@ class ConnectionLostError(Exception):
 
     Attributes:
         code: of the WebSocket's close; 0 if it had none.
-        is_permanent: True if nobody listens there, or the handshake was refused; a retry is
+        is_permanent: True if there is no such host, or the handshake was refused; a retry is
             unlikely to help.
     """
 

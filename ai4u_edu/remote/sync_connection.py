@@ -2,15 +2,31 @@
 
 import threading
 import time
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
 from ai4u_edu.remote.address import Address
-from ai4u_edu.remote.connection_options import OPTIONS, authorization, connection_lost_from
+from ai4u_edu.remote.connection_options import (
+    OPTIONS,
+    authorization,
+    connection_lost_from,
+    log_note,
+)
 from ai4u_edu.remote.errors import RemoteError
-from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Pause, Receive, Send, Step
+from ai4u_edu.remote.steps import (
+    Close,
+    ConnectionLostError,
+    Flow,
+    Note,
+    Open,
+    Pause,
+    Receive,
+    Send,
+    Step,
+)
 
 T = TypeVar("T")
 _WAITING_STEPS = (Open, Receive, Pause)
@@ -31,10 +47,18 @@ class SyncConnection:
         stop: set by another thread to stop waiting. Then each step that waits raises a
             StoppedError, at the latest after a second, since no step waits longer for a frame.
             Sending, such as of a goodbye, still works.
+        tell: called with each note; left out, notes are logged.
     """
 
-    def __init__(self, address: Address, *, stop: threading.Event | None = None) -> None:
+    def __init__(
+        self,
+        address: Address,
+        *,
+        stop: threading.Event | None = None,
+        tell: Callable[[str], object] = log_note,
+    ) -> None:
         self._address = address
+        self._tell = tell
         self._stop = stop
         self._socket: ClientConnection | None = None
 
@@ -68,6 +92,8 @@ class SyncConnection:
                 self._close()
             case Pause(seconds):
                 time.sleep(seconds)
+            case Note(text):
+                self._tell(text)
         return None
 
     def _open(self, timeout: float) -> None:

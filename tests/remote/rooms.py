@@ -118,15 +118,17 @@ def log_room(
     max_steps: int = 0,
     skip_frame: int = 0,
     time_scale: float = float("inf"),
+    port: int = 0,
     **rules: Any,
 ) -> Iterator[Room]:
     """A room of such agents, as fast as it goes; its scripts may have it wait.
 
     Args:
+        port: to listen at; 0 for any free one.
         rules: changes of :func:`patient_rules`.
     """
     sim = log_sim(agents, max_steps=max_steps, skip_frame=skip_frame)
-    with served(sim, rules=patient_rules(**({"lockstep": True} | rules))) as room:
+    with served(sim, port=port, rules=patient_rules(**({"lockstep": True} | rules))) as room:
         room.runner.scale_time(time_scale)
         yield room
 
@@ -134,10 +136,12 @@ def log_room(
 class Script:
     """A script that says and hears one frame at a time, and repeats nothing by itself."""
 
-    def __init__(self, room: Room, *, subprotocol: str | None = native.SUBPROTOCOL) -> None:
+    def __init__(
+        self, room: Room, *, subprotocol: str | None = native.SUBPROTOCOL, query: str = ""
+    ) -> None:
         names: Any = [subprotocol] if subprotocol else None
         self.socket = open_socket(
-            room.url + "ws/remote",
+            f"{room.url}ws/remote{query}",
             subprotocols=names,
             compression=None,
             # real time: a script that reads nothing waits in vain, and no test needs the answer

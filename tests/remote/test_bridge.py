@@ -238,7 +238,7 @@ def test_no_world_is_there() -> None:
         unused_address() as address,
         pytest.raises(LostError, match="is it running, and is the address right"),
     ):
-        Bridge(f"ws://{address}", port=free_port())
+        Bridge(f"ws://{address}", port=free_port(), patience=0)
 
 
 def test_a_world_that_ends() -> None:
@@ -257,18 +257,18 @@ def test_a_world_that_ends() -> None:
             thread = threading.Thread(target=drive)
             thread.start()
             begin(script)
+            bridge._robot._patience = 0.3
         script.say("log;1;1")
         assert "__stop__" in script.hear()
         script.say("halt")
         thread.join(LIMIT_S)
-        assert len(told) == 1
-        assert "expected connect" in told[0] or "ended the session" in told[0]
+        assert "expected connect" in told[-1] or "ended the session" in told[-1]
 
 
 def test_an_agent_that_is_taken_and_one_that_is_not_there() -> None:
     with log_room(2) as room, connect(room.url, "a"):
         with pytest.raises(RefusedError, match="agent 'a' is driven by another script; free are"):
-            Bridge(room.url, "a", port=free_port())
+            Bridge(room.url, "a", port=free_port(), patience=0)
         with pytest.raises(RefusedError, match="no agent has the id 'red'; known are 'a', 'b'"):
             Bridge(room.url, "red", port=free_port())
 

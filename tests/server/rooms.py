@@ -87,6 +87,7 @@ def served(
     wrap: Callable[[ASGIApp], ASGIApp] = lambda app: app,
     wait_for_key: bool = False,
     server: "SharedServer | None" = None,
+    port: int = 0,
     timeouts: Timeouts = PATIENT,
     key_clock: Callable[[], float] | None = None,
     stall_s: float = LIMIT_S,
@@ -95,6 +96,7 @@ def served(
     """Serve a room at a free port, or at that of a server that is there.
 
     Args:
+        port: to listen at, such as a ``kept_port()``; 0 for any free one.
         wrap: may wrap the room's app.
         timeouts: of the room and its own server.
         key_clock: clock of the keyboards, by which keys of a silent page are forgotten; default:
@@ -119,7 +121,7 @@ def served(
                 server.app = wrap(app)
                 yield Room(runner, server.url)
             else:
-                with ServerThread(wrap(app), timeouts=timeouts) as own:
+                with ServerThread(wrap(app), port=port, timeouts=timeouts) as own:
                     yield Room(runner, own.url)
         finally:
             runner.stop(LIMIT_S)
