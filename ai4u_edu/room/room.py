@@ -20,6 +20,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import is_link
 from ai4u_edu.server import LessonView, lock_viser_port, room_app
+from ai4u_edu.server.scripts import ScriptReport
 from ai4u_edu.viewer import Viewer
 
 
@@ -31,13 +32,18 @@ class Room:
     Args:
         settings: of the room.
         warn: called with a sentence when something goes wrong later, in any thread.
+        tell: called with a line when something happens with a script, in a thread; left out,
+            nobody is told.
 
     Raises:
         AI4UError: the scene or a file can't be used; the message says why.
     """
 
     def __init__(
-        self, settings: RoomSettings, warn: Callable[[str], object] = lambda _: None
+        self,
+        settings: RoomSettings,
+        warn: Callable[[str], object] = lambda _: None,
+        tell: Callable[[str], object] | None = None,
     ) -> None:
         self.unsaved = unsaved_scenes(settings.unsaved) if settings.unsaved else []
         restored = _restored(settings, self.unsaved)
@@ -78,6 +84,7 @@ class Room:
                 settings.class_folder,
                 show_ghosts=self._viewer.ghosts.race_all,
             )
+        self._script_report = None if tell is None else ScriptReport(self.runner, tell)
         self.app = room_app(
             self.runner,
             viser_port=self._viewer.port,
@@ -90,6 +97,7 @@ class Room:
             lessons=_lessons,
             panel=PanelSockets(self.runner, self._viewer, self.editor),
             class_feed=None if self.class_member is None else self.class_member.view,
+            script_report=self._script_report,
         )
         self._ending = ExitStack()
 
@@ -99,6 +107,8 @@ class Room:
         return self._viewer.port
 
     def __enter__(self) -> Self:
+        if self._script_report is not None:
+            self._ending.enter_context(self._script_report)
         self.runner.start()
         self._viewer.start()
         # the last one first: the runner may yet change what is saved

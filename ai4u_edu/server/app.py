@@ -20,7 +20,7 @@ from ai4u_edu.server.past import Past
 from ai4u_edu.server.program_zip import program_zip
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scene_routes import SceneRoutes
-from ai4u_edu.server.scripts import RemoteSockets, Rules
+from ai4u_edu.server.scripts import RemoteSockets, Report, Rules
 from ai4u_edu.server.start_page import LessonView, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
@@ -45,6 +45,7 @@ def room_app(
     editor: SceneEditor | None = None,
     lessons: Callable[[], list[LessonView]] = list,
     class_feed: ClassFeed | None = None,
+    script_report: Report | None = None,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
@@ -63,6 +64,7 @@ def room_app(
             no start page.
         lessons: returns the lessons that the start page lists.
         class_feed: of the class that the room belongs to; pages show it.
+        script_report: of what happens with scripts, for whoever runs the room.
         timeouts: time limits of the room's answers; those of connections belong to the server.
     """
     rules = rules or Rules()
@@ -105,7 +107,9 @@ def room_app(
             *([WebSocketRoute("/ws/panel", panel, middleware=auth)] if panel is not None else []),
             # scripts send the token in their hello
             WebSocketRoute(
-                "/ws/remote", RemoteSockets(runner, current_title, rules), middleware=script_limit
+                "/ws/remote",
+                RemoteSockets(runner, current_title, rules, script_report),
+                middleware=script_limit,
             ),
         ],
         middleware=[

@@ -13,6 +13,7 @@ from ai4u_edu.runtime.world_thread import WORLD_REPLACED
 from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError
+from ai4u_edu.server.scripts.report import Report
 from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
 from ai4u_edu.server.scripts.welcome import ObservationSubset, output_of
@@ -35,6 +36,7 @@ class AgentLease:
         hello: the script's request.
         rules: of the room.
         queue: of calls for the event loop, shared by the room.
+        report: of what happens with the script.
         on_released: called when the lease has ended.
     """
 
@@ -45,6 +47,7 @@ class AgentLease:
         hello: native.Hello,
         rules: Rules,
         queue: LoopQueue,
+        report: Report,
         on_released: Callable[["AgentLease"], None],
     ) -> None:
         self.agent = agent
@@ -52,11 +55,14 @@ class AgentLease:
         self._runner = runner
         self._hello = hello
         self._rules = rules
+        self._report = report
         self._on_released = on_released
         self._name = token_hex(4)
         self._on_missing = hello.on_missing or rules.on_missing
         self._timers: list[asyncio.TimerHandle] = []
         self.is_released = False
+        self._is_lost = False
+        """The script's connection is lost for more than a moment."""
         self._brain: RemoteBrain | None = None
         self._before: Brain | None = None
         self.claimed = asyncio.Event()
@@ -69,6 +75,7 @@ class AgentLease:
             self._on_brain_closed,
             may_seed=is_only_agent or rules.seeded_resets,
             queue=queue,
+            report_mistake=self._report_mistake,
         )
         self.welcome = b""
 
@@ -98,10 +105,14 @@ class AgentLease:
             raise RefusalError("ended", f"the agent can't be taken now ({error})") from None
         finally:
             self.claimed.set()
+        self._report.note_event(f"a script drives agent {self.agent.id!r} ({self._hello.mode})")
 
     def attach(self, outbox: Outbox) -> None:
         """Use this connection to the script from now on."""
         self._stop_timers()
+        if self._is_lost:
+            self._is_lost = False
+            self._report.note_event(f"the script of agent {self.agent.id!r} is back")
         if self._brain is not None:
             self._brain.on_missing = self._on_missing or "hold"
         outbox.send(self.welcome)
@@ -128,6 +139,8 @@ class AgentLease:
             self.session.outbox.close(native.PROBLEMS["ended"], reason)
         self._runner.submit(self._restore_brain)
         self._on_released(self)
+        if self._brain is not None:
+            self._report.note_event(f"the script of agent {self.agent.id!r} has left: {reason}")
 
     # -- in the runner's thread ------------------------------------------------------------------
 
@@ -194,8 +207,16 @@ class AgentLease:
         # first, since whoever sees that the script is lost may rely on it
         if self._brain is not None:
             self._brain.on_missing = self._on_missing or "stop"  # nobody supervises the last action
+        self._is_lost = True
+        kept = f"the agent is kept for it for {self._rules.grace:g} s"
+        self._report.note_event(f"the script of agent {self.agent.id!r} is lost; {kept}")
         is_waited_for = self._hello.mode == "lockstep"
-        self.session.mark_lost("the script's connection is lost", is_waited_for=is_waited_for)
+        reason = f"the script's connection is lost; {kept}"
+        self.session.mark_lost(reason, is_waited_for=is_waited_for)
+
+    def _report_mistake(self, reason: str) -> None:
+        script = f"the script of agent {self.agent.id!r}"
+        self._report.note_mistake(self.agent.id, f"{script} sent what has no effect: {reason}")
 
     def _stop_timers(self) -> None:
         for timer in self._timers:

@@ -9,6 +9,7 @@ from ai4u_edu.server.loop_queue import LoopQueue, queue_here
 from ai4u_edu.server.scripts.agent_lease import AgentLease
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
+from ai4u_edu.server.scripts.report import Report
 from ai4u_edu.server.scripts.settings import Rules
 from ai4u_edu.server.token_auth import is_same_secret
 from ai4u_edu.wire import native
@@ -23,9 +24,13 @@ class LeaseRegistry:
         runner: the room's.
         title: returns the room's title, which may change.
         rules: of the room.
+        report: of what happens with scripts.
     """
 
-    def __init__(self, runner: Runner, title: Callable[[], str], rules: Rules) -> None:
+    def __init__(
+        self, runner: Runner, title: Callable[[], str], rules: Rules, report: Report
+    ) -> None:
+        self._report = report
         self._runner = runner
         self._title = title
         self._rules = rules
@@ -59,7 +64,9 @@ class LeaseRegistry:
             raise RefusalError("agent_taken", self._taken(agent))
         else:
             self._queue = queue_here(self._queue)
-            lease = AgentLease(self._runner, agent, hello, self._rules, self._queue, self._remove)
+            lease = AgentLease(
+                self._runner, agent, hello, self._rules, self._queue, self._report, self._remove
+            )
             self._leases[agent.id] = lease
             await lease.claim(self._title())
         lease.attach(outbox)

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from starlette.types import Message, Send
 
 from ai4u_edu.wire import native
+from ai4u_edu.wire.json_form import JsonForm
+from ai4u_edu.wire.validation import WireError
 
 MAX_REASON_BYTES = 120
 """Longest reason of a close; the WebSocket protocol has room for 123 bytes."""
@@ -18,11 +20,18 @@ class Outbox:
     Args:
         send: the ASGI connection's.
         write: sends a frame at once, without the queue, and returns False if it can't.
+        form: of the messages, if the script speaks JSON.
     """
 
-    def __init__(self, send: Send, write: Callable[[bytes], bool] | None = None) -> None:
+    def __init__(
+        self,
+        send: Send,
+        write: Callable[[bytes], bool] | None = None,
+        form: JsonForm | None = None,
+    ) -> None:
         self._send = send
         self._write = write
+        self._form = form
         self._queue: deque[Message] = deque()
         self._is_not_empty = asyncio.Event()
         self.is_closing = False
@@ -31,7 +40,9 @@ class Outbox:
         """Send a frame after all others; discard it if the connection is being closed."""
         if self.is_closing:
             return
-        if self._queue or self._write is None or not self._write(frame):
+        if self._form is not None:
+            self._send_text(self._form, frame)
+        elif self._queue or self._write is None or not self._write(frame):
             self._put({"type": "websocket.send", "bytes": frame})
 
     def close(self, code: int, reason: str) -> None:
@@ -57,6 +68,12 @@ class Outbox:
                 self._queue.popleft()
                 if message["type"] == "websocket.close":
                     return
+
+    def _send_text(self, form: JsonForm, frame: bytes) -> None:
+        try:
+            self._put({"type": "websocket.send", "text": form.text_of(frame)})
+        except WireError as error:
+            self.close_with_problem("ended", str(error))
 
     def _put(self, message: Message) -> None:
         self._queue.append(message)

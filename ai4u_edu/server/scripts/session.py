@@ -27,6 +27,7 @@ class Session:
         on_close: called in the event loop when the agent's brain is closed.
         may_seed: whether a reset may have a seed, which resets the whole world.
         queue: of calls for the event loop, shared by a room; left out, a new one.
+        report_mistake: called with the reason why an action has no effect, in any thread.
     """
 
     def __init__(
@@ -36,6 +37,7 @@ class Session:
         *,
         may_seed: bool = True,
         queue: LoopQueue | None = None,
+        report_mistake: Callable[[str], object] = lambda _: None,
     ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
@@ -49,6 +51,7 @@ class Session:
         self._queue = queue or LoopQueue()
         self._on_close = on_close
         self._may_seed = may_seed
+        self._report_mistake = report_mistake
         self._rewards = RewardSum()
 
     # -- for the brain, in the runner's thread ---------------------------------------------------
@@ -98,6 +101,7 @@ class Session:
         observation = reply.observation
         if observation is None:
             return False
+        self._report_mistake(reason)
         may_answer_again = self.exchange.ask_again(observation)
         problem = native.Problem("bad_action", reason, observation.number)
         self._call_in_loop(self._send, native.encode(problem))
@@ -154,6 +158,7 @@ class Session:
         agents = len(self._runner.sim.agents)
         problem = find_problem(message, asked, agents=agents, may_seed=self._may_seed)
         if problem is not None:
+            self._report_mistake(problem.text)
             return problem
         if self.exchange.answer(Reply(to_brain_answer(message), asked)):
             self._runner.notify_answer()

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
+from urllib.parse import parse_qs
 
 from starlette.requests import HTTPConnection
 from starlette.types import Message, Receive, Scope, Send
@@ -15,11 +16,13 @@ from ai4u_edu.server.scripts.answers import is_request_for_time
 from ai4u_edu.server.scripts.lease_registry import LeaseRegistry
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError, wrong_version
+from ai4u_edu.server.scripts.report import NoReport, Report
 from ai4u_edu.server.scripts.session import Session
 from ai4u_edu.server.scripts.settings import Rules
 from ai4u_edu.server.token_auth import PageCookie, is_same_secret
 from ai4u_edu.wire import native
-from ai4u_edu.wire.validation import WireError
+from ai4u_edu.wire.json_form import JsonForm
+from ai4u_edu.wire.validation import WireError, shown
 
 MAX_STRAY_FRAMES_PER_S = 500
 """Rate limit of a script's frames that answer nothing: repeated, late, malformed. An answer to a
@@ -28,6 +31,8 @@ MAX_MALFORMED_FRAMES = 5
 """Malformed frames in a row after which the connection is closed."""
 CLOSE_TIMEOUT_S = 5.0
 """Time that the last frames and the close may take to be sent."""
+FORMATS = ("msgpack", "json")
+"""Forms of messages, by ``?format=`` in the address; see :mod:`ai4u_edu.wire.json_form`."""
 
 
 class RemoteSockets:
@@ -37,13 +42,19 @@ class RemoteSockets:
         runner: the room's.
         title: returns the room's title, which may change.
         rules: of the room.
+        report: of what happens with scripts, for whoever runs the world.
     """
 
     def __init__(
-        self, runner: Runner, title: Callable[[], str], rules: Rules | None = None
+        self,
+        runner: Runner,
+        title: Callable[[], str],
+        rules: Rules | None = None,
+        report: Report | None = None,
     ) -> None:
         self._rules = rules = rules or Rules()
-        self._leases = LeaseRegistry(runner, title, rules)
+        self._report = NoReport() if report is None else report
+        self._leases = LeaseRegistry(runner, title, rules, self._report)
         self._credentials = f"Bearer {rules.token}" if rules.token else ""
         self._cookie = PageCookie(rules.token)
 
@@ -53,27 +64,39 @@ class RemoteSockets:
         is_known = native.SUBPROTOCOL in scope["subprotocols"]
         subprotocol = native.SUBPROTOCOL if is_known else None
         await send({"type": "websocket.accept", "subprotocol": subprotocol})
-        frames: FramesProtocol | None = scope.get("extensions", {}).get(EXTENSION)
-        outbox = Outbox(send, frames.write if frames else None)
+        given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("format", FORMATS)[0]
+        form = JsonForm() if given == "json" else None
+        # a frame that is text takes the usual way through ASGI
+        frames: FramesProtocol | None = None
+        if form is None:
+            frames = scope.get("extensions", {}).get(EXTENSION)
+        outbox = Outbox(send, frames.write if frames else None, form)
         sending = asyncio.create_task(outbox.run())
         connection = _Connection(
             receive,
             outbox,
             self._leases,
+            self._report,
+            form=form,
             hello_timeout=self._rules.hello_timeout,
             is_authenticated=self._is_authenticated(HTTPConnection(scope)),
         )
         if frames:
             frames.listener = connection.hear_answer
         try:
-            if is_known:
+            if given not in FORMATS:
+                text = f"format: expected {' or '.join(FORMATS)}, got {shown(given)}"
+                outbox.close_with_problem("malformed", text)
+            elif is_known:
                 await connection.listen()
             else:
                 spoken = ", ".join(scope["subprotocols"]) or "none"
                 text = wrong_version(f"subprotocol {native.SUBPROTOCOL!r}", spoken)
                 outbox.close_with_problem("version", text)
             if outbox.is_closing:
-                await asyncio.wait_for(sending, CLOSE_TIMEOUT_S)
+                # not wait_for, which in Python 3.11 loses a cancellation that comes with the end
+                async with asyncio.timeout(CLOSE_TIMEOUT_S):
+                    await sending
         finally:
             if connection.lease is not None:
                 connection.lease.detach(outbox)
@@ -97,7 +120,9 @@ class _Connection:
         receive: Receive,
         outbox: Outbox,
         leases: LeaseRegistry,
+        report: Report,
         *,
+        form: JsonForm | None,
         hello_timeout: float,
         is_authenticated: bool,
     ) -> None:
@@ -106,6 +131,8 @@ class _Connection:
         self._receive = receive
         self._outbox = outbox
         self._leases = leases
+        self._report = report
+        self._form = form
         self._rate = RateLimit(MAX_STRAY_FRAMES_PER_S)
         self._malformed = 0
         self._hello: native.Hello | None = None
@@ -129,7 +156,7 @@ class _Connection:
                 self._outbox.close_with_problem("too_large", text)
                 return
             try:
-                heard = native.decode(frame)
+                heard = native.decode(self._form.frame_of(frame) if self._form else frame)
             except WireError as error:
                 self._complain("bad_message", str(error))
                 continue
@@ -185,10 +212,13 @@ class _Connection:
                 hello, self._outbox, is_authenticated=self._is_authenticated
             )
         except RefusalError as refusal:
+            if refusal.code != "session_over":  # a client begins another session by itself
+                self._report.note_mistake(refusal.code, f"a script was refused: {refusal}")
             self._outbox.close_with_problem(refusal.code, str(refusal))
 
     def _complain(self, code: str, text: str) -> None:
         """Send a problem; close the connection after too many in a row."""
+        self._report.note_mistake(code, f"a script sent what has no effect: {text}")
         self._malformed += 1
         if self._malformed >= MAX_MALFORMED_FRAMES:
             text = f"{MAX_MALFORMED_FRAMES} malformed frames in a row; the last: {text}"
