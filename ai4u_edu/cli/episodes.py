@@ -15,7 +15,9 @@ from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli.options import (
     MAX_EPISODES,
     MAX_UPDATES,
+    SCENE_AND_MORE,
     OwnBlocks,
+    expect_scene,
     load_own_blocks,
     seed_option,
 )
@@ -41,11 +43,13 @@ AgentId = Annotated[
 
 def add_to(app: typer.Typer) -> None:
     """Add the commands to a command line."""
-    for command in (record, replay, dataset, clone):
+    app.command(context_settings=SCENE_AND_MORE)(record)
+    for command in (replay, dataset, clone):
         app.command()(command)
 
 
 def record(
+    context: typer.Context,
     scene: Annotated[str, typer.Argument(help="Scene name or YAML file.")],
     brain: Annotated[
         list[str] | None,
@@ -61,6 +65,7 @@ def record(
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Record episodes of any driver into files."""
+    expect_scene("record", [scene, *context.args])
     from ai4u_edu.scenes import Scene
 
     load_own_blocks(own_blocks)
@@ -177,6 +182,7 @@ def clone(
     from ai4u_edu.training.demonstrations import load_episodes
     from ai4u_edu.training.evaluating import evaluate as evaluated
     from ai4u_edu.training.policies import entrant
+    from ai4u_edu.training.progress_bar import counted
     from ai4u_edu.training.report import table
 
     load_own_blocks(own_blocks)
@@ -186,7 +192,8 @@ def clone(
     if evaluate:
         who = with_changes(entrant(str(out)), agent=agent or "")
         where = _driven_by(out, episodes[0], agent)
-        result = evaluated(who, where, range(1000, 1000 + evaluate))
+        seeds = range(1000, 1000 + evaluate)
+        result = evaluated(who, where, counted(seeds, who.name))
         Console().print(table([result]))
     typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
 

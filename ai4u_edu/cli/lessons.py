@@ -9,6 +9,9 @@ from typing import Annotated
 import typer
 
 FIRST = "00_start_here.ipynb"
+KERNEL_STOP_S = 0.5
+"""Time that a kernel gets to end before it is killed. So SIGTERM ends the course within about
+a second, also if a cell does not return."""
 
 
 def add_to(app: typer.Typer) -> None:
@@ -77,6 +80,9 @@ def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:
         "--LabApp.news_url=None",
         "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
         "--LabApp.extension_manager=readonly",
+        f"--KernelManager.shutdown_wait_time={KERNEL_STOP_S}",
+        # it looks for language servers, which takes seconds, and for which JupyterLab waits to end
+        "--ServerApp.jpserver_extensions={'jupyter_lsp': False}",
         *(["--allow-root"] if os.name == "posix" and os.geteuid() == 0 else []),  # in a container
     ]
 

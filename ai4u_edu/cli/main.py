@@ -20,7 +20,13 @@ from ai4u_edu.cli import episodes, lessons, training
 from ai4u_edu.cli.bundle import bundle
 from ai4u_edu.cli.classroom import classroom
 from ai4u_edu.cli.doctor import doctor
-from ai4u_edu.cli.options import OnMissing, OwnBlocks, load_own_blocks
+from ai4u_edu.cli.options import (
+    SCENE_AND_MORE,
+    OnMissing,
+    OwnBlocks,
+    finite,
+    load_own_blocks,
+)
 from ai4u_edu.cli.play import play
 
 app = typer.Typer(
@@ -75,7 +81,7 @@ def options(
     """Handle the options of the program itself."""
 
 
-app.command()(play)
+app.command(context_settings=SCENE_AND_MORE)(play)
 app.command("class")(classroom)
 app.command()(doctor)
 app.command()(bundle)
@@ -93,6 +99,16 @@ def bridge(
         bool, typer.Option("--realtime", help="Don't make the world wait for each action.")
     ] = False,
     script_id: Annotated[str, typer.Option(help="The agent's id in the AI4U script.")] = "0",
+    patience: Annotated[
+        float,
+        typer.Option(
+            help="Seconds to wait: for a script that is silent, for a world that is not there, and "
+            "for an agent that another script has.",
+            min=0.1,
+            max=3600,
+            callback=finite,
+        ),
+    ] = 10.0,
     on_missing: Annotated[
         OnMissing | None,
         typer.Option(
@@ -114,6 +130,7 @@ def bridge(
         token=token,
         mode=mode,
         script_id=script_id,
+        patience=patience,
         on_missing=on_missing or "",
         tell=typer.echo,
     )

@@ -9,7 +9,7 @@ import typer
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.joining import with_class
-from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+from ai4u_edu.cli.options import OwnBlocks, expect_scene, load_own_blocks
 
 if TYPE_CHECKING:
     from ai4u_edu.room import Room, RoomSettings
@@ -46,6 +46,7 @@ def play(
     name_choice: o.NameChoice = 1,
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
+    expect_scene("play", [scene, *context.args])
     from ai4u_edu.editing.autosave import unsaved_folder
     from ai4u_edu.room import RoomSettings
     from ai4u_edu.server import Rules, hosts_for, token_for
@@ -101,7 +102,7 @@ def _serve(
     from ai4u_edu.server.process_exit import HAS_SERVED
 
     token = settings.rules.token
-    room = Room(settings, _warn)
+    room = Room(settings, _warn, typer.echo)
 
     def announce(url: str) -> None:
         _announce(room, host, url, token)

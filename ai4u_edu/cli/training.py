@@ -12,7 +12,7 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli import training_options as o
-from ai4u_edu.cli.options import OwnBlocks, load_own_blocks
+from ai4u_edu.cli.options import OwnBlocks, expect_scene, is_driver, load_own_blocks
 from ai4u_edu.cli.sweep import sweep
 from ai4u_edu.cli.tournament import tournament
 
@@ -97,15 +97,16 @@ def _summary(result: "Trained") -> str:
     return (
         f"{why} after {result.steps} steps; kept {result.run.best}: {success}"
         f"reward {best.reward:.2f} (after {best.steps} steps)\n"
-        f"evaluate it: ai4u-edu evaluate {folder}\n"
+        f"evaluate it: ai4u-edu evaluate {result.run.config().scene} --brain {folder}\n"
         f"export it:   ai4u-edu export {folder} --out policy.onnx"
     )
 
 
 def evaluate(
-    who: o.Driver,
-    scene: o.EvaluatedScene = "",
-    compare: o.Others = None,
+    words: o.EvaluatedScene = None,
+    brain: o.EvaluatedDrivers = None,
+    scene: o.FormerScene = "",
+    compare: o.FormerDrivers = None,
     episodes: o.Episodes = 100,
     seed: o.FirstSeed = 0,
     json_file: o.JsonFile = None,
@@ -114,7 +115,7 @@ def evaluate(
     address: o.ClusterAddress = "",
     own_blocks: OwnBlocks = None,
 ) -> None:
-    """Measure how well a driver does, on seeds not used for training.
+    """Measure how well drivers do in a scene, on seeds not used for training.
 
     Reading a Stable-Baselines3 model (.zip) can run any program: use only your own.
     """
@@ -131,20 +132,23 @@ def evaluate(
 
         check_picture(plot)
     load_own_blocks(own_blocks)
-    where = scene
-    loaded = Scene.load(scene) if scene else None
+    where, drivers = _scene_and_drivers(words or [], brain or [], scene, compare or [])
+    loaded = Scene.load(where) if where else None
     name = loaded.description.name if loaded else ""
-    entrants = [entrant(each, name) for each in (who, *(compare or ()))]
+    entrants = [entrant(each, name) for each in drivers]
     if loaded is None:
         where = next((each.scene for each in entrants if each.scene), "")
         if not where:
-            raise SetupError(f"in which scene is {who} to drive? Expected --scene")
+            raise SetupError(
+                f"in which scene is {drivers[0]} to drive? Expected: ai4u-edu evaluate SCENE "
+                f"--brain {drivers[0]}"
+            )
         loaded = Scene.load(where)
     seeds = seeds_from(seed, episodes)
     if engine == "inline" and not address:
         done = [evaluated(each, loaded, counted(seeds, each.name)) for each in entrants]
     else:
-        done = _evaluated_on(engine, address, (who, *(compare or ())), where, seeds, own_blocks)
+        done = _evaluated_on(engine, address, drivers, where, seeds, own_blocks)
     if json_file is None or str(json_file) != "-":
         Console().print(
             f"{loaded.description.name}: {episodes} episodes, seeds {seed}..{seed + episodes - 1}",
@@ -159,6 +163,38 @@ def evaluate(
             write_atomically(json_file, text + "\n")
     if plot is not None:
         plot_evaluations(done, plot)
+
+
+def _scene_and_drivers(
+    words: list[str], brains: list[str], scene: str, compare: list[str]
+) -> tuple[str, list[str]]:
+    """Return the scene, which may be empty, and who drives in it.
+
+    The former form, in which the driver came first and the scene was an option, still works, with a
+    hint: the one for all commands is the scene first, and drivers as options.
+    """
+    from ai4u_edu.scenes import Scene
+
+    drivers = [*brains, *compare]
+    if brains and not scene:
+        expect_scene("evaluate", words)
+        return (words or [""])[0], drivers
+    names = Scene.names()
+    scenes = [
+        word for word in words if not is_driver(word) and (word in names or word.endswith(".yaml"))
+    ]
+    drivers = [*(word for word in words if word not in scenes), *drivers]
+    scenes += [scene] if scene else []
+    where = (scenes or [""])[0]
+    if not drivers:
+        raise SetupError(
+            f"who is to drive? Expected: ai4u-edu evaluate {where or 'SCENE'} --brain DRIVER"
+        )
+    if len(scenes) > 1:
+        raise SetupError(f"expected one scene, got {', '.join(scenes)}")
+    right = " ".join([*scenes, *(f"--brain {driver}" for driver in drivers)])
+    typer.echo(f"hint: as in play, the scene comes first: ai4u-edu evaluate {right}", err=True)
+    return where, drivers
 
 
 def _evaluated_on(

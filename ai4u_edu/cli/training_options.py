@@ -79,22 +79,25 @@ WatchPort = Annotated[
     int,
     typer.Option(help="Port of the page with --watch; 0 for any free port.", min=0, max=65535),
 ]
-Driver = Annotated[
-    str,
+EvaluatedScene = Annotated[
+    list[str] | None,
     typer.Argument(
-        help="The driver: a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or "
-        "zoo for the scene's own), a controller, FILE.py:NAME (a function or a Controller), "
-        "random, or scene (the scene's own controller)."
+        metavar="[SCENE]",
+        help="Scene name or YAML file. Default: the one that the first driver is made for.",
     ),
 ]
-EvaluatedScene = Annotated[
-    str,
-    typer.Option(help="Scene name or YAML file. Default: the one that the driver is made for."),
-]
-Others = Annotated[
+EvaluatedDrivers = Annotated[
     list[str] | None,
-    typer.Option(help="Another driver, on the same seeds. Repeat the option for several."),
+    typer.Option(
+        "--brain",
+        help="The driver: a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or "
+        "zoo for the scene's own), a controller, FILE.py:NAME (a function or a Controller), "
+        "random, or scene (the scene's own controller). Repeat the option for several, which get "
+        "the same seeds.",
+    ),
 ]
+FormerScene = Annotated[str, typer.Option("--scene", hidden=True)]
+FormerDrivers = Annotated[list[str] | None, typer.Option("--compare", hidden=True)]
 Episodes = Annotated[int, typer.Option(help="Number of episodes.", min=1, max=MAX_EPISODES)]
 FirstSeed = Annotated[int, seed_option("Seed of the first episode; the next ones count up.")]
 JsonFile = Annotated[

@@ -47,7 +47,7 @@ def test_the_commands_make_the_same_episodes(name: str, tmp_path: Path) -> None:
     expected = driven(spec, name)
     common = ["--episodes", str(EPISODES), "--seed", str(SEED)]
 
-    told = CliRunner().invoke(app, ["evaluate", spec, "--scene", name, *common, "--json", "-"])
+    told = CliRunner().invoke(app, ["evaluate", name, "--brain", spec, *common, "--json", "-"])
     assert told.exit_code == 0, told.output
     (found,) = json.loads(told.stdout)
     assert [each["seed"] for each in found["each"]] == SEEDS

@@ -53,8 +53,8 @@ def test_train_resume_export_evaluate(tmp_path: Path) -> None:
         .replace("max_steps_per_episode: 3000", "max_steps_per_episode: 20")
     )
     scene.write_text(text)
-    both = ("--compare", str(network), "--scene", str(scene), "--episodes", "3", "--json", "-")
-    one, other = json.loads(run("evaluate", str(out), *both))
+    both = ("--brain", str(out), "--brain", str(network), "--episodes", "3", "--json", "-")
+    one, other = json.loads(run("evaluate", str(scene), *both))
     assert one["each"] == other["each"]
 
 
@@ -103,7 +103,7 @@ def test_a_scene_with_blocks_of_ones_own_is_learned(tmp_path: Path) -> None:
     for path in out.rglob("*"):  # what is read again runs nothing
         assert str(blocks).encode() not in (path.read_bytes() if path.is_file() else b"")
     for command in (
-        ["evaluate", str(out), "--episodes", "1"],
+        ["evaluate", "--brain", str(out), "--episodes", "1"],
         ["export", str(out), "--out", str(network)],
         ["train", "--resume", "--out", str(out), "--steps", "192"],
     ):
@@ -155,8 +155,7 @@ def test_whoever_can_be_recorded_can_be_watched(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("command", ["play", "record", "evaluate"])
 def test_an_unknown_driver_is_told_all_forms_by_every_command(command: str) -> None:
-    who = ["nobody"] if command == "evaluate" else ["box_chase", "--brain", "nobody"]
-    told = failed(command, *who)
+    told = failed(command, "box_chase", "--brain", "nobody")
     assert told.startswith("nobody is called 'nobody': expected a training's folder, ")
     for form in (".zip", ".onnx", "zoo:SCENE", "FILE.py:NAME", "ai4u://", "random", "scene"):
         assert form in told
@@ -165,10 +164,8 @@ def test_an_unknown_driver_is_told_all_forms_by_every_command(command: str) -> N
 @pytest.mark.parametrize("command", ["record", "evaluate"])
 def test_a_script_elsewhere_needs_a_served_world(command: str) -> None:
     address = "ai4u://127.0.0.1:9"
-    who = [address, "--scene", "box_chase"]
-    if command == "record":
-        who = ["box_chase", "--brain", address]
-    assert "a script drives in a served world only" in failed(command, *who)
+    told = failed(command, "box_chase", "--brain", address)
+    assert "a script drives in a served world only" in told
 
 
 def test_drivers_that_cant_be_given_to_agents(tmp_path: Path) -> None:
@@ -195,5 +192,6 @@ def test_what_is_wrong_on_the_command_line(tmp_path: Path) -> None:
     assert "expected one of sac, ppo, dqn, got 'sacc'" in failed("train", "--algo", "sacc")
     assert "--resume needs --out" in failed("train", "--resume")
     assert "did you mean 'box_chase'" in failed("train", "box_chese")
-    assert "Expected --scene" in failed("evaluate", "random")
+    assert "in which scene is random to drive?" in failed("evaluate", "--brain", "random")
+    assert "who is to drive? Expected: ai4u-edu evaluate maze" in failed("evaluate", "maze")
     assert "holds no training" in failed("export", str(tmp_path / "model.zip"))

@@ -169,7 +169,7 @@ def test_the_command(tmp_path: Path) -> None:
     told = CliRunner().invoke(
         app,
         [
-            *("evaluate", f"{file}:ahead", "--compare", "random", "--scene", str(road)),
+            *("evaluate", str(road), "--brain", f"{file}:ahead", "--brain", "random"),
             *("--episodes", "8", "--seed", "100", "--json", str(tmp_path / "out.json")),
             *("--plot", str(tmp_path / "out.png")),
         ],
@@ -181,7 +181,7 @@ def test_the_command(tmp_path: Path) -> None:
     assert [each["seed"] for each in found[1]["each"]] == list(range(100, 108))
     assert (tmp_path / "out.png").read_bytes().startswith(b"\x89PNG")
     only = CliRunner().invoke(
-        app, ["evaluate", f"{file}:ahead", "--scene", str(road), "--episodes", "2", "--json", "-"]
+        app, ["evaluate", str(road), "--brain", f"{file}:ahead", "--episodes", "2", "--json", "-"]
     )
     assert json.loads(only.stdout)[0]["episodes"] == 2
 

@@ -15,7 +15,7 @@ from ai4u_edu.training.evaluate_jobs import evaluate_on
 from ai4u_edu.training.evaluating import evaluate
 from ai4u_edu.training.policies import entrant
 
-COMMAND = ["evaluate", "random", "--scene", "box_chase", "--compare", "scene", "--episodes", "6"]
+COMMAND = ["evaluate", "box_chase", "--brain", "random", "--brain", "scene", "--episodes", "6"]
 
 pytestmark = pytest.mark.slow
 
@@ -56,7 +56,7 @@ def test_the_command_gives_the_same_on_each_engine(tmp_path: Path) -> None:
 
 
 def test_an_engine_that_is_not_there_is_told() -> None:
-    done = CliRunner().invoke(app, ["evaluate", "random", "--scene", "box_chase", "--engine", "x"])
+    done = CliRunner().invoke(app, ["evaluate", "box_chase", "--brain", "random", "--engine", "x"])
     assert done.exit_code != 0
     assert "expected an engine of inline, processes, ray, got 'x'" in str(
         done.exception or done.output

@@ -173,6 +173,6 @@ def test_the_command_tells_a_mistake(tmp_path: Path) -> None:
     file = tmp_path / "mine.py"
     file.write_text("def decide(percept):\n    return {'move': [1, 0]}\n")
     told = CliRunner().invoke(
-        app, ["evaluate", f"{file}:decide", "--scene", "box_chase", "--episodes", "1"]
+        app, ["evaluate", "box_chase", "--brain", f"{file}:decide", "--episodes", "1"]
     )
     assert "mine.py, line 2: action 'move': expected 4 numbers, got 2" in str(told.exception)
