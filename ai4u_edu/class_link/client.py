@@ -76,6 +76,9 @@ class LinkClient:
         self._changed = Condition()
         """Guards the dialogue and the attributes below; notified when there is something to do."""
         self._stop_at: float | None = None
+        self._is_stopped = False
+        """Nothing is delivered any more."""
+        self._is_delivering = False
         self._closed: ConnectionClosed | None = None
         """Why the present connection has ended; None while it is open."""
         self._thread = Thread(target=self._run, name="class-link", daemon=True)
@@ -103,8 +106,11 @@ class LinkClient:
     def stop(self, timeout_s: float = 2.0) -> None:
         """End the link; if there is a connection, send first what was not sent.
 
+        No message is delivered after it has returned.
+
         Args:
-            timeout_s: longest time (s) to wait for results to be acknowledged.
+            timeout_s: longest time (s) to wait for results to be acknowledged, and then for
+                ``receive`` to return.
         """
         with self._changed:
             self._stop_at = time.monotonic() + timeout_s
@@ -112,6 +118,10 @@ class LinkClient:
         own = (self._thread, self._reader)
         if self._thread.is_alive() and current_thread() not in own:
             self._thread.join(timeout_s + 2 * self._timeouts.close)
+        with self._changed:
+            self._is_stopped = True
+            if current_thread() not in own:
+                self._changed.wait_for(lambda: not self._is_delivering, timeout_s)
 
     def renew(self) -> None:
         """Connect again if the class has ended the link, such as for another program's."""
@@ -267,10 +277,18 @@ class LinkClient:
                 self._changed.notify_all()
 
     def _tell(self, message: FromClass) -> None:
+        with self._changed:
+            if self._is_stopped:
+                return
+            self._is_delivering = True
         try:
             self._receive(message)
         except Exception:
             _logger.exception("a message of the class could not be handled")
+        finally:
+            with self._changed:
+                self._is_delivering = False
+                self._changed.notify_all()
 
 
 def _set_send_timeout(raw: socket.socket, timeout_s: float) -> None:

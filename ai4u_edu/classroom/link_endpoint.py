@@ -114,7 +114,8 @@ class LinkEndpoint:
         """Return the room that a link's hello names; end the link if it names none."""
         try:
             # not wait_for, which in Python 3.11 loses a cancellation that comes with the frame
-            frame = await asyncio.wait_for(_frame(socket), HELLO_TIMEOUT_S)
+            async with asyncio.timeout(HELLO_TIMEOUT_S):
+                frame = await _frame(socket)
             hello = decode_from_room(frame)
         except TimeoutError:
             await _refuse(

@@ -4,6 +4,7 @@ import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -224,3 +225,28 @@ def test_a_handler_that_fails_or_stops_the_client_ends_nothing_else(
         there.send(Attention("", "", 0.0))
         until(lambda: not client._thread.is_alive())
     assert "could not be handled" in caplog.text
+
+
+def test_nothing_is_delivered_after_stop_has_returned(there: TinyClass) -> None:
+    """Whether it arrived before or not: whoever has stopped the client may have gone away."""
+    is_inside, may_go_on = threading.Event(), threading.Event()
+    heard: list[FromClass] = []
+
+    def receive(message: FromClass) -> None:
+        heard.append(message)
+        if isinstance(message, Attention):
+            is_inside.set()
+            assert may_go_on.wait(LIMIT_S)
+
+    impatient = replace(PATIENT, close=0.0)
+    client = LinkClient(there.url, SECRET, "room", receive, timeouts=impatient)
+    client.start()
+    until(lambda: client.is_connected)
+    there.send(Attention("", "first", 0.0))
+    there.send(Attention("", "second", 0.0))
+    assert is_inside.wait(LIMIT_S)
+    client.stop(0.0)
+    before = len(heard)
+    may_go_on.set()
+    until(lambda: not client._thread.is_alive())
+    assert len(heard) == before

@@ -1,0 +1,51 @@
+"""A link whose task is cancelled while its hello arrives."""
+
+import asyncio
+from typing import Any
+
+import pytest
+
+from ai4u_edu.classroom.link_endpoint import LinkEndpoint
+from ai4u_edu.classroom.live_rooms import LiveRoom
+from ai4u_edu.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.wire.class_link import VERSION, Hello, encode_from_room
+from tests.waiting import LIMIT_S, until_async
+
+SCOPE: dict[str, Any] = {"type": "websocket", "subprotocols": [], "headers": [], "path": "/"}
+
+
+def test_a_cancellation_that_comes_with_the_hello_ends_the_link() -> None:
+    """Python 3.11 loses it in ``asyncio.wait_for``."""
+
+    async def find_room(secret: str, address: str) -> LiveRoom | None:
+        await asyncio.sleep(LIMIT_S)
+        return None
+
+    async def run() -> None:
+        hello: asyncio.Future[dict[str, Any]] = asyncio.get_running_loop().create_future()
+        is_asked = asyncio.Event()
+
+        messages = iter([{"type": "websocket.connect"}])
+
+        async def receive() -> Any:
+            if (message := next(messages, None)) is not None:
+                return message
+            is_asked.set()
+            return await hello
+
+        async def send(_: Any) -> None:
+            pass
+
+        nothing: Any = None
+        limit = ConcurrencyLimit(10, 1.0)
+        endpoint = LinkEndpoint(nothing, limit, limit, find_room)
+        task = asyncio.create_task(endpoint(SCOPE, receive, send))
+        await is_asked.wait()
+        frame = encode_from_room(Hello(VERSION, "secret", "room"))
+        hello.set_result({"type": "websocket.receive", "bytes": frame})
+        await asyncio.sleep(0)  # the frame is there, and nobody has seen it
+        task.cancel()
+        await until_async(task.done)
+        assert task.cancelled()
+
+    asyncio.run(run())
