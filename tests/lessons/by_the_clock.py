@@ -122,7 +122,7 @@ def driven_by(driver: Recorder | Clock, thing: Any) -> Any:
         def get_action(self: Any, percept: Any) -> Any:
             return driver.decide(lambda seen: asked(self, seen), percept)
 
-        thing.get_action = get_action  # type: ignore[attr-defined]
+        thing.get_action = get_action  # type: ignore[method-assign]
     elif getattr(getattr(thing, "__code__", None), "co_varnames", ())[:1] == ("percept",):
 
         @wraps(thing)

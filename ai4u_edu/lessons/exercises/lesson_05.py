@@ -125,6 +125,8 @@ def _vehicle_heading(done: Drive) -> float:
         "turn forward, the one on the lamp's side faster.",
         "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
         "another eye.",
+        "blind": "It turned to the lamp's side, and all the way round. Wherever the lamp is, the "
+        "wheel on its side has to be the faster one: the wheels have to get what the eyes see.",
         "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "
         "have to stand still: nothing may be added.",
     },
@@ -132,11 +134,19 @@ def _vehicle_heading(done: Drive) -> float:
 def is_afraid(wires: Any) -> Done:
     """Check that it turns away, and comes to rest."""
     speeds: list[float] = []
+    flights: list[float] = []  # how much faster the wheel on the lamp's side is, at each decision
+    side = 0.0
 
     def watch(done: Drive) -> None:
+        nonlocal side
+        left, right = (*done.agent.last_action.get("wheels", ()), 0.0, 0.0)[:2]
         if done.steps == 0:
             speeds.clear()
-        speeds.append(sum(done.agent.last_action.get("wheels", ())))
+            flights.clear()
+        else:
+            flights.append((left - right) * side)
+        speeds.append(left + right)
+        side = math.copysign(1, done.agent.body.bearing(done.sim.world["lamp"]))
 
     for done, away in _drives(wires, "05.2", 300, watch):
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
@@ -155,6 +165,14 @@ def is_afraid(wires: Any) -> Done:
         pace = math.dist(done.trail[-1], done.trail[-2])
         if pace > 0.05:
             raise done.not_yet("The vehicle does not come to rest ({where}).", "rest")
+        if not _turned(done):
+            raise done.not_yet(
+                "The vehicle drove straight on, past the lamp ({where}).", "straight"
+            )
+        if sum(flights) <= 0:
+            raise done.not_yet(
+                "It turned its back on the lamp by going round past it ({where}).", "blind"
+            )
     return Done("In 12 worlds it turned its back on the lamp, and came to rest.", done.picture())
 
 

@@ -77,7 +77,7 @@ def lamp_world(lamp: Lamp = "behind") -> Scene:
     return Scene.loads(WORLD.replace("LAMP", PLACES[lamp]))
 
 
-def lamp_drives(lamp: Lamp = "behind", count: int = 25) -> "list[Episode]":
+def lamp_drives(lamp: Lamp = "behind", count: int = 60) -> "list[Episode]":
     """Return drives of somebody who looks at the box, and never at the lamp."""
     from ai4u_edu.training import demonstrate
 
