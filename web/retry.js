@@ -1,6 +1,6 @@
 /** Another try of what failed because the network, or a busy server, did for a moment. */
 
-import { codeLimits } from "./code_limits.js";
+import { pageLimits } from "./page_limits.js";
 
 /** Most tries; the pause before each is twice as long as the one before. */
 const TRIES = 5;
@@ -10,7 +10,7 @@ const TRIES = 5;
  * @param {() => Promise} load such as an import of a module, which browsers fetch again after a failure
  */
 export async function retried(load) {
-  for (let tries = 1, pause = codeLimits.retryMs; ; tries += 1, pause *= 2) {
+  for (let tries = 1, pause = pageLimits.retryMs; ; tries += 1, pause *= 2) {
     try {
       return await load();
     } catch (error) {

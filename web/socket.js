@@ -1,6 +1,6 @@
 /** A WebSocket for JSON messages that reconnects with backoff: of the keys and of the panel. */
 
-import { codeLimits } from "./code_limits.js";
+import { pageLimits } from "./page_limits.js";
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
@@ -37,7 +37,7 @@ export class JsonSocket {
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const socket = (this.#socket = new WebSocket(url));
     this.#hasKeepalives = false;
-    this.#giveUpAfter(codeLimits.openMs);
+    this.#giveUpAfter(pageLimits.openMs);
     socket.onopen = () => {
       this.#reconnectMs = MIN_RECONNECT_MS;
       clearTimeout(this.#silence);
@@ -64,7 +64,7 @@ export class JsonSocket {
   #receive(message) {
     const isKeepalive = message.type === "keepalive";
     this.#hasKeepalives ||= isKeepalive;
-    if (this.#hasKeepalives) this.#giveUpAfter(codeLimits.silenceMs);
+    if (this.#hasKeepalives) this.#giveUpAfter(pageLimits.silenceMs);
     if (!isKeepalive) this.onmessage(message);
   }
 

@@ -57,7 +57,10 @@ SET_LIMITS = """async (limits) => {
     // modules that a test imports have another address than those of the page itself
     for (const base of [new URL("./web/main.js", document.baseURI), ...own]) {
         const { codeLimits } = await import(new URL("code_limits.js", base));
-        Object.assign(codeLimits, limits);
+        const { pageLimits } = await import(new URL("page_limits.js", base));
+        for (const kinds of [codeLimits, pageLimits]) {
+            for (const [name, limit] of Object.entries(limits)) if (name in kinds) kinds[name] = limit;
+        }
     }
 }"""
 WORLD_WAITS = (

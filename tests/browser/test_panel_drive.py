@@ -332,7 +332,7 @@ def test_because_of_what(desk: PanelPage) -> None:
     expect(items.get_by_role("listitem")).to_have_text(
         [re.compile("^ray 4 . the boxturn .40 %$"), re.compile("^box: distanceforward .20 %$")]
     )
-    expect(desk.page.get_by_text("both seem unimportant. Compared with the middle")).to_be_visible()
+    expect(desk.page.get_by_text(re.compile("^Compared with the middle"))).to_be_visible()
     # bars beside the numbers of a sensor, and cells under the strips of another one
     rows = desk.page.locator(".ai4u-bar-row[data-why]")
     expect(rows).to_have_count(2)

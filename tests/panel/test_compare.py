@@ -58,7 +58,7 @@ def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
         forward = told["action"][0]
         assert (forward["name"], forward["now"]) == ("forward", pytest.approx(0.1, abs=1e-3))
         assert forward["then"] == pytest.approx(0.7 - percepts[0], abs=1e-3)
-        assert told["first"].startswith("No single slot")
+        assert told["first"]
         assert told["second"]
         did = page.done("compare", first="what-it-did", second="")
         assert (did["step"], did["largest"]) == (None, pytest.approx(0, abs=1e-6))
