@@ -299,9 +299,9 @@ progress()
 #
 # ### Exercise 09.4: what paid most?
 #
-# `told` holds the rewards of an episode: `told.terms` are the names of the terms, and `told.amounts[n]` is a list of what each
-# of them paid in decision n. (`explain.reward_terms(episode)` from `ai4u_edu` makes it from a recording.) Return the name of the
-# term that paid most in the whole episode.
+# `told` holds the rewards of an episode: `told.terms` are the names of the terms, and `told.amounts[n]` is
+# a list of what each of them paid in decision n. (`explain.reward_terms(episode)` from `ai4u_edu` makes it
+# from a recording.) Return the name of the term that paid most in the whole episode.
 
 
 # %% tags=["exercise-09.4"]

@@ -358,9 +358,9 @@ plot_value_map(explain.value_map("zoo:box_chase", "box_chase", columns=8, headin
 # %% [markdown]
 # ### Exercise 10.5: what does it look at most?
 #
-# `told` says how far an action moves without each slot of the percept (lesson 11 says more): `told.names` are the slots,
-# and `told.shift[n]` is a list of how far each number of the action moves without slot n, to one side or to the other.
-# Return the name of the slot that moves any number the furthest.
+# `told` says how far an action moves without each slot of the percept (lesson 11 says more): `told.names`
+# are the slots, and `told.shift[n]` is a list of how far each number of the action moves without slot n,
+# to one side or to the other. Return the name of the slot that moves any number the furthest.
 
 
 # %% tags=["exercise-10.5"]

@@ -296,17 +296,19 @@ bars(
 )
 
 # %% [markdown]
-# Nobody told it to look at the lamp. But in all that it was shown, to go to the lamp was as good as to go to
-# the box, and easier to see. Such a hint, which only happens to be there, is a **spurious cue**. In the page, "Because
-# of what" in the tab Drive shows the same for each decision.
+# Nobody told it to look at the lamp. But in all that it was shown, to go to the lamp was as good as to go
+# to the box, and easier to see. Such a hint, which only happens to be there, is a **spurious cue**. In the
+# page, "Because of what" in the tab Drive shows the same for each decision.
 #
-# Be careful with it. Two readings that say the same can both seem unimportant: without one, the other one still tells.
+# Be careful with it. Two readings that say the same can both seem unimportant: without one, the other one
+# still tells.
 #
 # ### Exercise 11.4: what does it not look at?
 #
-# `policy` is a function from percept to action. Return the list of the names of all readings that it does not look at: without
-# them, its action stays the same. `explain.occlusion(policy, percept, baseline=baseline, groups="sensor")` has `names`, and
-# in the same order `importance`: how far the action moved without each.
+# `policy` is a function from percept to action. Return the list of the names of all readings that it does
+# not look at: without them, its action stays the same.
+# `explain.occlusion(policy, percept, baseline=baseline, groups="sensor")` has `names`, and in the same
+# order `importance`: how far the action moved without each.
 
 
 # %% tags=["exercise-11.4"]
@@ -331,10 +333,11 @@ bars(
 )
 
 # %% [markdown]
-# Now it is the box that counts, and the lamp moves the action hardly at all. Did it become better? Compare the
-# three numbers of worlds. The first clone, with its lamp in place, reaches the box more often than the fixed one:
-# the lamp was an easy hint, and the reading of the box is noisy. But it fails everywhere else. A network that does
-# well in worlds like those that it learned from may have learned something else than you meant.
+# Now it is the box that counts, and the lamp moves the action hardly at all. Did it become better? Compare
+# the three numbers of worlds. The first clone, with its lamp in place, reaches the box more often than the
+# fixed one: the lamp was an easy hint, and the reading of the box is noisy. But it fails everywhere else.
+# A network that does well in worlds like those that it learned from may have learned something else than
+# you meant.
 #
 # ## Exit ticket
 #
