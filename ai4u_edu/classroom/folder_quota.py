@@ -56,7 +56,7 @@ class FolderQuota:
             )
         if self._used_gb >= WARNING_SHARE * self.max_gb:
             return (
-                f"The class's folder has {self._used_gb:.1f} of its {self.max_gb:g} GB. Export the "
+                f"The class's folder has {self._used_gb:.2g} of its {self.max_gb:g} GB. Export the "
                 "class and forget it soon, or start it with a larger --max-folder."
             )
         return ""

@@ -7,11 +7,13 @@ traceback, and afterwards every server answers as before.
 
 import argparse
 import random
+import subprocess
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from urllib.parse import urlsplit
@@ -20,8 +22,10 @@ from ai4u_edu.classroom.hub.sign_in import COOKIE
 from ai4u_edu.server.token_auth import PageCookie
 from tests.attacks.raw_http import SOCKET_HEADERS, ForbiddenServer, ask, status_of
 from tests.classroom.fake_hub import fake_hub, hub_class
-from tests.classroom.served_class import served_class
+from tests.classroom.reserved_port import reserved_port
+from tests.classroom.served_class import environment, served_class
 from tests.playing import played
+from tests.waiting import until
 
 ROOM_PATHS = ("healthz", "api/snapshot", "web/main.js", "vendor/x", "api/past/1.gif", "ws/input")
 METHODS = (b"GET", b"GET", b"GET", b"HEAD", b"OPTIONS", b"DELETE", b"PATCH", b"CONNECT")
@@ -45,6 +49,8 @@ class Proxy:
     """Returns the log."""
     headers: Mapping[str, str] = field(default_factory=dict)
     """Headers of somebody who may enter."""
+    is_ours: bool = True
+    """False for another project's, whose errors are not ours."""
 
 
 @dataclass
@@ -75,7 +81,7 @@ def attack(proxy: Proxy, beside: ForbiddenServer, count: int, seed: int, tally: 
             method, headers = b"GET", headers | SOCKET_HEADERS
         status = status_of(ask(proxy.url, target, headers, method))
         statuses[status] += 1
-        if status >= SERVER_ERROR and status != BUSY:
+        if proxy.is_ours and status >= SERVER_ERROR and status != BUSY:
             tally.wrong.append(f"{proxy.name}: {method!r} {target!r} was answered with {status}")
         if beside.requests:
             got = beside.requests.pop()
@@ -116,6 +122,41 @@ def all_proxies(folder: Path) -> Iterator[list[Proxy]]:
             Proxy("hub, admin", school.url, at_hub, str, {"Cookie": f"{COOKIE}={boss}"}),
             Proxy("world", world.url, ("/healthz", "/", *rooms), lambda: "".join(world.told)),
         ]
+
+
+@contextmanager
+def at_jupyter(folder: Path) -> Iterator[Proxy]:
+    """Serve a world behind a Jupyter server, as on a JupyterHub."""
+    folder.mkdir()
+    secret = "secret-of-the-server"
+    with reserved_port() as port, (folder / "log").open("w") as log:
+        (folder / "jupyter_server_config.py").write_text(
+            "from ai4u_edu.cli.server_proxy import server_proxy\n"
+            "c.ServerProxy.servers = {'ai4u-edu': server_proxy()}\n"
+            "c.ServerApp.jpserver_extensions = {'jupyter_server_proxy': True}\n"
+            f"c.IdentityProvider.token = {secret!r}\n"
+            f"c.ServerApp.root_dir = {str(folder)!r}\n"
+            f"c.ServerApp.port = {port}\n"
+            "c.ServerApp.port_retries = 0\n"
+            "c.ServerApp.open_browser = False\n"
+            "c.ServerApp.allow_root = True\n"
+        )
+        variables = environment() | {"JUPYTER_CONFIG_DIR": str(folder)}
+        command = [sys.executable, "-m", "jupyter_server"]
+        with subprocess.Popen(command, env=variables, stdout=log, stderr=log) as process:
+            url, headers = f"http://127.0.0.1:{port}/", {"Authorization": f"token {secret}"}
+            paths = tuple(f"/ai4u-edu/{each}" for each in ROOM_PATHS)
+            try:
+                until(lambda: _is_there(url, paths[0], headers))
+                yield Proxy("jupyter", url, paths, str, headers, is_ours=False)
+            finally:
+                process.terminate()
+
+
+def _is_there(url: str, path: str, headers: Mapping[str, str]) -> bool:
+    with suppress(OSError):
+        return status_of(ask(url, path.encode(), headers)) == 200
+    return False
 
 
 def _encode(text: str, _: str, rng: random.Random) -> str:
@@ -168,14 +209,21 @@ def _change_port(text: str, _: str, rng: random.Random) -> str:
 MUTATIONS = (_encode, _insert, _insert, _without_slash, _with_address, _change_case, _change_port)
 
 
-def attack_all(count: int, seed: int) -> Tally:
-    """Send so many targets to each proxy."""
+def attack_all(count: int, seed: int, *, has_jupyter: bool = False) -> Tally:
+    """Send so many targets to each proxy.
+
+    Args:
+        count: of targets.
+        seed: of the mutations.
+        has_jupyter: True to try a world behind a Jupyter server, too.
+    """
     tally = Tally()
-    with (
-        TemporaryDirectory() as folder,
-        ForbiddenServer() as beside,
-        all_proxies(Path(folder)) as proxies,
-    ):
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(TemporaryDirectory()))
+        beside = stack.enter_context(ForbiddenServer())
+        proxies = stack.enter_context(all_proxies(folder))
+        if has_jupyter:
+            proxies.append(stack.enter_context(at_jupyter(folder / "jupyter")))
         for proxy in proxies:
             attack(proxy, beside, count, seed, tally)
     return tally
@@ -187,7 +235,8 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=10_000, help="targets for all proxies")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    tally = attack_all(-(-options.count // 6), options.seed)
+    has_jupyter = find_spec("jupyter_server_proxy") is not None
+    tally = attack_all(options.count // 6, options.seed, has_jupyter=has_jupyter)
     for name, statuses in tally.statuses.items():
         print(f"{name}: {dict(sorted(statuses.items()))}")
     print("\n".join(tally.wrong) or "nothing went wrong")

@@ -103,6 +103,18 @@ def test_a_lost_cookie_takes_no_new_seat_with_the_teachers_code(seats: Seats) ->
     assert len(seats) == 1
 
 
+def test_a_device_whose_seat_makes_room_moves_to_another_one(seats: Seats, clock: Clock) -> None:
+    banned, _ = join(seats, "student")
+    seats.set_state(banned, State.BANNED)
+    others = fill(seats)
+    clock.now += UNOPENED_S
+    code = seats.new_move_code(banned, is_teachers=True)
+    again, token = join(seats, "student's new device", others[0][1], code)
+    assert again == banned
+    assert seats.by_token(token) is not None
+    assert seats.by_token(others[0][1]) is None
+
+
 def test_a_seat_that_is_there_counts_as_no_new_one(seats: Seats) -> None:
     name = seats.offered_names()[0]
     with pytest.raises(NewSeatError):
