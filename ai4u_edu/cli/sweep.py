@@ -104,13 +104,15 @@ def sweep(
     if resume:
         plan, folder = _kept_plan(scene, out, trials)
         check_blocks(plan.scene, own_blocks)
+        plan.check()
     else:
         plan = _plan(scene, algo, seeds, vary or (), trials, batch, steps, settings, own_blocks)
         plan = with_rewards_left_out(plan) if leave_out_rewards else plan
+        plan.check()
+        plan = plan.with_equal_budgets()
         name = Path(str(plan.scene["name"])).stem
         folder = out or Path("runs") / f"{name}-sweep"
         plan = _begun(plan, folder)
-    plan.check()
     if steps is not None and plan.steps is not None and plan.steps > steps:
         typer.echo(
             f"{plan.steps} steps and not {steps}, for all trials alike: PPO learns from so many "
@@ -149,7 +151,7 @@ def _plan(
     for name in names:
         if names.count(name) > 1:
             raise SetupError(f"--set: expected each setting once, got {name!r} twice")
-    plan = Plan(
+    return Plan(
         scene=data,
         algorithms=_algorithms(algo or how.algorithm),
         seeds=parse_seeds(seeds),
@@ -159,7 +161,6 @@ def _plan(
         steps=steps,
         settings=how.model_dump(mode="json"),
     )
-    return plan.with_equal_budgets()
 
 
 def with_rewards_left_out(plan: "Plan") -> "Plan":

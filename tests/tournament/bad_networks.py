@@ -96,6 +96,28 @@ def slow(path: Path) -> None:
     _save(path, nodes, values)
 
 
+def folding(path: Path, size: int = 6000) -> None:
+    """Multiply constants, which onnxruntime does when it loads the network."""
+    nodes = [helper.make_node("ConstantOfShape", ["size"], ["product0"])]
+    for number in range(7):
+        before, after = f"product{number}", f"product{number + 1}"
+        nodes += [
+            helper.make_node("MatMul", [before, before], [f"{after} raw"]),
+            helper.make_node("Clip", [f"{after} raw", "low", "high"], [after]),
+        ]
+    nodes += [
+        helper.make_node("ReduceSum", ["product7"], ["sum"], keepdims=0),
+        helper.make_node("Mul", ["sum", "zeros"], ["move"]),
+    ]
+    values = [
+        onnx.numpy_helper.from_array(np.array([size, size]), "size"),
+        onnx.numpy_helper.from_array(np.array(-1, np.float32), "low"),
+        onnx.numpy_helper.from_array(np.array(1, np.float32), "high"),
+        _row("zeros", 0.0),
+    ]
+    _save(path, nodes, values)
+
+
 BAD: dict[Callable[[Path], None], str] = {
     broken: "expected a network that onnxruntime can run",
     cut: "expected a network that onnxruntime can run",

@@ -2,11 +2,14 @@
 
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
 from ai4u_edu.tournament import limits
+from ai4u_edu.tournament.entry import file_driver
+from ai4u_edu.tournament.game import game
 from ai4u_edu.tournament.limits import DECISION_CPU_S, GAME_CPU_S, CpuMeter, OverTimeError
 from tests.waiting import LIMIT_S, until
 
@@ -81,3 +84,25 @@ def test_time_between_two_decisions_counts_for_none(clocks: Clocks, meter: CpuMe
         clocks.answers.release()
         until(lambda: clocks.asked == 2)  # it has looked
     assert clocks.stopped == []
+
+
+@pytest.mark.needs("train", "tournament")
+@pytest.mark.slow
+def test_the_limits_of_a_game_hold_for_the_load_of_a_network(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from ai4u_edu.tournament import drivers
+    from tests.tournament.bad_networks import folding
+
+    path = tmp_path / "folding.onnx"
+    folding(path, 1000)
+    entries = [
+        {"name": "ann", "drivers": {"": file_driver("network", path, 10**6)}},
+        {"name": "bob", "drivers": {"": {"kind": "scene"}}},
+    ]
+    monkeypatch.setattr(drivers, "LOAD_CPU_S", 0.02)
+    told = game({"name": "sumo"}, 0, entries)
+    assert (told["forfeit"], told["ticks"]) == (0, 0)
+    assert told["reason"] == "it took more than 5 s of processor time to load"
+    monkeypatch.setattr(drivers, "LOAD_CPU_S", LIMIT_S)
+    assert game({"name": "sumo"}, 0, entries)["forfeit"] == -1

@@ -110,6 +110,35 @@ def test_unknown_settings_are_told_before_anything_runs() -> None:
         plan(parameters=parameters("gamma=0.9..0.99")).check()
 
 
+def test_all_algorithms_have_the_same_budget() -> None:
+    both = plan(algorithms=("sac", "ppo"), steps=100)
+    assert "sac: 100; ppo: 128" in both.unlike_budgets()
+    equal = both.with_equal_budgets()
+    assert equal.steps == 128
+    assert equal.unlike_budgets() == ""
+    assert {equal.job(each).arguments["budget"] for each in equal.choices()} == {128}
+    assert plan(algorithms=("sac",), steps=100).with_equal_budgets().steps == 100
+    varied = plan(algorithms=("sac", "ppo"), steps=100, parameters=parameters("ppo.n_steps=32,48"))
+    assert varied.with_equal_budgets().steps == 192
+
+
+def test_unlike_budgets_are_told_on_the_page() -> None:
+    several = parameters("ppo.n_steps=31,37,41")
+    unlike = plan(algorithms=("sac", "ppo"), steps=100, parameters=several)
+    assert unlike.with_equal_budgets() == unlike, "no number of steps is near"
+    told = "different numbers of decisions, which is no fair race: sac: 100; ppo: 124 or 148 or 164"
+    assert told in page_of(unlike, [result(0, 1.0)], None, 5, [])
+    settings = plan(algorithms=("sac", "ppo"), steps=None)
+    assert "sac: 200; ppo: 256" in page_of(settings, [result(0, 1.0)], None, 5, [])
+
+
+def test_the_two_lengths_have_two_names() -> None:
+    assert "length" not in result(0, 1.0).cells(())
+    page = page_of(plan(), [result(0, 1.0)], None, 1, [])
+    assert "<th>check length</th>" in page
+    assert "the limit of the scene" in page
+
+
 def test_each_reward_term_is_left_out_in_turn(tmp_path: Path) -> None:
     left_out = with_rewards_left_out(plan(parameters=parameters("gamma=0.9,0.99")))
     names = [each.settings["without_reward"] for each in left_out.choices()]
@@ -221,7 +250,8 @@ def test_a_sweep_goes_on_where_it_ended(tmp_path: Path) -> None:
     run(*begin, *search, "--trials", "1")
     assert (out / "journal.jsonl").read_bytes() == journal, "what is finished runs no more"
     assert (out / "trials.csv").read_text() == table
-    run("sweep", "--resume", "--out", str(out), "--trials", "2", "--engine", "inline")
+    resumed = run("sweep", "--resume", "--out", str(out), "--trials", "2", "--engine", "inline")
+    assert ("1/2 trials" in resumed, "0/2 trials" in resumed) == (True, False), resumed
     rows = (out / "trials.csv").read_text().splitlines()
     assert rows[:2] == table.splitlines()
     assert len(rows) == 3

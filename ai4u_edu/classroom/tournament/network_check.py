@@ -3,6 +3,7 @@
 import asyncio
 import base64
 import re
+import shutil
 from contextlib import suppress
 from math import inf
 from pathlib import Path
@@ -87,6 +88,7 @@ class NetworkCheck:
             for each in tasks:
                 each.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
+            await asyncio.to_thread(shutil.rmtree, self._folder, ignore_errors=True)
 
     async def _work(self, number: int) -> None:
         folder = self._folder / str(number)
