@@ -59,7 +59,7 @@ SET_LIMITS = """async (limits) => {
         const { codeLimits } = await import(new URL("code_limits.js", base));
         const { pageLimits } = await import(new URL("page_limits.js", base));
         for (const kinds of [codeLimits, pageLimits]) {
-            for (const [name, limit] of Object.entries(limits)) if (name in kinds) kinds[name] = limit;
+            for (const name of Object.keys(kinds)) kinds[name] = limits[name] ?? kinds[name];
         }
     }
 }"""
