@@ -9,7 +9,6 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     PATH,
@@ -45,8 +44,7 @@ class RawLink:
         hello: FromRoom | None = None,
     ) -> None:
         if isinstance(secret, Student):
-            cookies = secret.client.cookies.items()  # each class has a name of its own for it
-            secret = next(value for name, value in cookies if name.startswith(SEAT_COOKIE))
+            secret = secret.token
         self.socket = open_socket(
             served.url.rstrip("/") + PATH,
             subprotocols=[Subprotocol(SUBPROTOCOL)],

@@ -15,6 +15,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import httpx
 
+from ai4u_edu.class_link.joining import SEAT_COOKIE
 from tests import evidence
 from tests.classroom.patient_class import OPTION
 from tests.server import http_client
@@ -106,6 +107,12 @@ class Student:
         """The headers with this browser's cookies, for a socket."""
         pairs = "; ".join(f"{name}={value}" for name, value in self.client.cookies.items())
         return {"Cookie": pairs}
+
+    @property
+    def token(self) -> str:
+        """The secret of its seat; each class has a name of its own for the cookie."""
+        cookies = self.client.cookies.items()
+        return next(value for name, value in cookies if name.startswith(SEAT_COOKIE))
 
     @property
     def address(self) -> str:

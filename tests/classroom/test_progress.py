@@ -81,7 +81,7 @@ def test_what_was_acknowledged_is_there_after_sigkill_and_counts_once(tmp_path: 
                 assert link.next(Ack).key == each.key
             os.kill(served.process.pid, signal.SIGKILL)
             served.process.wait(LIMIT_S)
-        token = ada.client.cookies["ai4u_edu_seat"]
+        token = ada.token
     with served_class(tmp_path) as served:
         with RawLink(served, token, hello=Hello(1, token, "notebook")) as link:
             for each in [*sent, check("wrong", "04.2/<script>"), check("hint")]:

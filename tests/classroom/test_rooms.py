@@ -101,7 +101,7 @@ def test_no_secret_reaches_a_browser(served: ServedClass) -> None:
     assert answer.status_code == 200
     assert "ai4u_edu_seat" not in answer.text
     assert "authorization" not in answer.headers
-    (cookie,) = [each for each in ada.client.cookies.jar if each.name == "ai4u_edu_seat"]
+    (cookie,) = [each for each in ada.client.cookies.jar if each.value == ada.token]
     assert cookie.has_nonstandard_attr("HttpOnly")
 
 
