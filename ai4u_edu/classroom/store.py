@@ -282,7 +282,7 @@ class ClassStore:
         rows = self.query(
             "select number, name, colour, room, state, opened from seats order by number"
         )
-        return [SeatRow(*row, is_opened=bool(opened)) for *row, opened in rows]
+        return [SeatRow(*row[:-1], bool(row[-1])) for row in rows]
 
     def tokens(self) -> list[TokenRow]:
         """Return the devices of all seats, the oldest first."""

@@ -4,6 +4,7 @@ import math
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
+from functools import partial
 
 MAX_KEYS = 1000
 """Keys that are remembered, the most recent ones."""
@@ -97,7 +98,7 @@ class RateLimits:
         max_debt: float = math.inf,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._new = lambda: RateLimit(per_second, burst, max_debt=max_debt, clock=clock)
+        self._new = partial(RateLimit, per_second, burst, max_debt=max_debt, clock=clock)
         self._limits: OrderedDict[Hashable, RateLimit] = OrderedDict()
 
     def __len__(self) -> int:

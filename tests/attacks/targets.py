@@ -29,7 +29,7 @@ from tests.waiting import until
 
 ROOM_PATHS = ("healthz", "api/snapshot", "web/main.js", "vendor/x", "api/past/1.gif", "ws/input")
 METHODS = (b"GET", b"GET", b"GET", b"HEAD", b"OPTIONS", b"DELETE", b"PATCH", b"CONNECT")
-PIECES = (*"/\\.@:#?;%[]", "//", "..", "/../", "/./", ":@", "%00")
+PIECES: tuple[str, ...] = (*"/\\.@:#?;%[]", "//", "..", "/../", "/./", ":@", "%00")
 """Pieces that are put into a target at any place."""
 MAX_MUTATIONS = 4
 SERVER_ERROR = 500
@@ -170,7 +170,8 @@ def _encode(text: str, _: str, rng: random.Random) -> str:
 
 
 def _insert(text: str, place: str, rng: random.Random) -> str:
-    at, piece = rng.randint(0, len(text)), rng.choice((*PIECES, place, f"@{place}", f"//{place}"))
+    pieces: list[str] = [*PIECES, place, f"@{place}", f"//{place}"]
+    at, piece = rng.randint(0, len(text)), rng.choice(pieces)
     return text[:at] + piece + text[at:]
 
 

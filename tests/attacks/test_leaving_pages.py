@@ -9,7 +9,7 @@ import pytest
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection
+from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.server import ServerThread
@@ -76,6 +76,6 @@ def test_a_text_that_is_no_utf_8_ends_its_socket_alone(
     assert not [each for each in caplog.records if each.exc_info]
 
 
-def _read_on(page: ClientConnection) -> None:
+def _read_on(page: Connection) -> None:
     while True:
         page.recv(LIMIT_S)
