@@ -274,11 +274,13 @@ def turn_points(games: list[dict[str, Any]]) -> None:
 
 
 def turn_goals(games: list[dict[str, Any]]) -> None:
-    games[1]["result"]["goal"].reverse()
+    goals = (each["result"]["goal"] for each in games)
+    next(each for each in goals if any(each) and not all(each)).reverse()
 
 
 def invent_failure(games: list[dict[str, Any]]) -> None:
-    games[1]["result"] |= {"forfeit": 0, "reason": "it took 1.2 s of processor time for a decision"}
+    whole = next(each["result"] for each in games if each["result"]["forfeit"] < 0)
+    whole |= {"forfeit": 0, "reason": "it took 1.2 s of processor time for a decision"}
 
 
 def deny_failure(games: list[dict[str, Any]]) -> None:
