@@ -233,3 +233,19 @@ class ThreeBumps(Controller):
         if self.count <= 110:
             return {"move": [-1, 0, 0, 0]}
         return {"move": [1 if self.count <= 180 else 0, 0, 0, 0]}
+
+
+# %% tags=["wrong", "spins", "turns on the spot after the third bump"]
+class ThreeBumps(Controller):
+    """Drives to and fro, and rests after the third bump."""
+
+    speed = 1
+    bumps = 0
+
+    def get_action(self, percept):
+        if percept["bumper"][0] == 1:
+            self.bumps = self.bumps + 1
+            self.speed = -self.speed
+        if self.bumps >= 3:
+            return {"move": [0, 1, 0, 0]}
+        return {"move": [self.speed, 0, 0, 0]}

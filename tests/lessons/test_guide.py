@@ -40,8 +40,8 @@ SEEN_AS = {
     "networks as ONNX files": "ONNX",
     "several agents": "agents",
     "homeostatic variables": "homeosta",
-    "components of one's own": "class \\w+\\(Sensor\\)",
-    "a project of one's own": "project",
+    "your own components": "class \\w+\\(Sensor\\)",
+    "your own project": "project",
     "time-outs": "time-?out",
 }
 """Regular expression by the topic in a table, where a notebook has other words for it."""

@@ -203,7 +203,7 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
     "06.2",
     "Patrol",
     hints={
-        "begin": "It rests at one post, and stays there. When it has rested, set `self.goal` to "
+        "begin": "It gets to one post, and stays there. When it has rested, set `self.goal` to "
         "the other post; and drive to the post that `self.goal` names.",
         "pushes": "It gets to a post and goes on pushing for more than a second. It rests where it "
         "*touches* the post, not after a number of decisions: the way is longer in some worlds.",
@@ -298,6 +298,8 @@ class _Visits:
         """Return the diagnosis."""
         if self._empty > REST_DECISIONS:
             return "empty"
+        if len(self.touched) == 1 and self._pushes > REST_DECISIONS:
+            return "begin"
         if max(self._pushes, self._turns) > REST_DECISIONS:
             return "pushes" if self._pushes > self._turns else "turns"
         if self.rested:
@@ -318,6 +320,7 @@ class _Visits:
         "the wall, the bumper still reads 1, so the count goes on: ask for 3 *or more*.",
         "pushes": "It goes on pushing against a wall. Ask the bumper at each decision, and change "
         "the direction at once where it reads 1: in each world the walls are somewhere else.",
+        "spins": "After the third bump it turns on the spot. To rest, both numbers have to be 0.",
         "early": "It rests too early. Count the bumps, in `self.bumps`, and only where the bumper "
         "reads 1.",
         "on": "It drives on after the third bump. Count the bumps in `self.bumps`, and return an "
@@ -345,7 +348,11 @@ def rests_after_three_bumps(machine: Any) -> Done:
                     touched.append(wall)
 
         done = drive(ControlRequestor(_corridor(seed), [agent]), agent, seed, 360, watch)
-        rests = math.dist(done.trail[-1], done.trail[-REST_DECISIONS]) < STILL_M
+        is_still = math.dist(done.trail[-1], done.trail[-REST_DECISIONS]) < STILL_M
+        rests = is_still and all(pauses[-REST_DECISIONS:])
+        move = [*done.agent.last_action.get("move", ()), 0.0, 0.0]
+        if touched == ["ahead", "behind", "ahead"] and is_still and move[1] and not move[0]:
+            raise done.not_yet("The robot turns on the spot, and does not rest ({where}).", "spins")
         if touched == ["ahead", "behind", "ahead"] and longest_push > MAX_BUMP_DECISIONS:
             raise done.not_yet(
                 f"The robot pushed against a wall for {longest_push} decisions ({{where}}); "

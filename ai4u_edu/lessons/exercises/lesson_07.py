@@ -161,10 +161,12 @@ def gets_around(machine: Any) -> Done:
 
         def watch(done: Drive, bumps: list[int] = bumps) -> None:
             nonlocal pushing, longest_push
+            drives = any(next(iter(done.agent.last_action.values()), ()))
             is_still = done.steps > 0 and math.dist(*done.trail[-2:]) < STILL_M
-            pushing = pushing + 1 if is_still and done.agent.percept["bumper"][0] == 1 else 0
+            bumps_now = done.agent.percept["bumper"][0] == 1
+            pushing = pushing + 1 if drives and is_still and bumps_now else 0
             longest_push = max(longest_push, pushing)
-            if done.agent.percept["bumper"][0] == 1:
+            if bumps_now:
                 bumps.append(done.steps)
 
         done = drive(sim, agent, seed, WALL_DECISIONS, watch)

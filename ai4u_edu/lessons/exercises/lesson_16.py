@@ -13,8 +13,8 @@ from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 
 CHASE_DECISIONS = 450
 """Decisions of a round in 16.1; one that takes the nearest runner needs at most 300 or so."""
-NEAR_M, MAX_LINGER_DECISIONS = 1.5, 24
-"""Distance from the place of a catch, and the decisions that a chaser may stay within it: 2 s."""
+NEAR_M, MAX_LINGER_DECISIONS = 1.5, 30
+"""Distance from the place of a catch, and the decisions that a chaser may stay within it."""
 PAIRS = 30
 """Pairs of players, one of whom is better."""
 REVERSED_PAIRS = 24
@@ -75,7 +75,7 @@ def catches_all(chase: Any) -> Done:
             hint = "none" if free == 3 else "caught" if _looks_around(chase, done) else "begin"
             how = f"{3 - free:.0f} of three were caught when the time was up"
             if done.won:
-                how = "It stayed for two seconds where it had caught somebody"
+                how = "It stayed for more than two seconds where it had caught somebody"
                 hint = "caught"
             reason = done.not_yet(f"{how} ({{where}}).", hint)
         if played - won > rounds - needed:
