@@ -75,6 +75,8 @@ class LiveClass:
         self.version = 0
         """Counts changes, except drawings and poses, which rooms count."""
         self.rooms: dict[str, LiveRoom] = {}
+        self._wrong = _wrong_answers(store)
+        """Last wrong answers of rooms before this process: exercise, diagnosis and count."""
         self.pages: Counter[int] = Counter()
         """Open sockets of each seat's pages."""
         self.looks_in: Counter[str] = Counter()
@@ -147,6 +149,8 @@ class LiveClass:
         """Return the state of a room, which is made if there is none; with a seat, a remote one."""
         if room not in self.rooms:
             self.rooms[room] = live = LiveRoom(room, "remote" if seat else "local", seat)
+            exercise, diagnosis, live.wrong = self._wrong.get(room, ("", "", 0))
+            live.wrong_answer = exercise, diagnosis
             if not seat:
                 live.note_counts(read_counts(self.store.folder / "rooms" / room))
         return self.rooms[room]
@@ -309,6 +313,7 @@ class LiveClass:
     def begin_anew(self) -> None:
         """Forget all states, after everything was deleted."""
         self.rooms.clear()
+        self._wrong = {}
         self.attention.read()
         self.assignments.read()
         self.progress.read()
@@ -329,3 +334,8 @@ class LiveClass:
         if room is None or not isinstance(result, ExerciseResult) or result.event == "hint":
             return
         room.note_check(result.exercise, result.diagnosis)
+
+
+def _wrong_answers(store: ClassStore) -> dict[str, tuple[str, str, int]]:
+    rows = store.query("select room, exercise, diagnosis, count from wrong_answers")
+    return {room: (exercise, diagnosis, count) for room, exercise, diagnosis, count in rows}

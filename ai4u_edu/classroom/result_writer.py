@@ -13,6 +13,13 @@ from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.wire.class_link import EpisodeResult, ExerciseResult, Result
 
 MAX_BATCH = 500
+_COUNT_WRONG = (
+    "insert into wrong_answers values (?, ?, ?, ?) on conflict do update set "
+    "count = excluded.count * (1 + count * (exercise = excluded.exercise "
+    "and diagnosis = excluded.diagnosis)), exercise = excluded.exercise, "
+    "diagnosis = excluded.diagnosis"
+)
+"""Counts a room's wrong answers in a row with the same mistake; a right one begins anew."""
 MAX_RESULTS = 2000
 """Latest results of a room that are kept, so that one that comes twice counts once. Programs send
 those again that were not acknowledged, which are fewer."""
@@ -132,6 +139,9 @@ class ResultWriter:
                     checked = _checked(result)
                     new.append(replace(received, result=checked))
                     exercises += [(seat, seconds, checked) for seat in received.seats]
+                    if checked.event != "hint":
+                        answer = [received.room, checked.exercise, checked.diagnosis]
+                        database.execute(_COUNT_WRONG, [*answer, bool(checked.diagnosis)])
                 elif self._races.takes(received.room, result):
                     raced.append((received.room, result))
             for room in {received.room for received, _ in batch}:

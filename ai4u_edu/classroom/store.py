@@ -32,7 +32,7 @@ _ENDINGS = ("", "-wal", "-shm", "-journal")
 """Endings of the files of the database, to be put after its name."""
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 10
+VERSION = 11
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -73,6 +73,12 @@ create table diagnoses (
     exercise text not null,
     count integer not null,
     primary key (seat, diagnosis, exercise)
+) strict;
+create table wrong_answers (
+    room text primary key,
+    exercise text not null,
+    diagnosis text not null,
+    count integer not null
 ) strict;
 create table assignments (
     room text primary key,

@@ -15,7 +15,7 @@ from ai4u_edu.classroom.course_index import known_exercises
 from ai4u_edu.classroom.progress import MAX_GAP_S, Entry, Progress
 from ai4u_edu.classroom.store import FILE
 from ai4u_edu.lessons.exercise import find
-from ai4u_edu.wire.class_link import Ack, ExerciseResult, Hello
+from ai4u_edu.wire.class_link import Ack, ExerciseResult, Hello, Welcome
 from tests.classroom.link_client import RawLink, check
 from tests.classroom.served_class import ServedClass, served_class
 from tests.waiting import LIMIT_S
@@ -84,6 +84,9 @@ def test_what_was_acknowledged_is_there_after_sigkill_and_counts_once(tmp_path: 
         token = ada.token
     with served_class(tmp_path) as served:
         with RawLink(served, token, hello=Hello(1, token, "notebook")) as link:
+            link.next(Welcome)
+            whys = [room["why"] for room in served.state()["rooms"]]
+            assert whys == ["the same wrong answer 3 times in 04.2"]
             for each in [*sent, check("wrong", "04.2/<script>"), check("hint")]:
                 link.send(each)
                 link.next(Ack)
