@@ -17,6 +17,8 @@ from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.tournament.sides import Sides
 
 MAX_NAME_CHARS = 40
+MAX_KEPT_NAME_CHARS = 200
+"""Limit in a tournament's file; in a class, names come from elsewhere."""
 MAX_SOURCE_BYTES = 200_000
 FORMS = (
     "a network (FILE.onnx, zoo:SCENE), a controller's name, scene (the scene's own scripted "
@@ -42,7 +44,7 @@ class Entry(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    name: Annotated[str, Field(min_length=1, max_length=MAX_NAME_CHARS)]
+    name: Annotated[str, Field(min_length=1, max_length=MAX_KEPT_NAME_CHARS)]
     drivers: dict[str, Driver]
     """Drivers by the id, role or side of agents; "" for all others."""
 

@@ -107,12 +107,12 @@ def run_tournament(
     Raises:
         SetupError: fewer than two entries can play, or the journal is not of this program.
     """
-    done = Tournament(plan, folder)
+    done, sides = Tournament(plan, folder), len(plan.sides.names)
     with Journal(folder if journal is None else journal) as kept:
 
         def play(jobs: Sequence[Job]) -> Iterator[Outcome]:
             for outcome in run_jobs(jobs, engine, journal=kept):
-                fault = "" if outcome.error else result_fault(outcome.result, len(plan.sides.names))
+                fault = "" if outcome.error else result_fault(outcome.result, sides)
                 if fault:
                     raise SetupError(f"{kept.path}: expected results of games, got: {fault}")
                 tell(outcome)

@@ -35,7 +35,6 @@ c.DummyAuthenticator.password = "{word}"
 c.Authenticator.allow_all = True
 c.JupyterHub.spawner_class = "simple"
 c.SimpleLocalProcessSpawner.home_dir_template = "{folder}/home/{{username}}"
-c.Spawner.args += ["--allow-root"]
 c.Spawner.http_timeout = c.Spawner.start_timeout = {patience}  # the machine may be busy
 ai4u_class["url"] = "http://127.0.0.1:{class_port}"
 """

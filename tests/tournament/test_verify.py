@@ -414,3 +414,8 @@ def test_a_failure_by_time_may_come_at_another_decision(
     (folder / "games.json").write_text(json.dumps(found, indent=1) + "\n")
     (told,) = verify(folder, InlineEngine())[1]
     assert "game 1 (Sue vs Ann, seed 0): points: the folder says" in told
+
+
+def test_long_names_in_other_scripts_fit_into_the_names_of_files(tmp_path: Path) -> None:
+    folder = played(tmp_path / "out", f"{40 * '名'}=random", f"{40 * '字'}=scene")
+    assert verify(folder, InlineEngine()) == (2, [])
