@@ -148,7 +148,9 @@ def explained(told: Occlusion, axes: Sequence[Axis]) -> str:
     if not len(whole) or axes[index].is_choice or abs(whole[index]) < MIN_SHARE:
         return ""
     part = float(shares[:, index].sum() / whole[index])
-    text = f"Left out one by one, the slots explain {max(0.0, part):.0%} of what all do together"
+    if part < 0:
+        return "Left out one by one, the slots move it the other way than all of them together."
+    text = f"Left out one by one, the slots explain {part:.0%} of what all do together"
     if part > 1 + TOLERANCE:
         return f"{text}: some need each other."
     return f"{text}: some stand in for others." if part < 1 - TOLERANCE else f"{text}."

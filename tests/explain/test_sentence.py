@@ -179,6 +179,12 @@ def test_equal_slots_are_all_named_and_the_sum_of_the_parts_is_told() -> None:
     )
 
 
+def test_parts_against_the_whole_are_told_as_that() -> None:
+    assert of(lambda a, b: a + b - 1.2 * a * b)[1] == (
+        "Left out one by one, the slots move it the other way than all of them together."
+    )
+
+
 def test_many_small_parts_are_told_as_that() -> None:
     many = {"all": np.ones(30)}
     told = occlusion(
