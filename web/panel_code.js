@@ -56,7 +56,7 @@ export class CodeTab {
   #wasPerson = false;
 
   #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
-  #here = button("Go on from here", () => this.#go("run", { isHere: true }), { kind: "quiet", title: "Run from where the robot is now" });
+  #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
   #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
   #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as it goes" });
@@ -103,10 +103,10 @@ export class CodeTab {
       show: (text) => this.#showProgram(text),
       isBusy: () => this.#run.isOn,
     });
-    const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#step, this.#tryOut, this.#stop);
+    const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#here, this.#step, this.#tryOut, this.#stop);
     const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
-    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#here, this.#blocks.bar);
+    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
     const head = element("div", { className: "ai4u-code-head" }, buttons, way);
     const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
     const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
@@ -356,6 +356,7 @@ export class CodeTab {
     const shown = { phase, decision, success, start, isPerson: this.#isPerson, isPaused, python: this.#python, end: this.#end };
     const { kind, text, count } = runWords(shown);
     setText(this.#state, text);
+    setAttributes(this.#state, { title: text }); // it may be cut
     setText(this.#count, count);
     setAttributes(this.#stateRow, { "data-kind": kind });
     this.#stop.disabled = !isOn;
