@@ -389,7 +389,7 @@ class BasicAgent(Parameterized):
 
     def end_while_sensing(self) -> None:
         """End the episode if something has asked for that since the step ended."""
-        if not self.done and self._is_end_asked():
+        if not (self.terminated or self.truncated) and self._is_end_asked():
             self.terminated = True
             if self.end_of_episode.handlers:
                 self.end_of_episode.fire(self)
@@ -412,11 +412,10 @@ class BasicAgent(Parameterized):
             self.percept_ready.fire(self)
 
     def _is_end_asked(self) -> bool:
-        total = self.ledger.total
         return (
             self._done_requested
-            or (self.done_at_negative_reward and total < 0)
-            or (self.done_at_positive_reward and total > 0)
+            or (self.done_at_negative_reward and self.ledger.total < 0)
+            or (self.done_at_positive_reward and self.ledger.total > 0)
         )
 
     def _refuse(self, action: object) -> None:

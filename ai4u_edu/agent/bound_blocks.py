@@ -52,8 +52,7 @@ class BoundBlocks:
         self.view = WorldView(world)
         world.contacts.watch(self.body)
         self.brain = enabled_brain(agent, agent.brains)
-        self._switches = self._read_switches()
-        """The agent's brains, and whether each was enabled, when the present one was chosen."""
+        self._remember_switches()
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
         self.sensors = [sensor for sensor in self._with_standard_sensors() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
@@ -118,7 +117,7 @@ class BoundBlocks:
         self.brain = brain
         if not any(each is brain for each in self._agent.brains):
             self._agent.brains.append(brain)
-        self._switches = self._read_switches()
+        self._remember_switches()
 
     def follow_switches(self) -> None:
         """Give control to another brain if somebody has set ``enabled`` of brains since.
@@ -126,7 +125,10 @@ class BoundBlocks:
         Raises:
             SetupError: none or several are enabled, or the brain does not fit the agent.
         """
-        if self._read_switches() == self._switches or isinstance(self.brain, LostBrain):
+        brains = self._agent.brains
+        if brains == self._known_brains and [each.enabled for each in brains] == self._switches:
+            return
+        if isinstance(self.brain, LostBrain):
             return
         agent = self._agent
         try:
@@ -138,10 +140,12 @@ class BoundBlocks:
             raise SetupError(f"{error}; or call agent.use_brain(brain)") from None
         if brain is not self.brain:
             self.swap_brain(brain)
-        self._switches = self._read_switches()
+        self._remember_switches()
 
-    def _read_switches(self) -> list[tuple[Brain, bool]]:
-        return [(brain, brain.enabled) for brain in self._agent.brains]
+    def _remember_switches(self) -> None:
+        """Note the agent's brains, and which of them are enabled while the present one drives."""
+        self._known_brains = list(self._agent.brains)
+        self._switches = [brain.enabled for brain in self._known_brains]
 
     @property
     def number_sensors(self) -> tuple[Sensor, ...]:
@@ -188,7 +192,12 @@ class BoundBlocks:
 
     def _check_all_bound(self) -> None:
         agent, bound = self._agent, {id(block) for block in self.blocks}
-        for block in (*agent.sensors, *agent.actuators, *agent.rewards):
+        blocks: list[Sensor | Actuator | RewardFunc] = [
+            *agent.sensors,
+            *agent.actuators,
+            *agent.rewards,
+        ]
+        for block in blocks:
             if block.is_active and id(block) not in bound:
                 raise SetupError(
                     f"agent {agent.id!r}: {block_label(block)} was switched on, or added, after "

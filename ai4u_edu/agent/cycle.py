@@ -193,7 +193,8 @@ class ControlRequestor:
         cycle = self._cycles[0]
         if len(self._cycles) == 1 and cycle.can_run_to_end():
             ticks = cycle.run_to_end(self.world)
-            _settle(self.agents)
+            cycle.agent.end_while_sensing()
+            cycle.agent.settle()
             return ticks
         self._move()
         return 1
@@ -266,13 +267,7 @@ class ControlRequestor:
             if cycle.under_way:
                 cycle.apply()
         self.world.tick()
-        ended = []
-        for cycle in self._cycles:
-            if cycle.under_way:
-                cycle.advance()
-                if not cycle.under_way:
-                    ended.append(cycle.agent)
-        _settle(ended)
+        _settle([each.agent for each in self._cycles if each.under_way and each.advance()])
         if self._respawning:
             # after the tick, so that their first percept is not older than the one they decide on
             self._restart(self._respawning)

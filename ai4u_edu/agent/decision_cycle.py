@@ -109,8 +109,12 @@ class DecisionCycle:
             add_context(error, self.agent, actuator, "was acting")
             raise
 
-    def advance(self) -> None:
-        """Count a tick and run the blocks' on_tick; after the last tick end the step and sense."""
+    def advance(self) -> bool:
+        """Count a tick and run the blocks' on_tick; after the last tick end the step and sense.
+
+        Returns:
+            True if it was the last tick.
+        """
         bound = self._bound
         self._tick += 1
         block: Actuator | RewardFunc | None = None
@@ -122,8 +126,10 @@ class DecisionCycle:
         except Exception as error:
             add_context(error, self.agent, block, "was in its on_tick")
             raise
-        if self._tick >= self._ticks or bound.body.fallen:
+        is_last = self._tick >= self._ticks or bound.body.fallen
+        if is_last:
             self._end()
+        return is_last
 
     def phase(self) -> Phase:
         """Return the progress of the decision under way, or of the last one."""

@@ -230,7 +230,8 @@ def two_agents() -> tuple[ControlRequestor, BasicAgent, BasicAgent]:
                 brains=[LocalBrain(controller=still)],
             )
         )
-    return ControlRequestor(world, crew), *crew
+    first, second = crew
+    return ControlRequestor(world, crew), first, second
 
 
 def test_what_one_agent_pays_another_at_the_same_tick_is_in_that_decision() -> None:

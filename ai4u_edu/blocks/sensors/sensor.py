@@ -96,7 +96,7 @@ class Sensor(Block):
     reads_status: ClassVar[bool] = False
     """True for a sensor that reads its agent's reward or the end of its episode: it reads again if
     other sensors or handlers change these while the agent senses."""
-    is_held: ClassVar[bool] = False
+    is_held = False
     """True on a sensor inside another one while only the others inside it read again."""
 
     def __post_init__(self) -> None:
