@@ -25,7 +25,9 @@ from ai4u_edu.base.process_family import adopt_orphans, end_with_parent, kill_de
 from ai4u_edu.program import Program, ProgramError
 
 MEMORY_BYTES = 2**30
-CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x10000000, 0x20000000, 0x40000000
+CLONE_NEWNS, CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x20000, 0x10000000, 0x20000000, 0x40000000
+OWN_PROCESSES = CLONE_NEWNS | CLONE_NEWPID
+MS_REC, MS_PRIVATE = 0x4000, 0x40000
 NO_LIMIT_S = 1e9
 """Wall time does not count; the other process measures processor time."""
 
@@ -48,6 +50,8 @@ def main() -> None:
         for number in (signal.SIGTERM, signal.SIGINT):
             signal.signal(number, signal.SIG_DFL)
         end_with_parent(0 if has_own_ids else guard)
+        if has_own_ids:
+            _show_own_processes()
         serve(cpu_s)
         os._exit(0)
     _write_line(1, {"pid": program})
@@ -80,13 +84,20 @@ def _leave_namespaces() -> bool:
     if not sys.platform.startswith("linux"):
         return False
     libc = ctypes.CDLL(None, use_errno=True)
-    for flags in (CLONE_NEWPID | CLONE_NEWNET, CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET):
+    for flags in (OWN_PROCESSES | CLONE_NEWNET, CLONE_NEWUSER | OWN_PROCESSES | CLONE_NEWNET):
         if libc.unshare(flags) == 0:
             return True
     for flags in (CLONE_NEWNET, CLONE_NEWUSER | CLONE_NEWNET):
         if libc.unshare(flags) == 0:  # some systems forbid all of it
             break
     return False
+
+
+def _show_own_processes() -> None:
+    """Have /proc show the processes of this namespace alone; it still shows all of them there."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.mount(b"none", b"/", None, MS_REC | MS_PRIVATE, None) == 0:
+        libc.mount(b"proc", b"/proc", b"proc", 0, None)
 
 
 def _write_line(descriptor: int, message: dict[str, Any]) -> None:

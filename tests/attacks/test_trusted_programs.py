@@ -194,6 +194,32 @@ def may_trace_parents() -> bool:
     return subprocess.run([sys.executable, "-c", middle], check=False).returncode == 0
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the program looks into /proc")
+def test_a_program_sees_no_processes_but_its_own() -> None:
+    if not may_unshare():
+        pytest.skip("this system lets no process leave the others' namespaces")
+    told = played(LOOKER)
+    assert told["reason"].endswith("RuntimeError: [1] 1 0.")
+
+
+LOOKER = """
+import os
+
+def decide(percept):
+    seen = sorted(int(name) for name in os.listdir("/proc") if name.isdigit())
+    raise RuntimeError(f"{seen} {os.getpid()} {os.getppid()}")
+"""
+
+
+def may_unshare() -> bool:
+    """Return True if a process may have processes and a /proc of its own."""
+    words = ["unshare", "--user", "--map-root-user", "--pid", "--net", "--fork", "--mount-proc"]
+    try:
+        return subprocess.run([*words, "true"], check=False, capture_output=True).returncode == 0
+    except FileNotFoundError:
+        return False
+
+
 def test_nothing_of_these_tests_is_left() -> None:
     until(lambda: not children_of_programs())
 
