@@ -30,3 +30,9 @@ def test_the_bytes_in_the_page_are_the_messages_in_json() -> None:
         assert form.text_of(frame) == text
         said = native.decode(form.frame_of(text.encode()), native.MAX_WORLD_FRAME_BYTES)
         assert native.encode(said) == frame
+
+
+def test_the_page_lists_the_codes_of_a_close() -> None:
+    page = " ".join(protocol_exchange.PAGE.read_text(encoding="utf-8").split())
+    for name, code in native.PROBLEMS.items():
+        assert f"{code} {name}" in page
