@@ -40,6 +40,10 @@ def rewards(harness: EditorHarness) -> list[Any]:
     return list(harness.editor.state.agent("0")["rewards"])
 
 
+def success(harness: EditorHarness) -> str | None:
+    return harness.editor.state.description.success
+
+
 def goal(harness: EditorHarness) -> str:
     return harness.editor.state.description.goal
 
@@ -48,7 +52,7 @@ def test_the_first_goal_pays_ends_the_episode_and_is_a_success(harness: EditorHa
     first = added(harness)
     assert first["reward"] == 10
     assert first["cause_episode_to_end"]
-    assert harness.editor.state.description.success == "touch"
+    assert success(harness) == "touch"
     assert goal(harness) == "Reach the target."
     harness.world["robot"].move_to(3, 0)
     while not harness.agent.done:
@@ -63,7 +67,7 @@ def test_a_second_one_pays_and_ends_nothing(harness: EditorHarness) -> None:
     second = added(harness)
     assert second["reward"] == 1
     assert "cause_episode_to_end" not in second
-    assert harness.editor.state.description.success == "touch"
+    assert success(harness) == "touch"
 
 
 def test_the_sentence_follows_the_goal_until_somebody_writes_another(
@@ -79,7 +83,7 @@ def test_the_sentence_follows_the_goal_until_somebody_writes_another(
     assert goal(harness) == "Reach the target."
     harness.done(harness.editor.remove_block("0", ("rewards", 0)))
     assert goal(harness) == empty
-    assert harness.editor.state.description.success is None
+    assert success(harness) is None
     harness.done(harness.editor.undo())
     harness.done(harness.editor.change_settings({"goal": "Catch it!"}))
     harness.done(harness.editor.change_block("0", ("rewards", 0), target))
@@ -89,11 +93,11 @@ def test_the_sentence_follows_the_goal_until_somebody_writes_another(
 def test_a_reward_that_somebody_lets_end_the_episode_is_the_goal(harness: EditorHarness) -> None:
     reward = {"type": "TouchRewardFunc", "target": "target"}
     harness.done(harness.editor.add_block("0", "rewards", reward))
-    assert harness.editor.state.description.success is None
+    assert success(harness) is None
     harness.done(harness.editor.change_block("0", ("rewards", 0), {"cause_episode_to_end": True}))
-    assert harness.editor.state.description.success is None  # it pays nothing
+    assert success(harness) is None  # it pays nothing
     harness.done(harness.editor.change_block("0", ("rewards", 0), {"reward": 5}))
-    assert harness.editor.state.description.success == "touch"
+    assert success(harness) == "touch"
     assert goal(harness) == "Reach the target."
 
 
@@ -115,4 +119,4 @@ def test_each_kind_of_goal_has_a_sentence_without_gaps(name: str, harness: Edito
     assert sentence.endswith(".")
     assert "{" not in sentence
     assert sentence != "There is no goal yet."
-    assert harness.editor.state.description.success
+    assert success(harness)
