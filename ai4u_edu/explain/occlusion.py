@@ -69,7 +69,7 @@ class Occlusion:
     @property
     def shift(self) -> Floats:
         """(n, c) how far each group moves each number: the action minus the one without it."""
-        return np.asarray(self.action - self.without)
+        return _difference(self.action, self.without)
 
     @property
     def importance(self) -> Floats:
@@ -81,7 +81,7 @@ class Occlusion:
     @property
     def whole(self) -> Floats:
         """(c,) how far all groups together move each number: the action minus the base."""
-        return np.asarray(self.action - (self.action if self.base is None else self.base))
+        return _difference(self.action, self.action if self.base is None else self.base)
 
     def strongest(self) -> int:
         """Return the index of the group that matters most."""
@@ -235,8 +235,15 @@ def _moved(one: Floats, other: Floats) -> float:
     """Return the largest difference of any number of two actions; infinite for other numbers."""
     if len(one) != len(other):
         return math.inf
-    apart = np.abs(one - other)[~(np.isnan(one) & np.isnan(other))]
+    is_same = (one == other) | (np.isnan(one) & np.isnan(other))
+    apart = np.abs(_difference(one, other))[~is_same]
     return float(np.nan_to_num(apart, nan=math.inf, posinf=math.inf).max(initial=0.0))
+
+
+def _difference(one: Floats, other: Floats) -> Floats:
+    """Return a difference, which is NaN between two infinite numbers."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(one - other)
 
 
 def changed_percept(percept: Percepts, values: Mapping[str, npt.NDArray[Any]]) -> Percepts:

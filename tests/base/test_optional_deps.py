@@ -1,5 +1,7 @@
 """What a person is told who lacks an extra."""
 
+import sys
+
 import pytest
 
 from ai4u_edu.base import optional_deps
@@ -14,7 +16,7 @@ def test_the_small_torch_is_advised_where_the_usual_one_is_large(
     monkeypatch: pytest.MonkeyPatch, platform: str, module: str, is_advised: bool
 ) -> None:
     monkeypatch.setattr(optional_deps, "find_spec", lambda _name: None)
-    monkeypatch.setattr(optional_deps.sys, "platform", platform)
+    monkeypatch.setattr(sys, "platform", platform)
     with pytest.raises(SetupError, match=r'pip install "ai4u-edu\[train\]"') as error:
         optional_deps.need("train", module)
     words = "first: pip install torch --index-url https://download.pytorch.org/whl/cpu (0.7 GB"

@@ -137,8 +137,8 @@ def constant_text(module: str, name: str) -> str:
                 ast.Expr(value=ast.Constant(value=str(words))),
             ) if each == name:
                 return " ".join(words.split())
-    for each in own:
-        match each:
+    for node in own:
+        match node:
             case ast.ImportFrom(module=str(other), names=names):
                 for alias in names:
                     if (alias.asname or alias.name) == name:

@@ -80,7 +80,7 @@ def test_a_robot_that_stands_still_is_compared_with_the_middle_and_says_so() -> 
         found = driver.why(state._replace(percept=same))
     assert found.baseline == "the middle of its range"
     assert "bearing: cosine" in found.sentence
-    assert found.also.startswith("Compared with the mean of the last 50 percepts instead: All that")
+    assert found.also.startswith("Compared with the mean of the last 51 percepts instead: All that")
     assert found.explained == "Left out one by one, the slots explain 100% of what all do together."
 
 
