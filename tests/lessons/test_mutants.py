@@ -40,9 +40,9 @@ SAMPLE = ("02.1", "18.1")
 CASES = [pytest.param(each, marks=[] if each in SAMPLE else pytest.mark.nightly) for each in EXACT]
 
 
-TRIES, NIGHTLY_TRIES = 4, 60
+TRIES, NIGHTLY_TRIES = 4, 30
 """Schedules that are tried for each reading; a few by default, where the check is quick."""
-CLOCK_SAMPLE = ("05.1", "06.3", "16.1")
+CLOCK_SAMPLE = ("05.1", "06.3")
 CLOCK_CASES = [
     *(pytest.param(each, TRIES) for each in CLOCK_SAMPLE),
     *(

@@ -15,6 +15,8 @@ CHASE_DECISIONS = 450
 """Decisions of a round in 16.1; one that takes the nearest runner needs at most 300 or so."""
 NEAR_M, MAX_LINGER_DECISIONS = 1.5, 30
 """Distance from the place of a catch, and the decisions that a chaser may stay within it."""
+SIDE_RAD, TOWARDS = 0.35, 0.65
+"""Angle from which on a runner is to one side, and the least share of the turns towards it."""
 PAIRS = 30
 """Pairs of players, one of whom is better."""
 REVERSED_PAIRS = 24
@@ -52,6 +54,7 @@ def fights_won(plan: str, fights: int = 20) -> int:
         "that is still free.",
         "caught": "It drives to where it caught somebody. Whom you caught still has a place: "
         '`percept["free"]` says who is free.',
+        "luck": "Turn to a runner that is free, at every decision: `go_to` does that.",
         "none": "It caught nobody. `go_to` gets how far ahead and how far to the left a runner is.",
     },
 )
@@ -80,6 +83,13 @@ def catches_all(chase: Any) -> Done:
             reason = done.not_yet(f"{how} ({{where}}).", hint)
         if played - won > rounds - needed:
             break
+    towards = [is_towards for each in lingers for is_towards in each.towards]
+    if won >= needed and sum(towards) < TOWARDS * len(towards):
+        raise done.not_yet(
+            "It caught them all, but by driving about: when one was left, it turned away from it "
+            "as often as towards it ({where}).",
+            "luck",
+        )
     if won < needed and reason is not None:
         reason.text = (
             f"{won} of {played} rounds won; {needed} of {rounds} are needed. {reason.text}"
@@ -94,11 +104,18 @@ class _Lingering:
     def __init__(self) -> None:
         self.longest = 0
         """Decisions of the longest stay."""
+        self.towards: list[bool] = []
+        """True for each turn towards the last free runner, False for a turn away from it."""
+        self._side = 0.0
         self._stay, self._free = 0, 3.0
         self._place: tuple[float, float] | None = None
 
     def watch(self, done: Drive) -> None:
         """Look after a decision."""
+        turn = float((*done.agent.last_action.get("move", ()), 0.0, 0.0)[1])
+        if self._side and turn:
+            self.towards.append(turn * self._side < 0)  # a turn above 0 is one to the right
+        self._side = _side_of_last(done.agent.percept)
         free, here = float(sum(done.agent.percept["free"])), done.agent.body.position
         if free < self._free:
             self._free, self._place, self._stay = free, here, 0
@@ -107,6 +124,15 @@ class _Lingering:
             self.longest = max(self.longest, self._stay)
         else:
             self._place = None
+
+
+def _side_of_last(percept: Percept) -> float:
+    """Return 1 or -1 if one runner alone is free, clearly to the left or to the right; else 0."""
+    free = [number for number, is_free in enumerate(percept["free"], 1) if is_free == 1]
+    if len(free) != 1:
+        return 0.0
+    ahead, left = percept[f"runner {free[0]}"][:2]
+    return math.copysign(1, left) if abs(math.atan2(left, ahead)) > SIDE_RAD else 0.0
 
 
 def _looks_around(chase: Any, done: Drive) -> bool:
