@@ -288,7 +288,10 @@ class ClassStore:
         rows = self.query(
             "select number, name, colour, room, state, opened from seats order by number"
         )
-        return [SeatRow(*row[:-1], bool(row[-1])) for row in rows]
+        return [
+            SeatRow(number, name, colour, room, state, bool(opened))
+            for number, name, colour, room, state, opened in rows
+        ]
 
     def tokens(self) -> list[TokenRow]:
         """Return the devices of all seats, the oldest first."""

@@ -1,5 +1,6 @@
 """Requests as bytes, as no client sends them: clients normalize a target before they send it."""
 
+import re
 import socket
 import threading
 from collections.abc import Mapping
@@ -82,11 +83,20 @@ def ask(
         connection.sendall(head + body)
         while part := connection.recv(4096):
             answer += part
-            if answer.startswith(SWITCHING) and b"\r\n\r\n" in answer:
-                break
-            if len(answer) > MAX_ANSWER_BYTES:
+            if _is_whole(answer, method) or len(answer) > MAX_ANSWER_BYTES:
                 break
     return answer
+
+
+def _is_whole(answer: bytes, method: bytes) -> bool:
+    """Return True if an answer is complete, though its connection may be kept."""
+    head, end, body = answer.partition(b"\r\n\r\n")
+    if not end:
+        return False
+    if method == b"HEAD" or head.startswith((SWITCHING, b"HTTP/1.1 204", b"HTTP/1.1 304")):
+        return True
+    length = re.search(rb"(?i)\r\ncontent-length: *(\d+)", head)
+    return len(body) >= int(length[1]) if length else body.endswith(b"0\r\n\r\n")
 
 
 def status_of(answer: bytes) -> int:

@@ -66,6 +66,8 @@ def mutated(path: str, place: str, rng: random.Random) -> bytes:
     text = path
     for _ in range(rng.randint(1, MAX_MUTATIONS)):
         text = rng.choice(MUTATIONS)(text, place, rng)
+    if rng.random() < 0.5 and not text.startswith("/"):  # else most would be refused for that
+        text = f"/{text}"
     # a line with a blank or a control character is another request, which test_requests tries
     return "".join(each if "!" <= each <= "~" else "%20" for each in text).encode() or b"%"
 
@@ -79,7 +81,11 @@ def attack(proxy: Proxy, beside: ForbiddenServer, count: int, seed: int, tally: 
         method, headers = rng.choice(METHODS), dict(proxy.headers)
         if rng.random() < 0.3:
             method, headers = b"GET", headers | SOCKET_HEADERS
-        status = status_of(ask(proxy.url, target, headers, method))
+        try:
+            status = status_of(ask(proxy.url, target, headers, method))
+        except TimeoutError:
+            tally.wrong.append(f"{proxy.name}: {method!r} {target!r} was not answered")
+            continue
         statuses[status] += 1
         if proxy.is_ours and status >= SERVER_ERROR and status != BUSY:
             tally.wrong.append(f"{proxy.name}: {method!r} {target!r} was answered with {status}")
