@@ -23,7 +23,7 @@ _PARAMETERS = re.compile(
 _SYNTAX = (
     (
         r"expected an indented block after (?P<what>.+) on line (?P<line>\d+)",
-        "This line belongs to {what} in line {line}: begin it with four more spaces than that one.",
+        "This line belongs into the {what} of line {line}: begin it with four more spaces.",
     ),
     (
         r"unexpected indent",

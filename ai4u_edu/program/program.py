@@ -210,4 +210,6 @@ def _import(name: str, *arguments: Any, **options: Any) -> Any:
 
 
 def _no_input(*_prompt: object) -> None:
-    raise ProgramError("input() has nobody to ask here: a decision uses only the percept")
+    raise ProgramError(
+        "input() has nobody to ask here: use what percept has, or write the value into the program"
+    )

@@ -117,7 +117,7 @@ IN_DECIDE = [
     ("percept['eyes'][0] = 1", 2, "error", "a reading can't be changed"),
     ("return decide(percept)", 2, "recursion", "calls itself again and again"),
     ("exit()", 2, "error", "ended the program"),
-    ("return {'move': [input('?'), 0]}", 2, "error", "input() has nobody to ask"),
+    ("return {'move': [input('?'), 0]}", 2, "error", "use what percept has, or write the value"),
     (
         "while True:\n        pass",
         2,
@@ -144,7 +144,7 @@ IN_DECIDE = [
 AT_LOAD = [
     ("def decide(percept)\n    return {}", 1, "syntax", "A colon (:) is missing"),
     ("def decide(percept):\nreturn {}", 2, "indentation",
-     "belongs to function definition in line 1: begin it with four more spaces"),
+     "belongs into the function definition of line 1: begin it with four more spaces"),
     ("x = 1\n  y = 2", 2, "indentation", "begins with more spaces than the line before it"),
     ("def f():\n    x = 1\n  y = 2", 3, "indentation", "a number of spaces that no line above has"),
     ("x = (1 + 2\n", 1, "syntax", "The bracket ( in this line is never closed."),
