@@ -99,7 +99,7 @@ def catches_all(chase: Any) -> Done:
 
 
 class _Lingering:
-    """How long a chaser stays at a place where it caught somebody."""
+    """Stays of a chaser where it caught somebody, and its turns towards the last runner."""
 
     def __init__(self) -> None:
         self.longest = 0
