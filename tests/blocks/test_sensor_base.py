@@ -8,7 +8,16 @@ from gymnasium.spaces import Box, Discrete, MultiBinary, MultiDiscrete, Sequence
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ai4u_edu import FloatArrayCompositeSensor, IDSensor, LocalBrain, Scene, Sensor
+from ai4u_edu import (
+    FloatArrayCompositeSensor,
+    IDSensor,
+    LocalBrain,
+    LocalGridSensor,
+    PositionSensor,
+    Scene,
+    Sensor,
+)
+from ai4u_edu.agent.rebind import sense_again
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
@@ -380,3 +389,20 @@ def test_attributes_of_numbers_are_refused_for_texts(
 def test_noise_is_refused_for_choices(kind: type[Sensor]) -> None:
     with pytest.raises(BlockError, match=r"expected noise 0 \(choices can't be a little wrong"):
         small_sim([kind(noise=0.1)])
+
+
+def test_a_moment_that_is_read_again_leaves_the_older_readings() -> None:
+    place = PositionSensor(stacked_observations=2)
+    sensors = [
+        LocalGridSensor(channels=["target"], cell_size=0.2, stacked_observations=2),
+        FloatArrayCompositeSensor(
+            sensors=[place], range_min=-50, range_max=50, stacked_observations=2
+        ),
+    ]
+    sim = small_sim(sensors, controller=lambda percept: {"move": [1, 0.2, 0, 0]})
+    agent = sim.agents[0]
+    for _ in range(30):
+        before = sim.step()
+    sense_again(agent)
+    for key in ("local_grid", "array"):
+        assert agent.percept[key].tolist() == before[key].tolist()
