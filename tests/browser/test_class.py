@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, Route, expect
+from playwright.sync_api import Browser, Page, WebSocketRoute, expect
 
 from tests.browser.plain_page import CLASS_ROOM
 from tests.browser.served_viser import PLAIN, connected
@@ -116,11 +116,11 @@ def test_whoever_is_banned_while_the_page_opens_is_told(
     name = join(ben, school)
     (seat,) = (each for each in school.state()["seats"] if each["name"] == name)
 
-    def ban(route: Route) -> None:
+    def ban(socket: WebSocketRoute) -> None:
         assert school.command("ban", seat=seat["number"]).status_code == 200
-        route.continue_()
+        socket.connect_to_server()
 
-    ben.route(re.compile(r"/socket\.js"), ban, times=1)
+    ben.route_web_socket(re.compile("/ws/input"), ban)
     ben.reload()
     left = ben.get_by_role("dialog", name="This world is closed for you now")
     expect(left).to_contain_text("You have no place in this class now")

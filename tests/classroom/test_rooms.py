@@ -209,7 +209,7 @@ def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
 
 def test_a_student_is_told_while_the_teacher_looks_in(served: ServedClass) -> None:
     ada, teacher = served.joined(), served.student()
-    assert teacher.client.get("teacher", params={"token": served.token}).is_success
+    teacher.client.get("teacher", params={"token": served.token})  # which sets a cookie
     teacher.room = ada.room
     with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
         page.receive("class", has_teacher=False)

@@ -82,9 +82,9 @@ def test_a_sensor_is_missing(tmp_path: Path) -> None:
     with pytest.raises(
         BlockError,
         match=(
-            r"the network a.onnx does not fit agent '0': sensor 'bearing' of shape \(2,\) \(a "
-            r"BearingSensor, where it was trained\) is missing; did you mean 'heading'\?; "
-            r"it was trained in the scene 'sumo'"
+            r"the network a.onnx does not fit agent '0' \(it was trained in the scene 'sumo'\): "
+            r"sensor 'bearing' of shape \(2,\) \(a "
+            r"BearingSensor, where it was trained\) is missing; did you mean 'heading'\?"
         ),
     ):
         sim_with(file, HeadingSensor())

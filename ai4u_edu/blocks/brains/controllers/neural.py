@@ -25,6 +25,7 @@ TRAINED_IN = "it was trained in the scene "
 """Beginning of the words about a network that does not fit, before its scene's name in quotes."""
 MAX_SCENE_CHARS = 60
 
+
 class NeuralNetController(Controller):
     """Takes each action from a trained network (an ONNX file).
 
@@ -76,10 +77,11 @@ class NeuralNetController(Controller):
         wrong = [_misfit(port, sensors, network.about) for port in network.inputs]
         found = "; ".join(filter(None, wrong))
         trained_in = network.about.get("scene")
-        if found and isinstance(trained_in, str) and trained_in:
-            found += f"; {TRAINED_IN}{shorten(trained_in, MAX_SCENE_CHARS)!r}"
         if found:
-            raise BlockError(f"the network {name} does not fit agent {agent.id!r}: {found}")
+            scene = ""
+            if isinstance(trained_in, str) and trained_in:
+                scene = f" ({TRAINED_IN}{shorten(trained_in, MAX_SCENE_CHARS)!r})"
+            raise BlockError(f"the network {name} does not fit agent {agent.id!r}{scene}: {found}")
         actuators = {each.action_name: each for each in agent.actuators if each.is_active}
         outputs = [port for port in network.outputs if port.name != VALUE_OUTPUT]
         only = len(outputs) == 1
