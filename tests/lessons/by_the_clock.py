@@ -20,7 +20,9 @@ from typing import Any
 
 import numpy as np
 
-from ai4u_edu.blocks import Controller
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import Controller, LocalBrain
+from ai4u_edu.blocks.brains.controllers.script import ScriptController
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import exercise_ids, is_ticket, lesson
 from ai4u_edu.lessons.rollouts import Drive, observed
@@ -115,7 +117,7 @@ class Clock:
 
 
 def driven_by(driver: Recorder | Clock, thing: Any) -> Any:
-    """Return a student's function or controller whose decisions go through a driver."""
+    """Return a student's function, controller or agent whose decisions go through a driver."""
     if isinstance(thing, type) and issubclass(thing, Controller) and "get_action" in vars(thing):
         asked = vars(thing)["get_action"]
 
@@ -130,6 +132,11 @@ def driven_by(driver: Recorder | Clock, thing: Any) -> Any:
             return driver.decide(thing, percept)
 
         return function
+    elif isinstance(thing, BasicAgent) and thing.brains:
+        controller = getattr(thing.brains[0], "controller", None)
+        if isinstance(controller, ScriptController):
+            asks = driven_by(driver, controller.function)
+            return thing.changed(brains=[LocalBrain(controller=asks)])
     return thing
 
 
