@@ -26,7 +26,6 @@ from ai4u_edu.program import Program, ProgramError
 
 MEMORY_BYTES = 2**30
 CLONE_NEWNS, CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x20000, 0x10000000, 0x20000000, 0x40000000
-OWN_PROCESSES = CLONE_NEWNS | CLONE_NEWPID
 MS_REC, MS_PRIVATE = 0x4000, 0x40000
 NO_LIMIT_S = 1e9
 """Wall time does not count; the other process measures processor time."""
@@ -84,7 +83,7 @@ def _leave_namespaces() -> bool:
     if not sys.platform.startswith("linux"):
         return False
     libc = ctypes.CDLL(None, use_errno=True)
-    for flags in (OWN_PROCESSES | CLONE_NEWNET, CLONE_NEWUSER | OWN_PROCESSES | CLONE_NEWNET):
+    for flags in (CLONE_NEWPID | CLONE_NEWNET, CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNET):
         if libc.unshare(flags) == 0:
             return True
     for flags in (CLONE_NEWNET, CLONE_NEWUSER | CLONE_NEWNET):
@@ -94,9 +93,10 @@ def _leave_namespaces() -> bool:
 
 
 def _show_own_processes() -> None:
-    """Have /proc show the processes of this namespace alone; it still shows all of them there."""
+    """Have /proc show the processes of this namespace alone; it shows those of the one before."""
     libc = ctypes.CDLL(None, use_errno=True)
-    if libc.mount(b"none", b"/", None, MS_REC | MS_PRIVATE, None) == 0:
+    is_own = libc.unshare(CLONE_NEWNS) == 0
+    if is_own and libc.mount(b"none", b"/", None, MS_REC | MS_PRIVATE, None) == 0:
         libc.mount(b"proc", b"/proc", b"proc", 0, None)
 
 
