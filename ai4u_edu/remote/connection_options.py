@@ -1,6 +1,8 @@
 """The options, notes and errors that the synchronous and the asynchronous connection share."""
 
+import errno
 import logging
+import re
 from socket import EAI_AGAIN, gaierror
 from typing import Any
 
@@ -11,6 +13,8 @@ from ai4u_edu.remote.steps import ConnectionLostError
 from ai4u_edu.wire import native
 
 _MAX_BODY_CHARS = 400
+_REFUSED = re.compile(rf"^Multiple exceptions: (\[Errno {errno.ECONNREFUSED}\][^\[]*)+$")
+"""Text of asyncio's error for a name with several addresses, if nobody listens at any of them."""
 
 _logger = logging.getLogger("ai4u_edu.remote")
 _silent = logging.getLogger("ai4u_edu.remote.websockets")
@@ -57,7 +61,7 @@ def connection_lost_from(error: Exception) -> ConnectionLostError:
         answer = f"answer {status} {body[:_MAX_BODY_CHARS]}".strip()
         # 5xx: a proxy whose world is about to start
         return ConnectionLostError(answer, is_permanent=status < 500)
-    if isinstance(error, ConnectionRefusedError):
+    if isinstance(error, ConnectionRefusedError) or _REFUSED.search(str(error)):
         return ConnectionLostError("connection refused: nothing listens there")
     is_unknown_host = isinstance(error, gaierror) and error.errno != EAI_AGAIN
     return ConnectionLostError(str(error) or type(error).__name__, is_permanent=is_unknown_host)

@@ -1,5 +1,6 @@
 """Connections of scripts, and everything that may go wrong at their other end."""
 
+import errno
 import signal
 import socket
 import struct
@@ -16,7 +17,7 @@ from websockets.protocol import State
 from websockets.server import ServerProtocol
 from websockets.sync.server import ServerConnection
 
-from ai4u_edu.remote.connection_options import OPTIONS
+from ai4u_edu.remote.connection_options import OPTIONS, connection_lost_from
 from ai4u_edu.remote.steps import ConnectionLostError
 from tests.remote.bare_servers import Client, Kind, client, loss_of, raw_server, serving
 from tests.remote.rooms import unused_address
@@ -255,6 +256,15 @@ def test_a_port_at_which_nobody_listens(kind: Kind) -> None:
             near.open()
         near.end()
     assert not found.value.is_permanent  # a world may start there
+
+
+def test_nobody_listens_at_any_address_of_a_name() -> None:
+    """As asyncio says it for ``localhost``, which has two."""
+    refused = f"[Errno {errno.ECONNREFUSED}] Connect call failed ('{{}}', 8080)"
+    both = "Multiple exceptions: " + ", ".join(map(refused.format, ("::1", "127.0.0.1")))
+    assert str(connection_lost_from(OSError(both))).endswith("nothing listens there")
+    other = both.replace(str(errno.ECONNREFUSED), str(errno.ENETUNREACH), 1)
+    assert str(connection_lost_from(OSError(other))) == other
 
 
 # -- resources ------------------------------------------------------------------------------------

@@ -21,7 +21,6 @@ pytestmark = pytest.mark.slow
 
 PAGE = Path(__file__).parents[2] / "docs/remote.md"
 ADDRESS = "http://127.0.0.1:8080"
-IMPORT = "from ai4u_edu.remote import connect\n"
 PATIENT = ("--receive-timeout", str(round(LIMIT_MS)))
 """A world in lockstep that waits for a script on a busy machine."""
 BLOCK = re.compile(r"^( *)```(sh|python|js|text)\n(.*?)^ *```\n", re.DOTALL | re.MULTILINE)
@@ -87,7 +86,7 @@ def output_of(code: str, server: Played, folder: Path) -> str:
     assert ADDRESS in code
     url = server.url.rstrip("/")
     file = folder / "drive.py"
-    file.write_text(("" if "import" in code else IMPORT) + code.replace(ADDRESS, url))
+    file.write_text(code.replace(ADDRESS, url))
     done = subprocess.run(
         [sys.executable, str(file)],
         cwd=folder,

@@ -60,8 +60,8 @@ def test_a_script_waits_until_another_one_gives_its_agent_back(
             script = pool.submit(connect, room.url, "a")
             until(lambda: notes(caplog))
             assert notes(caplog)[0].startswith(
-                "agent 'a' is driven by another script; free are 'b'; a seat is free 0.2 s after "
-                "its script has ended; trying again for up to"
+                "agent 'a' is driven by another script; free are 'b'; an agent is free when its "
+                "script ends, or 0.2 s after the connection is lost; trying again for up to"
             )
         with script.result(LIMIT_S) as robot:
             assert robot.sense()["id"] == "a"

@@ -70,8 +70,8 @@ def test_each_refusal_says_what_to_do() -> None:
         with Script(room) as first:
             first.hello(**said)
             assert refused(room, "agent_taken", **said, secret="another long secret") == (
-                "agent 'a' is driven by another script; free are 'b'; a seat is free 60 s after "
-                "its script has ended"
+                "agent 'a' is driven by another script; free are 'b'; an agent is free when its "
+                "script ends, or 60 s after the connection is lost"
             )
 
 

@@ -81,7 +81,7 @@ def described(draw: st.DrawFn) -> tuple[Welcome, Percept]:
         draw(names),
         draw(st.floats(0.0, 100.0)),
         draw(names),
-        draw(st.sampled_from(("lockstep", "realtime"))),  # type: ignore[arg-type]  # these two
+        draw(st.sampled_from(("lockstep", "realtime"))),
         draw(names),
         draw(st.floats(0.0, 1e300)),
         draw(numbers),

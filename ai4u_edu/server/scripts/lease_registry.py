@@ -119,6 +119,6 @@ class LeaseRegistry:
         free = [each.id for each in self._runner.sim.agents if each.id not in self._leases]
         others = f"free are {', '.join(map(repr, free))}" if free else "no other is free"
         return (
-            f"agent {agent.id!r} is driven by another script; {others}; a seat is free "
-            f"{self._rules.grace:g} s after its script has ended"
+            f"agent {agent.id!r} is driven by another script; {others}; an agent is free when its "
+            f"script ends, or {self._rules.grace:g} s after the connection is lost"
         )
