@@ -3,13 +3,11 @@
 import asyncio
 from typing import Any
 
-import pytest
-
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.server.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.wire.class_link import VERSION, Hello, encode_from_room
-from tests.waiting import LIMIT_S, until_async
+from tests.waiting import until_async
 
 SCOPE: dict[str, Any] = {"type": "websocket", "subprotocols": [], "headers": [], "path": "/"}
 
@@ -18,7 +16,7 @@ def test_a_cancellation_that_comes_with_the_hello_ends_the_link() -> None:
     """Python 3.11 loses it in ``asyncio.wait_for``."""
 
     async def find_room(secret: str, address: str) -> LiveRoom | None:
-        await asyncio.sleep(LIMIT_S)
+        await asyncio.Event().wait()
         return None
 
     async def run() -> None:
