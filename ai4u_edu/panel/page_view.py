@@ -74,6 +74,10 @@ class PageView:
         """Viser's client of this page; None while there is none."""
         return self._client
 
+    def ask_again(self, *names: str) -> None:
+        """Note that the page waits for parts, also if they are as before."""
+        self._asked_again.update(names)
+
     def take_asked_again(self) -> set[str]:
         """Return the names of the parts that the page waits for again, since the last call.
 
@@ -94,13 +98,13 @@ class PageView:
     def look_at(self, show: Show) -> None:
         """Look at something else."""
         if show.agent != self.agent:
-            self._asked_again |= EXPLANATIONS
+            self.ask_again(*EXPLANATIONS)
         self.show = show
         self._apply(self._choose_shown)
 
     def choose_agent(self, agent: str) -> None:
         """Look at another agent."""
-        self._asked_again |= EXPLANATIONS
+        self.ask_again(*EXPLANATIONS)
         self.show = Show(
             type="show",
             agent=agent,
@@ -142,13 +146,13 @@ class PageView:
     def show_why(self, on: bool) -> None:
         """Show why the agent acts as it does, or no longer."""
         self.is_why_shown = on
-        self._asked_again.add("why")
+        self.ask_again("why")
         self._apply(self._choose_shown)
 
     def show_maps(self, maps: MapChoice) -> None:
         """Show these maps over the floor."""
         self.maps = maps
-        self._asked_again.add("maps")
+        self.ask_again("maps")
         self._apply(self._choose_shown)
 
     def show_elsewhere(self, elsewhere: Elsewhere | None) -> None:

@@ -69,6 +69,15 @@ def test_episodes_and_titles_are_those_of_their_scene(page: PanelPage) -> None:
     page.part("scene", title="Donut")
 
 
+def test_the_running_episode_is_shown_again_though_nothing_has_changed(page: PanelPage) -> None:
+    page.done("decision")
+    page.done("episode", number=0)
+    playing(page, number=0)
+    page.parts.clear()
+    page.done("episode", number=0)  # the page waits until it is there
+    playing(page, number=0)
+
+
 def test_an_episode_is_stepped_through_and_left(page: PanelPage) -> None:
     number = episode(page)
     page.done("episode", number=number)

@@ -28,6 +28,7 @@ async def _episode(page: Page, command: m.OpenEpisode) -> Answer:
     if command.number != RUNNING_EPISODE and archive.find(command.number) is None:
         raise SetupError(f"episode {command.number} is not kept any more")
     page.context.viewer.player.open(command.number, page.view.agent)
+    page.view.ask_again("past")
     return Answer()
 
 
