@@ -4,6 +4,8 @@ import { button, element } from "./dom.js";
 
 /** How long a result is shown (ms); an error stays until somebody closes it or the next one comes. */
 const INFO_MS = 6000;
+/** The same for a result with a button (ms). */
+const ACTION_MS = 20_000;
 
 export class Notices {
   // both exist from the start: screen readers announce what is put into a region that they know
@@ -12,7 +14,7 @@ export class Notices {
   #timer = 0;
   element = element("div", { className: "ai4u-notices" }, this.#error, this.#info);
 
-  /** @param {?{text: string, icon: string, run: () => void}} action what a button of an info does, which stays until it is closed */
+  /** @param {?{text: string, icon: string, run: () => void}} action what a button beside a result does */
   show(text, level = "info", action = null) {
     const isError = level === "error";
     clearTimeout(this.#timer);
@@ -23,6 +25,6 @@ export class Notices {
     const close = button("", () => region.replaceChildren(), { icon: "remove", label: "Close", kind: "quiet" });
     const act = action && button(action.text, action.run, { icon: action.icon });
     region.replaceChildren(element("p", { textContent: text }), ...(act ? [act] : []), close);
-    if (!isError && !action) this.#timer = setTimeout(() => region.replaceChildren(), INFO_MS);
+    if (!isError) this.#timer = setTimeout(() => region.replaceChildren(), action ? ACTION_MS : INFO_MS);
   }
 }

@@ -149,7 +149,7 @@ def test_a_pause_lets_go_until_the_key_is_pressed_anew(site: ServedViser) -> Non
     page.keyboard.down("KeyW")
     until(lambda: held(site) == ["KeyW"])
     site.room.runner.pause().result(LIMIT_S)
-    expect(page.get_by_text("Paused")).to_be_visible()
+    expect(page.locator(".ai4u-banner", has_text="Paused")).to_be_visible()
     page.get_by_role("button", name="Resume").click()
     until(lambda: not site.room.runner.latest.paused)
     with recorded_holds(site.room) as holds:

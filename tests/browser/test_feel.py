@@ -335,7 +335,7 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     expect(driver_status(page)).to_have_text("You drive")
     found += page.evaluate(CONTRAST)
     site.room.runner.pause().result(LIMIT_S)
-    expect(page.get_by_text("Paused")).to_be_visible()
+    expect(page.locator(".ai4u-banner", has_text="Paused")).to_be_visible()
     found += page.evaluate(CONTRAST)
     page.keyboard.press("?")
     binding(page, "jump").click()
