@@ -5,6 +5,13 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+NO_LOCKS = {
+    getattr(errno, name)
+    for name in ("ENOSYS", "ENOLCK", "ENOTSUP", "EOPNOTSUPP")
+    if hasattr(errno, name)  # not all of them on each system
+}
+"""Error numbers by which the operating system says that a file system has no locks."""
+
 
 class LockedError(OSError):
     """Another holder, in this process or in another one, has the lock."""
@@ -38,8 +45,9 @@ class FileLock:
             self._lock.acquire(blocking=False)
         except filelock.Timeout:
             raise LockedError(errno.EAGAIN, "in use by another process", str(path)) from None
-        except NotImplementedError:  # no locks on this file system
-            pass
+        except OSError as error:
+            if error.errno not in NO_LOCKS:
+                raise
 
     @property
     def is_held(self) -> bool:

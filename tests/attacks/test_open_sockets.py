@@ -62,6 +62,18 @@ def test_an_address_has_a_number_of_sockets_without_a_seat(
 
 
 @pytest.mark.slow
+def test_behind_a_proxy_on_this_machine_each_address_has_its_own(served: ServedClass) -> None:
+    one, another = ({"X-Forwarded-For": each} for each in ("10.9.8.7", "10.9.8.6"))
+    url = served.url + "check/socket"
+    with ExitStack() as opened:
+        for _ in range(MAX_STRANGER_SOCKETS):
+            opened.enter_context(open_socket(url, additional_headers=one))
+        with pytest.raises(InvalidStatus, match="503"):
+            open_socket(url, additional_headers=one)
+        opened.enter_context(open_socket(url, additional_headers=another))
+
+
+@pytest.mark.slow
 def test_a_seat_has_a_number_of_sockets_and_others_have_theirs(served: ServedClass) -> None:
     ada, ben = served.joined(), served.joined()
     with ExitStack() as opened:

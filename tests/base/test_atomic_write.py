@@ -187,3 +187,24 @@ def test_a_lock_ends_with_its_process(tmp_path: Path) -> None:
     lock.release()
     assert not path.exists()
     assert not is_locked(path)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="locks as POSIX has them")
+@pytest.mark.parametrize("number", [errno.ENOSYS, errno.ENOLCK, errno.EOPNOTSUPP])
+def test_a_file_system_without_locks_excludes_nobody_and_keeps_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    import fcntl
+
+    def refuse(_fd: int, _operation: int) -> None:
+        raise OSError(number, "no locks here")
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    lock = FileLock(tmp_path / "a.lock")
+    assert not lock.is_held
+    assert not is_locked(tmp_path / "a.lock")
+    lock.release()
+    write_atomically(tmp_path / "a", "one")
+    write_atomically(tmp_path / "a", "two")
+    assert (tmp_path / "a").read_text() == "two"
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["a", "a.lock"]
