@@ -61,7 +61,9 @@ export class Player {
     setText(this.#note, [problem, ghost].filter(Boolean).join(" "));
     const parts = [this.#title, this.#moment, this.#slider, this.#back, this.#play, this.#forward, this.#proceed, this.#race];
     for (const each of [...parts, this.#speeds.element]) each.hidden = !playing;
-    this.#live.hidden = !isShowing;
+    // in its place from the start: else it would push the others away when a step is shown
+    this.#live.hidden = !playing && !isShowing;
+    this.#live.disabled = !isShowing;
     if (playing) this.#show(playing);
   }
 

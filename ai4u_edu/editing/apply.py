@@ -14,6 +14,7 @@ from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.state_difference import StateDifference
 from ai4u_edu.editing.thing_edits import ThingEdits
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import Pose
 
 
@@ -61,11 +62,12 @@ class RunningScene:
             try:
                 self._apply_now(applied, poses)
             except AI4UError:
+                self._describe(self.shown.description)
                 if applied == state:
                     raise
                 applied = self.shown  # it may depend on the part that comes with the reset
         self.shown, self.wanted = applied, state
-        self._update_descriptions()
+        self._describe(self.shown.description)
         if applied != state:
             return "next reset"
         return "now" if difference.concerns_no_agent else "next decision"
@@ -115,6 +117,7 @@ class RunningScene:
         if not world_changed and _without_brains(before) == _without_brains(state):
             return  # a recording does not depend on which brain drives
         if is_unstarted:
+            self._describe(state.description)  # the episode that begins is recorded with it
             sim.reset(sim.world.seeds.seed)
             things.restore_poses(poses)
         if not is_unstarted or things.has_moved_back:
@@ -130,13 +133,13 @@ class RunningScene:
             agent.steps or isinstance(agent.brain, RemoteBrain) for agent in agents
         )
 
-    def _update_descriptions(self) -> None:
+    def _describe(self, scene: SceneDescription) -> None:
         """Pass the scene's name, goal and start on to whoever shows or records it."""
-        self._sim.goal = self.shown.description.goal
-        self._sim.success = self.shown.description.success or ""
-        self._sim.wait_for_key = self.shown.description.wait_for_key
+        self._sim.goal = scene.goal
+        self._sim.success = scene.success or ""
+        self._sim.wait_for_key = scene.wait_for_key
         if self._runner.recorder is not None:
-            self._runner.recorder.scene = self.shown.description
+            self._runner.recorder.scene = scene
 
     def _follow_sim(self) -> None:
         self._sim = self._runner.sim

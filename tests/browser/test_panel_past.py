@@ -97,7 +97,7 @@ def test_what_was_driven_elsewhere_stands_apart(tab: TabPage) -> None:
 
 
 def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
-    tab.head("Episode 3").click()
+    tab.head("Episode 3 · Donut").click()
     assert tab.shown["episode"] == 3
     assert tab.sent() == [
         {"command": "episode", "number": 3},
@@ -132,7 +132,7 @@ def test_the_full_seed_is_copied(chromium: Browser) -> None:
           {value: {writeText: async (text) => (window.copied = text)}})"""
     )
     tab.give(PART)
-    tab.head("Episode 3").click()
+    tab.head("Episode 3 · Donut").click()
     texts = record_texts(tab.page, "button")
     tab.page.get_by_role("button", name="Copy the seed").click()
     until_on(tab.page, lambda: "Copied" in texts())
@@ -180,8 +180,11 @@ def test_from_a_moment_the_world_goes_on_or_races(tab: TabPage) -> None:
         {"command": "race"},
         {"command": "remove_ghost"},
     ]
+    proceed = tab.page.get_by_role("button", name="Continue here")
+    before = proceed.bounding_box()
     tab.give({**PART, "playing": PLAYING, "is_showing": False})
-    expect(tab.page.get_by_role("button", name="Back to live")).to_be_hidden()
+    expect(tab.page.get_by_role("button", name="Back to live")).to_be_disabled()
+    assert proceed.bounding_box() == before
     expect(tab.page.get_by_role("button", name="Remove ghost")).to_be_hidden()
 
 
@@ -228,7 +231,7 @@ def test_controls_are_large_enough_and_have_names(
     options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
     tab = TabPage(chromium, "panel_past", "PastTab", "past", size=size, **options)
     tab.give(PART)
-    tab.head("Episode 3").click()
+    tab.head("Episode 3 · Donut").click()
     tab.give({**PART, "playing": PLAYING, "ghost": "Ghost: episode 3", "downloads": DOWNLOADS})
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []

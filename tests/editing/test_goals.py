@@ -62,6 +62,21 @@ def test_the_first_goal_pays_ends_the_episode_and_is_a_success(harness: EditorHa
     assert agents[0].episode_reward == 10
 
 
+def test_an_episode_is_recorded_with_the_goal_that_it_has() -> None:
+    template = Scene.load(TEMPLATES / f"{EMPTY_SCENE}.yaml")
+    harness = EditorHarness(template, record=True)
+    harness.done(harness.editor.add_body(TARGET))
+    added(harness)
+    harness.world["robot"].move_to(3, 0)
+    while not harness.agent.done:
+        harness.tick()
+    recorder = harness.runner.recorder
+    assert recorder is not None
+    recorder.finish()
+    episode = recorder.episodes[-1]
+    assert (episode.scene.goal, episode.success) == ("Reach the target.", True)
+
+
 def test_a_second_one_pays_and_ends_nothing(harness: EditorHarness) -> None:
     added(harness)
     second = added(harness)
