@@ -83,7 +83,7 @@ class Ledger:
         return (self.total, self.terms) if self._is_closed else self._finished
 
     def keep_history(self, decisions: int) -> None:
-        """Keep so many of the latest decisions from now on; none are kept by default."""
+        """Keep the latest ``decisions`` decisions in :attr:`history`; by default none."""
         if self.history.maxlen != decisions:
             self.history = deque(self.history, decisions)
             self._latest = None

@@ -419,6 +419,22 @@ def test_a_message_that_is_no_command_is_named_with_the_next_reply(script: UDPSc
     brain.close()
 
 
+def test_an_action_before_the_first_reset_is_named(script: UDPScript) -> None:
+    sim, brain = remote_sim(script)
+    for reply in (NOOP, "max_steps;1;0@id;1;0", "__start_agent__;1;0"):
+        script.next(sim)
+        script.say(reply)
+    assert script.next(sim)["done"] is True
+    script.say(AHEAD)
+    script.next(sim)
+    script.say(RESET)
+    assert script.next(sim)["done"] is False
+    assert brain.status().warning == (
+        "action 'move' had no effect: expected '__reset__' first, with which an episode begins"
+    )
+    brain.close()
+
+
 def test_a_session_that_ends_after_a_wrong_message_says_which(script: UDPScript) -> None:
     sim, brain = remote_sim(script)
     script.meet(sim)

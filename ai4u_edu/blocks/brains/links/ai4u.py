@@ -12,7 +12,7 @@ from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation,
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.blocks.brains.links.udp import UdpSocket
 from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, ReplyKind, State
-from ai4u_edu.wire.validation import WireError
+from ai4u_edu.wire.validation import WireError, shown
 
 CONNECT_INTERVAL_S = 0.25
 """Interval of the requests that look for a script."""
@@ -113,7 +113,7 @@ class AI4ULink:
         self._early_reply: Reply | None = None
         """A reply that came while the world stood still."""
         self._malformed = ""
-        """A sentence about the last message of the session that was no reply."""
+        """A sentence about the last message of the session that was no reply, or had no effect."""
         self._socket = UdpSocket(self._peer)
         self._close_socket = weakref.finalize(self, self._socket.close)
         if self._is_threaded:
@@ -263,6 +263,11 @@ class AI4ULink:
             case ReplyKind.ACTION if self.expects_reply:
                 action = self._codec.action(received.orders)
                 return Reply(action, observation, self._warning(received))
+            case ReplyKind.ACTION:
+                self._malformed = (
+                    f"action {shown(received.orders[0].name)} had no effect: expected '__reset__' "
+                    "first, with which an episode begins"
+                )
             case _ if self.expects_reply:
                 return Reply(COMMANDS[kind], observation, self._warning(received))
         return None
