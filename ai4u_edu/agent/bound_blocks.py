@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.agent.options import add_optional_blocks
-from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim, owner_of
+from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim, owner_of, walk_blocks
 from ai4u_edu.agent.raw_values import as_amount, read_text, read_texts, refuse_amount
 from ai4u_edu.agent.setup_checks import check_unique, enabled_brain
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
@@ -87,6 +87,7 @@ class BoundBlocks:
                 actuator.prepare()
         if self.brain is not ready_brain:
             self._set_up(self.brain)
+        self._remember_fixed()
 
     @property
     def blocks(self) -> list[Block]:
@@ -118,6 +119,7 @@ class BoundBlocks:
         if not any(each is brain for each in self._agent.brains):
             self._agent.brains.append(brain)
         self._remember_switches()
+        self._remember_fixed()
 
     def follow_switches(self) -> None:
         """Give control to another brain if somebody has set ``enabled`` of brains since.
@@ -177,9 +179,11 @@ class BoundBlocks:
         """Reset every block, in the order of setup.
 
         Raises:
-            SetupError: the agent has an active block that was not set up with the others.
+            SetupError: the agent has an active block that was not set up with the others, or an
+                attribute of a block was set that counts at setup only.
         """
         self._check_all_bound()
+        self._check_fixed()
         for reward in self.rewards:
             self._reset(reward)
         for sensor in self.sensors:
@@ -204,6 +208,21 @@ class BoundBlocks:
                     "the agent was set up, and would have no effect; call "
                     "agent.setup(world), or make it active before ControlRequestor(world, [agent])"
                 )
+
+    def _remember_fixed(self) -> None:
+        self._fixed = [(block, block.fixed_at_setup()) for block in walk_blocks(self.blocks)]
+
+    def _check_fixed(self) -> None:
+        for block, before in self._fixed:
+            now = block.fixed_at_setup()
+            if now == before:
+                continue
+            name = next(name for name, value in now.items() if value != before[name])
+            raise SetupError(
+                f"agent {self._agent.id!r}, {block_label(block)}: {name} was set to "
+                f"{getattr(block, name)!r} after the agent was set up, and would have no effect; "
+                "call agent.setup(world), or set it before ControlRequestor(world, [agent])"
+            )
 
     def sense(self) -> Percept:
         """Read every active sensor once into memory; return a copy as a percept."""

@@ -27,6 +27,10 @@ class Block(Parameterized):
         """Return the blocks inside this one, which it sets up and resets; most have none."""
         return ()
 
+    def fixed_at_setup(self) -> dict[str, object]:
+        """Return attributes that count at setup only, by name; the next reset refuses others."""
+        return {}
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Prepare, when the agent is set up: check targets and compute what is costly here."""
 

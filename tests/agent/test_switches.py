@@ -8,9 +8,11 @@ from ai4u_edu import (
     BasicAgent,
     CircleShape,
     ControlRequestor,
+    FloatArrayCompositeSensor,
     HeadingSensor,
     LocalBrain,
     RBMoveActuator,
+    RemoteBrain,
     RestlessnessRewardFunc,
     VelocitySensor,
     World,
@@ -138,3 +140,59 @@ def test_a_block_that_was_added_after_setup_is_not_silently_left_out() -> None:
     agent.setup(sim.world)
     sim.reset()
     assert "heading" in agent.percept
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("perception_key", "speed"),
+        ("stacked_observations", 3),
+        ("normalized", True),
+        ("is_input", False),
+        ("delay", 1),
+        ("noise", 0.5),
+        ("dropout", 0.5),
+    ],
+)
+@pytest.mark.parametrize("is_inside", [False, True])
+def test_what_counts_at_setup_is_refused_later(name: str, value: Any, is_inside: bool) -> None:
+    sensor = VelocitySensor()
+    outer = FloatArrayCompositeSensor(sensors=[sensor], range_min=-50, range_max=50)
+    sim, agent = sim_of(brains=[brain(0.0)], sensors=[outer if is_inside else sensor])
+    sim.reset()
+    setattr(sensor, name, value)
+    says = rf"VelocitySensor '\w+': {name} was set to {value!r} after the agent was set up"
+    with pytest.raises(SetupError, match=says):
+        sim.reset()
+    agent.setup(sim.world)
+    sim.reset()
+    sim.step()
+
+
+def test_another_name_of_an_actuator_is_refused_later() -> None:
+    sim, agent = sim_of(brains=[brain(0.0)])
+    sim.reset()
+    agent.actuators[0].action_name = "go"
+    with pytest.raises(SetupError, match=r"RBMoveActuator 'go': action_name was set to 'go' after"):
+        sim.reset()
+
+
+def test_noise_may_change_where_there_is_some() -> None:
+    sensor = VelocitySensor(noise=0.5)
+    sim, agent = sim_of(brains=[brain(0.0)], sensors=[sensor])
+    sim.reset()
+    sensor.noise = 1.5
+    sim.reset()
+    assert agent.percept["velocity"].any()
+
+
+def test_another_port_of_a_script_is_refused_later() -> None:
+    remote = RemoteBrain(port=9)
+    sim, agent = sim_of(brains=[remote])
+    sim.reset()
+    remote.port = 10
+    with pytest.raises(SetupError, match=r"port was set to 10 after the agent was set up"):
+        sim.reset()
+    agent.use_brain(remote)
+    sim.reset()
+    remote.close()

@@ -87,6 +87,10 @@ class Actuator(Block):
             return [start], [start + float(space.n) - 1.0]
         raise BlockError(f"{self!r}: expected space() to be a Box or Discrete, got {space}")
 
+    def fixed_at_setup(self) -> dict[str, object]:
+        """Return the name by which an action finds it."""
+        return {"action_name": self.action_name}
+
     def prepare(self) -> None:
         """Compute the limits once, at setup."""
         low, high = self.limits()

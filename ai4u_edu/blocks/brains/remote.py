@@ -129,6 +129,10 @@ class RemoteBrain(Brain):
         """Let the script decide again, from the next decision on."""
         self.override = None
 
+    def fixed_at_setup(self) -> dict[str, object]:
+        """Return the script's address, at which the link was opened."""
+        return {} if self.has_own_link else {"host": self.host, "port": self.port}
+
     # -- interface of a brain --------------------------------------------------------------------
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:

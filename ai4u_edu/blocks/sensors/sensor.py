@@ -109,6 +109,18 @@ class Sensor(Block):
             warnings.warn(text, DeprecationWarning, stacklevel=2)
             setattr(cls, "is_sentinel", vars(cls)["says_nothing"])  # noqa: B010 - mypy: a method
 
+    def fixed_at_setup(self) -> dict[str, object]:
+        """Return what decides on the reading's place and on its path to the percept."""
+        return {
+            "perception_key": self.perception_key,
+            "stacked_observations": self.stacked_observations,
+            "normalized": self.normalized,
+            "is_input": self.is_input,
+            "delay": self.delay,
+            "noise": self.noise > 0,
+            "dropout": self.dropout > 0,
+        }
+
     # -- methods that a sensor implements --------------------------------------------------------
 
     def space(self) -> spaces.Space[Any]:
