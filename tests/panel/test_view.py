@@ -106,6 +106,7 @@ def test_the_script_that_drives_an_agent(room: PanelRoom) -> None:
             {
                 "state": "late",
                 "reason": "no answer for 2 s",
+                "warning": "",
                 "counts": {"decisions": 7, "clipped": 3},
             },
         ),
