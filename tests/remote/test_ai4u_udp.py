@@ -419,6 +419,45 @@ def test_a_message_that_is_no_command_is_named_with_the_next_reply(script: UDPSc
     brain.close()
 
 
+@pytest.mark.parametrize(
+    ("before", "says"),
+    [
+        ([AHEAD], "action 'move' had no effect: the episode is over; expected a reset"),
+        (
+            ["__pause__;1;0"],
+            "action 'move' had no effect: the agent is paused; expected a command to resume",
+        ),
+        (["__stop__;1;0"], "action 'move' had no effect: the agent was stopped; expected a reset"),
+    ],
+)
+def test_an_action_that_can_have_no_effect_now_is_named(
+    script: UDPScript, before: list[str], says: str
+) -> None:
+    sim, brain = remote_sim(script, max_steps_per_episode=1)
+    script.meet(sim)
+    for reply in before:
+        script.say(reply)
+        script.next(sim)
+    assert brain.status().warning == ""
+    script.say(AHEAD)
+    script.next(sim)
+    assert (brain.status().warning, brain.status().warnings) == (says, 1)
+    brain.close()
+
+
+def test_an_unknown_action_is_named_before_its_fields(script: UDPScript) -> None:
+    sim, brain = remote_sim(script, on_missing="coast")
+    script.meet(sim)
+    script.say("mvoe;4;1;0;0;0@note;1;2")
+    script.next(sim)
+    status = brain.status()
+    assert status.warning.startswith(
+        "agent '0' has no actuator 'mvoe'; did you mean 'move'?; field"
+    )
+    assert status.warnings == 1
+    brain.close()
+
+
 def test_an_action_before_the_first_reset_is_named(script: UDPScript) -> None:
     sim, brain = remote_sim(script)
     for reply in (NOOP, "max_steps;1;0@id;1;0", "__start_agent__;1;0"):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 from pydantic import Field
 
 from ai4u_edu.base.deprecation import RenamedAttribute
-from ai4u_edu.base.errors import ActionError, SetupError
+from ai4u_edu.base.errors import ActionError, SetupError, shown
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Brain
@@ -296,31 +296,52 @@ class RemoteBrain(Brain):
     def _carry_out(self, link: Link, reply: Reply, observation: Observation) -> Answer:
         """Return a reply as the decision cycle takes it."""
         answer, agent = reply.answer, self._agent
-        if reply.warning:
-            self._status.warn(reply.warning, self._patience.now())
         if isinstance(answer, Reset):
+            self._warn(reply.warning)
             self._is_resetting, self._must_truncate = True, False
             self._seed = answer.seed
             is_for_world = not agent.other_agents or answer.seed is not None
             return Command.RESTART if is_for_world else Command.RESPAWN
         if isinstance(answer, Command):
+            self._warn(reply.warning)
             self._is_stopped = self._is_stopped or answer is Command.STOP
             # after STOP the cycle would not ask again, and would miss a reset
             return Command.WAIT if answer is Command.STOP else answer
         if not self._can_act() or observation.done:
+            is_late = reply.observation is not observation  # no mistake of the script
+            problem = "" if is_late else self._reason_without_effect(answer, observation)
+            self._warn(problem, reply.warning)
             return Command.WAIT
         try:
             action, clipped = self._actions.accept(answer)
         except ActionError as error:
             self._status.refused += 1
             self._status.reason = str(error)
-            self._status.warn(str(error), self._patience.now())
+            self._warn(str(error), reply.warning)
             if link.refuse(reply, str(error)) and self._may_wait(link):
                 self._current = observation
                 return Command.HOLD
             return self._substitute()
+        self._warn(reply.warning)
         self._status.accept(clipped, self._patience.now())
         return action
+
+    def _reason_without_effect(self, action: Action, observation: Observation) -> str:
+        """Say why an action has no effect, whatever it is."""
+        if not action:
+            return ""
+        if observation.done:
+            reason = "the episode is over; expected a reset"
+        elif observation.paused:
+            reason = "the agent is paused; expected a command to resume"
+        else:
+            reason = "the agent was stopped; expected a reset"
+        return f"action {', '.join(map(shown, action))} had no effect: {reason}"
+
+    def _warn(self, *sentences: str) -> None:
+        """Report what had no effect in one reply; empty sentences report nothing."""
+        if any(sentences):
+            self._status.warn("; ".join(filter(None, sentences)), self._patience.now())
 
     def _decide_overridden(self, brain: Brain, link: Link, observation: Observation) -> Answer:
         """Let another brain decide; the script gets the observation, and only its resets count."""
