@@ -55,11 +55,16 @@ def page(opened: Page, school: WallServer) -> Page:
     opened.get_by_label("Sort").select_option("help")
     school.problem, school.answer = "", {"room": "/privacy"}
     school.commands.clear()
-    school.send(**{**class_message(COUNT), "rooms": []})  # so that no card is the Tab key's stop
-    expect(cards(opened)).to_have_count(0)
     school.send(**class_message(COUNT))
     expect(cards(opened)).to_have_count(COUNT)
+    opened.evaluate(FIRST_IS_STOP)
     return opened
+
+
+FIRST_IS_STOP = """() =>
+    document.querySelectorAll("#wall button").forEach((each, at) => (each.tabIndex = at ? -1 : 0))
+"""
+"""The first card is the stop of the Tab key, as in a page that was just opened."""
 
 
 def cards(page: Page) -> Locator:
