@@ -15,15 +15,17 @@ Colours are composed from computed styles: a screenshot would show one state of 
 """
 
 
-def low_contrasts(page: Page, *, controls: int = 1) -> list[str]:
+def low_contrasts(page: Page, *, controls: int = 1, within: str = "body") -> list[str]:
     """Return the controls' texts that can't be read in one of their states.
 
     These are at rest, pointed at, focused and pressed; each of them as it is, chosen, and disabled.
 
     Args:
         controls: fewest controls that the page must show, so that an empty one does not pass.
+        within: selector of the part of the page.
     """
-    limits = {"controls": CONTROLS, "minText": MIN_TEXT, "minIcon": MIN_ICON}
+    selector = f":is({within}) :is({CONTROLS})"
+    limits = {"controls": selector, "minText": MIN_TEXT, "minIcon": MIN_ICON}
     low: list[str]
     low, count = page.evaluate(MEASURE, limits)
     assert count >= controls, f"expected {controls} controls or more, got {count}"

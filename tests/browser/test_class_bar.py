@@ -26,6 +26,7 @@ from ai4u_edu.wire.class_link import (
     RaceRow,
     Welcome,
 )
+from tests.browser.contrast import low_contrasts
 from tests.browser.plain_page import ASKED
 from tests.browser.sent_frames import SentFrames
 from tests.browser.served_viser import PLAIN, centre, connected, driver_status
@@ -139,6 +140,24 @@ def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfCla
         for page in school.pages:
             close_page(page)
         found[0].stop()
+
+
+OURS = ".ai4u-class-bar, .ai4u-dock, dialog"
+"""Selector of our parts of the page: others stand for viser's."""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_its_controls_can_be_read_in_all_states(school: RoomOfClass, scheme: Any) -> None:
+    page = school.page(color_scheme=scheme)
+    # viser is left out, which sets it
+    page.evaluate("each => (document.documentElement.dataset.mantineColorScheme = each)", scheme)
+    school.tell(Welcome(1, "", ""), People((FOX, OWL, HARE)))
+    bar = page.get_by_role("region", name="Class")
+    expect(bar.get_by_role("button").first).to_be_visible()
+    assert low_contrasts(page, controls=2, within=OURS) == []
+    bar.get_by_role("button").first.click()
+    page.locator("dialog[open]").wait_for()
+    assert low_contrasts(page, controls=2, within=OURS) == []
 
 
 def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -> None:

@@ -6,12 +6,13 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from ai4u_edu.server import Rules
 from tests.browser.code_tab import CodePage
 from tests.browser.contrast import low_contrasts
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.wall_server import WallServer, wall_server
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import Room
+from tests.server.rooms import Room, served
 
 pytestmark = pytest.mark.browser
 
@@ -109,6 +110,15 @@ def test_the_teachers_windows(
     page.locator("dialog[open]").wait_for()
     assert_readable(page, controls=10)
     close_page(page)
+
+
+def test_the_page_that_asks_for_a_token(chromium: Browser, scheme: Any) -> None:
+    with served(rules=Rules(token="secret")) as room:
+        page = quick_page(chromium, color_scheme=scheme)
+        page.goto(room.url)
+        expect(page.get_by_label("Token")).to_be_visible()
+        assert_readable(page, controls=2)
+        close_page(page)
 
 
 def test_the_tab_code(chromium: Browser, scheme: str) -> None:
