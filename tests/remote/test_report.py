@@ -1,5 +1,6 @@
 """The lines for whoever runs a world: which scripts come, go, are refused and act in vain."""
 
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from socket import SHUT_RDWR
@@ -11,7 +12,7 @@ from ai4u_edu.base.log_limit import LOG_INTERVAL_S
 from ai4u_edu.remote import Robot
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.scripts import ScriptReport
-from ai4u_edu.server.scripts.report import EVENTS_PER_S
+from ai4u_edu.server.scripts.report import EVENTS_PER_S, MAX_WAITING_LINES
 from ai4u_edu.wire import native
 from tests.builders import small_sim
 from tests.playing import played
@@ -135,6 +136,25 @@ def test_a_flood_of_events_fills_no_terminal(
     report.note_event("later")
     until(lambda: told[-1:] == ["later"])
     assert len(told) == EVENTS_PER_S + 1
+
+
+def test_a_blocked_terminal_blocks_nobody_else(clock: Clock) -> None:
+    is_blocked, may_go_on = threading.Event(), threading.Event()
+    told: list[str] = []
+
+    def tell(line: str) -> None:
+        told.append(line)
+        is_blocked.set()
+        assert may_go_on.wait(LIMIT_S)
+
+    with ScriptReport(Runner(small_sim()), tell, clock) as report:
+        report.note_event("first")
+        assert is_blocked.wait(LIMIT_S)
+        for number in range(2 * MAX_WAITING_LINES):
+            report.note_mistake(f"kind {number}", f"number {number}")
+        may_go_on.set()
+        until(lambda: f"number {MAX_WAITING_LINES - 1}" in told)
+        assert len(told) == 1 + MAX_WAITING_LINES
 
 
 def test_a_script_can_not_command_the_terminal(report: ScriptReport, told: list[str]) -> None:

@@ -2,8 +2,9 @@
 
 import time
 from collections.abc import Callable
-from queue import Empty, SimpleQueue
-from threading import Thread
+from contextlib import suppress
+from queue import Empty, Full, Queue
+from threading import Event, Lock, Thread
 from typing import Protocol, Self
 
 from ai4u_edu.base.errors import shorten
@@ -18,6 +19,8 @@ EVENTS_PER_S = 5.0
 POLL_S = 0.25
 """Interval at which the state of AI4U's scripts is looked at."""
 MAX_LINE_CHARS = 300
+MAX_WAITING_LINES = 100
+"""Lines that wait for a blocked terminal; further ones are left out."""
 STOP_TIMEOUT_S = 1.0
 """Time that the last lines may take to be written."""
 
@@ -67,8 +70,11 @@ class ScriptReport:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._runner, self._tell = runner, tell
-        self._lines: SimpleQueue[str | None] = SimpleQueue()
+        self._lines: Queue[str] = Queue(MAX_WAITING_LINES)
+        self._is_over = Event()
         self._events = RateLimit(EVENTS_PER_S, clock=clock)
+        self._lock = Lock()
+        """Guards the limit of events: the server's event loop and the thread report some."""
         self._mistakes = LogLimiter(clock=clock)
         self._seen: dict[str, RemoteStatus] = {}
         """Status of AI4U's scripts at the last look, by the agent's id."""
@@ -79,31 +85,37 @@ class ScriptReport:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._lines.put(None)
+        self._is_over.set()
         self._thread.join(STOP_TIMEOUT_S)
 
     def note_event(self, text: str) -> None:
         """Write a line, unless there are too many."""
-        if self._events.take_within() is not None:
-            self._lines.put(_plain(text))
+        with self._lock:
+            has_token = self._events.take_within() is not None
+        if has_token:
+            self._put(_plain(text))
 
     def note_mistake(self, kind: str, text: str) -> None:
         """Write a line, and only a count of further ones of its kind for some time."""
         left_out = self._mistakes.admit(kind)
         if left_out is not None:
             more = f" ({left_out} more since the last such line)" if left_out else ""
-            self._lines.put(_plain(text) + more)
+            self._put(_plain(text) + more)
+
+    def _put(self, line: str) -> None:
+        with suppress(Full):
+            self._lines.put_nowait(line)
 
     def _run(self) -> None:
-        while True:
+        look_at = 0.0
+        while not (self._is_over.is_set() and self._lines.empty()):
             try:
-                line = self._lines.get(timeout=POLL_S)
+                line = self._lines.get(timeout=max(0.0, look_at - time.monotonic()))
             except Empty:
                 self._look()
-                continue
-            if line is None:
-                return
-            self._tell(line)
+                look_at = time.monotonic() + POLL_S
+            else:
+                self._tell(line)
 
     def _look(self) -> None:
         """Report what has changed with AI4U's scripts."""
