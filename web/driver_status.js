@@ -31,7 +31,7 @@ export class DriverStatus {
   draw({ connected, hello, control, howToDrive, isPaused, isWaiting, isHeld, isReached }) {
     const [kind, who] = status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached });
     // whoever drives, no key and no stick moves anything now
-    const isStill = isPaused && !["lost", "none"].includes(kind);
+    const isStill = connected && isPaused && !isHeld;
     this.#dot.dataset.kind = kind;
     setText(this.#text, isStill ? "Paused" : who);
     setText(this.#hint, kind === "auto" && !isStill ? ` – ${howToDrive} to take over` : "");
