@@ -39,6 +39,7 @@ def codec_of(sim: Any) -> tuple[AI4UCodec, Observation]:
         truncated=False,
         paused=False,
         stopped=False,
+        episode_reward=0.25,
     )
     return AI4UCodec(offer), situation
 
