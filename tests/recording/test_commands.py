@@ -245,5 +245,6 @@ def test_who_never_decides_is_not_recorded_for_ever(
     monkeypatch.setattr(episode_commands, "DEFAULT_MAX_DECISIONS", 50)
     file = tmp_path / "mine.py"
     file.write_text("from ai4u_edu import Command\n\ndef idle(percept):\n    return Command.WAIT\n")
-    with pytest.raises(NoDecisionError, match="agent '0' took no decision in 50 ticks"):
-        episode_commands.record("box_chase", [f"{file}:idle"], out=tmp_path / "kept")
+    refused = run("record", "box_chase", "--brain", f"{file}:idle", "--out", tmp_path / "kept")
+    assert isinstance(refused.exception, NoDecisionError)
+    assert "agent '0' took no decision in 50 ticks" in str(refused.exception)
