@@ -1,4 +1,4 @@
-"""How students' programs ran last, and the mistakes that stopped them.
+"""Latest runs of students' programs, and the mistakes that stopped them.
 
 A student's page tells it, as a notebook tells the results of exercises; nobody proves it.
 """

@@ -75,7 +75,7 @@ class Why:
     also: str = ""
     """The sentence with the other baseline, if another slot is decisive there."""
     explained: str = ""
-    """How much of what all slots do together the single ones explain."""
+    """Share of what all slots do together that the single ones explain, in words."""
     axes: tuple[Axis, ...] = ()
     """The numbers of the action."""
     groups: tuple[Group, ...] = ()

@@ -121,7 +121,9 @@ def test_cards_keep_their_places_when_a_strip_appears(
     before = page.evaluate(columns)
     school.send(attention={"kind": "pause", "message": "Look", "ends_in": 0.0}, race=race(3))
     expect(page.get_by_role("button", name="End race")).to_be_visible()
-    page.evaluate("() => new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)))")
+    page.evaluate(
+        "() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))"
+    )
     assert len(page.evaluate(columns)) == len(before)
     close_page(page)
 
