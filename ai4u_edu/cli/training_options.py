@@ -82,7 +82,7 @@ WatchPort = Annotated[
 EvaluatedScene = Annotated[
     list[str] | None,
     typer.Argument(
-        metavar="[SCENE]",
+        metavar="SCENE",
         help="Scene name or YAML file. Default: the one that the first driver is made for.",
     ),
 ]
