@@ -15,8 +15,9 @@ CHASE_DECISIONS = 450
 """Decisions of a round in 16.1; one that takes the nearest runner needs at most 300 or so."""
 NEAR_M, MAX_LINGER_DECISIONS = 1.5, 30
 """Distance from the place of a catch, and the decisions that a chaser may stay within it."""
-SIDE_RAD, TOWARDS = 0.35, 0.65
-"""Angle from which on a runner is to one side, and the least share of the turns towards it."""
+FACES_RAD, FACES = 0.6, 0.5
+"""Angle within which a chaser faces a runner, and the least share of the decisions in which it does
+while one runner is left."""
 PAIRS = 30
 """Pairs of players, one of whom is better."""
 REVERSED_PAIRS = 24
@@ -83,11 +84,11 @@ def catches_all(chase: Any) -> Done:
             reason = done.not_yet(f"{how} ({{where}}).", hint)
         if played - won > rounds - needed:
             break
-    towards = [is_towards for each in lingers for is_towards in each.towards]
-    if won >= needed and sum(towards) < TOWARDS * len(towards):
+    faces = [is_facing for each in lingers for is_facing in each.faces]
+    if won >= needed and sum(faces) < FACES * len(faces):
         raise done.not_yet(
-            "It caught them all, but by driving about: when one was left, it turned away from it "
-            "as often as towards it ({where}).",
+            f"It caught them all, but by driving about: when one was left, it faced that one in "
+            f"{sum(faces)} of {len(faces)} decisions ({{where}}).",
             "luck",
         )
     if won < needed and reason is not None:
@@ -99,23 +100,21 @@ def catches_all(chase: Any) -> Done:
 
 
 class _Lingering:
-    """Stays of a chaser where it caught somebody, and its turns towards the last runner."""
+    """Stays of a chaser where it caught somebody, and its looks at the last runner."""
 
     def __init__(self) -> None:
         self.longest = 0
         """Decisions of the longest stay."""
-        self.towards: list[bool] = []
-        """True for each turn towards the last free runner, False for a turn away from it."""
-        self._side = 0.0
+        self.faces: list[bool] = []
+        """True for each decision in which it faced the last free runner."""
         self._stay, self._free = 0, 3.0
         self._place: tuple[float, float] | None = None
 
     def watch(self, done: Drive) -> None:
         """Look after a decision."""
-        turn = float((*done.agent.last_action.get("move", ()), 0.0, 0.0)[1])
-        if self._side and turn:
-            self.towards.append(turn * self._side < 0)  # a turn above 0 is one to the right
-        self._side = _side_of_last(done.agent.percept)
+        angle = _angle_to_last(done.agent.percept)
+        if angle is not None:
+            self.faces.append(abs(angle) < FACES_RAD)
         free, here = float(sum(done.agent.percept["free"])), done.agent.body.position
         if free < self._free:
             self._free, self._place, self._stay = free, here, 0
@@ -126,13 +125,13 @@ class _Lingering:
             self._place = None
 
 
-def _side_of_last(percept: Percept) -> float:
-    """Return 1 or -1 if one runner alone is free, clearly to the left or to the right; else 0."""
+def _angle_to_last(percept: Percept) -> float | None:
+    """Return the angle (rad) to the last runner that is free; None if more or none are."""
     free = [number for number, is_free in enumerate(percept["free"], 1) if is_free == 1]
     if len(free) != 1:
-        return 0.0
+        return None
     ahead, left = percept[f"runner {free[0]}"][:2]
-    return math.copysign(1, left) if abs(math.atan2(left, ahead)) > SIDE_RAD else 0.0
+    return math.atan2(left, ahead)
 
 
 def _looks_around(chase: Any, done: Drive) -> bool:
