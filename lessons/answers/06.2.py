@@ -200,14 +200,23 @@ def Patrol(percept):
 
 
 # %% tags=["lucky", "turns by a hair at a post, and reads the bearing as a clock"]
+def towards(bearing):
+    left, ahead = bearing
+    if ahead < 0:
+        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
+    return {"move": [1, -4 * (left + 0.036), 0, 0]}  # a little beside it: the hand of the clock
+
+
 def Patrol(percept):
     for here, there in (("red", "blue"), ("blue", "red")):
         left, ahead = percept["to " + here]
-        if percept["at " + here][0] == 1 and ahead > 0 and left < 0.03:
-            return {"move": [0, 0.0035, 0, 0]}
         if percept["at " + here][0] == 1:
-            return to(percept["to " + there])
-    return to(max(percept["to red"], percept["to blue"], key=lambda bearing: bearing[1]))
+            if ahead > 0 and -0.1 < left < 0:
+                return {"move": [0, 0.0035, 0, 0]}
+            if percept["to " + there][1] < 0.5:
+                return {"move": [0, 1, 0, 0]}
+            return towards(percept["to " + there])
+    return towards(max(percept["to red"], percept["to blue"], key=lambda bearing: bearing[1]))
 
 
 # %% tags=["wrong", "pushes", "changes the post by the clock"]
