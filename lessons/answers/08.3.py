@@ -106,7 +106,7 @@ def diary(agent):
     notes = []
     events = [agent.begin_of_episode, agent.end_of_step, agent.end_of_episode]
     for event, word in zip(events, ["begin", "decision", "end"]):
-        event.connect(lambda agent: notes.append(word))
+        event.connect(lambda agent: notes.append(word))  # noqa: B023 - the mistake
     return notes
 
 
