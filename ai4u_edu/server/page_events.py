@@ -65,7 +65,6 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
         "error": picture.error,
         "episode": picture.episode,
         "agent_episode": agent.episode,
-        "agent_episode": agent.episode,
         "seed_locked": picture.is_seed_locked,
         "terminated": agent.terminated,
         "truncated": agent.truncated,
