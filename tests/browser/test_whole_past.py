@@ -30,13 +30,13 @@ MIDDLE = 5
 """A seed with which box_chase_ai4u puts the robot into the middle, looking along +x."""
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def server() -> Iterator[Played]:
     with played("box_chase_ai4u", "--seed", str(MIDDLE)) as server:
         yield server
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def page(server: Played, chromium: Browser) -> Iterator[Page]:
     """A page with an episode in its past: the robot drove ahead for a while."""
     with whole_page(chromium, server, draws=True) as page:
