@@ -114,11 +114,12 @@ def test_cards_keep_their_places_when_a_strip_appears(
     chromium: Browser, school: WallServer
 ) -> None:
     school.state = class_message(4)
-    page = quick_page(chromium, 1280, 800)
+    page = quick_page(chromium, 1400, 900)
     page.goto(f"{school.url}teacher")
     expect(cards(page)).to_have_count(4)
     columns = "getComputedStyle(document.querySelector('#wall ul')).gridTemplateColumns.split(' ')"
     before = page.evaluate(columns)
+    assert len(before) == 2
     school.send(attention={"kind": "pause", "message": "Look", "ends_in": 0.0}, race=race(3))
     expect(page.get_by_role("button", name="End race")).to_be_visible()
     page.evaluate(

@@ -56,7 +56,7 @@ def test_the_first_event_has_everything(served: ServedClass) -> None:
     assert about["scene"] in titles
     (maze,) = [each for each in event["scenes"] if each["name"] == "maze"]
     assert http_client.get(served.url + maze["picture"]).content.startswith(b"\x89PNG")
-    assert event["shown"] == {"kind": "join", "room": ""}
+    assert event["shown"] == {"kind": "join", "room": "", "game": 0}
     assert event["attention"] == {"kind": "", "message": "", "ends_in": 0}
     (seat,) = [each for each in event["seats"] if each["name"] == "Red Fox"]
     (room,) = [each for each in event["rooms"] if seat["number"] in each["seats"]]
