@@ -41,10 +41,13 @@ def test_pages_of_the_teacher_need_the_secret(served: ServedClass) -> None:
     assert http_client.get(served.url + "projector").status_code == 401
 
 
-def test_the_first_event_has_everything(served: ServedClass) -> None:
-    served.joined(name="Red Fox")
-    with TeacherSocket(served) as wall:
-        event = wall.next("class")
+def test_the_first_event_of_a_new_class_has_everything(tmp_path: Path) -> None:
+    with served_class(tmp_path) as served:
+        served.joined(name="Red Fox")
+        with TeacherSocket(served) as wall:
+            event = wall.next("class")
+        (maze,) = [each for each in event["scenes"] if each["name"] == "maze"]
+        assert http_client.get(served.url + maze["picture"]).content.startswith(b"\x89PNG")
     assert event["qr"].startswith("data:image/svg+xml,")
     assert event["address"] == served.url
     titles = {each["name"]: each["title"] for each in event["scenes"]}
@@ -54,8 +57,6 @@ def test_the_first_event_has_everything(served: ServedClass) -> None:
     (about,) = [each for each in event["lessons"] if each["number"] == "04"]
     assert about["title"] == "Sensors: what can it know?"
     assert about["scene"] in titles
-    (maze,) = [each for each in event["scenes"] if each["name"] == "maze"]
-    assert http_client.get(served.url + maze["picture"]).content.startswith(b"\x89PNG")
     assert event["shown"] == {"kind": "join", "room": "", "game": 0}
     assert event["attention"] == {"kind": "", "message": "", "ends_in": 0}
     (seat,) = [each for each in event["seats"] if each["name"] == "Red Fox"]

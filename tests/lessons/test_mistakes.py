@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import threading
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -176,9 +177,13 @@ def test_what_is_set_in_init_is_there() -> None:
     assert verdict.hint != "no-return"
 
 
+NUMBERS = count()
+
+
 def function(code: str) -> Any:
     names: dict[str, Any] = {}
-    run(Cell(code), names, f"<endless {hash(code)}>")
+    # a name of its own, for the lines of a file are looked up by its name
+    run(Cell(code), names, f"<cell {next(NUMBERS)}>")
     return names["go"]
 
 
