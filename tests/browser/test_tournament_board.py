@@ -16,10 +16,17 @@ GRAVE = {"serious", "critical"}
 
 
 @pytest.fixture(scope="module")
-def school() -> Iterator[WallServer]:
-    with wall_server(8) as school:
-        school.moves = False
-        yield school
+def server() -> Iterator[WallServer]:
+    with wall_server(8) as server:
+        server.moves = False
+        yield server
+
+
+@pytest.fixture
+def school(server: WallServer) -> WallServer:
+    """Return the server of a class in which nothing has happened yet."""
+    server.reset()
+    return server
 
 
 @pytest.fixture

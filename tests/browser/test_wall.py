@@ -27,18 +27,25 @@ REAL_NAME = "Ada Lovelace-Byron"
 
 
 @pytest.fixture(scope="module")
-def school() -> Iterator[WallServer]:
-    with wall_server(COUNT) as school:
-        yield school
+def server() -> Iterator[WallServer]:
+    with wall_server(COUNT) as server:
+        yield server
+
+
+@pytest.fixture
+def school(server: WallServer) -> WallServer:
+    """Return the server of a class in which nothing has happened yet."""
+    server.reset()
+    return server
 
 
 @pytest.fixture(scope="module")
-def opened(chromium: Browser, school: WallServer) -> Iterator[Page]:
+def opened(chromium: Browser, server: WallServer) -> Iterator[Page]:
     page = quick_page(chromium)
     errors: list[str] = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda line: errors.append(line.text))
-    page.goto(f"{school.url}teacher")
+    page.goto(f"{server.url}teacher")
     yield page
     close_page(page)
     assert [each for each in errors if not each.startswith(ABOUT_TESTS)] == []
@@ -46,16 +53,14 @@ def opened(chromium: Browser, school: WallServer) -> Iterator[Page]:
 
 @pytest.fixture
 def page(opened: Page, school: WallServer) -> Page:
-    """Return the teacher's page of a class that is as at first."""
+    """Return the teacher's page of that class."""
     opened.mouse.move(5, 5)
     opened.evaluate("document.querySelectorAll('dialog').forEach((each) => each.close())")
     opened.evaluate("document.activeElement.blur()")
     opened.get_by_role("tab", name="Wall").click()
     opened.get_by_role("button", name="All", exact=False).first.click()
     opened.get_by_label("Sort").select_option("help")
-    school.problem, school.answer = "", {"room": "/privacy"}
-    school.commands.clear()
-    school.send(**class_message(COUNT))
+    school.push(school.state)
     expect(cards(opened)).to_have_count(COUNT)
     opened.evaluate(FIRST_IS_STOP)
     return opened
@@ -474,7 +479,6 @@ def findings(page: Page) -> list[str]:
 
 
 def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer) -> None:
-    school.state = class_message(COUNT)
     page = quick_page(chromium)
     page.goto(f"{school.url}projector")
     expect(page.locator("#code")).to_have_text(CODE)
@@ -523,7 +527,6 @@ def test_check_says_yes_and_a_move_code_takes_the_names_away(
     page.reload()
     expect(page.get_by_text("A proxy or firewall")).to_be_visible()
 
-    school.commands.clear()
     page.goto(f"{school.url}join?code={CODE}")
     expect(page.locator("#code")).to_have_value(CODE)
     page.get_by_role("button", name="Continue from another device").click()

@@ -32,6 +32,17 @@ class WallServer:
             count: number of rooms.
         """
         self.url = ""
+        self.count = count
+        self.moves = True
+        """Poses go on with time."""
+        self.connections = 0
+        """Number of sockets that have got the class's state so far."""
+        self._sockets: set[WebSocket] = set()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self.reset()
+
+    def reset(self) -> None:
+        """Begin again with the state of a class in which nothing has happened yet."""
         self.commands: list[dict[str, Any]] = []
         self.paths: list[str] = []
         """Paths with query of all requests."""
@@ -41,15 +52,8 @@ class WallServer:
         self.answer: dict[str, Any] = {"room": "/privacy"}
         self.programs: list[dict[str, Any]] = []
         """Programs of any room."""
-        self.count = count
-        self.state = class_message(count)
+        self.state = class_message(self.count)
         """Message that a page gets when it connects, and after :meth:`send`."""
-        self.moves = True
-        """Poses go on with time."""
-        self.connections = 0
-        """Number of sockets that have got the class's state so far."""
-        self._sockets: set[WebSocket] = set()
-        self._loop: asyncio.AbstractEventLoop | None = None
 
     def app(self) -> Starlette:
         """Return the pages, the sockets and the commands."""

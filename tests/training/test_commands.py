@@ -25,7 +25,7 @@ def run(*arguments: str) -> str:
     if told.exception is not None and not isinstance(told.exception, SystemExit):
         raise told.exception
     assert told.exit_code == 0, told.output
-    return told.output
+    return told.stdout
 
 
 def failed(*arguments: str) -> str:
