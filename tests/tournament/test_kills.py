@@ -59,7 +59,7 @@ def test_a_tournament_goes_on_after_each_kill_and_is_whole(tmp_path: Path, kills
                 _wait_for_a_game(journal, process)
             process.kill()
             _, told = process.communicate()  # its jobs have ended, as they hold the pipe
-        # Python itself has a traceback if it is killed while it starts a process, with no line of ours
+        # killed while it starts a process, Python has a traceback, with no line of ours
         assert "ai4u_edu" not in told, told
     with begun(tmp_path) as process:
         _, told = process.communicate()
