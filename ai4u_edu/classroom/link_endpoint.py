@@ -87,7 +87,6 @@ class LinkEndpoint:
                 async with self._strangers.one_of(client_address(scope)):
                     room = await self._greet(socket)
                 if room is not None and room.seat:
-                    await asyncio.to_thread(self._live.seats.note_opened, room.seat)
                     async with self._seated.one_of(room.seat):
                         await self._serve(socket, room)
                 elif room is not None:
@@ -103,6 +102,8 @@ class LinkEndpoint:
         sender = asyncio.create_task(link.run())
         self._live.connect(room, link)
         try:
+            if room.seat:  # now that whoever ends links knows this one
+                await asyncio.to_thread(self._live.seats.note_opened, room.seat)
             await self._receive(socket, room, link)
         finally:
             self._live.disconnect(room, link)

@@ -79,12 +79,13 @@ class RoomEntrance:
         async def enter(scope: Scope, receive: Receive, send: Send) -> None:
             await self._enter(room, rest, visitor, scope, receive, send)
 
-        if visitor and not self._seats.has_opened(visitor):
-            await asyncio.to_thread(self._seats.note_opened, visitor)
         if visitor == TEACHER:
             await enter(scope, receive, send)
-        else:
-            await self._limits[scope["type"]].serve(visitor, enter, scope, receive, send)
+            return
+        await self._limits[scope["type"]].serve(visitor, enter, scope, receive, send)
+        # not before: a seat that is sent out while this is stored would still enter
+        if not self._seats.has_opened(visitor):
+            await asyncio.to_thread(self._seats.note_opened, visitor)
 
     async def _enter(
         self, room: str, rest: str, visitor: int, scope: Scope, receive: Receive, send: Send
