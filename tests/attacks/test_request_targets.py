@@ -80,7 +80,7 @@ def test_a_target_that_does_not_begin_with_a_slash_is_refused(
 def test_a_room_gets_the_path_that_access_was_decided_on(
     served: ServedClass, ada: Student, beside: ForbiddenServer, rest: str
 ) -> None:
-    """So nothing behind the room's own path is another one after it was normalized."""
+    """Nothing behind the room's own path is another one after it was normalized."""
     place = f"127.0.0.1:{beside.port}"
     target = (ada.room + rest.format(place=place)).encode()
     ordinary = ask(served.url, target, ada.cookies)

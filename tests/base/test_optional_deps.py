@@ -1,4 +1,4 @@
-"""What a person is told who lacks an extra."""
+"""Messages for a person who lacks an extra."""
 
 import sys
 

@@ -54,14 +54,15 @@ def test_a_wrong_token_in_the_address_does_not_stay_there(room: Room, page: Page
     expect(page).to_have_url(f"{room.url}?agent=0")
 
 
-def test_attempts_are_limited(room: Room, page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_attempts_are_limited(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(wrong_counts, "MAX_WRONG", 2)
     monkeypatch.setattr(wrong_counts, "FORGOTTEN_PER_S", 0.001)
-    page.goto(room.url)
-    for _ in range(2):
+    with served(rules=Rules(token=TOKEN)) as room:
+        page.goto(room.url)
+        for _ in range(2):
+            enter(page, "guess")
+            expect(page.get_by_role("button", name="Open")).to_be_enabled()
         enter(page, "guess")
-        expect(page.get_by_role("button", name="Open")).to_be_enabled()
-    enter(page, "guess")
-    expect(page.get_by_role("alert")).to_contain_text("Too many wrong tokens")
-    page.goto(f"{room.url}?token=guess")
-    expect(page.get_by_role("alert")).to_contain_text("Too many wrong tokens")
+        expect(page.get_by_role("alert")).to_contain_text("Too many wrong tokens")
+        page.goto(f"{room.url}?token=guess")
+        expect(page.get_by_role("alert")).to_contain_text("Too many wrong tokens")

@@ -228,7 +228,7 @@ def test_a_handler_that_fails_or_stops_the_client_ends_nothing_else(
 
 
 def test_nothing_is_delivered_after_stop_has_returned(there: TinyClass) -> None:
-    """Whether it arrived before or not: whoever has stopped the client may have gone away."""
+    """Messages may have arrived before: whoever has stopped the client may have gone away."""
     is_inside, may_go_on = threading.Event(), threading.Event()
     heard: list[FromClass] = []
 

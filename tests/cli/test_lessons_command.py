@@ -13,7 +13,7 @@ pytestmark = pytest.mark.needs("lessons")
 
 
 def test_a_kernel_is_killed_soon_after_the_end(tmp_path: Path) -> None:
-    """By itself JupyterLab waits 5 s and more for a kernel whose cell does not return."""
+    """JupyterLab would wait 5 s and more for a kernel whose cell does not return."""
     from jupyter_client.manager import KernelManager
 
     (tmp_path / FIRST).write_text("{}")

@@ -1,4 +1,4 @@
-"""What somebody builds has a goal: the first reward for reaching something."""
+"""A scene that somebody builds has a goal: the first reward for reaching something."""
 
 from typing import Any
 

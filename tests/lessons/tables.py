@@ -33,7 +33,7 @@ NAMED = {"01.2", "07.3"}
 
 @dataclass
 class Asked:
-    """What a check asked in its last run."""
+    """Questions of a check in its last run."""
 
     pairs: list[tuple[str, Any]] = field(default_factory=list)
     """Key of the arguments, and the right answer."""

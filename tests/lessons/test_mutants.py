@@ -1,4 +1,4 @@
-"""What is no right answer passes no check, although it is made of the solution.
+"""Wrong answers pass no check, although they are made of the solution.
 
 Small edits are tried where there is one right answer only: elsewhere other numbers may be right
 too, as a robot may turn faster, or rest longer. Answers by the clock, constants and tables of what

@@ -259,7 +259,7 @@ def test_a_port_at_which_nobody_listens(kind: Kind) -> None:
 
 
 def test_nobody_listens_at_any_address_of_a_name() -> None:
-    """As asyncio says it for ``localhost``, which has two."""
+    """The name ``localhost`` has two addresses, and asyncio names both."""
     refused = f"[Errno {errno.ECONNREFUSED}] Connect call failed ('{{}}', 8080)"
     both = "Multiple exceptions: " + ", ".join(map(refused.format, ("::1", "127.0.0.1")))
     assert str(connection_lost_from(OSError(both))).endswith("nothing listens there")

@@ -404,6 +404,7 @@ def test_a_failure_by_time_may_come_at_another_decision(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(limits, "DECISION_CPU_S", 0.2)
+    monkeypatch.setitem(globals(), "STARTS", count())  # other tests start all controllers
     folder = played(tmp_path / "out", "Sue=SlowSoon", "Ann=scene")
     games = listed(folder)
     assert [each["entries"][each["forfeit"]] for each in games] == ["Sue", "Sue"]
