@@ -237,7 +237,7 @@ def test_a_sweep_goes_on_where_it_ended(tmp_path: Path) -> None:
         done = CliRunner().invoke(app, list(arguments))
         if done.exception is not None and not isinstance(done.exception, SystemExit):
             raise done.exception
-        return done.stdout
+        return done.output
 
     assert "best network, box_chase, 100 episodes" in run(*begin, *search, "--trials", "1")
     journal, table = (out / "journal.jsonl").read_bytes(), (out / "trials.csv").read_text()
