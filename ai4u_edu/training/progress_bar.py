@@ -35,7 +35,7 @@ class ProgressBar:
         keep: bool = True,
         file: TextIO | None = None,
     ) -> None:
-        can_remove = (file or sys.stderr).isatty() or "ipykernel" in sys.modules
+        can_remove = (file or sys.stderr).isatty() or is_kernel()
         is_shown = not quiet and (keep or can_remove)
         self._file = file
         self._bar: Any = None
@@ -65,7 +65,7 @@ class ProgressBar:
         """Print a line above the bar, which stays."""
         if self._bar is not None:
             # a notebook marks what comes from stderr as an error
-            usual = sys.stdout if "ipykernel" in sys.modules else sys.stderr
+            usual = sys.stdout if is_kernel() else sys.stderr
             self._bar.write(line, file=self._file or usual)
 
     def close(self) -> None:
@@ -84,3 +84,9 @@ def counted(things: Iterable[T], name: str, *, quiet: bool = False) -> Iterator[
             yield item
     finally:
         bar.close()
+
+
+def is_kernel() -> bool:
+    """Return True if this process is a notebook's kernel; others may have loaded its module."""
+    module = sys.modules.get("ipykernel.kernelapp")
+    return module is not None and bool(module.IPKernelApp.initialized())

@@ -4,7 +4,6 @@ import io
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
@@ -141,10 +140,13 @@ def test_a_bar_has_count_text_and_lines_above_it() -> None:
     assert "2/3 steps, fast" in told.getvalue()
 
 
+@pytest.mark.needs("lessons")
 def test_lines_above_a_bar_are_no_errors_in_a_notebook(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setitem(sys.modules, "ipykernel", ModuleType("ipykernel"))
+    from ipykernel.kernelapp import IPKernelApp
+
+    monkeypatch.setattr(IPKernelApp, "initialized", lambda: True)
     bar = ProgressBar(3, "steps")
     bar.note("so far")
     bar.close()
@@ -153,10 +155,10 @@ def test_lines_above_a_bar_are_no_errors_in_a_notebook(
     assert "so far" not in told.err
 
 
-def test_a_quiet_bar_and_one_that_could_not_be_removed_write_nothing(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.delitem(sys.modules, "ipykernel", raising=False)  # another test may load it
+@pytest.mark.needs("lessons")
+def test_a_quiet_bar_and_one_that_could_not_be_removed_write_nothing() -> None:
+    import ipykernel.kernelapp  # noqa: F401 - a process that has loaded it need be no kernel
+
     log = io.StringIO()
     for bar in (
         ProgressBar(3, "steps", file=log, quiet=True),
