@@ -17,7 +17,6 @@ def test_the_exchange_in_the_page_is_what_script_and_world_say() -> None:
     how = "write it again: python -m tests.remote.protocol_exchange"
     assert shown == rendered.strip("\n"), how
 
-
     """The page alone is enough for somebody who writes a client."""
     """Somebody who writes a client by the page alone reads them so."""
     page = protocol_exchange.in_page()
