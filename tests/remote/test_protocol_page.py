@@ -17,8 +17,9 @@ def test_the_exchange_in_the_page_is_what_script_and_world_say() -> None:
     how = "write it again: python -m tests.remote.protocol_exchange"
     assert shown == rendered.strip("\n"), how
 
+
+def test_the_bytes_in_the_page_are_the_messages_in_json() -> None:
     """The page alone is enough for somebody who writes a client."""
-    """Somebody who writes a client by the page alone reads them so."""
     page = protocol_exchange.in_page()
     dumps = re.findall(r"```text\n(.*?)```", page, re.DOTALL)
     texts = re.findall(r"```json\n(.*?)\n```", page, re.DOTALL)
