@@ -19,7 +19,7 @@ from ai4u_edu.classroom.errors import (
     WrongCodeError,
 )
 from ai4u_edu.classroom.move_codes import LIFE_S
-from ai4u_edu.classroom.open_limits import joins
+from ai4u_edu.classroom.open_limits import sign_ins
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
@@ -62,7 +62,7 @@ class Join:
 
     def __init__(self, seats: Seats, on_change: Callable[[], object] = lambda: None) -> None:
         self._seats, self._limit, self._on_change = seats, CodeLimit(), on_change
-        self._waiting = joins()
+        self._waiting = sign_ins()
         self._new_seats = RateLimits(NEW_SEATS_PER_S, MAX_NEW_SEATS_AT_ONCE)
 
     async def page(self, request: Request) -> Response:

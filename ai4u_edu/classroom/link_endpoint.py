@@ -204,18 +204,20 @@ class LinkEndpoint:
 
     async def _take_network(self, room: LiveRoom, link: "Link", network: Network) -> None:
         """Keep a network, and acknowledge it when it is on disk."""
-        given = (network.scene, network.part, network.file, network.data, network.key)
+        problem = ""
         if not room.seat:
-            link.add(Problem("message", "network: expected a link of one seat; use the page"))
-            link.add(Ack(network.key))
+            problem = "network: expected a link of one seat; use the page"
+        elif self._live.store.quota.is_full:
+            problem = "The class's folder is full. Tell your teacher."
+        if problem:
+            link.add(Problem("message", problem))
+            link.add(Ack(network.key))  # sent again it would be refused again
             return
-        quota = self._live.store.quota
+        given = (network.scene, network.part, network.file, network.data, network.key)
         try:
-            if quota.is_full:
-                raise NetworkError("The class's folder is full. Tell your teacher.")  # noqa: TRY301
             await asyncio.to_thread(self._live.tournament.networks.add, room.seat, *given)
         except NetworkError as error:
-            link.add(Problem("message", str(error)))  # sent again it would be refused again
+            link.add(Problem("message", str(error)))  # as above
         except StoreError:
             link.close_later()
             return

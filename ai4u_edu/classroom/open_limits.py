@@ -18,8 +18,8 @@ SEATS_SHARE = 0.7
 """Share of all connections that all seats may have together, of sockets and of requests each."""
 
 
-def joins() -> ConcurrencyLimit:
-    """Return the limit of requests to join, which may wait for a turn, by address."""
+def sign_ins() -> ConcurrencyLimit:
+    """Return the limit of requests whose code or token may have to wait for a turn, by address."""
     return ConcurrencyLimit(MAX_JOINS, STRANGERS_SHARE, what="requests")
 
 
@@ -36,8 +36,3 @@ def seat_sockets() -> ConcurrencyLimit:
 def seat_requests() -> ConcurrencyLimit:
     """Return the limit of requests of seats to their rooms."""
     return ConcurrencyLimit(MAX_SEAT_REQUESTS, SEATS_SHARE, what="requests")
-
-
-def hub_questions() -> ConcurrencyLimit:
-    """Return the limit of questions to a hub about tokens that are not known, by address."""
-    return ConcurrencyLimit(MAX_JOINS, STRANGERS_SHARE, what="requests")

@@ -14,7 +14,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.no_cookies import no_cookies
-from ai4u_edu.classroom.open_limits import hub_questions
+from ai4u_edu.classroom.open_limits import sign_ins
 from ai4u_edu.server.concurrency_limit import TooManyOpenError
 
 TIMEOUT_S = 10.0
@@ -53,7 +53,7 @@ class HubApi:
     def __init__(self, hub: HubEnvironment, clock: Callable[[], float] = time.monotonic) -> None:
         self._hub, self._clock = hub, clock
         self._client = httpx.AsyncClient(timeout=TIMEOUT_S, trust_env=False, cookies=no_cookies())
-        self._limit, self._asking = CodeLimit(clock), hub_questions()
+        self._limit, self._asking = CodeLimit(clock), sign_ins()
         self._cached: OrderedDict[bytes, tuple[float, HubUser]] = OrderedDict()
 
     async def user_of(self, token: str, address: str = "") -> HubUser | None:
