@@ -765,6 +765,38 @@ def test_what_does_not_fit_into_a_datagram_is_an_error_of_the_world(
     brain.close()
 
 
+@pytest.mark.parametrize("where", ["before it sends", "after it received nothing"])
+def test_a_world_that_was_held_up_is_no_silence_of_the_script(
+    script: UDPScript, where: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sim, brain = remote_sim(script)
+    script.meet(sim)
+    link: Any = brain._link
+    send, receive = link._socket.send, link._socket.receive
+
+    def send_late(data: bytes) -> None:
+        script.clock.advance(10 * RECEIVE_TIMEOUT_S)
+        send(data)
+
+    def receive_late() -> tuple[bytes, bool]:
+        try:
+            received: tuple[bytes, bool] = receive()
+        except BlockingIOError:
+            script.clock.advance(10 * RECEIVE_TIMEOUT_S)
+            raise
+        return received
+
+    if where == "before it sends":
+        monkeypatch.setattr(link._socket, "send", send_late)
+        script.say(AHEAD)
+        script.next(sim)
+    else:
+        monkeypatch.setattr(link._socket, "receive", receive_late)
+    sim.tick()
+    assert brain.status().state in ("connected", "late")  # and not lost
+    brain.close()
+
+
 def test_a_closed_brain_leaves_nothing_behind(script: UDPScript) -> None:
     before = psutil.Process().num_fds()
     for mode in ("lockstep", "realtime"):

@@ -193,12 +193,13 @@ class AI4ULink:
         udp = self._open_socket
         self.ignored += udp.drain()
         request = self._dialogue.request(self._state[1] if self._state else None)
-        self._sent_at = self._clock()
         try:
             udp.send(request)
         except OSError as error:
             self._handle_unreachable(error)
             return False
+        finally:
+            self._sent_at = self._clock()
         return True
 
     def _wait_until(self, deadline: float) -> float:
@@ -227,10 +228,11 @@ class AI4ULink:
         udp = self._open_socket
         for _ in range(MAX_RECEIVED_AT_ONCE):
             udp.wait_readable(max(0.0, self._wait_until(deadline) - self._clock()) * 1000)
+            looked_at = self._clock()  # a reply may come while this thread gets no processor time
             try:
                 datagram, is_from_script = udp.receive()
             except BlockingIOError:
-                self._check_timeout()
+                self._check_timeout(looked_at)
                 return None
             except OSError as error:
                 self._handle_unreachable(error)
@@ -242,7 +244,7 @@ class AI4ULink:
                     if self.state is LinkState.CONNECTED:
                         self._malformed = f"a message of the script was ignored: {error}"
             self.ignored += 1
-        self._check_timeout()
+        self._check_timeout(looked_at)
         return None
 
     def _handle(self, received: AI4UReply) -> Reply | None:
@@ -279,8 +281,9 @@ class AI4ULink:
         dropped = self._codec.find_dropped(received.orders, is_action=is_action)
         return "; ".join(filter(None, (malformed, dropped)))
 
-    def _check_timeout(self) -> None:
-        silence = self._clock() - self._sent_at
+    def _check_timeout(self, looked_at: float) -> None:
+        """End a session whose script had not answered when the socket was looked at."""
+        silence = looked_at - self._sent_at
         if self._dialogue.phase is Phase.CONNECTING:
             self._dialogue.in_flight = silence < CONNECT_INTERVAL_S
         elif silence > self._timeout:
