@@ -7,46 +7,20 @@ out.
 
 import ast
 import textwrap
-import tomllib
 from html import escape
 from pathlib import Path
+
+from tests.structure import Structure, layers
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "ai4u_edu"
 PICTURE = ROOT / "docs" / "architecture.svg"
-LEFT_OUT = {"__main__", "errors", "cycle", "runner", "bootstrap", "registration"}
-"""Modules beside the packages: entry points and aliases."""
 WIDTH, ROW, BOX_HEIGHT, GAP, LINE = 1000, 92, 62, 20, 15
 MAX_LINE_CHARS = {1: 100, 2: 62, 3: 42, 4: 30}
 """Length of a line in a box, by the number of boxes in its row."""
 
 Box = tuple[float, float, float]
 """Left, top and width."""
-
-
-def layers() -> list[list[str]]:
-    """Return the packages of each layer, the topmost layer first."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    contract = next(
-        c for c in project["tool"]["importlinter"]["contracts"] if c["type"] == "layers"
-    )
-    rows = [[name.strip() for name in row.split("|")] for row in contract["layers"]]
-    kept = [[name for name in row if name not in LEFT_OUT] for row in rows]
-    return [row for row in kept if row]
-
-
-def imports() -> dict[str, set[str]]:
-    """Return the packages that each package imports, those under ``TYPE_CHECKING`` included."""
-    names = {name for row in layers() for name in row}
-    found: dict[str, set[str]] = {name: set() for name in names}
-    for name in names:
-        for file in sorted((PACKAGE / name).rglob("*.py")):
-            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.ImportFrom) and node.module:
-                    parts = [*node.module.split("."), *(each.name for each in node.names[:1])]
-                    if parts[0] == "ai4u_edu" and parts[1] in names - {name}:
-                        found[name].add(parts[1])
-    return found
 
 
 def reduced(graph: dict[str, set[str]]) -> dict[str, set[str]]:
@@ -74,11 +48,14 @@ def summary(name: str) -> str:
 def draw() -> str:
     """Return the picture as SVG."""
     rows, boxes, parts = layers(), dict[str, Box](), list[str]()
+    graph: dict[str, set[str]] = {name: set() for row in rows for name in row}
+    for importer, imported in Structure().arrows:
+        graph[importer].add(imported)
     for number, row in enumerate(rows):
         width = (WIDTH - GAP * (len(row) + 1)) / len(row)
         for place, name in enumerate(row):
             boxes[name] = (GAP + place * (width + GAP), GAP + number * ROW, width)
-    for name, targets in sorted(reduced(imports()).items()):
+    for name, targets in sorted(reduced(graph).items()):
         left, top, width = boxes[name]
         for target in sorted(targets):
             there_left, there_top, there_width = boxes[target]
