@@ -31,7 +31,7 @@ def register_envs() -> None:
         if name not in registry:
             register(
                 id=name,
-                entry_point="ai4u_edu.envs:SceneEnv",
-                vector_entry_point="ai4u_edu.envs:SceneVectorEnv",
+                entry_point="ai4u_edu.learn.envs:SceneEnv",
+                vector_entry_point="ai4u_edu.learn.envs:SceneVectorEnv",
                 kwargs={"scene": path.stem},
             )

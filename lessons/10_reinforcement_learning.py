@@ -26,6 +26,7 @@
 import gymnasium
 
 from ai4u_edu import *
+from ai4u_edu.learn.training import evaluate, still
 from ai4u_edu.lessons import (
     check,
     compare,
@@ -40,7 +41,6 @@ from ai4u_edu.lessons import (
 )
 from ai4u_edu.lessons.exercises.lesson_10 import corridor, keep, learn, learn_house
 from ai4u_edu.lessons.wrong_reward import learn_wrong_reward
-from ai4u_edu.training import evaluate, still
 
 # %% [markdown]
 # ## A beginner
@@ -187,7 +187,7 @@ if learned:  # once exercise 10.2 is solved
 # A table can clean a house, too. In the grid world a robot has to visit three dirty places (+1 each, and
 # +10 for the last one); running into an enemy costs 10. A row of its table is a cell *and* which places
 # are still dirty. The five discrete actions are the columns. `learn_house` calls `q_learning(grid_world)`
-# from `ai4u_edu.training`, which uses the line that you wrote. It takes about 20 seconds.
+# from `ai4u_edu.learn.training`, which uses the line that you wrote. It takes about 20 seconds.
 
 # %%
 table = learn_house(grid_world)
@@ -235,7 +235,7 @@ print("for these", len(observation), "numbers it does:", action.round(2))
 
 # %% [markdown]
 # For the real training we use `learn(steps, seed)`. It is one line: `train("box_chase", "sac", steps=...,
-# seed=...)` from `ai4u_edu.training`, which calls Stable-Baselines3 and tests the network now and then.
+# seed=...)` from `ai4u_edu.learn.training`, which calls Stable-Baselines3 and tests the network now and then.
 # The robot decides six times a second in it, and a try ends after 100 decisions. Every 500 decisions it
 # drives in 30 worlds, to find out how good it is; it stops by itself when it has won all of them three
 # times in a row.

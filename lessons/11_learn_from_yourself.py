@@ -23,6 +23,7 @@
 # %% tags=["setup"]
 from ai4u_edu import *
 from ai4u_edu import explain
+from ai4u_edu.learn.training import clone, evaluate
 from ai4u_edu.lessons import (
     bars,
     cards,
@@ -51,7 +52,6 @@ from ai4u_edu.lessons.exercises.lesson_11_why import (
     lamp_world,
     looked_at,
 )
-from ai4u_edu.training import clone, evaluate
 
 # %% [markdown]
 # ## Show it

@@ -27,7 +27,7 @@ import gymnasium
 import numpy as np
 
 from ai4u_edu import *
-from ai4u_edu.envs import parallel_env
+from ai4u_edu.learn.envs import parallel_env
 from ai4u_edu.lessons import (
     bars,
     check,
@@ -127,7 +127,7 @@ plot(
 )
 
 # %% [markdown]
-# `q_learning` in `ai4u_edu.training` calls this probability `curiosity`; in Stable-Baselines3's DQN it is
+# `q_learning` in `ai4u_edu.learn.training` calls this probability `curiosity`; in Stable-Baselines3's DQN it is
 # `exploration_initial_eps`, `exploration_final_eps` and `exploration_fraction`. SAC and PPO explore by
 # drawing their actions from a distribution, and are paid a little for keeping it wide (*entropy*).
 #
@@ -367,7 +367,7 @@ progress()
 #
 # - A baseline: subtract the mean return of the last 20 episodes from the worth. Do fewer seeds get stuck?
 #   Use your `claim` before you say so.
-# - `train("box_chase", "sac", seed=...)` and `"ppo"` from `ai4u_edu.training`, five seeds each: which one
+# - `train("box_chase", "sac", seed=...)` and `"ppo"` from `ai4u_edu.learn.training`, five seeds each: which one
 #   needs fewer decisions, which one less time? How sure are you?
 # - Let two REINFORCE learners play a repeated game against each other (rock, paper, scissors). Do they
 #   settle?

@@ -30,7 +30,7 @@ def test_story():
         assert server.snapshot()["seed"] == "none"
 """
 WITH_MESSAGES = """
-from tests.server.rooms import served
+from tests.page.server.rooms import served
 
 def test_story():
     with served() as room, room.page() as page:

@@ -27,11 +27,11 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.check import Outcome
-from ai4u_edu.panel.context import PanelContext
-from ai4u_edu.panel.parts.agent import agent_part
+from ai4u_edu.page.panel.context import PanelContext
+from ai4u_edu.page.panel.parts.agent import agent_part
+from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.viewer import Viewer
-from tests.viewer.pages import page, shown
+from tests.page.viewer.pages import page, shown
 
 pytestmark = pytest.mark.slow
 
@@ -165,7 +165,9 @@ def test_play_loads_the_file_as_well(home: Path, monkeypatch: pytest.MonkeyPatch
     from ai4u_edu.cli import main as cli
 
     served: list[str] = []
-    monkeypatch.setattr("ai4u_edu.server.serve", lambda *_args, **_kwargs: served.append("a room"))
+    monkeypatch.setattr(
+        "ai4u_edu.page.server.serve", lambda *_args, **_kwargs: served.append("a room")
+    )
     scene, robot = str(home / "robot_scene.yaml"), str(home / "robot.py")
     with pytest.raises(SceneError, match="unknown type of sensor 'Smell'"):
         cli.app(["play", scene, "--no-open"], standalone_mode=False)

@@ -4,7 +4,7 @@ const SVG = "http://www.w3.org/2000/svg";
 
 const circle = (x, y, radius) => `M${x - radius} ${y}a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0`;
 
-/** Path data by name. The first part is for blocks: ai4u_edu/panel/block_words.py names them. */
+/** Path data by name. The first part is for blocks: ai4u_edu/page/panel/block_words.py names them. */
 const PATHS = {
   bearing: `${circle(6, 18, 3)}M8.5 15.5L19 5M13 5h6v6`,
   smell: "M4 18c3-6 3 2 6-4s3 2 6-4 2 0 4-2M4 11c3-6 3 2 6-4s3 2 6-3",

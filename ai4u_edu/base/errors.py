@@ -18,9 +18,9 @@
     ├── RemoteError            controlling a robot over a network failed (in ai4u_edu.remote)
     │   ├── RefusedError       the world refuses the robot to this script
     │   └── LostError          the connection is lost, or was closed, for good
-    ├── NotJoinedError         a class gives this program no seat (in ai4u_edu.class_link)
+    ├── NotJoinedError         a class gives this program no seat (in ai4u_edu.member)
     │   └── UnreachableError   nobody answers at the class's address
-    └── AddressError           the page can't be served there (in ai4u_edu.server)
+    └── AddressError           the page can't be served there (in ai4u_edu.page.server)
         └── PortTakenError     another program uses that port
 
 Every message says what was expected, what it got, and how to mend it.

@@ -2,9 +2,9 @@
 
 from urllib.parse import quote, urlsplit
 
-from ai4u_edu.server.address import WILDCARD_HOSTS
-from ai4u_edu.server.host_origin import is_loopback
-from ai4u_edu.server.startup_banner import own_address
+from ai4u_edu.page.server.address import WILDCARD_HOSTS
+from ai4u_edu.page.server.host_origin import is_loopback
+from ai4u_edu.page.server.startup_banner import own_address
 
 
 def join_address(host: str, url: str) -> str:

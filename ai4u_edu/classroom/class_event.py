@@ -8,16 +8,16 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
-from ai4u_edu.class_member.episode_watch import PERSON
 from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
 from ai4u_edu.classroom.help_score import MISTAKE_HELP
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
+from ai4u_edu.member.episode_watch import PERSON
+from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
-from ai4u_edu.server.library_pictures import picture_address
 
 _AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)

@@ -5,7 +5,7 @@ import time
 from collections import OrderedDict
 from collections.abc import Awaitable, Callable
 
-from ai4u_edu.server.wrong_counts import WrongCounts, remember
+from ai4u_edu.page.server.wrong_counts import WrongCounts, remember
 
 TURNS_PER_S = 20.0
 """Codes of one address that are checked, after too many wrong ones: at this rate it takes a day to

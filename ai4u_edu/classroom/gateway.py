@@ -32,11 +32,11 @@ from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.classroom.tournament.network_routes import NetworkRoutes
-from ai4u_edu.server.attempts import Attempts
-from ai4u_edu.server.host_origin import LOOPBACK, HostOriginCheck
-from ai4u_edu.server.proxy import AGENT_COOKIE, DARK_COOKIE
-from ai4u_edu.server.token_auth import PageCookie, TokenAuth
-from ai4u_edu.server.token_page import TokenPage
+from ai4u_edu.page.server.attempts import Attempts
+from ai4u_edu.page.server.host_origin import LOOPBACK, HostOriginCheck
+from ai4u_edu.page.server.proxy import AGENT_COOKIE, DARK_COOKIE
+from ai4u_edu.page.server.token_auth import PageCookie, TokenAuth
+from ai4u_edu.page.server.token_page import TokenPage
 from ai4u_edu.wire.class_link import MAX_FRAME_BYTES
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
@@ -44,7 +44,7 @@ PAGES = re.compile(r"/|/teacher|/projector|/check|/privacy|/r/\w+/(start)?")
 """Paths of pages, to which other sites may lead a person."""
 
 SERVER_LIMITS: dict[str, Any] = {"per_address": 1000, "max_message_bytes": MAX_FRAME_BYTES}
-"""Arguments of :func:`~ai4u_edu.server.serve`: a school's students may all have one address."""
+"""Arguments of :func:`~ai4u_edu.page.server.serve`: a school may have one address for all."""
 
 
 def class_app(
@@ -66,7 +66,7 @@ def class_app(
         rooms: runs the rooms; the caller closes it.
         teacher_token: secret of the teacher's page.
         join_address: returns the address that students open, for the one that the teacher opened.
-        allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
+        allowed_hosts: host names of requests; see :mod:`ai4u_edu.page.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
         blocks: Python files with the teacher's blocks.
     """

@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
-from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.errors import (
     JoinError,
@@ -23,11 +22,12 @@ from ai4u_edu.classroom.open_limits import sign_ins
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
-from ai4u_edu.server.attempts import client_address
-from ai4u_edu.server.concurrency_limit import TooManyOpenError
-from ai4u_edu.server.json_body import read_json
-from ai4u_edu.server.rate_limit import RateLimits
-from ai4u_edu.server.standalone import standalone_page
+from ai4u_edu.member.joining import SEAT_COOKIE
+from ai4u_edu.page.server.attempts import client_address
+from ai4u_edu.page.server.concurrency_limit import TooManyOpenError
+from ai4u_edu.page.server.json_body import read_json
+from ai4u_edu.page.server.rate_limit import RateLimits
+from ai4u_edu.page.server.standalone import standalone_page
 
 COOKIE_LIFE_S = 200 * 24 * 3600
 MAX_BODY_BYTES = 2000

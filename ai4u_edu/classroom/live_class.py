@@ -11,7 +11,6 @@ from pydantic import BaseModel
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.log_limit import log_limited
-from ai4u_edu.class_member.room_counts import read_counts
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
@@ -29,6 +28,7 @@ from ai4u_edu.classroom.seats import Seats, State
 from ai4u_edu.classroom.stars import Stars
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
+from ai4u_edu.member.room_counts import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
     CheckedNetwork,

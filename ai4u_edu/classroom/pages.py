@@ -7,9 +7,9 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import Route
 
-from ai4u_edu.server.library_pictures import PICTURE_PATH, library_picture_route
-from ai4u_edu.server.standalone import standalone_page
-from ai4u_edu.server.web_files import WEB_PATHS, WebFiles
+from ai4u_edu.page.server.library_pictures import PICTURE_PATH, library_picture_route
+from ai4u_edu.page.server.standalone import standalone_page
+from ai4u_edu.page.server.web_files import WEB_PATHS, WebFiles
 
 
 async def web_file(request: Request) -> Response:

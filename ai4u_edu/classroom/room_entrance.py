@@ -14,9 +14,9 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
 from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
 from ai4u_edu.classroom.script_keys import ScriptKeys
-from ai4u_edu.server.concurrency_limit import ConcurrencyLimit
-from ai4u_edu.server.token_auth import PageCookie
-from ai4u_edu.server.token_page import wants_page
+from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.token_auth import PageCookie
+from ai4u_edu.page.server.token_page import wants_page
 
 SCRIPTS_PATH = "ws/remote"
 """Path of a room's socket for scripts, which have no cookie."""

@@ -14,14 +14,14 @@ from ai4u_edu.base.atomic_write import make_folder
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.process_signals import ask_to_end
 from ai4u_edu.blocks.loading import load_blocks
-from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
+from ai4u_edu.member import ClassLinkSettings
+from ai4u_edu.page.server import Rules, serve
+from ai4u_edu.page.server.app import RoomMount
+from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.room import Room, RoomSettings
 from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
-from ai4u_edu.server import Rules, serve
-from ai4u_edu.server.app import RoomMount
-from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"

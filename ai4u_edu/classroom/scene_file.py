@@ -9,7 +9,7 @@ from typing import Self
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.seeding import checked_seed
-from ai4u_edu.editing import SceneEditor
+from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
 
 NAME = "scene.yaml"

@@ -8,8 +8,8 @@ from ai4u_edu.classroom.course_index import course_lessons
 from ai4u_edu.classroom.errors import CommandError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
-from ai4u_edu.editing.errors import ChangeError
-from ai4u_edu.editing.permissions import Permissions
+from ai4u_edu.page.editing.errors import ChangeError
+from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.class_link import MAX_SCENE_CHARS
 

@@ -10,7 +10,6 @@ from enum import Enum
 from threading import Lock
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.classroom.errors import (
     JoinError,
     NameTakenError,
@@ -30,6 +29,7 @@ from ai4u_edu.classroom.names import (
 )
 from ai4u_edu.classroom.room_rule import MAX_SEATS, RoomRule
 from ai4u_edu.classroom.store import ClassStore, RoomRow, SeatRow, TokenRow
+from ai4u_edu.member.joining import SEAT_COOKIE
 
 OFFERED_NAMES = 3
 ROOM_ID_BYTES = 6

@@ -92,10 +92,10 @@ def classroom(
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
+    from ai4u_edu.page.server import hosts_for, open_on_desktop, serve
+    from ai4u_edu.page.server.process_exit import HAS_SERVED
     from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.server import hosts_for, open_on_desktop, serve
-    from ai4u_edu.server.process_exit import HAS_SERVED
 
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)

@@ -20,9 +20,9 @@ def serve_at_hub(context: typer.Context) -> None:
     from ai4u_edu.classroom import ClassStore, RoomRule, Seats
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.hub import HubEnvironment, hub_class_app
+    from ai4u_edu.page.server import serve
+    from ai4u_edu.page.server.process_exit import HAS_SERVED
     from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
-    from ai4u_edu.server import serve
-    from ai4u_edu.server.process_exit import HAS_SERVED
 
     hub, options = HubEnvironment.read(), context.params
     source = context.get_parameter_source("host")

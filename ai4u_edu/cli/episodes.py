@@ -138,7 +138,7 @@ def dataset(
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Turn recorded episodes into a training dataset."""
-    from ai4u_edu.training.demonstrations import demonstrations, load_episodes
+    from ai4u_edu.learn.training.demonstrations import demonstrations, load_episodes
 
     if out is None and not minari:
         raise SetupError("expected --out FILE.npz, --minari NAME, or both")
@@ -178,12 +178,12 @@ def clone(
     from ai4u_edu.base.optional_deps import need
 
     need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
-    from ai4u_edu.training.cloning import clone as cloned
-    from ai4u_edu.training.demonstrations import load_episodes
-    from ai4u_edu.training.evaluating import evaluate as evaluated
-    from ai4u_edu.training.policies import entrant
-    from ai4u_edu.training.progress_bar import counted
-    from ai4u_edu.training.report import table
+    from ai4u_edu.learn.training.cloning import clone as cloned
+    from ai4u_edu.learn.training.demonstrations import load_episodes
+    from ai4u_edu.learn.training.evaluating import evaluate as evaluated
+    from ai4u_edu.learn.training.policies import entrant
+    from ai4u_edu.learn.training.progress_bar import counted
+    from ai4u_edu.learn.training.report import table
 
     load_own_blocks(own_blocks)
     episodes = load_episodes(data)
@@ -214,7 +214,7 @@ def _driven_by(network: Path, episode: "Episode", agent_id: str | None) -> "Scen
 
 
 def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, Scene]":
-    from ai4u_edu.training.assigned import with_drivers
+    from ai4u_edu.learn.training.assigned import with_drivers
 
     sim, scene = with_drivers(scene, specs)
     controller = getattr(sim.agents[0].brain, "controller", None)

@@ -31,9 +31,8 @@ def with_class(
             raise typer.BadParameter("expected --class with the address of the class, too")
         return settings
     from ai4u_edu.base.atomic_write import make_folder
-    from ai4u_edu.class_link import SeatFile
-    from ai4u_edu.class_member import ClassLinkSettings
-    from ai4u_edu.editing.autosave import unsaved_folder
+    from ai4u_edu.member import ClassLinkSettings, SeatFile
+    from ai4u_edu.page.editing.autosave import unsaved_folder
 
     seats = SeatFile(unsaved_folder().with_name("classes") / "seats.json")
     seat = seats.take(url, code, name_choice)
@@ -48,10 +47,9 @@ def with_class(
 def _with_class_at_hub(settings: "RoomSettings", port: int) -> "RoomSettings":
     """Join the class of the JupyterHub that has started this server, if there is one."""
     from ai4u_edu.base.atomic_write import make_folder
-    from ai4u_edu.class_link import NotJoinedError, join_at_hub, page_at_hub
-    from ai4u_edu.class_member import ClassLinkSettings
-    from ai4u_edu.editing.autosave import unsaved_folder
-    from ai4u_edu.server import with_token
+    from ai4u_edu.member import ClassLinkSettings, NotJoinedError, join_at_hub, page_at_hub
+    from ai4u_edu.page.editing.autosave import unsaved_folder
+    from ai4u_edu.page.server import with_token
 
     try:
         seat = join_at_hub()

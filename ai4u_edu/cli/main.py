@@ -55,7 +55,7 @@ def main() -> None:
             raise
         _fail(f"{error.filename}: {error.strerror}")
     except SystemExit as ended:
-        exits = sys.modules.get("ai4u_edu.server.process_exit")  # of a command that has served
+        exits = sys.modules.get("ai4u_edu.page.server.process_exit")  # of a command that has served
         if exits is not None:
             exits.end_process(ended.code if isinstance(ended.code, int) else 0)
         raise
@@ -163,7 +163,7 @@ def scenes(
     load_own_blocks(own_blocks)
     names = [name] if name else Scene.names()
     if pictures is not None:
-        from ai4u_edu.editing.scene_pictures import write_picture
+        from ai4u_edu.page.editing.scene_pictures import write_picture
 
         for each in names:
             path = write_picture(Scene.load(each), pictures)

@@ -47,9 +47,9 @@ def play(
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
     expect_scene("play", [scene, *context.args])
-    from ai4u_edu.editing.autosave import unsaved_folder
+    from ai4u_edu.page.editing.autosave import unsaved_folder
+    from ai4u_edu.page.server import Rules, hosts_for, token_for
     from ai4u_edu.room import RoomSettings
-    from ai4u_edu.server import Rules, hosts_for, token_for
 
     load_own_blocks(own_blocks)
     token = token_for(host, token)
@@ -82,7 +82,7 @@ def _own_scenes() -> Path | None:
     """Return the user's folder for saved scenes; None if it can't be used."""
     from ai4u_edu.base.atomic_write import make_folder
     from ai4u_edu.base.errors import SetupError
-    from ai4u_edu.editing.autosave import unsaved_folder
+    from ai4u_edu.page.editing.autosave import unsaved_folder
 
     folder = unsaved_folder().with_name("scenes")
     try:
@@ -96,10 +96,10 @@ def _own_scenes() -> Path | None:
 def _serve(
     settings: "RoomSettings", host: str, port: int, open_page: bool, connections: int
 ) -> None:
+    from ai4u_edu.page.server import open_on_desktop, serve, with_token
+    from ai4u_edu.page.server.process_exit import HAS_SERVED
     from ai4u_edu.room import Room
     from ai4u_edu.runtime.process_tuning import tuned_process
-    from ai4u_edu.server import open_on_desktop, serve, with_token
-    from ai4u_edu.server.process_exit import HAS_SERVED
 
     token = settings.rules.token
     room = Room(settings, _warn, typer.echo)
@@ -136,8 +136,8 @@ def _is_scene_named(context: typer.Context) -> bool:
 
 
 def _announce(room: "Room", host: str, url: str, token: str) -> None:
-    from ai4u_edu.editing.unsaved import format_unsaved
-    from ai4u_edu.server import startup_banner
+    from ai4u_edu.page.editing.unsaved import format_unsaved
+    from ai4u_edu.page.server import startup_banner
 
     typer.echo(startup_banner(room.title, host, url, token))
     unsaved = room.editor.recovery.unsaved

@@ -15,7 +15,7 @@ def server_proxy() -> dict[str, Any]:
     Other users of the machine may reach the world's port. So it asks for a token, which is in no
     command line, and which the proxy adds for those who may use the student's server.
     """
-    from ai4u_edu.class_link import is_at_hub
+    from ai4u_edu.member import is_at_hub
 
     token = secrets.token_urlsafe(24)
     # any host name: the proxy passes on that of the hub

@@ -17,10 +17,10 @@ from ai4u_edu.cli import training_options as o
 from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, check_blocks, load_own_blocks
 
 if TYPE_CHECKING:
-    from ai4u_edu.training.settings import Algorithm
-    from ai4u_edu.training.sweep.plan import Plan
-    from ai4u_edu.training.sweep.result import TrialResult
-    from ai4u_edu.training.sweep.run import Sweep
+    from ai4u_edu.learn.training.settings import Algorithm
+    from ai4u_edu.learn.training.sweep.plan import Plan
+    from ai4u_edu.learn.training.sweep.result import TrialResult
+    from ai4u_edu.learn.training.sweep.run import Sweep
 
 MAX_SEEDS = 1000
 EVALUATION_EPISODES = 100
@@ -135,10 +135,10 @@ def _plan(
     settings: Path | None,
     own_blocks: list[Path] | None,
 ) -> "Plan":
+    from ai4u_edu.learn.training.settings import settings_for
+    from ai4u_edu.learn.training.sweep.plan import Plan
+    from ai4u_edu.learn.training.sweep.search_space import Parameter
     from ai4u_edu.scenes.scene_data import scene_data, scene_from
-    from ai4u_edu.training.settings import settings_for
-    from ai4u_edu.training.sweep.plan import Plan
-    from ai4u_edu.training.sweep.search_space import Parameter
 
     if trials:
         need("sweep", "optuna")
@@ -169,9 +169,9 @@ def with_rewards_left_out(plan: "Plan") -> "Plan":
     Raises:
         SetupError: there is no term that could be left out, or ``--set`` chooses them already.
     """
+    from ai4u_edu.learn.training.settings import NO_REWARD
+    from ai4u_edu.learn.training.sweep.search_space import LEFT_OUT, Parameter
     from ai4u_edu.scenes.scene_data import scene_from
-    from ai4u_edu.training.settings import NO_REWARD
-    from ai4u_edu.training.sweep.search_space import LEFT_OUT, Parameter
 
     if any(each.name == LEFT_OUT for each in plan.parameters):
         raise SetupError(f"expected --set {LEFT_OUT} or --leave-out-rewards, got both")
@@ -185,7 +185,7 @@ def with_rewards_left_out(plan: "Plan") -> "Plan":
 
 
 def _algorithms(text: str) -> "tuple[Algorithm, ...]":
-    from ai4u_edu.training.settings import ALGORITHMS
+    from ai4u_edu.learn.training.settings import ALGORITHMS
 
     found = []
     for each in dict.fromkeys(text.lower().split(",")):
@@ -222,7 +222,7 @@ def parse_seeds(text: str) -> tuple[int, ...]:
 
 
 def _kept_plan(scene: str, out: Path | None, trials: int) -> "tuple[Plan, Path]":
-    from ai4u_edu.training.sweep.plan import Plan
+    from ai4u_edu.learn.training.sweep.plan import Plan
 
     if out is None or scene:
         raise SetupError(
@@ -236,7 +236,7 @@ def _kept_plan(scene: str, out: Path | None, trials: int) -> "tuple[Plan, Path]"
 
 def _begun(plan: "Plan", folder: Path) -> "Plan":
     """Return the plan, unless the folder holds a sweep of another one."""
-    from ai4u_edu.training.sweep.plan import FILE, Plan
+    from ai4u_edu.learn.training.sweep.plan import FILE, Plan
 
     if (folder / FILE).exists():
         different = plan.difference(Plan.load(folder))
@@ -250,11 +250,11 @@ def _begun(plan: "Plan", folder: Path) -> "Plan":
 
 def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Sweep":
     from ai4u_edu.base.seeding import seeds_from
-    from ai4u_edu.jobs import engine
-    from ai4u_edu.jobs.journal import count_done
-    from ai4u_edu.training.progress_bar import ProgressBar
-    from ai4u_edu.training.sweep.result import ranked
-    from ai4u_edu.training.sweep.run import evaluated, run_sweep, total_of, write_report
+    from ai4u_edu.games.jobs import engine
+    from ai4u_edu.games.jobs.journal import count_done
+    from ai4u_edu.learn.training.progress_bar import ProgressBar
+    from ai4u_edu.learn.training.sweep.result import ranked
+    from ai4u_edu.learn.training.sweep.run import evaluated, run_sweep, total_of, write_report
 
     results: list[TrialResult] = []
     kept = min(count_done(folder), total_of(plan))
@@ -280,8 +280,8 @@ def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Sweep":
 
 
 def _report(done: "Sweep", engine: str) -> None:
-    from ai4u_edu.training.sweep.result import ranked
-    from ai4u_edu.training.sweep.run import BEST, PAGE, total_of
+    from ai4u_edu.learn.training.sweep.result import ranked
+    from ai4u_edu.learn.training.sweep.run import BEST, PAGE, total_of
 
     folder = done.folder
     again = f"ai4u-edu sweep --resume --out {shlex.quote(str(folder))}"

@@ -17,9 +17,9 @@ from ai4u_edu.cli.options import OwnBlocks, check_blocks, load_own_blocks, seed_
 from ai4u_edu.cli.sweep import INTERRUPTED
 
 if TYPE_CHECKING:
-    from ai4u_edu.jobs import Outcome
-    from ai4u_edu.tournament.plan import Plan
-    from ai4u_edu.tournament.run import Tournament
+    from ai4u_edu.games.jobs import Outcome
+    from ai4u_edu.games.tournament.plan import Plan
+    from ai4u_edu.games.tournament.run import Tournament
 
 MAX_SEEDS = 1000
 VERIFY = "verify"
@@ -96,7 +96,7 @@ def tournament(
                 "--resume goes on as it was begun: expected --out, the tournament's folder, and "
                 "no scene"
             )
-        from ai4u_edu.tournament.plan import Plan
+        from ai4u_edu.games.tournament.plan import Plan
 
         plan, folder = Plan.load(out), out
         check_blocks(plan.scene, own_blocks)
@@ -123,10 +123,10 @@ def _plan(
     own_blocks: list[Path] | None,
 ) -> "Plan":
     from ai4u_edu.base.seeding import seeds_from
+    from ai4u_edu.games.tournament.entry import parse_entry, with_names
+    from ai4u_edu.games.tournament.plan import Plan
+    from ai4u_edu.games.tournament.sides import sides_of
     from ai4u_edu.scenes.scene_data import scene_data, scene_from
-    from ai4u_edu.tournament.entry import parse_entry, with_names
-    from ai4u_edu.tournament.plan import Plan
-    from ai4u_edu.tournament.sides import sides_of
 
     if len(words) < 3:
         raise SetupError(
@@ -150,7 +150,7 @@ def _plan(
 
 
 def _check_folder(plan: "Plan", folder: Path) -> None:
-    from ai4u_edu.tournament.plan import FILE, Plan
+    from ai4u_edu.games.tournament.plan import FILE, Plan
 
     if (folder / FILE).exists():
         different = plan.difference(Plan.load(folder))
@@ -162,10 +162,10 @@ def _check_folder(plan: "Plan", folder: Path) -> None:
 
 
 def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournament":
-    from ai4u_edu.jobs import engine
-    from ai4u_edu.jobs.journal import count_done
-    from ai4u_edu.tournament.run import run_tournament, write_results
-    from ai4u_edu.training.progress_bar import ProgressBar
+    from ai4u_edu.games.jobs import engine
+    from ai4u_edu.games.jobs.journal import count_done
+    from ai4u_edu.games.tournament.run import run_tournament, write_results
+    from ai4u_edu.learn.training.progress_bar import ProgressBar
 
     total = len(plan.entries) + plan.games_for(len(plan.entries))
     kept, ended = min(count_done(folder), total), count(1)
@@ -186,7 +186,7 @@ def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournam
 
 
 def _report(done: "Tournament", engine: str) -> None:
-    from ai4u_edu.tournament.run import PAGE
+    from ai4u_edu.games.tournament.run import PAGE
 
     shown = Table(box=None, pad_edge=False)
     for heading in ("place", "entry", "rating", "won", "drawn", "lost", "failed"):
@@ -211,10 +211,10 @@ def _report(done: "Tournament", engine: str) -> None:
 
 
 def _verify(folder: Path, engine_name: str, address: str, own_blocks: list[Path] | None) -> None:
-    from ai4u_edu.jobs import engine
-    from ai4u_edu.tournament.plan import Plan
-    from ai4u_edu.tournament.verify import verify
-    from ai4u_edu.training.progress_bar import ProgressBar
+    from ai4u_edu.games.jobs import engine
+    from ai4u_edu.games.tournament.plan import Plan
+    from ai4u_edu.games.tournament.verify import verify
+    from ai4u_edu.learn.training.progress_bar import ProgressBar
 
     plan = Plan.load(folder)
     check_blocks(plan.scene, own_blocks)

@@ -19,9 +19,9 @@ from ai4u_edu.cli.tournament import tournament
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ai4u_edu.training.evaluating import Evaluation
-    from ai4u_edu.training.learning import Trained
-    from ai4u_edu.training.watch import Watch
+    from ai4u_edu.learn.training.evaluating import Evaluation
+    from ai4u_edu.learn.training.learning import Trained
+    from ai4u_edu.learn.training.watch import Watch
 
 
 def add_to(app: typer.Typer) -> None:
@@ -53,7 +53,7 @@ def train(
 
     Needs: pip install "ai4u-edu\[train]"
     """
-    from ai4u_edu.training import train as trained
+    from ai4u_edu.learn.training import train as trained
 
     if resume and out is None:
         raise SetupError("--resume needs --out, the folder of the training to go on with")
@@ -85,7 +85,7 @@ def _page(port: int) -> "Watch":
     from ai4u_edu.base.optional_deps import need
 
     need("train", "torch", "stable_baselines3")
-    from ai4u_edu.training.watch import Watch
+    from ai4u_edu.learn.training.watch import Watch
 
     return Watch(port)
 
@@ -120,15 +120,15 @@ def evaluate(
     Reading a Stable-Baselines3 model (.zip) can run any program: use only your own.
     """
     from ai4u_edu.base.optional_deps import need
+    from ai4u_edu.learn.training.evaluating import evaluate as evaluated
+    from ai4u_edu.learn.training.policies import entrant
+    from ai4u_edu.learn.training.progress_bar import counted
+    from ai4u_edu.learn.training.report import table
     from ai4u_edu.scenes import Scene
-    from ai4u_edu.training.evaluating import evaluate as evaluated
-    from ai4u_edu.training.policies import entrant
-    from ai4u_edu.training.progress_bar import counted
-    from ai4u_edu.training.report import table
 
     if plot is not None:
         need("train", "matplotlib")
-        from ai4u_edu.training.plots import check_picture, plot_evaluations
+        from ai4u_edu.learn.training.plots import check_picture, plot_evaluations
 
         check_picture(plot)
     load_own_blocks(own_blocks)
@@ -205,9 +205,9 @@ def _evaluated_on(
     seeds: "Sequence[int]",
     own_blocks: "Sequence[Path] | None",
 ) -> "list[Evaluation]":
-    from ai4u_edu.jobs import engine
-    from ai4u_edu.training.evaluate_jobs import evaluate_on
-    from ai4u_edu.training.progress_bar import ProgressBar
+    from ai4u_edu.games.jobs import engine
+    from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
+    from ai4u_edu.learn.training.progress_bar import ProgressBar
 
     files = [str(file.absolute()) for file in own_blocks or ()]
     done = []
@@ -228,9 +228,9 @@ def export(
     own_blocks: OwnBlocks = None,
 ) -> None:
     """Export a model as a network (.onnx) that drives without torch and can be shared."""
-    from ai4u_edu.training import export as exported
-    from ai4u_edu.training.notebook import export_checkpoints
-    from ai4u_edu.training.run import run_of
+    from ai4u_edu.learn.training import export as exported
+    from ai4u_edu.learn.training.notebook import export_checkpoints
+    from ai4u_edu.learn.training.run import run_of
 
     load_own_blocks(own_blocks)
     if checkpoints is not None:

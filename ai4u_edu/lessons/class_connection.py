@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from ai4u_edu.class_link import LinkClient, LinkTimeouts, Outbox, Seat
-from ai4u_edu.class_link.dialogue import PresentState
+from ai4u_edu.member import LinkClient, LinkTimeouts, Outbox, Seat
+from ai4u_edu.member.dialogue import PresentState
 from ai4u_edu.wire.class_link import (
     Applied,
     Assignment,

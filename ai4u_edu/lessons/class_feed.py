@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ai4u_edu.server.class_feed import ClassFeed
+    from ai4u_edu.page.server.class_feed import ClassFeed
 
 
 class NotebookFeed:

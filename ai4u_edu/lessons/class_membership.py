@@ -14,9 +14,9 @@ from ai4u_edu.lessons.notebook_output import card, put
 from ai4u_edu.lessons.progress_file import FOLDER
 
 if TYPE_CHECKING:
-    from ai4u_edu.class_link import Seat
     from ai4u_edu.lessons.class_connection import ClassConnection
     from ai4u_edu.lessons.live import Live
+    from ai4u_edu.member import Seat
 
 SEAT_FILE = "class.json"
 """File with the notebook's seat, in the folder of the progress."""
@@ -42,8 +42,8 @@ def join_class(
         name_choice: number of the name to get among those that the class offers, from 1.
         service: name of the class's service on a JupyterHub that has several.
     """
-    from ai4u_edu.class_link import NotJoinedError
     from ai4u_edu.lessons.class_connection import ClassConnection
+    from ai4u_edu.member import NotJoinedError
 
     _connect(None)
     try:
@@ -66,7 +66,7 @@ def _take_seat(url: str, code: str, name_choice: int, service: str) -> "tuple[Se
     Raises:
         NotJoinedError: the class gives none.
     """
-    from ai4u_edu.class_link import SeatFile, join_at_hub
+    from ai4u_edu.member import SeatFile, join_at_hub
 
     seats = SeatFile(Path.cwd() / FOLDER / SEAT_FILE)
     if url:

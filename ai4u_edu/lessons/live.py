@@ -22,8 +22,8 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:
-    from ai4u_edu.class_member import ClassMember
     from ai4u_edu.lessons.class_connection import ClassConnection
+    from ai4u_edu.member import ClassMember
 
 TOKEN = token_urlsafe(24)
 """Token of all pages of this process. Many may share one notebook server under any host name, so
@@ -55,10 +55,10 @@ class Live:
         scene: Scene | None = None,
     ) -> None:
         # loaded when a world is shown: exercises can be checked without a page
-        from ai4u_edu.editing import SceneEditor
-        from ai4u_edu.panel import PanelSockets
-        from ai4u_edu.server import Rules, ServerThread, lock_viser_port, room_app, with_token
-        from ai4u_edu.viewer import Viewer
+        from ai4u_edu.page.editing import SceneEditor
+        from ai4u_edu.page.panel import PanelSockets
+        from ai4u_edu.page.server import Rules, ServerThread, lock_viser_port, room_app, with_token
+        from ai4u_edu.page.viewer import Viewer
 
         self.title = title
         self.recorder = recorder
@@ -122,8 +122,7 @@ class Live:
 
     def join_class(self, connection: "ClassConnection") -> None:
         """Show the world on the teacher's page, and let the teacher stop it and open scenes."""
-        from ai4u_edu.class_link import page_at_hub
-        from ai4u_edu.class_member import ClassMember
+        from ai4u_edu.member import ClassMember, page_at_hub
 
         self._class_member = member = ClassMember(
             self.runner,

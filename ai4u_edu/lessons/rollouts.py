@@ -12,8 +12,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, Controller, LocalBrain
 from ai4u_edu.lessons.exercise import NotYet, named
 from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.recording.snapshot import Snapshot, capture_agent, capture_snapshot
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot, capture_agent, capture_snapshot
 
 DEFAULT_MAX_DECISIONS = 600
 """Decisions after which an episode is truncated in a scene without a limit."""
@@ -78,7 +78,7 @@ def seeds_of(exercise_id: str, count: int = 20) -> list[int]:
 
 def driven_by(trained: Any, scene: Scene) -> ControlRequestor:
     """Return a scene's world whose first agent is driven by a trained policy."""
-    from ai4u_edu.training.policies import entrant_of
+    from ai4u_edu.learn.training.policies import entrant_of
 
     policy = entrant_of(trained)
     sim = policy.fitted(scene).build()

@@ -57,7 +57,7 @@ def learn_wrong_reward(steps: int = 3000, seed: int = 0) -> Hacker:
         steps: decisions to learn from.
         seed: seed of the network, the worlds and all random choices.
     """
-    from ai4u_edu.training import train
+    from ai4u_edu.learn.training import train
 
     if os.environ.get("AI4U_FAST"):
         return Hacker(None)

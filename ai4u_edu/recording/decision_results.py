@@ -4,10 +4,10 @@ from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.recording.player import Player
-from ai4u_edu.snapshot import capture_agent
+from ai4u_edu.recording.snapshot import capture_agent
 
 DecisionResult = dict[str, Any]
-"""Fields of an :class:`~ai4u_edu.snapshot.AgentState`, with their values."""
+"""Fields of an :class:`~ai4u_edu.recording.snapshot.AgentState`, with their values."""
 _FIELDS = (
     "action",
     "clipped",

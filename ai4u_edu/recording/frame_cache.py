@@ -8,7 +8,7 @@ from ai4u_edu.recording.decision_results import DecisionResult, DecisionResults,
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.snapshot import (
+from ai4u_edu.recording.snapshot import (
     AgentState,
     BodyState,
     Snapshot,

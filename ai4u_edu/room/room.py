@@ -5,23 +5,23 @@ from contextlib import ExitStack
 from typing import Self
 
 from ai4u_edu.agent import ControlRequestor
-from ai4u_edu.class_member import ClassMember
-from ai4u_edu.editing import SceneEditor
-from ai4u_edu.editing.autosave import Autosave, unsaved_scenes
-from ai4u_edu.editing.scene_store import SceneStore
-from ai4u_edu.editing.sharing import SharedScene, read_shared
-from ai4u_edu.editing.unsaved import Unsaved, choose_unsaved
 from ai4u_edu.lessons.course import lessons
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.member import ClassMember
+from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.autosave import Autosave, unsaved_scenes
+from ai4u_edu.page.editing.scene_store import SceneStore
+from ai4u_edu.page.editing.sharing import SharedScene, read_shared
+from ai4u_edu.page.editing.unsaved import Unsaved, choose_unsaved
+from ai4u_edu.page.panel import PanelSockets
+from ai4u_edu.page.server import LessonView, lock_viser_port, room_app
+from ai4u_edu.page.server.scripts import ScriptReport
+from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.recording import Episode, recorder_into
 from ai4u_edu.room.settings import RoomSettings
 from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import is_link
-from ai4u_edu.server import LessonView, lock_viser_port, room_app
-from ai4u_edu.server.scripts import ScriptReport
-from ai4u_edu.viewer import Viewer
 
 
 class Room:
@@ -143,7 +143,7 @@ def _scene_of(settings: RoomSettings, restored: Unsaved | None) -> SharedScene:
 def _build(scene: Scene, drivers: tuple[str, ...]) -> tuple[ControlRequestor, Scene]:
     if not drivers:
         return scene.build(), scene
-    from ai4u_edu.training.assigned import with_drivers  # loads packages that most don't need
+    from ai4u_edu.learn.training.assigned import with_drivers  # loads packages that most don't need
 
     return with_drivers(scene, [*drivers], is_served=True)
 

@@ -4,11 +4,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
-from ai4u_edu.class_member import ClassLinkSettings
+from ai4u_edu.member import ClassLinkSettings
+from ai4u_edu.page.server import Rules
+from ai4u_edu.page.server.host_origin import LOOPBACK
+from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, MIN_FRAMES_PER_S
-from ai4u_edu.server import Rules
-from ai4u_edu.server.host_origin import LOOPBACK
-from ai4u_edu.server.viser_lockdown import PROXY_SECRET
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,9 +10,9 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.recording.scene_export import without_unknown_brains
+from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.world_thread import WorldThread
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot
 
 RENAMED_METHODS = {
     "use": "replace_sim",

@@ -3,8 +3,8 @@
 import threading
 from collections.abc import Callable
 
+from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.frame_budget import FrameBudget
-from ai4u_edu.snapshot import Snapshot
 
 
 class SnapshotPublisher:

@@ -1,7 +1,7 @@
 """Cache of a world's static scene, which snapshots share."""
 
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.snapshot import StaticScene, capture_static_scene
+from ai4u_edu.recording.snapshot import StaticScene, capture_static_scene
 
 
 class StaticSceneCache:

@@ -14,6 +14,7 @@ from ai4u_edu.agent.block_errors import sentence_of, storable
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder
+from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.runtime.clock import Clock, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
 from ai4u_edu.runtime.episode_clock import EpisodeClock
@@ -24,7 +25,6 @@ from ai4u_edu.runtime.start_wait import StartWait
 from ai4u_edu.runtime.static_scene_cache import StaticSceneCache
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
-from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 T = TypeVar("T")
 logger = logging.getLogger(__name__)

@@ -1,6 +1,6 @@
 """Trained networks in the package, one for each scene: ``ai4u-edu play SCENE --brain zoo``.
 
-Each was made by ``python -m ai4u_edu.training.zoo``, which trains, evaluates and exports.
+Each was made by ``python -m ai4u_edu.learn.training.zoo``, which trains, evaluates and exports.
 """
 
 from pathlib import Path

@@ -2,7 +2,7 @@
 my_clone = clone(my_drives(), "clone.onnx", quiet=True)
 
 # %% tags=["wrong", "sloppy", "learns from wandering"]
-from ai4u_edu.training import demonstrate
+from ai4u_edu.learn.training import demonstrate
 
 wandering = demonstrate("random", "box_chase", episodes=5, quiet=True)
 my_clone = clone(wandering, "clone.onnx", quiet=True)

@@ -23,7 +23,7 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.recording import Recorder, Replay
 from tests.blocks.scripted_link import ScriptedLink
 from tests.builders import still

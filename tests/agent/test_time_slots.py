@@ -14,7 +14,7 @@ from ai4u_edu import (
     RBMoveActuator,
     World,
 )
-from ai4u_edu.envs import parallel_env
+from ai4u_edu.learn.envs import parallel_env
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.scenes import Scene
 

@@ -8,8 +8,8 @@ from typing import Any
 import msgspec
 from msgspec import inspect
 
-from ai4u_edu.panel.messages.base import Command
-from ai4u_edu.panel.messages.reader import NAMES
+from ai4u_edu.page.panel.messages.base import Command
+from ai4u_edu.page.panel.messages.reader import NAMES
 from tests.attacks.test_odd_input_messages import ODD
 
 Message = dict[str, Any]

@@ -2,7 +2,7 @@
 
 from unittest import mock
 
-from ai4u_edu.tournament import python_child
+from ai4u_edu.games.tournament import python_child
 
 if __name__ == "__main__":
     with mock.patch.object(python_child, "_leave_namespaces", return_value=False):

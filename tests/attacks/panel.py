@@ -24,7 +24,7 @@ from tests.attacks.arguments import (
     show_message,
     spoilt,
 )
-from tests.server.rooms import open_socket
+from tests.page.server.rooms import open_socket
 from tests.waiting import LIMIT_S
 
 POINT = (0.0, 0.0, 0.0)

@@ -25,10 +25,10 @@ from ai4u_edu import WASDRBMoveController
 from ai4u_edu.blocks import Keyboard
 from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import room_app, serve
+from ai4u_edu.page.server import room_app, serve
 from ai4u_edu.runtime import tick_monitor
 from tests.builders import small_sim
-from tests.server.rooms import PATIENT
+from tests.page.server.rooms import PATIENT
 from tests.waiting import LIMIT_S
 
 # What a busy machine may reach keeps nobody from anything. Idle connections are closed as usual,

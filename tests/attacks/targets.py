@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 from urllib.parse import urlsplit
 
 from ai4u_edu.classroom.hub.sign_in import COOKIE
-from ai4u_edu.server.token_auth import PageCookie
+from ai4u_edu.page.server.token_auth import PageCookie
 from tests.attacks.raw_http import SOCKET_HEADERS, ForbiddenServer, ask, status_of
 from tests.classroom.fake_hub import fake_hub, hub_class
 from tests.classroom.reserved_port import reserved_port

@@ -8,9 +8,9 @@ from starlette.types import Receive, Scope, Send
 
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_proxy import RoomProxy
-from ai4u_edu.server import ServerThread
-from tests.server import http_client
-from tests.server.rooms import PATIENT
+from ai4u_edu.page.server import ServerThread
+from tests.page.server import http_client
+from tests.page.server.rooms import PATIENT
 
 
 def test_a_rooms_cookie_is_not_sent_in_the_name_of_others() -> None:

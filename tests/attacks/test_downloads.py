@@ -8,8 +8,8 @@ import httpx
 import pytest
 
 from tests.attacks.programs import program
-from tests.server import http_client
-from tests.server.rooms import Page
+from tests.page.server import http_client
+from tests.page.server.rooms import Page
 from tests.waiting import until
 
 COUNT = 45

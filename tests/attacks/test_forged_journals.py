@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.cli.main import app
-from tests.training.small import small_settings
+from tests.learn.training.small import small_settings
 
 pytestmark = [pytest.mark.needs("train", "sweep", "tournament"), pytest.mark.slow]
 

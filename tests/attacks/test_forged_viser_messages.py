@@ -16,12 +16,12 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 from zstandard import ZstdDecompressor
 
-from ai4u_edu.server import ServerThread, lock_viser_port, proxy, room_app
-from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
-from ai4u_edu.viewer import Viewer
-from tests.editing.harness import EditorHarness
-from tests.server.rooms import PATIENT, log_intervals, open_socket
-from tests.viewer.pages import Page, shown
+from ai4u_edu.page.server import ServerThread, lock_viser_port, proxy, room_app
+from ai4u_edu.page.server.proxy import MAX_UPWARD_BYTES
+from ai4u_edu.page.viewer import Viewer
+from tests.page.editing.harness import EditorHarness
+from tests.page.server.rooms import PATIENT, log_intervals, open_socket
+from tests.page.viewer.pages import Page, shown
 from tests.waiting import LIMIT_S, until
 
 
@@ -100,7 +100,7 @@ def unharmed(
     records = [each for each in caplog.records if each.name != "websockets.client"]
     assert [each.getMessage() for each in records if each.exc_info] == []
     assert {each.name for each in records if each.levelno >= logging.WARNING} <= {
-        "ai4u_edu.server.proxy",
+        "ai4u_edu.page.server.proxy",
     }
     assert len(records) < 20 * log_intervals(room.began)
     assert "Traceback" not in "".join(capfd.readouterr())

@@ -9,7 +9,7 @@ import pytest
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.folder_quota import MEASURE_S, FolderQuota
 from tests.classroom.served_class import ServedClass, served_class
-from tests.server.rooms import Clock
+from tests.page.server.rooms import Clock
 from tests.waiting import until
 
 MB = 10**6

@@ -6,9 +6,9 @@ import pytest
 
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError
-from ai4u_edu.server.wrong_counts import MAX_WRONG
+from ai4u_edu.page.server.wrong_counts import MAX_WRONG
 from tests.classroom.fake_hub import NAME, PREFIX, SECRET, FakeHub, fake_hub
-from tests.server.rooms import Clock
+from tests.page.server.rooms import Clock
 
 
 def api_of(hub: FakeHub) -> HubApi:

@@ -10,8 +10,8 @@ import httpx
 import pytest
 
 from tests.attacks.programs import Crowd, many_descriptors, program
-from tests.server import http_client
-from tests.server.rooms import Page, log_intervals
+from tests.page.server import http_client
+from tests.page.server.rooms import Page, log_intervals
 from tests.waiting import Deadline, until
 
 IDLE = (

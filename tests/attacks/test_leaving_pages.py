@@ -12,12 +12,12 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
-from ai4u_edu.server import ServerThread
-from ai4u_edu.server.frames import EXTENSION
+from ai4u_edu.page.server import ServerThread
+from ai4u_edu.page.server.frames import EXTENSION
 from ai4u_edu.wire.native import SUBPROTOCOL
 from tests.attacks.raw_http import SOCKET_HEADERS
-from tests.server import http_client
-from tests.server.rooms import PATIENT, Room, open_socket, served
+from tests.page.server import http_client
+from tests.page.server.rooms import PATIENT, Room, open_socket, served
 from tests.waiting import LIMIT_S
 
 

@@ -15,14 +15,14 @@ import pytest
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import is_built_in
-from ai4u_edu.editing import ChangeResult
-from ai4u_edu.editing.forms import block_form
-from ai4u_edu.editing.scene_names import SceneNames
-from ai4u_edu.editing.settings import agent_form, scene_form
-from ai4u_edu.editing.suggestion import suggest_block
+from ai4u_edu.page.editing import ChangeResult
+from ai4u_edu.page.editing.forms import block_form
+from ai4u_edu.page.editing.scene_names import SceneNames
+from ai4u_edu.page.editing.settings import agent_form, scene_form
+from ai4u_edu.page.editing.suggestion import suggest_block
 from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.world import BodyDescription
-from tests.editing.harness import TEXT, EditorHarness
+from tests.page.editing.harness import TEXT, EditorHarness
 
 NESTED: list[Any] = []
 NESTED.append(NESTED)

@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.server import input as input_socket
-from ai4u_edu.server import messages, page_receiver
+from ai4u_edu.page.server import input as input_socket
+from ai4u_edu.page.server import messages, page_receiver
 from tests.builders import small_sim
-from tests.server.rooms import Page, Room, served
+from tests.page.server.rooms import Page, Room, served
 from tests.waiting import LIMIT_S, until
 
 ODD = (

@@ -16,16 +16,16 @@ from msgspec.structs import astuple, replace
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.spaces import action_space, observation_space
 from ai4u_edu.remote.steps import Close, Open, Receive, Send
-from ai4u_edu.server.scripts import sockets
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
 from tests.fuzz.messages import KINDS, example
+from tests.page.server.rooms import Room
 from tests.remote.rooms import SECRET, Script, log_of, log_room
-from tests.server.rooms import Room
 from tests.waiting import LIMIT_S, until
 
 MAX_SENTENCE_CHARS = 1000

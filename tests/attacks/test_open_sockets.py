@@ -14,13 +14,13 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.open_limits import MAX_SEAT_SOCKETS, MAX_STRANGER_SOCKETS
-from ai4u_edu.server import ServerThread
-from ai4u_edu.server.concurrency_limit import ConcurrencyLimit, TooManyOpenError
-from ai4u_edu.server.connections import max_connections
+from ai4u_edu.page.server import ServerThread
+from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit, TooManyOpenError
+from ai4u_edu.page.server.connections import max_connections
 from tests.attacks.programs import Crowd, many_descriptors
 from tests.classroom.served_class import ServedClass, served_class
-from tests.server import http_client
-from tests.server.rooms import PATIENT, open_socket
+from tests.page.server import http_client
+from tests.page.server.rooms import PATIENT, open_socket
 from tests.waiting import LIMIT_S, Deadline, until
 
 CROWD = 1100

@@ -14,7 +14,7 @@ from ai4u_edu.classroom.programs import Programs
 from ai4u_edu.classroom.room_rule import MAX_SEATS
 from ai4u_edu.classroom.seats import UNOPENED_S, State
 from tests.classroom.served_class import ServedClass, Student, served_class
-from tests.server.rooms import Clock
+from tests.page.server.rooms import Clock
 from tests.waiting import LIMIT_S
 
 SMALL_CLASS = 4

@@ -10,13 +10,13 @@ from typing import Any
 import psutil
 import pytest
 
-from ai4u_edu.jobs import Job, processes, run_jobs
-from ai4u_edu.jobs.processes import ProcessEngine
-from ai4u_edu.tournament import python_controller
-from ai4u_edu.tournament.contest import game_job
-from ai4u_edu.tournament.entry import Entry
-from ai4u_edu.tournament.game import game
-from tests.jobs import functions
+from ai4u_edu.games.jobs import Job, processes, run_jobs
+from ai4u_edu.games.jobs.processes import ProcessEngine
+from ai4u_edu.games.tournament import python_controller
+from ai4u_edu.games.tournament.contest import game_job
+from ai4u_edu.games.tournament.entry import Entry
+from ai4u_edu.games.tournament.game import game
+from tests.games.jobs import functions
 from tests.waiting import until
 
 pytestmark = [
@@ -133,9 +133,9 @@ def test_a_daemon_of_a_program_ends_with_the_process_that_plays(tmp_path: Path) 
     )
     code = (
         "import json, sys\n"
-        "from ai4u_edu.tournament import python_controller\n"
+        "from ai4u_edu.games.tournament import python_controller\n"
         "python_controller.MODULE, entries = json.load(sys.stdin)\n"
-        "from ai4u_edu.tournament.game import game\n"
+        "from ai4u_edu.games.tournament.game import game\n"
         "game({'name': 'sumo'}, 0, entries)\n"
     )
     entries = [each.model_dump_json() for each in (program(source), scripted())]

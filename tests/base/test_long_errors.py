@@ -14,9 +14,9 @@ from ai4u_edu.base.errors import shown, suggest
 from ai4u_edu.base.parameters import MAX_EXPLAINED, MAX_HINTS, explain
 from ai4u_edu.blocks import Sensor
 from ai4u_edu.blocks.actuators import DiscreteActuator
+from ai4u_edu.page.server import messages
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import from_plain
-from ai4u_edu.server import messages
 from tests.builders import small_sim
 
 KEYS: dict[str, Any] = {f"key{number}": 1 for number in range(2000)}

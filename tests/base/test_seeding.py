@@ -11,8 +11,8 @@ import pytest
 from ai4u_edu import Scene, World
 from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.base.seeding import MAX_SEED, Seeds, checked_seed, seeds_from
-from ai4u_edu.envs import SceneEnv, SceneVectorEnv
-from ai4u_edu.envs.scene_parallel_env import SceneParallelEnv
+from ai4u_edu.learn.envs import SceneEnv, SceneVectorEnv
+from ai4u_edu.learn.envs.scene_parallel_env import SceneParallelEnv
 from ai4u_edu.recording import Recorder
 
 BAD_SEEDS = [

@@ -15,8 +15,8 @@ from collections.abc import Callable
 import gymnasium
 from stable_baselines3.common.vec_env import DummyVecEnv
 
-from ai4u_edu.envs import SceneEnv, SceneVectorEnv
-from ai4u_edu.envs.sb3 import SceneVecEnv
+from ai4u_edu.learn.envs import SceneEnv, SceneVectorEnv
+from ai4u_edu.learn.envs.sb3 import SceneVecEnv
 from ai4u_edu.world.native import segments
 from tests.benchmarks.contenders import (
     SEED,

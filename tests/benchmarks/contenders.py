@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from stable_baselines3.common.vec_env import VecEnv
 
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from tests.benchmarks.course import course
 from tests.benchmarks.floors import PublicFloor
 from tests.benchmarks.interleaved import Work

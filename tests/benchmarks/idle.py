@@ -14,7 +14,7 @@ from types import MethodType
 from typing import Any
 
 from ai4u_edu import Scene
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.recording import Recorder
 from ai4u_edu.scenes import SceneDescription
 from tests.benchmarks.contenders import SEED, Contender, one_world

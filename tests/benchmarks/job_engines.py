@@ -9,10 +9,10 @@ import time
 from collections.abc import Sequence
 
 from ai4u_edu import Scene
-from ai4u_edu.jobs import Job, engine, run_jobs
-from ai4u_edu.tournament.contest import game_job
-from ai4u_edu.tournament.entry import parse_entry
-from ai4u_edu.tournament.sides import sides_of
+from ai4u_edu.games.jobs import Job, engine, run_jobs
+from ai4u_edu.games.tournament.contest import game_job
+from ai4u_edu.games.tournament.entry import parse_entry
+from ai4u_edu.games.tournament.sides import sides_of
 
 CORES = 2
 ENGINES = ("inline", "processes", "ray")
@@ -28,8 +28,8 @@ def games(count: int) -> list[Job]:
 def trials(count: int) -> list[Job]:
     """Return small trainings with their export."""
     # each process of a job imports this module, and games need no torch
-    from ai4u_edu.training.sweep.plan import Choice, Plan
-    from tests.training.small import small_settings
+    from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+    from tests.learn.training.small import small_settings
 
     plan = Plan(
         scene={"name": "yardstick"},

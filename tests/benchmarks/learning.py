@@ -16,12 +16,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ai4u_edu import Scene
-from ai4u_edu.training.evaluating import evaluate
-from ai4u_edu.training.learning import train
-from ai4u_edu.training.plots import plot_curves
-from ai4u_edu.training.policies import entrant
-from ai4u_edu.training.run import Check
-from ai4u_edu.training.settings import Algorithm, settings_for
+from ai4u_edu.learn.training.evaluating import evaluate
+from ai4u_edu.learn.training.learning import train
+from ai4u_edu.learn.training.plots import plot_curves
+from ai4u_edu.learn.training.policies import entrant
+from ai4u_edu.learn.training.run import Check
+from ai4u_edu.learn.training.settings import Algorithm, settings_for
 
 SCENES = ("box_chase", "sample_scene")
 ALGORITHMS: tuple[Algorithm, ...] = ("sac", "ppo")

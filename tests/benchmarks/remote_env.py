@@ -9,7 +9,7 @@ from typing import Any
 
 import gymnasium
 
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.remote import RemoteEnv, connect
 from tests.playing import played
 

@@ -44,9 +44,9 @@ def serve_world(agents: int, ready: Connection) -> None:
         Sensor,
         World,
     )
+    from ai4u_edu.page.server import Rules, ServerThread, room_app
     from ai4u_edu.runtime.process_tuning import tuned_process
     from ai4u_edu.runtime.runner import Runner
-    from ai4u_edu.server import Rules, ServerThread, room_app
 
     class Numbers(Sensor):
         """35 numbers."""

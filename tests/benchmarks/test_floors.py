@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import BodyView
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from tests.benchmarks.course import course
 from tests.benchmarks.floors import BareFloor, CffiFloor, CompiledFloor, PublicFloor, compiled
 

@@ -14,7 +14,7 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-from ai4u_edu.training import train
+from ai4u_edu.learn.training import train
 
 MAX_SHARE = 0.05
 """Share of the training's time that watching may cost."""

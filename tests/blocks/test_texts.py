@@ -11,17 +11,17 @@ from ai4u_edu import FloatArrayCompositeSensor, Sensor, check_scene, check_senso
 from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.blocks import Layout, Percept
 from ai4u_edu.blocks.brains.links.link import ReadingSpec
-from ai4u_edu.envs.spaces_of import Observer
+from ai4u_edu.learn.envs.spaces_of import Observer
+from ai4u_edu.page.server.scripts.welcome import ObservationSubset
 from ai4u_edu.recording.checksum import percept_checksum
+from ai4u_edu.recording.snapshot import capture_snapshot
 from ai4u_edu.remote import connect
 from ai4u_edu.remote.spaces import reading_space
-from ai4u_edu.server.scripts.welcome import ObservationSubset
-from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.wire import native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.texts import unpack_texts
 from tests.builders import small_sim
-from tests.server.rooms import served
+from tests.page.server.rooms import served
 from tests.waiting import LIMIT_S
 
 
@@ -124,7 +124,7 @@ def test_a_recording_tells_them_apart() -> None:
 
 
 def test_the_api_shows_them() -> None:
-    from ai4u_edu.server.api import SnapshotView
+    from ai4u_edu.page.server.api import SnapshotView
 
     sim = small_sim([Signs(words=["a<b", "stop"])])
     view = SnapshotView.of(capture_snapshot(sim))

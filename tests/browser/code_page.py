@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ai4u_edu.server import program_zip
+from ai4u_edu.page.server import program_zip
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
 from tests.waiting import LIMIT_MS, LIMIT_S

@@ -7,11 +7,11 @@ import viser
 from playwright.sync_api import Browser
 
 from ai4u_edu import CircleShape, ControlRequestor, RBMoveActuator, WASDRBMoveController, World
-from ai4u_edu.server import lock_viser_port
+from ai4u_edu.page.server import lock_viser_port
 from tests.browser.served_viser import PLAIN, SPEED, TURN, ServedViser
 from tests.builders import small_sim
 from tests.chromium import browser
-from tests.server.rooms import SharedServer, served
+from tests.page.server.rooms import SharedServer, served
 
 pytestmark = pytest.mark.browser
 

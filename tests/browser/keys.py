@@ -5,7 +5,7 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from ai4u_edu.viewer.scene.framing import frame_arena
+from ai4u_edu.page.viewer.scene.framing import frame_arena
 from tests.browser.served_viser import frames
 from tests.playing import Played
 from tests.waiting import until

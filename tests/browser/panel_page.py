@@ -18,7 +18,7 @@ from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.browser.served_viser import connected
 from tests.builders import small_sim
 from tests.chromium import close_page, quick_page, until_on
-from tests.server.rooms import Room, served
+from tests.page.server.rooms import Room, served
 
 CANVAS = PlainPage(
     f"""{ROOT}

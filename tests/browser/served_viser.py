@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Locator, Page
 from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
 from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import Room
+from tests.page.server.rooms import Room
 from tests.waiting import until
 
 SPEED, TURN = 5.0, 2.0

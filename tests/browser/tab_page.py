@@ -16,7 +16,7 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.page.server.web_files import web_folder
 from tests.browser.fake_code import MODULES
 from tests.chromium import close_page, quick_page
 

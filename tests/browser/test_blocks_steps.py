@@ -12,7 +12,7 @@ from ai4u_edu import LocalBrain, Percept, Scene
 from ai4u_edu.program import Program
 from tests.browser.blocks_steps import PROGRAMS
 from tests.browser.tab_page import TabPage
-from tests.panel.rooms import panel_room
+from tests.page.panel.rooms import panel_room
 from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.browser

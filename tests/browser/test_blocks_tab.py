@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, expect
 
-from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.page.server.web_files import web_folder
 from tests.browser.blocks_keys import choose, to_group
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS

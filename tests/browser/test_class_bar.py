@@ -13,9 +13,9 @@ from starlette.routing import Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from ai4u_edu import WASDRBMoveController
-from ai4u_edu.class_member import ClassMember
-from ai4u_edu.server.app import RoomMount
-from ai4u_edu.server.class_feed import ROLE_HEADER, SEAT_HEADER
+from ai4u_edu.member import ClassMember
+from ai4u_edu.page.server.app import RoomMount
+from ai4u_edu.page.server.class_feed import ROLE_HEADER, SEAT_HEADER
 from ai4u_edu.wire.class_link import (
     Assignment,
     Attention,
@@ -32,9 +32,9 @@ from tests.browser.sent_frames import SentFrames
 from tests.browser.served_viser import PLAIN, centre, connected, driver_status
 from tests.builders import small_sim
 from tests.chromium import close_page, new_page, quick_page
-from tests.class_member.fake_link import FakeLink
-from tests.server.rooms import Clock, Room, SharedServer, served
-from tests.server.rooms import Page as RawPage
+from tests.member.fake_link import FakeLink
+from tests.page.server.rooms import Clock, Room, SharedServer, served
+from tests.page.server.rooms import Page as RawPage
 from tests.waiting import until
 
 pytestmark = pytest.mark.browser

@@ -12,8 +12,8 @@ from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.link_client import RawLink, key
 from tests.classroom.served_class import CODE, ServedClass, served_class
-from tests.tournament.bad_networks import INPUTS, few_outputs
-from tests.training.networks import network
+from tests.games.tournament.bad_networks import INPUTS, few_outputs
+from tests.learn.training.networks import network
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.nightly]
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ai4u_edu.server import program_zip
+from ai4u_edu.page.server import program_zip
 from tests.browser.code_page import (
     ROOM,
     code_page,
@@ -16,7 +16,7 @@ from tests.browser.code_page import (
     use_stand_in,
 )
 from tests.chromium import until_on
-from tests.server.rooms import Room, served
+from tests.page.server.rooms import Room, served
 from tests.waiting import LIMIT_MS
 
 pytestmark = pytest.mark.browser

@@ -12,7 +12,7 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from ai4u_edu import Scene
-from ai4u_edu.training.policies import entrant
+from ai4u_edu.learn.training.policies import entrant
 from tests.browser.code_page import WORLD_WAITS, code_page
 from tests.playing import Played, played
 from tests.program.solutions import entry_of, solution

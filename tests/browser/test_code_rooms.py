@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.page.server.web_files import web_folder
 from tests.browser.code_page import (
     ROOM,
     WORLD_WAITS,
@@ -20,8 +20,8 @@ from tests.browser.code_page import (
 )
 from tests.chromium import new_page
 from tests.classroom.served_class import served_class
+from tests.page.server.rooms import served
 from tests.playing import played
-from tests.server.rooms import served
 from tests.waiting import LIMIT_MS
 
 pytestmark = pytest.mark.browser

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.server.web_files import web_folder
+from ai4u_edu.page.server.web_files import web_folder
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_code import serve_fakes
 from tests.browser.fake_panel import PARTS

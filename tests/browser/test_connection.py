@@ -9,8 +9,8 @@ from starlette.applications import Starlette
 
 from ai4u_edu import ControlRequestor
 from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+from ai4u_edu.page.server import RoomMount, ServerThread, room_app
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import RoomMount, ServerThread, room_app
 from tests.browser.kept_port import kept_port
 from tests.browser.panel_page import panel_room
 from tests.browser.served_viser import (
@@ -22,7 +22,7 @@ from tests.browser.served_viser import (
     recorded_holds,
 )
 from tests.chromium import new_page, until_on
-from tests.server.rooms import PATIENT, Clock, Room, served
+from tests.page.server.rooms import PATIENT, Clock, Room, served
 from tests.waiting import LIMIT_S, until
 from tests.wifi import Wifi
 

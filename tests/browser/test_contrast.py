@@ -6,13 +6,13 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.server import Rules
+from ai4u_edu.page.server import Rules
 from tests.browser.code_tab import CodePage
 from tests.browser.contrast import low_contrasts
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.wall_server import WallServer, wall_server
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import Room, served
+from tests.page.server.rooms import Room, served
 
 pytestmark = pytest.mark.browser
 

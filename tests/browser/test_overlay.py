@@ -15,7 +15,7 @@ from tests.browser.served_viser import (
 )
 from tests.builders import still
 from tests.chromium import until_on
-from tests.server.rooms import free_port
+from tests.page.server.rooms import free_port
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser

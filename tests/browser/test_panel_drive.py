@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, expect
 from tests.browser.fake_panel import Json
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.served_viser import record_texts
-from tests.server.rooms import Room
+from tests.page.server.rooms import Room
 
 pytestmark = pytest.mark.browser
 

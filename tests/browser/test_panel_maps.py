@@ -10,7 +10,7 @@ from tests.browser.fake_panel import Json
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.schemes import SCHEMES
 from tests.browser.test_panel_accessibility import findings
-from tests.server.rooms import Room
+from tests.page.server.rooms import Room
 
 pytestmark = pytest.mark.browser
 

@@ -7,7 +7,7 @@ from playwright.sync_api import Browser, Route, expect
 
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.served_viser import record_texts, recorded_holds
-from tests.server.rooms import Room
+from tests.page.server.rooms import Room
 
 pytestmark = pytest.mark.browser
 

@@ -10,12 +10,12 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from ai4u_edu import Scene
+from ai4u_edu.page.server import Rules
 from ai4u_edu.remote import connect
-from ai4u_edu.server import Rules
 from ai4u_edu.wire import native
 from tests.browser.code_page import code_page, set_limits
 from tests.chromium import new_page
-from tests.server.rooms import Room, served
+from tests.page.server.rooms import Room, served
 from tests.waiting import LIMIT_MS, LIMIT_S
 
 pytestmark = pytest.mark.browser

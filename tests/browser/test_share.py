@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.editing.sharing import read_shared, shared_link
+from ai4u_edu.page.editing.sharing import read_shared, shared_link
 from ai4u_edu.scenes import Scene
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.browser.served_viser import connected

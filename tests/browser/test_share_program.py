@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.editing.sharing import read_shared, shared_link
+from ai4u_edu.page.editing.sharing import read_shared, shared_link
 from ai4u_edu.scenes import Scene
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_code import serve_fakes

@@ -8,17 +8,17 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from ai4u_edu.editing import SceneEditor
-from ai4u_edu.editing.autosave import Autosave
-from ai4u_edu.editing.scene_store import SceneStore
+from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.autosave import Autosave
+from ai4u_edu.page.editing.scene_store import SceneStore
+from ai4u_edu.page.server import LessonView, room_app
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
-from ai4u_edu.server import LessonView, room_app
 from tests.browser.contrast import low_contrasts
 from tests.browser.plain_page import ASKED, WITHOUT_VISER
 from tests.browser.schemes import SCHEMES
 from tests.chromium import close_page, quick_page
-from tests.server.rooms import NOWHERE, SharedServer
+from tests.page.server.rooms import NOWHERE, SharedServer
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser

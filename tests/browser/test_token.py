@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.server import Rules, wrong_counts
+from ai4u_edu.page.server import Rules, wrong_counts
 from tests.chromium import new_page
-from tests.server.rooms import Room, served
+from tests.page.server.rooms import Room, served
 
 pytestmark = pytest.mark.browser
 

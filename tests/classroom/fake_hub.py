@@ -18,7 +18,7 @@ import httpx
 from ai4u_edu.classroom.hub.sign_in import COOKIE
 from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import MODULE, environment
-from tests.server import http_client
+from tests.page.server import http_client
 from tests.waiting import LIMIT_S
 
 NAME = "ai4u-class"

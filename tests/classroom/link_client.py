@@ -26,7 +26,7 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.classroom.fake_hub import HubClass
 from tests.classroom.served_class import ServedClass, Student
-from tests.server.rooms import open_socket
+from tests.page.server.rooms import open_socket
 from tests.waiting import Deadline
 
 M = TypeVar("M")

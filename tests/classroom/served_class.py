@@ -15,10 +15,10 @@ from urllib.parse import parse_qs, urlsplit
 
 import httpx
 
-from ai4u_edu.class_link.joining import SEAT_COOKIE
+from ai4u_edu.member.joining import SEAT_COOKIE
 from tests import evidence
 from tests.classroom.patient_class import OPTION
-from tests.server import http_client
+from tests.page.server import http_client
 from tests.waiting import LIMIT_S
 
 CODE = "BCDFG"

@@ -14,10 +14,10 @@ import httpx
 import psutil
 import pytest
 
-from ai4u_edu.server.wrong_counts import MAX_WRONG
+from ai4u_edu.page.server.wrong_counts import MAX_WRONG
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
-from tests.server import http_client
-from tests.server.rooms import Page
+from tests.page.server import http_client
+from tests.page.server.rooms import Page
 from tests.waiting import LIMIT_S, until, until_async
 
 pytestmark = pytest.mark.slow

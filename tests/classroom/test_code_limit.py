@@ -3,7 +3,7 @@
 import asyncio
 
 from ai4u_edu.classroom.code_limit import MAX_WAIT_S, TURNS_PER_S, CodeLimit
-from ai4u_edu.server.wrong_counts import FORGOTTEN_PER_S, MAX_WRONG
+from ai4u_edu.page.server.wrong_counts import FORGOTTEN_PER_S, MAX_WRONG
 
 
 class Queue:

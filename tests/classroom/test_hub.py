@@ -9,10 +9,10 @@ import pytest
 
 from ai4u_edu import zoo
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.class_link.errors import NotJoinedError, UnreachableError
-from ai4u_edu.class_link.hub import join_at_hub
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.sign_in import COOKIE, STATE_COOKIE
+from ai4u_edu.member.errors import NotJoinedError, UnreachableError
+from ai4u_edu.member.hub import join_at_hub
 from ai4u_edu.wire.class_link import Ack, HandedIn, Network, Problem, Welcome
 from tests.classroom.fake_hub import (
     ACCESS,
@@ -27,7 +27,7 @@ from tests.classroom.fake_hub import (
 )
 from tests.classroom.link_client import RawLink, check, state
 from tests.classroom.reserved_port import reserved_port
-from tests.server import http_client
+from tests.page.server import http_client
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow

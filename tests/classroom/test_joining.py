@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu.class_link import NotJoinedError, SeatFile, UnreachableError, join
-from ai4u_edu.class_link.joining import ANSWER_TIMEOUT_S, class_address, is_seat_valid
 from ai4u_edu.classroom.code_limit import MAX_WAIT_S
+from ai4u_edu.member import NotJoinedError, SeatFile, UnreachableError, join
+from ai4u_edu.member.joining import ANSWER_TIMEOUT_S, class_address, is_seat_valid
 from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import CODE, ServedClass, served_class
-from tests.server.rooms import served
+from tests.page.server.rooms import served
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +45,7 @@ def test_a_name_that_is_taken_meanwhile_is_left_to_the_other(
 ) -> None:
     taken = join(there.url, CODE).name
     names = iter([[taken], [taken, "Blue Otter"]])
-    monkeypatch.setattr("ai4u_edu.class_link.joining._names", lambda client: next(names))
+    monkeypatch.setattr("ai4u_edu.member.joining._names", lambda client: next(names))
     assert join(there.url, CODE).name == "Blue Otter"
 
 
@@ -104,7 +104,7 @@ def test_an_unreachable_class_leaves_a_program_its_seat(
     def unreachable(seat: object) -> bool:
         raise UnreachableError("gone")
 
-    monkeypatch.setattr("ai4u_edu.class_link.seat_file.is_seat_valid", unreachable)
+    monkeypatch.setattr("ai4u_edu.member.seat_file.is_seat_valid", unreachable)
     assert file.take(there.url, CODE) == seat
 
 

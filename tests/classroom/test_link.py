@@ -24,7 +24,7 @@ from ai4u_edu.wire.class_link import (
 )
 from tests.classroom.link_client import RawLink, TeacherSocket, check, state
 from tests.classroom.served_class import ServedClass, served_class
-from tests.server.rooms import open_socket
+from tests.page.server.rooms import open_socket
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow

@@ -11,8 +11,8 @@ from ai4u_edu.classroom.tournament import network_check
 from ai4u_edu.classroom.tournament.network_check import NetworkCheck
 from ai4u_edu.classroom.tournament.networks import Networks
 from tests.classroom.two_seats import two_seats
-from tests.tournament.bad_networks import INPUTS, folding
-from tests.training.networks import network
+from tests.games.tournament.bad_networks import INPUTS, folding
+from tests.learn.training.networks import network
 from tests.waiting import LIMIT_S, until_async
 
 pytestmark = [pytest.mark.needs("train", "tournament"), pytest.mark.slow]

@@ -12,16 +12,16 @@ import psutil
 import pytest
 from typer.testing import CliRunner
 
-from ai4u_edu.class_link import SeatFile
-from ai4u_edu.class_link.joining import SEAT_COOKIE
 from ai4u_edu.cli.main import app
+from ai4u_edu.member import SeatFile
+from ai4u_edu.member.joining import SEAT_COOKIE
 from ai4u_edu.room.my_work import open_my_work
 from ai4u_edu.scenes import Scene
 from tests.classroom.link_client import TeacherSocket
 from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.page.server import http_client
 from tests.playing import played
-from tests.server import http_client
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow

@@ -21,7 +21,7 @@ from tests.classroom.link_client import RawLink, state
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
 from tests.classroom.two_seats import two_seats
-from tests.server import http_client
+from tests.page.server import http_client
 
 MARKUP = "# <img src=x onerror=alert(1)>\n"
 NONE_FORGOTTEN = {"ai4u_edu.classroom.seat_rate.REQUESTS_PER_S": 0.0}

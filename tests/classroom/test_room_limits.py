@@ -17,8 +17,8 @@ from ai4u_edu.classroom import LocalRooms
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits, RoomWatch
-from tests.server import http_client
-from tests.server.rooms import Clock
+from tests.page.server import http_client
+from tests.page.server.rooms import Clock
 from tests.waiting import LIMIT_S, until_async
 
 pytestmark = pytest.mark.slow

@@ -14,13 +14,13 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 
+from ai4u_edu.page.server.proxy import MAX_UPWARD_BYTES
 from ai4u_edu.remote import RemoteError
 from ai4u_edu.remote import connect as connect_script
-from ai4u_edu.server.proxy import MAX_UPWARD_BYTES
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.load.clients import CAMERA, VISER
-from tests.server import http_client
-from tests.server.rooms import Page, open_socket
+from tests.page.server import http_client
+from tests.page.server.rooms import Page, open_socket
 from tests.waiting import LIMIT_S, Deadline, until
 
 pytestmark = pytest.mark.slow

@@ -11,8 +11,8 @@ from ai4u_edu import Scene
 from ai4u_edu.wire.class_link import Applied, Assignment, Attention, Hello, Work
 from tests.classroom.link_client import RawLink, TeacherSocket, state
 from tests.classroom.served_class import ServedClass, served_class
-from tests.server import http_client
-from tests.server.rooms import Page, open_socket
+from tests.page.server import http_client
+from tests.page.server.rooms import Page, open_socket
 from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow

@@ -19,16 +19,16 @@ from ai4u_edu.classroom.tournament.event import networks_event
 from ai4u_edu.classroom.tournament.network_check import missing_extras
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
-from ai4u_edu.jobs.inline import InlineEngine
+from ai4u_edu.games.jobs.inline import InlineEngine
+from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.room.my_work import open_my_work
-from ai4u_edu.tournament.verify import verify
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, Network, Problem
 from tests.classroom.link_client import RawLink, TeacherSocket, key, wait_for_verdicts
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
-from tests.server import http_client
-from tests.tournament.bad_networks import BAD, INPUTS, few_outputs
-from tests.training.networks import network
+from tests.games.tournament.bad_networks import BAD, INPUTS, few_outputs
+from tests.learn.training.networks import network
+from tests.page.server import http_client
 from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.needs("train", "tournament")

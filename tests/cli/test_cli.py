@@ -19,7 +19,7 @@ from ai4u_edu.base.seeding import MAX_SEED, MAX_TRAINING_SEED
 from ai4u_edu.base.version import __version__
 from ai4u_edu.cli.main import app
 from ai4u_edu.cli.options import finite
-from ai4u_edu.editing.sharing import shared_link
+from ai4u_edu.page.editing.sharing import shared_link
 from ai4u_edu.scenes import Scene
 from tests.playing import played
 

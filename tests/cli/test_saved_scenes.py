@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.panel.rooms import PanelPage
+from tests.page.panel.rooms import PanelPage
 from tests.playing import played
 
 pytestmark = pytest.mark.slow

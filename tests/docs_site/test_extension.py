@@ -27,5 +27,5 @@ def test_a_constant_has_the_text_of_its_own_module() -> None:
     own = constant_text("ai4u_edu.explain", "LIMITS")
     assert own == "The method's limits, in words for people."
     assert constant_text("ai4u_edu.explain.occlusion", "LIMITS") == own
-    assert constant_text("ai4u_edu.panel.socket", "LIMITS") not in ("", own)
+    assert constant_text("ai4u_edu.page.panel.socket", "LIMITS") not in ("", own)
     assert constant_text("ai4u_edu", "EVENTS") != ""  # which is imported when it is used first

@@ -19,7 +19,7 @@ from ai4u_edu.explain import (
     middle_of,
     occlusion,
 )
-from ai4u_edu.training import QTable
+from ai4u_edu.learn.training import QTable
 from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
 

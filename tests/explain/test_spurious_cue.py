@@ -9,8 +9,8 @@ import pytest
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.explain import groups_of_agent, mean_of, occlusion, percepts_of, sentence
 from ai4u_edu.explain.sentence import axes_of_agent
+from ai4u_edu.learn.training.cloning import clone
 from ai4u_edu.recording import Recorder
-from ai4u_edu.training.cloning import clone
 
 pytestmark = pytest.mark.needs("train")
 
@@ -42,8 +42,8 @@ def to_the_box(percept: Any) -> Any:
 
 
 def touches(path: Path, text: str, seeds: range) -> int:
-    from ai4u_edu.training.evaluating import evaluate
-    from ai4u_edu.training.policies import entrant
+    from ai4u_edu.learn.training.evaluating import evaluate
+    from ai4u_edu.learn.training.policies import entrant
 
     found = evaluate(entrant(str(path)), Scene.loads(text), seeds)
     return sum(episode.reward > 0 for episode in found.episodes)

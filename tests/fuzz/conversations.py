@@ -13,9 +13,9 @@ from typing import Any
 
 from starlette.applications import Starlette
 
+from ai4u_edu.page.server import room_app
+from ai4u_edu.page.server.scripts import Rules
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import room_app
-from ai4u_edu.server.scripts import Rules
 from ai4u_edu.wire import native
 from tests.fuzz.decoders import make_frame, make_words
 from tests.fuzz.messages import KINDS, example

@@ -8,8 +8,8 @@ import msgpack
 import numpy as np
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.page.server import messages
 from ai4u_edu.remote.percept import RemotePercept
-from ai4u_edu.server import messages
 from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import (
     Field,

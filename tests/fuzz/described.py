@@ -5,8 +5,8 @@ from typing import Any
 
 from hypothesis import HealthCheck, given, settings
 
+from ai4u_edu.page.server import room_app
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import room_app
 from tests.builders import small_sim
 
 

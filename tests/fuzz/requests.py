@@ -9,8 +9,8 @@ from urllib.parse import unquote
 
 from starlette.applications import Starlette
 
+from ai4u_edu.page.server import room_app
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import room_app
 from tests.builders import small_sim
 from tests.fuzz.mutate import mangled
 from tests.fuzz.target import MANY, Target

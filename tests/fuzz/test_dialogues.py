@@ -12,8 +12,8 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, ru
 
 from ai4u_edu.blocks.brains.links.link import Observation, Reply
 from ai4u_edu.blocks.brains.links.link import Reset as ResetAnswer
-from ai4u_edu.server.scripts.outbox import Outbox
-from ai4u_edu.server.scripts.session import Session
+from ai4u_edu.page.server.scripts.outbox import Outbox
+from ai4u_edu.page.server.scripts.session import Session
 from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import decode_request
 from ai4u_edu.wire.ai4u_dialogue import VALID_KINDS, AI4UDialogue, Phase, ReplyKind, State

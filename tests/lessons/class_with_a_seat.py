@@ -7,11 +7,11 @@ from functools import partial
 
 import pytest
 
-from ai4u_edu.class_link import Seat, SeatFile
 from ai4u_edu.lessons import class_connection
 from ai4u_edu.lessons.class_connection import ClassConnection
 from ai4u_edu.lessons.class_membership import current_connection
-from tests.class_link.tiny_class import PATIENT, SECRET, TinyClass
+from ai4u_edu.member import Seat, SeatFile
+from tests.member.tiny_class import PATIENT, SECRET, TinyClass
 from tests.waiting import until
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ai4u_edu.lessons.handout import lab_config
 from tests.evidence import KeptFile
-from tests.server.rooms import free_port
+from tests.page.server.rooms import free_port
 from tests.waiting import LIMIT_S, until
 
 

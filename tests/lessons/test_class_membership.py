@@ -24,11 +24,11 @@ from ai4u_edu.wire.class_link import (
     Welcome,
     Work,
 )
-from tests.class_link.messages import drawing
-from tests.class_link.tiny_class import TinyClass
 from tests.lessons.class_with_a_seat import class_with_a_seat, connected
 from tests.lessons.test_checking import go, stay
-from tests.server.rooms import NOWHERE
+from tests.member.messages import drawing
+from tests.member.tiny_class import TinyClass
+from tests.page.server.rooms import NOWHERE
 from tests.waiting import until
 
 WITHOUT_A_CLASS = """

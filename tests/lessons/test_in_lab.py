@@ -20,7 +20,7 @@ from ai4u_edu.lessons.live import Live
 from ai4u_edu.runtime.runner import Runner
 from tests.chromium import browser, new_page
 from tests.lessons.lab import lab, wait_for
-from tests.server.rooms import free_port
+from tests.page.server.rooms import free_port
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.browser

@@ -18,8 +18,8 @@ from ai4u_edu.lessons import notebook_output as out
 from ai4u_edu.lessons.page_watch import PageWatch
 from ai4u_edu.lessons.rollouts import drives
 from tests.builders import small_sim
-from tests.panel.rooms import PanelPage
-from tests.server.rooms import Page, raw_answer
+from tests.page.panel.rooms import PanelPage
+from tests.page.server.rooms import Page, raw_answer
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.needs("lessons")
@@ -179,7 +179,7 @@ def test_a_film_moves_and_says_how_it_ended(shown: list[tuple[str, str, str]]) -
 
 def test_a_film_shows_the_end_of_a_long_episode() -> None:
     from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, moving
-    from ai4u_edu.snapshot import capture_snapshot
+    from ai4u_edu.recording.snapshot import capture_snapshot
 
     (done,) = drives("box_chase", drive, [1], limit=1)
     one = capture_snapshot(done.sim)

@@ -19,8 +19,8 @@ from ai4u_edu.wire.class_link import (
     Network,
     Problem,
 )
-from tests.class_link.tiny_class import TinyClass
 from tests.lessons.class_with_a_seat import class_with_a_seat, connected
+from tests.member.tiny_class import TinyClass
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.needs("train")

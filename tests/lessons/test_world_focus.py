@@ -6,7 +6,7 @@ from playwright.sync_api import Browser, expect
 from ai4u_edu.lessons.live import Live
 from tests.chromium import new_page
 from tests.lessons.test_in_lab import chromium, live, notebook
-from tests.server.rooms import free_port
+from tests.page.server.rooms import free_port
 from tests.waiting import until
 
 __all__ = ["chromium", "live"]  # fixtures

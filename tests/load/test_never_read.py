@@ -9,14 +9,14 @@ import psutil
 import pytest
 import viser
 
+from ai4u_edu.page.server import ServerThread, room_app
+from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, room_app
-from ai4u_edu.viewer import Viewer
 from ai4u_edu.wire import native
 from tests.load.clients import CAMERA
 from tests.load.world import crowd
+from tests.page.server.rooms import PATIENT, UPGRADE, raw_request
 from tests.remote.rooms import patient_rules
-from tests.server.rooms import PATIENT, UPGRADE, raw_request
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.alone

@@ -19,12 +19,12 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.page.panel import PanelSockets
+from ai4u_edu.page.server import ServerThread, lock_viser_port, room_app
+from ai4u_edu.page.server.scripts import Rules
+from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, lock_viser_port, room_app
-from ai4u_edu.server.scripts import Rules
-from ai4u_edu.viewer import Viewer
 from tests.builders import still
 
 RAYS = 16

@@ -10,9 +10,9 @@ from typer.testing import CliRunner
 
 from ai4u_edu import Scene
 from ai4u_edu.cli.main import app
+from ai4u_edu.learn.training.policies import entrant
 from ai4u_edu.lessons.rollouts import drives
 from ai4u_edu.recording import Episode
-from ai4u_edu.training.policies import entrant
 from tests.program.solutions import entry_of, solution
 
 SEED, EPISODES = 3, 2

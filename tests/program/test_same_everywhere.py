@@ -11,8 +11,8 @@ import pytest
 
 import ai4u_edu.program
 from ai4u_edu import BasicAgent, Percept, Scene
+from ai4u_edu.learn.training.policies import entrant
 from ai4u_edu.program import host
-from ai4u_edu.training.policies import entrant
 from tests.program.solutions import entry_of, solution
 
 DTYPES = {"float32": "<f4", "int32": "<i4", "uint8": "|u1", "bool": "|b1"}

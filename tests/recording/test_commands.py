@@ -19,8 +19,8 @@ from ai4u_edu.cli import episodes as episode_commands
 from ai4u_edu.cli.main import app
 from ai4u_edu.recording import Episode, Recorder, Replay, recorder_into
 from ai4u_edu.runtime.runner import Runner
+from tests.page.server.rooms import NOWHERE
 from tests.playing import played
-from tests.server.rooms import NOWHERE
 from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu import ControlRequestor, LocalBrain, Percept, ReplayController, Scene
 from ai4u_edu.blocks import Layout
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, ghost_of
 from ai4u_edu.recording.checksum import percept_checksum
 from ai4u_edu.recording.file import decode, encode

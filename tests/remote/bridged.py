@@ -17,11 +17,11 @@ import numpy as np
 
 from ai4u_edu import BasicAgent, RemoteBrain, Scene
 from ai4u_edu.remote.bridge import Bridge
+from tests.page.server.rooms import Room, served
 from tests.remote.faults import BAD
 from tests.remote.faulty_proxy import Faults, FaultyProxy
 from tests.remote.rooms import patient_rules
 from tests.remote.test_ai4u_package import free_port, run_script
-from tests.server.rooms import Room, served
 from tests.waiting import LIMIT_S
 
 TOKEN = "open sesame"

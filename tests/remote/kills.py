@@ -16,9 +16,9 @@ from dataclasses import dataclass, field
 
 import psutil
 
-from ai4u_edu.server.scripts import Rules
+from ai4u_edu.page.server.scripts import Rules
+from tests.page.server.rooms import Room
 from tests.remote.rooms import connect, log_room
-from tests.server.rooms import Room
 from tests.waiting import LIMIT_S, until
 
 STOPPED, FREE, RESUMED = 0.5, 5.0, 1.0

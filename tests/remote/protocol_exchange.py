@@ -12,12 +12,12 @@ from unittest.mock import patch
 import msgspec
 
 from ai4u_edu import Scene
-from ai4u_edu.server.scripts import Rules, agent_lease
+from ai4u_edu.page.server.scripts import Rules, agent_lease
 from ai4u_edu.wire import native
 from ai4u_edu.wire.json_form import JsonForm
 from ai4u_edu.wire.message_codec import Record
+from tests.page.server.rooms import served
 from tests.remote.rooms import Script, patient_rules
-from tests.server.rooms import served
 
 PAGE = Path(__file__).parents[2] / "docs/protocol.md"
 BEGIN, END = "<!-- exchange -->\n", "<!-- end of the exchange -->\n"

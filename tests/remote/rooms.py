@@ -19,10 +19,10 @@ from ai4u_edu import (
     World,
     remote,
 )
-from ai4u_edu.server.scripts import Rules
+from ai4u_edu.page.server.scripts import Rules
 from ai4u_edu.wire import native
 from tests.builders import still
-from tests.server.rooms import Room, open_socket, served
+from tests.page.server.rooms import Room, open_socket, served
 from tests.waiting import LIMIT_MS, LIMIT_S
 
 SECRET = "a secret of the tests"

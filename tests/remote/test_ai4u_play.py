@@ -7,7 +7,7 @@ import pytest
 from ai4u_edu import RemoteBrain, Scene
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, ParameterError, SetupError
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.training.assigned import with_drivers
+from ai4u_edu.learn.training.assigned import with_drivers
 from tests.playing import played
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.waiting import LIMIT_MS

@@ -8,8 +8,8 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.remote import LostError, RefusedError, Robot
+from tests.page.server.rooms import served
 from tests.remote.rooms import connect, patient_rules
-from tests.server.rooms import served
 from tests.waiting import LIMIT_S
 
 AHEAD = [0.1, 0.0, 0.0, 0.0]

@@ -12,15 +12,15 @@ from ai4u_edu import ControlRequestor, RemoteBrain, Scene
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import describe_agent
+from ai4u_edu.page.server.scripts.settings import MIN_RECEIVE_TIMEOUT_MS
 from ai4u_edu.remote import LostError, RefusedError
 from ai4u_edu.remote.bridge import KEEPALIVE_INTERVAL_S, Bridge
-from ai4u_edu.server.scripts.settings import MIN_RECEIVE_TIMEOUT_MS
+from tests.page.server.rooms import served
 from tests.remote.bridged import OPTIONS, TOKEN, bridged, run, scene_room
 from tests.remote.faulty_proxy import Faults, FaultyProxy
 from tests.remote.rooms import connect, log_of, log_room, patient_rules, unused_address
 from tests.remote.test_ai4u_package import free_port, run_script
 from tests.remote.udp_script import NOOP, RESET, WAIT, UDPScript, udp_script
-from tests.server.rooms import served
 from tests.waiting import LIMIT_S, Deadline, until
 
 pytestmark = pytest.mark.slow

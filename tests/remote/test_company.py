@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from ai4u_edu.page.server import frames
+from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.remote import Robot
-from ai4u_edu.server import frames
-from ai4u_edu.server.scripts import sockets
 from tests.remote.rooms import Place, Script, connect, log_of, log_room
 from tests.waiting import LIMIT_MS, LIMIT_S, until
 

@@ -10,11 +10,11 @@ from gymnasium.utils.env_checker import check_env
 from ai4u_edu import AI4UError
 from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.base.seeding import MAX_SEED
-from ai4u_edu.envs import SceneEnv
+from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.remote import RefusedError, RemoteEnv
 from ai4u_edu.scenes import Scene
+from tests.page.server.rooms import Room, served
 from tests.remote.rooms import patient_rules
-from tests.server.rooms import Room, served
 from tests.waiting import LIMIT_S
 
 

@@ -6,10 +6,10 @@ from typing import Any, Self
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.server.scripts.sockets import MAX_MALFORMED_FRAMES
+from ai4u_edu.page.server.scripts.sockets import MAX_MALFORMED_FRAMES
 from ai4u_edu.wire import native
+from tests.page.server.rooms import Room, open_socket
 from tests.remote.rooms import SECRET, Script, connect, log_of, log_room
-from tests.server.rooms import Room, open_socket
 from tests.waiting import LIMIT_S
 
 

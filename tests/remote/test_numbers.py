@@ -7,8 +7,8 @@ import pytest
 from ai4u_edu import BasicAgent
 from ai4u_edu.remote import RefusedError
 from ai4u_edu.wire import native
+from tests.page.server.rooms import Room
 from tests.remote.rooms import Script, connect, log_of, log_room
-from tests.server.rooms import Room
 from tests.waiting import LIMIT_S, until
 
 

@@ -12,8 +12,8 @@ from ai4u_edu.remote import AsyncRobot, LostError, RefusedError, RemotePercept
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import ConnectionLostError, Note, Open
 from tests.browser.kept_port import kept_port
+from tests.page.server.rooms import served
 from tests.remote.rooms import Script, connect, log_of, log_room, patient_rules
-from tests.server.rooms import served
 from tests.waiting import LIMIT_S, until
 
 NOBODY = "no world answers yet (connection refused: nothing listens there); trying again for up to"

@@ -5,10 +5,10 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from ai4u_edu import server
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli.main import app
-from ai4u_edu.server import Rules
+from ai4u_edu.page import server
+from ai4u_edu.page.server import Rules
 
 
 class Told(Exception):

@@ -10,10 +10,12 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.base.errors import ActionError, ParameterError
+from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.remote import LostError, RefusedError, RemoteError
-from ai4u_edu.server.rate_limit import RateLimit
-from ai4u_edu.server.scripts import sockets
 from ai4u_edu.wire import native
+from tests.page.server.rooms import UPGRADE, Room, raw_answer, served
+from tests.page.server.test_api import get
 from tests.remote.rooms import (
     Script,
     connect,
@@ -23,8 +25,6 @@ from tests.remote.rooms import (
     patient_rules,
     unused_address,
 )
-from tests.server.rooms import UPGRADE, Room, raw_answer, served
-from tests.server.test_api import get
 from tests.waiting import until
 
 

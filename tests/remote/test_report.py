@@ -9,17 +9,17 @@ import pytest
 
 from ai4u_edu import RemoteBrain
 from ai4u_edu.base.log_limit import LOG_INTERVAL_S
+from ai4u_edu.page.server.scripts import ScriptReport
+from ai4u_edu.page.server.scripts.report import EVENTS_PER_S, MAX_WAITING_LINES
 from ai4u_edu.remote import Robot
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server.scripts import ScriptReport
-from ai4u_edu.server.scripts.report import EVENTS_PER_S, MAX_WAITING_LINES
 from ai4u_edu.wire import native
 from tests.builders import small_sim
+from tests.page.server.rooms import Clock, Room, served
 from tests.playing import played
 from tests.remote.rooms import Script, connect, log_sim, patient_rules
 from tests.remote.test_bridge import begin
 from tests.remote.udp_script import udp_script
-from tests.server.rooms import Clock, Room, served
 from tests.waiting import LIMIT_MS, LIMIT_S, until
 
 OTHER = "another long secret"

@@ -15,9 +15,9 @@ from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.remote import Robot
 from ai4u_edu.wire import native
+from tests.page.server.rooms import Room
 from tests.remote.faulty_proxy import Faults, FaultyProxy
 from tests.remote.rooms import Script, connect, log_room
-from tests.server.rooms import Room
 from tests.waiting import LIMIT_S, until
 
 LATE = Faults(latency=0.02)

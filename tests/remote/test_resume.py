@@ -8,12 +8,12 @@ from socket import SHUT_RDWR
 import pytest
 from websockets.exceptions import ConnectionClosed
 
+from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.scripts import sockets
+from ai4u_edu.page.server.scripts.sockets import MAX_STRAY_FRAMES_PER_S
 from ai4u_edu.remote import LostError, RefusedError, Robot
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import ConnectionLostError, Flow, Open, Receive, Send, Step
-from ai4u_edu.server.rate_limit import RateLimit
-from ai4u_edu.server.scripts import sockets
-from ai4u_edu.server.scripts.sockets import MAX_STRAY_FRAMES_PER_S
 from ai4u_edu.wire import native
 from tests.remote.rooms import SECRET, Script, connect, log_of, log_room
 from tests.waiting import LIMIT_S, until

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pytest
 
 from ai4u_edu.cli import main as cli
+from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.runtime import process_tuning
 from ai4u_edu.runtime.process_tuning import (
     NEW_OBJECTS_BEFORE_GC,
@@ -15,7 +16,6 @@ from ai4u_edu.runtime.process_tuning import (
     tuned_process,
 )
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.viewer import Viewer
 from tests.builders import small_sim
 from tests.waiting import LIMIT_S, until
 
@@ -79,7 +79,7 @@ def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
 
 def test_play_tunes_its_process_while_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:
     before, during = settings(), []
-    monkeypatch.setattr("ai4u_edu.server.serve", lambda *_, **__: during.append(settings()))
+    monkeypatch.setattr("ai4u_edu.page.server.serve", lambda *_, **__: during.append(settings()))
     cli.app(["play", "--no-open", "--no-autosave"], standalone_mode=False)
     (seen,) = during
     assert all(each != other for each, other in zip(seen, before, strict=True))

@@ -6,10 +6,10 @@ import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.base.errors import WorldError
-from ai4u_edu.panel.parts.run import slow_warning
+from ai4u_edu.page.panel.parts.run import slow_warning
+from ai4u_edu.page.server.api import SnapshotView
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import SLOW_TICK_S, SLOW_TICK_SHOWN_S
-from ai4u_edu.server.api import SnapshotView
 from tests.builders import small_sim, still
 
 

@@ -13,8 +13,8 @@ from ai4u_edu import BasicAgent, Brain, Command, ControlRequestor, RemoteBrain, 
 from ai4u_edu.base.errors import BlockError, NoDecisionError
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim, small_world
+from tests.page.server.rooms import NOWHERE
 from tests.runtime.running import running, wait_for, wait_for_tick
-from tests.server.rooms import NOWHERE
 from tests.waiting import LIMIT_S, until
 
 

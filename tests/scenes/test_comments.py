@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.scenes.yaml.file import write_yaml
-from tests.editing.harness import EditorHarness
+from tests.page.editing.harness import EditorHarness
 
 TEXT = """\
 # A header of mine,

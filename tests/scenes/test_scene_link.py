@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from ai4u_edu.base.errors import AI4UError, SceneError
 from ai4u_edu.base.seeding import MAX_SEED
-from ai4u_edu.editing.sharing import read_shared, shared_link
+from ai4u_edu.page.editing.sharing import read_shared, shared_link
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import (
     MAX_LINK_CHARS,

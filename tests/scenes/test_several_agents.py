@@ -6,8 +6,8 @@ import pytest
 
 from ai4u_edu import Command, ControlRequestor, LocalBrain, Scene
 from ai4u_edu.agent.driving_keys import keys_of
-from ai4u_edu.server.bindings import choose_agent
-from tests.envs.scenes import MULTI_AGENT
+from ai4u_edu.page.server.bindings import choose_agent
+from tests.learn.envs.scenes import MULTI_AGENT
 
 STILL = {"move": [0, 0, 0, 0]}
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import BasicAgent, LocalBrain, Percept, Scene
-from ai4u_edu.envs.spaces_of import outputs_of
+from ai4u_edu.learn.envs.spaces_of import outputs_of
 from tests.scenes.few import mostly_nightly
 from tests.scenes.solvers import Driver, solver_of
 

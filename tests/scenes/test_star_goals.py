@@ -5,14 +5,14 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.editing.state import EditState
+from ai4u_edu.learn.training.policies import entrant
+from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.scenes.star_goals import (
     StarGoals,
     library_star_counts,
     library_star_goals,
     star_goals,
 )
-from ai4u_edu.training.policies import entrant
 from tests.program.solutions import entry_of, solution
 
 STARTS = 10

@@ -32,7 +32,7 @@ from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, qr_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.classroom.tournament.files import TournamentFiles
-from ai4u_edu.server.host_origin import HostOriginCheck
+from ai4u_edu.page.server.host_origin import HostOriginCheck
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
 PAGES = re.compile(r"/|/teacher|/teacher/look/[\w-]+|/projector|/check|/privacy|/oauth_callback")

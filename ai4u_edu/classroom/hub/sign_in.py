@@ -12,8 +12,8 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
-from ai4u_edu.server.attempts import client_address
-from ai4u_edu.server.token_auth import is_same_secret
+from ai4u_edu.page.server.attempts import client_address
+from ai4u_edu.page.server.token_auth import is_same_secret
 
 COOKIE = "ai4u-edu-hub"
 """Cookie with the browser's token of the hub; scripts in a page can't read it."""

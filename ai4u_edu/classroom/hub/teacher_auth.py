@@ -9,7 +9,7 @@ from starlette.websockets import WebSocket
 
 from ai4u_edu.classroom.hub.api import HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.sign_in import NO_STORE, SignIn
-from ai4u_edu.server.token_page import wants_page
+from ai4u_edu.page.server.token_page import wants_page
 
 NOT_ALLOWED, TRY_LATER = 1008, 1013
 SIGN_IN = "expected somebody who has signed in at the hub; open the class's page"

@@ -14,8 +14,8 @@ from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.classroom.tournament.network_check import driver_of
 from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import Networks
-from ai4u_edu.tournament.entry import Driver
-from ai4u_edu.tournament.plan import Plan
+from ai4u_edu.games.tournament.entry import Driver
+from ai4u_edu.games.tournament.plan import Plan
 
 SEATS = "seats.json"
 """File with the number of the seat of each entry; 0 for the scene's own player."""

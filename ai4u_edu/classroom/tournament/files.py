@@ -9,11 +9,11 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import Route
 
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
-from ai4u_edu.jobs import Job
-from ai4u_edu.jobs.isolated import IsolatedJobs
-from ai4u_edu.server.page import FRAME_ANCESTORS
-from ai4u_edu.tournament.game_page import game_page
-from ai4u_edu.tournament.run import GAMES, PAGE
+from ai4u_edu.games.jobs import Job
+from ai4u_edu.games.jobs.isolated import IsolatedJobs
+from ai4u_edu.games.tournament.game_page import game_page
+from ai4u_edu.games.tournament.run import GAMES, PAGE
+from ai4u_edu.page.server.page import FRAME_ANCESTORS
 
 MAX_PAGE_CPU_S = 30.0
 MAX_PAGE_WALL_S = 120.0

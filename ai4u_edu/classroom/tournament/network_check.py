@@ -14,13 +14,13 @@ from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks.brains.controllers.neural import TRAINED_IN
 from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import NetworkRow, Networks
-from ai4u_edu.jobs import Job
-from ai4u_edu.jobs.isolated import IsolatedJobs
-from ai4u_edu.tournament.contest import game_job
-from ai4u_edu.tournament.drivers import load_network
-from ai4u_edu.tournament.entry import Driver
-from ai4u_edu.tournament.limits import LOAD_CPU_S, OverTimeError, is_over_time, over_load_time
-from ai4u_edu.tournament.plan import CHECK_SEED
+from ai4u_edu.games.jobs import Job
+from ai4u_edu.games.jobs.isolated import IsolatedJobs
+from ai4u_edu.games.tournament.contest import game_job
+from ai4u_edu.games.tournament.drivers import load_network
+from ai4u_edu.games.tournament.entry import Driver
+from ai4u_edu.games.tournament.limits import LOAD_CPU_S, OverTimeError, is_over_time, over_load_time
+from ai4u_edu.games.tournament.plan import CHECK_SEED
 
 MAX_CHECK_CPU_S = 30.0
 """Processor time in which a network has to be loaded and to play a game against itself: the

@@ -6,10 +6,10 @@ from functools import lru_cache
 from ai4u_edu import zoo
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.brains.network import find_network
+from ai4u_edu.games.tournament.drivers import scripted_agents
+from ai4u_edu.games.tournament.entry import Driver, Entry, file_driver
+from ai4u_edu.games.tournament.sides import Sides, sides_of
 from ai4u_edu.scenes import Scene
-from ai4u_edu.tournament.drivers import scripted_agents
-from ai4u_edu.tournament.entry import Driver, Entry, file_driver
-from ai4u_edu.tournament.sides import Sides, sides_of
 
 OWN_PLAYER = "The scene's player"
 """Name of the entry that the scene itself brings along."""

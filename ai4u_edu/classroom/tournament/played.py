@@ -10,7 +10,7 @@ from pathlib import Path
 from threading import Thread
 from typing import Any
 
-MODULE = "ai4u_edu.tournament.live_process"
+MODULE = "ai4u_edu.games.tournament.live_process"
 TEMPORARY = "games.tmp"
 """Folder for files of the games that are played, with networks; nothing of it stays."""
 END_TIMEOUT_S = 5.0
@@ -27,7 +27,7 @@ class PlayedTournament:
 
     def __init__(self, folder: Path, work: Path, on_change: Callable[[], object]) -> None:
         self.view: dict[str, Any] | None = None
-        """The tournament so far; see :func:`ai4u_edu.tournament.live_view.live_view`."""
+        """The tournament so far; see :func:`ai4u_edu.games.tournament.live_view.live_view`."""
         self.problem = ""
         """Reason for which it could not be played."""
         self.is_over = False

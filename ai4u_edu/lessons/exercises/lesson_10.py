@@ -20,9 +20,9 @@ from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
 if TYPE_CHECKING:
     import gymnasium
 
-    from ai4u_edu.training import QTable
-    from ai4u_edu.training.learning import Trained
-    from ai4u_edu.training.run import Check
+    from ai4u_edu.learn.training import QTable
+    from ai4u_edu.learn.training.learning import Trained
+    from ai4u_edu.learn.training.run import Check
 
     Update = Callable[[float, float, float, float, float], float]
 
@@ -54,7 +54,7 @@ def learn(steps: int, seed: int = 0, *, quiet: bool = False) -> "Trained | Short
         quiet: True shows nothing.
     """
     from ai4u_edu.blocks.brains.network import find_network
-    from ai4u_edu.training import train
+    from ai4u_edu.learn.training import train
 
     fast = bool(os.environ.get("AI4U_FAST"))
     settings: dict[str, Any] = {"sac": {"check_every": 500}, "enough": 3}
@@ -80,7 +80,7 @@ def keep(trained: "Trained | Shortened", path: str | Path = "sac.onnx") -> Path:
         trained: the result of :func:`learn`.
         path: the file's path.
     """
-    from ai4u_edu.training import export
+    from ai4u_edu.learn.training import export
 
     if isinstance(trained, Shortened):
         return Path(shutil.copyfile(trained.path, path))
@@ -94,7 +94,7 @@ def learn_house(grid_world: "gymnasium.Env[Any, Any]", episodes: int = 500) -> "
         grid_world: the environment, with everything in the same place in each episode.
         episodes: number of episodes.
     """
-    from ai4u_edu.training import q_learning
+    from ai4u_edu.learn.training import q_learning
 
     fast = bool(os.environ.get("AI4U_FAST"))
     return q_learning(grid_world, episodes=3 if fast else episodes, quiet=fast)
@@ -286,7 +286,7 @@ def has_learned(trained: Any) -> Done:
 
 
 def _expect_trained(trained: Any) -> None:
-    from ai4u_edu.training.learning import Trained
+    from ai4u_edu.learn.training.learning import Trained
 
     if not isinstance(trained, Trained):
         raise NotYet(f"Expected what `learn(...)` returned, got {named(trained)}.")

@@ -43,7 +43,7 @@ ODD_ONE = 3
 
 @cache
 def _shown(count: int) -> "tuple[Episode, ...]":
-    from ai4u_edu.training import demonstrate
+    from ai4u_edu.learn.training import demonstrate
 
     seeds = [
         PLACES[number % len(PLACES)] + 100 * (number // len(PLACES)) for number in range(count)
@@ -149,7 +149,7 @@ def _driver(who: Any, agent: BasicAgent) -> Brain:
 )
 def chooses(good: Any) -> str:
     """Check that exactly the episodes that reached the box are chosen."""
-    from ai4u_edu.training import demonstrate
+    from ai4u_edu.learn.training import demonstrate
 
     a_function(good)
     seed = seeds_of("11.1", 1)[0]

@@ -9,8 +9,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import NeuralNetController, Percept, trained_brain
 
 if TYPE_CHECKING:
+    from ai4u_edu.learn.training.cloning import Cloned
     from ai4u_edu.recording import Episode
-    from ai4u_edu.training.cloning import Cloned
 
 LIMIT = 300
 """Decisions of an episode at the most."""
@@ -28,8 +28,8 @@ def straight_on(_percept: Percept) -> dict[str, list[float]]:
 @cache
 def _scripted() -> "tuple[Episode, ...]":
     """Return drives of the scripted player, and one that falls."""
+    from ai4u_edu.learn.training import demonstrate
     from ai4u_edu.lessons.exercises.lesson_11 import scripted_drives
-    from ai4u_edu.training import demonstrate
 
     found = scripted_drives(CHOICE - 1)
     found[FALL_INDEX:FALL_INDEX] = demonstrate(
@@ -94,7 +94,7 @@ def clone_of(**times: float) -> "Cloned":
     Raises:
         SetupError: no drive is chosen.
     """
-    from ai4u_edu.training import clone
+    from ai4u_edu.learn.training import clone
 
     if not times:
         raise SetupError("no drive is chosen; tick at least one")

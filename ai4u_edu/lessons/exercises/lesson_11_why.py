@@ -79,7 +79,7 @@ def lamp_world(lamp: Lamp = "behind") -> Scene:
 
 def lamp_drives(lamp: Lamp = "behind", count: int = 60) -> "list[Episode]":
     """Return drives of somebody who looks at the box, and never at the lamp."""
-    from ai4u_edu.training import demonstrate
+    from ai4u_edu.learn.training import demonstrate
 
     return demonstrate(to_the_box, lamp_world(lamp), episodes=count, seed=0, quiet=True)
 
@@ -92,7 +92,7 @@ def to_the_box(percept: Percept) -> dict[str, list[float]]:
 
 def lamp_successes(network: str | Path, lamp: Lamp, worlds: int = 20) -> int:
     """Return in how many worlds a network reaches the box."""
-    from ai4u_edu.training import evaluate
+    from ai4u_edu.learn.training import evaluate
 
     done = evaluate(str(network), lamp_world(lamp), episodes=worlds, seed=100, quiet=True)
     return done.successes

@@ -245,7 +245,7 @@ def _counts(
 def plays(play: Any) -> str:
     """Check the totals of games, with a game whose agents end at different times."""
     need("multi", "pettingzoo")
-    from ai4u_edu.envs import parallel_env
+    from ai4u_edu.learn.envs import parallel_env
 
     run = a_function(play)
     for seed in seeds_of("14.4", 6):

@@ -24,7 +24,7 @@ from ai4u_edu.blocks import (
     RemoteBrain,
     TouchRewardFunc,
 )
-from ai4u_edu.envs.spaces_of import outputs_of
+from ai4u_edu.learn.envs.spaces_of import outputs_of
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for, finite_numbers, is_close
@@ -67,9 +67,9 @@ class Winch(Actuator):
 @contextmanager
 def served(sim: ControlRequestor) -> "Iterator[Robot]":
     """Yield a robot of a world served on this machine, in lockstep at full speed."""
+    from ai4u_edu.page.server import Rules, ServerThread, room_app
     from ai4u_edu.remote import connect
     from ai4u_edu.runtime.runner import Runner
-    from ai4u_edu.server import Rules, ServerThread, room_app
 
     runner = Runner(sim, time_scale=math.inf)
     # a machine that is busy with thirty students' checks may keep a script waiting

@@ -1,0 +1,1 @@
+"""Many runs of a world: jobs on several engines, and tournaments."""

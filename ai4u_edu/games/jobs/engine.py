@@ -1,0 +1,70 @@
+"""Interface of the engines, and the engines by name."""
+
+from types import TracebackType
+from typing import Protocol, Self
+
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.games.jobs.call import Answer
+from ai4u_edu.games.jobs.job import Job
+
+NAMES = ("inline", "processes", "ray")
+
+
+class Engine(Protocol):
+    """Runs jobs, several at a time. A context manager; its end ends all that still runs."""
+
+    width: int
+    """Number of jobs that run at a time."""
+
+    def start(self, job: Job) -> None:
+        """Begin a job; called while fewer than :attr:`width` jobs run."""
+        ...
+
+    def wait(self) -> tuple[Job, Answer]:
+        """Return a job that has ended, and its answer; called while a job runs."""
+        ...
+
+    def close(self) -> None:
+        """End all jobs that still run."""
+        ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None: ...
+
+
+def engine(name: str = "processes", *, width: int | None = None, address: str = "") -> Engine:
+    """Return an engine.
+
+    Args:
+        name: ``inline`` runs jobs one after another in this process; ``processes`` runs them in
+            processes of this machine; ``ray`` runs them on Ray.
+        width: number of jobs at a time; left out, one for each core.
+        address: of a Ray cluster, such as ``192.0.2.7:6379``; left out, Ray is started on this
+            machine.
+
+    Raises:
+        SetupError: there is no such engine, or Ray is not installed.
+    """
+    if address and name != "ray":
+        raise SetupError(f"--address is for --engine ray, got --engine {name}")
+    if name == "inline":
+        from ai4u_edu.games.jobs.inline import InlineEngine
+
+        return InlineEngine()
+    if name == "processes":
+        from ai4u_edu.games.jobs.processes import ProcessEngine
+
+        return ProcessEngine(width)
+    if name == "ray":
+        from ai4u_edu.games.jobs.ray_engine import RayEngine
+
+        return RayEngine(width, address)
+    raise SetupError(
+        f"expected an engine of {', '.join(NAMES)}, got {name!r}; {suggest(name, NAMES)}"
+    )

@@ -1,0 +1,153 @@
+"""The engine that runs jobs on Ray, on this machine or on a cluster.
+
+Whoever can connect to a Ray cluster can run any program on its machines: so Ray is started with its
+token authentication.
+"""
+
+import multiprocessing
+import re
+import socket
+from contextlib import suppress
+from multiprocessing.process import BaseProcess
+from typing import Self
+
+import psutil
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.base.process_family import kill_descendants
+from ai4u_edu.games.jobs.call import Answer
+from ai4u_edu.games.jobs.job import Job
+from ai4u_edu.games.jobs.ray_driver import drive
+
+JOBS_PER_CORE = 2
+"""Jobs that Ray has for each core, so that none waits for the way there and back."""
+START_TIMEOUT_S = 300.0
+"""Time in which Ray starts, or answers at an address; mostly it gives up by itself before."""
+HINT = "Look whether the cluster is there; a busy machine may start Ray too slowly: then try again."
+CONNECT_TIMEOUT_S = 10.0
+MAX_PORT = 65_535
+END_TIMEOUT_S = 15.0
+"""Time in which Ray ends by itself; then it is killed."""
+KILL_TIMEOUT_S = 60.0
+"""Time in which the system removes processes that were killed; a busy machine takes seconds."""
+
+
+class RayEngine:
+    """Connects to Ray, or starts it; what it started ends with it.
+
+    Ray's side is a process of its own: Ray's calls can block for minutes where Ctrl-C does nothing,
+    it ends its process when a cluster is gone, and it changes handlers of signals. A process can be
+    killed, and its end can be told.
+
+    Args:
+        width: number of jobs at a time; left out, as many as the cluster has cores for.
+        address: of the cluster; left out, Ray is started here.
+
+    Raises:
+        SetupError: Ray is not installed, or there is no cluster at that address.
+    """
+
+    def __init__(self, width: int | None = None, address: str = "") -> None:
+        need("ray", "ray")
+        if address and address != "auto":
+            _check_address(address)
+        self._where = address or "this machine"
+        self._running: dict[str, Job] = {}
+        context = multiprocessing.get_context("spawn")
+        self._pipe, there = context.Pipe()
+        self._process: BaseProcess = context.Process(
+            target=drive, args=(there, address), name="ray", daemon=True
+        )
+        self._process.start()
+        there.close()
+        try:
+            cores = self._cores()
+        except BaseException:
+            self._end(0.0)
+            raise
+        self.width = width or max(1, cores) * JOBS_PER_CORE
+
+    def start(self, job: Job) -> None:
+        """See :class:`ai4u_edu.games.jobs.Engine`."""
+        self._running[job.key] = job
+        with suppress(OSError):  # Ray's process has ended; the answer tells
+            self._pipe.send(job)
+
+    def wait(self) -> tuple[Job, Answer]:
+        """See :class:`ai4u_edu.games.jobs.Engine`.
+
+        Raises:
+            SetupError: Ray has ended, as it does some time after a cluster's first machine.
+        """
+        try:
+            self._pipe.send(None)
+            key, answer = self._pipe.recv()
+        except (EOFError, OSError):
+            raise self._ended() from None
+        return self._running.pop(key), Answer(*answer)
+
+    def close(self) -> None:
+        """See :class:`ai4u_edu.games.jobs.Engine`."""
+        self._running.clear()
+        self._end(END_TIMEOUT_S)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def _end(self, timeout_s: float) -> None:
+        self._pipe.close()
+        try:
+            self._process.join(timeout_s)
+        finally:  # also after a second Ctrl-C
+            if self._process.is_alive():
+                _kill(self._process)
+
+    def _cores(self) -> int:
+        """Wait until Ray is ready, and return how many cores the cluster has."""
+        try:
+            if not self._pipe.poll(START_TIMEOUT_S):
+                raise SetupError(f"Ray on {self._where} did not answer for {START_TIMEOUT_S:g} s")
+            cores, problem = self._pipe.recv()
+        except (EOFError, OSError):
+            raise self._ended() from None
+        if problem:
+            raise SetupError(f"expected Ray on {self._where}, got: {problem} {HINT}")
+        return int(cores)
+
+    def _ended(self) -> SetupError:
+        self._process.join(END_TIMEOUT_S)
+        return SetupError(
+            f"Ray on {self._where} has ended (exit code {self._process.exitcode}); start the "
+            "cluster anew, and run the same command again"
+        )
+
+
+def _check_address(address: str) -> None:
+    """Look whether anybody listens at an address: Ray itself would try for minutes.
+
+    Raises:
+        SetupError: it is no address, or nobody does.
+    """
+    match = re.fullmatch(r"(?:ray://)?\[?([^\[\]/]+?)\]?:(\d{1,5})", address)
+    if match is None or int(match[2]) > MAX_PORT:
+        raise SetupError(f"--address: expected one such as 192.0.2.7:6379, got {address!r}")
+    try:
+        socket.create_connection((match[1], int(match[2])), CONNECT_TIMEOUT_S).close()
+    except (OSError, UnicodeError) as error:
+        raise SetupError(
+            f"expected a Ray cluster at {address}, got: {error}; start one there with "
+            "`ray start --head --port=PORT`"
+        ) from None
+
+
+def _kill(process: BaseProcess) -> None:
+    """Kill a process and all that it has started."""
+    with suppress(psutil.Error):
+        started = psutil.Process(process.pid)
+        kill_descendants(started)
+        process.kill()
+    process.join(KILL_TIMEOUT_S)

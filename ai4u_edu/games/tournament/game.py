@@ -1,0 +1,165 @@
+"""One game: a job's function."""
+
+import base64
+import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from ai4u_edu.agent import ControlRequestor
+from ai4u_edu.agent.block_errors import message_of
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.games.tournament.drivers import driver_for, make
+from ai4u_edu.games.tournament.limits import CpuMeter, OverTimeError, memory_limit
+from ai4u_edu.games.tournament.match_brain import MatchBrain, reason_of
+from ai4u_edu.games.tournament.sides import Sides, sides_of
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.recording.file import encode
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.scene_data import scene_from
+
+DEFAULT_MAX_DECISIONS = 3_000
+"""Decisions after which a game ends in a scene without a limit of its own."""
+
+
+class _Result(BaseModel):
+    """Form of a game's result; see :func:`game`."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    points: list[Annotated[float, Field(allow_inf_nan=False)]]
+    goal: list[bool]
+    ticks: Annotated[int, Field(ge=0)]
+    episode: Annotated[str, Field(pattern=r"^[A-Za-z0-9+/]*={0,2}$")]
+    forfeit: int
+    reason: str
+
+
+def result_fault(result: Any, sides: int) -> str:
+    """Return what is wrong with data that stands for the result of a game; empty if nothing is.
+
+    Args:
+        result: as a journal has it.
+        sides: number of the scene's sides.
+    """
+    try:
+        told = _Result.model_validate(result)
+    except ValidationError as error:
+        return "; ".join(f"{each['loc']}: {each['msg']}" for each in error.errors())
+    if len(told.episode) % 4:
+        return "a recording that is no base64"
+    if not len(told.points) == len(told.goal) == sides:
+        return f"points of {len(told.points)} sides, and the scene has {sides}"
+    if not -1 <= told.forfeit < sides or (told.forfeit < 0) != (not told.reason):
+        return f"forfeit {told.forfeit} for the reason {told.reason!r}"
+    return ""
+
+
+def game(
+    scene: Mapping[str, Any], seed: int, entries: Sequence[Mapping[str, Any]]
+) -> dict[str, Any]:
+    """Play one game, and return its result and its recording as data.
+
+    Args:
+        scene: as :func:`~ai4u_edu.scenes.scene_data.scene_data` made it.
+        seed: of the episode.
+        entries: an entry for each side of the scene: name and drivers of an
+            :class:`~ai4u_edu.games.tournament.entry.Entry`.
+
+    Returns:
+        ``points`` of each side (sum of its agents' rewards), ``goal`` (True for a side that
+        reached the scene's goal), ``ticks``, the ``episode`` (a file's bytes in base64; empty if
+        the game did not begin), and for a side that failed its index as ``forfeit`` (else -1) and
+        the ``reason``.
+    """
+    loaded = scene_from(scene)
+    sides = sides_of(loaded)
+    faults: list[tuple[int, str]] = []
+    with ExitStack() as ending:
+        folder = Path(ending.enter_context(tempfile.TemporaryDirectory(prefix="ai4u-game-")))
+        ending.enter_context(memory_limit())
+        sim = loaded.build()
+        for index, entry in enumerate(entries):
+            try:
+                _seat(sim, sides, index, entry, folder, seed, faults, ending)
+            except Exception as error:  # whatever is wrong with an entry
+                if not isinstance(error, AI4UError | OverTimeError | MemoryError):
+                    raise
+                faults.append((index, reason_of(error)))
+        episode = None if faults else _played(sim, loaded, seed, faults)
+    return _result(episode, sides, loaded.description.success, faults)
+
+
+def _seat(
+    sim: ControlRequestor,
+    sides: Sides,
+    index: int,
+    entry: Mapping[str, Any],
+    folder: Path,
+    seed: int,
+    faults: list[tuple[int, str]],
+    ending: ExitStack,
+) -> None:
+    """Give the agents of a side brains that ask an entry's controllers."""
+    networks: list[Any] = []
+    meter = CpuMeter(lambda: [each.stop() for each in networks])
+    ending.callback(meter.close)
+    for name in sides.agents[index]:
+        agent = sim.agent(name)
+        made = make(driver_for(entry["drivers"], sides, name), sim, sides, agent, folder, seed)
+        network = getattr(made.controller, "network", None)
+        networks += [] if network is None else [network]
+        close = getattr(made.controller, "close", None)
+        if close is not None:
+            ending.callback(close)
+        brain = MatchBrain(skip_frame=made.skip_frame, repeat_action=made.repeat_action)
+        brain.attach(
+            made.controller, str(entry["name"]), meter, lambda why: faults.append((index, why))
+        )
+        agent.use_brain(brain)
+
+
+def _played(
+    sim: ControlRequestor, scene: Scene, seed: int, faults: list[tuple[int, str]]
+) -> Episode | None:
+    recorder = Recorder(sim, scene=scene.description)
+    sim.reset(seed)
+    limits = [
+        (each.max_steps_per_episode or DEFAULT_MAX_DECISIONS) * (each.brain.skip_frame + 1)
+        for each in sim.agents
+    ]
+    last = max(limits)
+    try:
+        while not faults and sim.world.ticks < last:
+            if all(each.done or each.stopped for each in sim.agents) and sim.between_decisions():
+                break
+            sim.tick()
+    except AI4UError as error:  # of the scene's own blocks: nobody's fault
+        raise AI4UError(f"the scene failed: {message_of(error)}") from error
+    recorder.finish()
+    return recorder.episodes[-1] if len(recorder.episodes) else None
+
+
+def _result(
+    episode: Episode | None, sides: Sides, goal: str | None, faults: list[tuple[int, str]]
+) -> dict[str, Any]:
+    index, reason = faults[0] if faults else (-1, "")
+    points, reached = [0.0 for _ in sides.names], [False for _ in sides.names]
+    if episode is not None:
+        for side, agents in enumerate(sides.agents):
+            records = [episode.agent(each) for each in agents]
+            points[side] = float(sum(each.total for each in records))
+            reached[side] = goal is not None and any(
+                decision.reward_terms.get(goal, 0.0) > 0 for each in records for decision in each
+            )
+    return {
+        "points": points,
+        "goal": reached,
+        "ticks": 0 if episode is None else episode.ticks,
+        "episode": "" if episode is None else base64.b64encode(encode(episode)).decode(),
+        "forfeit": index,
+        "reason": reason,
+    }

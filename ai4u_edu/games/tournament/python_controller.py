@@ -1,0 +1,213 @@
+"""A controller that asks a Python program in a process of its own."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import suppress
+from typing import IO, Any
+
+import numpy as np
+import psutil
+
+from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.process_family import kill_descendants
+from ai4u_edu.blocks import Controller, Percept
+from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.blocks.brains.command import Action
+from ai4u_edu.games.tournament.limits import CHECK_INTERVAL_S, DECISION_CPU_S, GAME_CPU_S, over_time
+from ai4u_edu.games.tournament.line_reader import LineReader
+from ai4u_edu.world import WorldView
+
+START_CPU_S = 20.0
+"""Processor time in which a process starts and loads its program."""
+SILENCE_LIMIT_S = 120.0
+"""Wall time without an answer, for a program that sleeps."""
+END_TIMEOUT_S = 2.0
+"""Wall time in which a process that has closed its output ends by itself."""
+MAX_ANSWER_BYTES = 65_536
+MODULE = "ai4u_edu.games.tournament.python_child"
+
+
+class PythonController(Controller):
+    """Sends readings to a process that runs a program, and takes its actions.
+
+    The program runs as in the page, see :mod:`ai4u_edu.program`. The process has limits on
+    processor time and memory, and on Linux no network where the system lets a process give it up;
+    see :mod:`ai4u_edu.games.tournament.python_child`. It is no sandbox: it has
+    the rights of its user.
+    """
+
+    abstract = True  # an entry of a tournament
+
+    def attach(self, source: str, file: str, name: str, seed: str) -> None:
+        """Set the program.
+
+        Args:
+            source: its text.
+            file: its name, for messages.
+            name: of the function or the class in it; empty for ``decide``.
+            seed: of Python's random numbers.
+        """
+        self._load = {"source": source, "file": file, "name": name, "seed": seed}
+        self._child: _Child | None = None
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002  # a hook's form
+        """Start the process, and load the program.
+
+        Raises:
+            BlockError: a mistake in the program.
+        """
+        outputs = {each.action_name: each.limits() for each in agent.actuators if each.is_output}
+        self._child = _Child()
+        self._child.ask(self._load | {"outputs": outputs}, START_CPU_S)
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002  # a hook's form
+        """Begin an episode of the program."""
+        if self._child is not None:
+            self._child.ask({"begin": True}, DECISION_CPU_S)
+
+    def get_action(self, percept: Percept) -> Action:
+        """Return the program's action.
+
+        Raises:
+            BlockError: a mistake in the program, or it took too long.
+        """
+        if self._child is None:
+            raise BlockError("the program was not started")
+        answer = self._child.ask({"percept": _plain(percept)}, DECISION_CPU_S)
+        if not isinstance(answer, dict):
+            raise BlockError("expected numbers by the actuator's name")
+        return answer
+
+    def close(self) -> None:
+        """End the process."""
+        if self._child is not None:
+            self._child.close()
+            self._child = None
+
+
+class _Child:
+    def __init__(self) -> None:
+        env = {
+            "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
+            "PYTHONHASHSEED": "0",  # sets in the same order in each game
+            "OPENBLAS_NUM_THREADS": "1",
+        }
+        if sys.platform == "win32":
+            env["SYSTEMROOT"] = os.environ.get("SYSTEMROOT", "")
+        limit_s = str(int(GAME_CPU_S + START_CPU_S))
+        self._folder = tempfile.TemporaryDirectory(prefix="ai4u-program-")
+        self._process = subprocess.Popen(  # noqa: S603  # our own module, with the user's program
+            [sys.executable, "-B", "-m", MODULE, limit_s, str(os.getpid())],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            cwd=self._folder.name,
+            env=env,
+            start_new_session=sys.platform != "win32",
+        )
+        self._guard = self._program = psutil.Process(self._process.pid)
+        self._reader = LineReader(self._out, MAX_ANSWER_BYTES)
+        try:
+            self._program = psutil.Process(json.loads(self._line(START_CPU_S, 0.0))["pid"])
+        except (BlockError, ValueError, psutil.Error):
+            self.close()
+            raise BlockError("the program's process did not start") from None
+
+    def ask(self, message: dict[str, Any], limit_s: float) -> Any:
+        """Send a message and return the answer; a processor time of ``limit_s`` is allowed."""
+        before = self._used_s()
+        try:
+            self._in.write(json.dumps(message).encode() + b"\n")
+            self._in.flush()
+        except OSError:
+            raise BlockError(self._ended()) from None
+        line = self._line(limit_s, before)
+        try:
+            answer = json.loads(line)
+            if "error" in answer:
+                raise BlockError(str(answer["error"]))
+            return answer["answer"]
+        except (ValueError, TypeError, KeyError, RecursionError):
+            raise BlockError("expected an answer of the program, got other data") from None
+
+    def _line(self, limit_s: float, before_s: float) -> bytes:
+        """Return the next line of the process.
+
+        Args:
+            limit_s: processor time that it may take for it.
+            before_s: processor time that it had taken before.
+        """
+        since = time.monotonic()
+        line = None
+        while line is None:
+            line = self._reader.line(CHECK_INTERVAL_S)
+            if line is not None and not line.endswith(b"\n") and len(line) <= MAX_ANSWER_BYTES:
+                raise BlockError(self._ended())
+            used = self._used_s() - before_s
+            if used > limit_s:
+                self.close()
+                raise BlockError(over_time(used))
+            if line is None and time.monotonic() - since > SILENCE_LIMIT_S:
+                self.close()
+                raise BlockError(f"the program did not answer for {SILENCE_LIMIT_S:g} s")
+        if len(line) > MAX_ANSWER_BYTES:
+            self.close()
+            raise BlockError(f"expected an answer of at most {MAX_ANSWER_BYTES} bytes")
+        return line
+
+    def close(self) -> None:
+        """End the process, and all that it has started."""
+        for process in (self._guard, self._program):
+            kill_descendants(process)
+            with suppress(psutil.Error):
+                process.kill()
+        if sys.platform != "win32":
+            with suppress(OSError):  # those of its group that it has not started
+                os.killpg(self._process.pid, signal.SIGKILL)
+        with suppress(subprocess.TimeoutExpired):  # one that another process traces
+            self._process.wait(END_TIMEOUT_S)
+        with suppress(OSError):
+            self._in.close()
+        self._reader.close()
+        self._folder.cleanup()
+
+    @property
+    def _in(self) -> IO[bytes]:
+        if self._process.stdin is None:
+            raise RuntimeError("started without a pipe")
+        return self._process.stdin
+
+    @property
+    def _out(self) -> IO[bytes]:
+        if self._process.stdout is None:
+            raise RuntimeError("started without a pipe")
+        return self._process.stdout
+
+    def _used_s(self) -> float:
+        try:
+            times = self._program.cpu_times()
+        except psutil.Error:
+            return 0.0
+        return float(sum(times[:4]))  # also of processes that it has started and that have ended
+
+    def _ended(self) -> str:
+        try:
+            code = self._process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self.close()
+            return "the program's process has closed its output"
+        if code < 0:
+            return f"the program's process was ended by {signal.Signals(-code).name}"
+        return f"the program's process ended (exit status {code})"
+
+
+def _plain(percept: Percept) -> dict[str, Any]:
+    return {
+        name: reading.tolist() if isinstance(reading, np.ndarray) else reading
+        for name, reading in percept.items()
+    }

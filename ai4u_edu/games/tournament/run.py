@@ -1,0 +1,285 @@
+"""A run of a tournament: its games on an engine, and the files in its folder.
+
+::
+
+    DIR/tournament.json   the plan, with the content of all entries
+    DIR/journal.jsonl     the results of all games; a tournament goes on from it
+    DIR/games/            a recorded episode of each game
+    DIR/games.json        each game's file, entries, seed, job and result
+    DIR/standings.csv, index.html
+    DIR/SHA256SUMS        hashes of all these files
+"""
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.csv_table import csv_table
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.games.jobs import Engine, Job, Journal, Outcome, run_jobs
+from ai4u_edu.games.jobs.journal import FILE as JOURNAL
+from ai4u_edu.games.tournament.contest import Contest, ContestResult, game_job
+from ai4u_edu.games.tournament.entry import Entry
+from ai4u_edu.games.tournament.game import result_fault
+from ai4u_edu.games.tournament.page import page_of
+from ai4u_edu.games.tournament.plan import CHECK_SEED, Plan
+from ai4u_edu.games.tournament.plan import FILE as PLAN
+from ai4u_edu.games.tournament.schedule import races, round_robin, swiss_round
+from ai4u_edu.games.tournament.standings import Standing, standings
+
+GAMES = "games"
+LIST = "games.json"
+TABLE = "standings.csv"
+PAGE = "index.html"
+SUMS = "SHA256SUMS"
+"""Hashes of all other files of the folder, as ``sha256sum --check`` reads them."""
+MAX_FILE_PART_BYTES = 100
+Play = Callable[[Sequence[Job]], Iterator[Outcome]]
+"""Runs jobs, and yields their outcomes as they end."""
+
+
+@dataclass
+class Tournament:
+    """Results of a tournament so far."""
+
+    plan: Plan
+    folder: Path
+    refused: dict[str, str] = field(default_factory=dict)
+    """Reasons for which entries take no part, by name."""
+    ended: dict[int, ContestResult] = field(default_factory=dict)
+    """Results of the contests that ended, by their place in the schedule."""
+    files: dict[int, list[dict[str, Any]]] = field(default_factory=dict)
+    """File, entries, seed and result of each game, by the place of its contest."""
+    is_interrupted: bool = False
+
+    @property
+    def results(self) -> list[ContestResult]:
+        """Results of the contests that ended, in the order of the schedule."""
+        return [self.ended[place] for place in sorted(self.ended)]
+
+    @property
+    def games(self) -> list[dict[str, Any]]:
+        """File, entries, seed and result of each game, in the order of the schedule."""
+        return [game for place in sorted(self.files) for game in self.files[place]]
+
+    @property
+    def admitted(self) -> list[Entry]:
+        """The entries that take part."""
+        return [each for each in self.plan.entries if each.name not in self.refused]
+
+    @property
+    def standings(self) -> list[Standing]:
+        """The standings, the best first."""
+        return standings([each.name for each in self.admitted], self.results)
+
+    def recordings(self, place: int) -> Iterator[tuple[str, bytes]]:
+        """Yield name and content of the recordings of a contest's games."""
+        for listed, told in zip(self.files.get(place, ()), self.ended[place].games, strict=True):
+            if listed["file"]:
+                yield listed["file"], base64.b64decode(told["episode"])
+
+
+def run_tournament(
+    plan: Plan,
+    folder: Path,
+    engine: Engine,
+    *,
+    journal: Path | None = None,
+    tell: Callable[[Outcome], object] = lambda _outcome: None,
+    show: Callable[[Tournament], object] = lambda _done: None,
+) -> Tournament:
+    """Play the games of a plan that have not been played; Ctrl-C keeps those that are finished.
+
+    Args:
+        plan: the plan.
+        folder: a tournament's folder, with the plan in it.
+        engine: runs the games.
+        journal: folder of the journal; by default that of the tournament.
+        tell: called with the outcome of each game when it ends, checks included.
+        show: called with the tournament so far after the checks, and when a contest has ended.
+
+    Raises:
+        SetupError: fewer than two entries can play, or the journal is not of this program.
+    """
+    done, sides = Tournament(plan, folder), len(plan.sides.names)
+    with Journal(folder if journal is None else journal) as kept:
+
+        def play(jobs: Sequence[Job]) -> Iterator[Outcome]:
+            for outcome in run_jobs(jobs, engine, journal=kept):
+                fault = "" if outcome.error else result_fault(outcome.result, sides)
+                if fault:
+                    raise SetupError(f"{kept.path}: expected results of games, got: {fault}")
+                tell(outcome)
+                yield outcome
+
+        def take(place: int | None) -> None:
+            if place is not None:
+                _write_recordings(done, place)
+            show(done)
+
+        try:
+            play_all(done, play, take)
+        except KeyboardInterrupt:
+            done.is_interrupted = True
+    return done
+
+
+def play_all(
+    done: Tournament, play: Play, take: Callable[[int | None], object] = lambda _place: None
+) -> None:
+    """Play all games of a plan, after a check of each entry.
+
+    Args:
+        done: the tournament; gets the results.
+        play: runs the games.
+        take: called with the place of each contest that has ended, and with None after the checks.
+
+    Raises:
+        SetupError: fewer than two entries can play.
+    """
+    _check(done, play)
+    take(None)
+    plan, entries = done.plan, done.admitted
+    if plan.sides.is_race:
+        rounds = [races(entries, plan.seeds)]
+    elif plan.system == "round-robin":
+        rounds = [round_robin(entries, plan.seeds)]
+    else:
+        rounds = []
+    swiss = 0 if rounds else plan.rounds_for(len(entries))
+    by_name = {each.name: each for each in entries}
+    first = 0
+    for number in range(len(rounds) or swiss):
+        contests = rounds[number] if rounds else swiss_round(by_name, done.standings, plan.seeds)
+        _play_round(done, dict(enumerate(contests, first)), play, take)
+        first += len(contests)
+
+
+def _check(done: Tournament, play: Play) -> None:
+    """Let each entry play against itself, and refuse those that fail."""
+    plan = done.plan
+    count = len(plan.sides.names)
+    jobs = {each.name: game_job(plan.scene, CHECK_SEED, [each] * count) for each in plan.entries}
+    outcomes = {outcome.job.key: outcome for outcome in play([*jobs.values()])}
+    for name, job in jobs.items():
+        outcome = outcomes[job.key]
+        reason = outcome.error or outcome.result["reason"]
+        if reason:
+            done.refused[name] = reason
+    if len(done.admitted) < 2:
+        told = "; ".join(f"{name}: {reason}" for name, reason in done.refused.items())
+        raise SetupError(f"expected two entries that can play at least; {told}")
+
+
+def _play_round(
+    done: Tournament,
+    waiting: dict[int, Contest],
+    play: Play,
+    take: Callable[[int | None], object],
+) -> None:
+    """Play contests, by their place in the schedule, and take each as soon as its games ended."""
+    outcomes: dict[str, Outcome] = {}
+    jobs = {place: contest.jobs(done.plan.scene) for place, contest in waiting.items()}
+    places: dict[str, list[int]] = {}
+    for place, games in jobs.items():
+        for job in games:
+            places.setdefault(job.key, []).append(place)
+    for outcome in play([job for games in jobs.values() for job in games]):
+        outcomes[outcome.job.key] = outcome
+        for place in places[outcome.job.key]:
+            if place in waiting and all(job.key in outcomes for job in jobs[place]):
+                ended = [outcomes[job.key] for job in jobs[place]]
+                _take(done, place, waiting.pop(place), ended)
+                take(place)
+
+
+def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[Outcome]) -> None:
+    """Add a contest's result."""
+    error = next((each.error for each in ended if each.error), "")
+    if error:
+        done.ended[place] = ContestResult(contest, (), error)
+        return
+    done.ended[place] = ContestResult(contest, tuple(each.result for each in ended))
+    games: list[dict[str, Any]] = []
+    done.files[place] = games
+    for number, (seating, outcome) in enumerate(
+        zip(contest.seatings, ended, strict=True), place * len(ended) + 1
+    ):
+        names = [each.name for each in seating]
+        file = f"{number:04}-{'-vs-'.join(map(_file_part, names))}-seed-{contest.seed}.episode"
+        told = dict(outcome.result)
+        has_recording = bool(told.pop("episode"))
+        games.append(
+            {
+                "file": file if has_recording else "",
+                "seed": contest.seed,
+                "entries": names,
+                "job": outcome.job.key,
+            }
+            | told
+        )
+
+
+def _write_recordings(done: Tournament, place: int) -> None:
+    for file, data in done.recordings(place):
+        path = done.folder / GAMES / file
+        path.parent.mkdir(exist_ok=True)
+        if not path.exists() or path.read_bytes() != data:
+            write_atomically(path, data)
+
+
+def files_of(done: Tournament) -> dict[str, bytes]:
+    """Return all files that follow from plan and results, by their path in the folder."""
+    recordings = (each for place in sorted(done.files) for each in done.recordings(place))
+    return {
+        PLAN: done.plan.text.encode(),
+        **{f"{GAMES}/{name}": data for name, data in recordings},
+        LIST: (json.dumps(done.games, indent=1) + "\n").encode(),
+        TABLE: _table(done).encode(),
+        PAGE: page_of(done).encode(),
+    }
+
+
+def _table(done: Tournament) -> str:
+    head = ["place", "name", "rating", "uncertainty", "provisional"]
+    head += ["won", "drawn", "lost", "forfeits", "points"]
+    rows = (
+        [
+            *(place, each.name, f"{each.mu:.6g}", f"{each.sigma:.6g}", each.is_provisional),
+            *(each.won, each.drawn, each.lost, each.forfeits, f"{each.points:.6g}"),
+        ]
+        for place, each in enumerate(done.standings, 1)
+    )
+    return csv_table(head, rows)
+
+
+def sums_of(files: Mapping[str, bytes]) -> bytes:
+    """Return the hashes of files, as ``sha256sum`` writes them.
+
+    Args:
+        files: content by path.
+    """
+    hashes = (f"{hashlib.sha256(data).hexdigest()}  {name}" for name, data in files.items())
+    return "".join(f"{each}\n" for each in sorted(hashes, key=lambda line: line[66:])).encode()
+
+
+def write_results(done: Tournament) -> None:
+    """Write the list of games, the standings, the page, and the hashes of all files."""
+    files = files_of(done)
+    for name in (LIST, TABLE, PAGE):
+        write_atomically(done.folder / name, files[name])
+    journal = done.folder / JOURNAL
+    if journal.is_file():
+        files[JOURNAL] = journal.read_bytes()
+    write_atomically(done.folder / SUMS, sums_of(files))
+
+
+def _file_part(name: str) -> str:
+    """Return a name as a part of a file's name, whose length most systems limit to 255 bytes."""
+    return re.sub(r"[^\w.-]", "_", name).encode()[:MAX_FILE_PART_BYTES].decode(errors="ignore")

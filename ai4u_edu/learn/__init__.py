@@ -1,0 +1,1 @@
+"""Learning: Gymnasium environments of scenes, and training."""

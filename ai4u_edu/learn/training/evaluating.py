@@ -1,0 +1,153 @@
+"""Evaluation of a driver on seeds not used for training."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.learn.training.episode import Episode, wilson
+from ai4u_edu.learn.training.policies import Entrant, expect_here
+from ai4u_edu.scenes import Scene
+
+DEFAULT_MAX_DECISIONS = 10_000
+"""Decisions after which an episode is truncated in a scene without a limit of its own."""
+
+
+@dataclass(frozen=True, repr=False)
+class Evaluation:
+    """Evaluation of one driver."""
+
+    name: str
+    scene: str
+    has_goal: bool
+    """True if the scene defines a success."""
+    episodes: tuple[Episode, ...]
+
+    @property
+    def successes(self) -> int:
+        """Episodes that reached the goal."""
+        return sum(each.success for each in self.episodes)
+
+    @property
+    def success(self) -> float | None:
+        """Share of the episodes that reached the goal; None in a scene without one."""
+        return self.successes / len(self.episodes) if self.has_goal else None
+
+    success_rate = success
+
+    @property
+    def interval(self) -> tuple[float, float] | None:
+        """95% confidence interval of the success rate."""
+        return wilson(self.successes, len(self.episodes)) if self.has_goal else None
+
+    @property
+    def rewards(self) -> list[float]:
+        """Each episode's return."""
+        return [each.reward for each in self.episodes]
+
+    @property
+    def lengths(self) -> list[int]:
+        """Each episode's number of decisions."""
+        return [each.length for each in self.episodes]
+
+    @property
+    def cells(self) -> dict[str, str]:
+        """Return a table's cells by heading."""
+        interval = self.interval
+        return {
+            "who": self.name,
+            "success": "-" if self.success is None else f"{self.success:.0%}",
+            "95% between": (
+                "-" if interval is None else f"{100 * interval[0]:.1f} and {100 * interval[1]:.1f}%"
+            ),
+            "return": f"{np.mean(self.rewards):.2f} ± {np.std(self.rewards):.2f}",
+            "length": f"{np.mean(self.lengths):.1f} ± {np.std(self.lengths):.1f}",
+        }
+
+    def __repr__(self) -> str:
+        """Return a table of one row."""
+        columns = [
+            (heading.ljust(width), cell.ljust(width))
+            for heading, cell in self.cells.items()
+            for width in [max(len(heading), len(cell))]
+        ]
+        rows = ["  ".join(row).rstrip() for row in zip(*columns, strict=True)]
+        return "\n".join((self._title, *rows))
+
+    def _repr_html_(self) -> str:
+        headings = "".join(f"<th>{escape(each)}</th>" for each in self.cells)
+        cells = "".join(f"<td>{escape(each)}</td>" for each in self.cells.values())
+        return (
+            f"<table><caption>{escape(self._title)}</caption>"
+            f"<thead><tr>{headings}</tr></thead><tbody><tr>{cells}</tr></tbody></table>"
+        )
+
+    @property
+    def _title(self) -> str:
+        return f"{self.scene}, {len(self.episodes)} episodes"
+
+    def plain(self) -> dict[str, Any]:
+        """Return all of it as plain data, for a file."""
+        return {
+            "name": self.name,
+            "scene": self.scene,
+            "episodes": len(self.episodes),
+            "success": self.success,
+            "interval": self.interval,
+            "return": _spread(self.rewards),
+            "length": _spread(self.lengths),
+            "each": [each._asdict() for each in self.episodes],
+        }
+
+
+def evaluate(
+    who: Entrant,
+    scene: Scene,
+    seeds: Iterable[int],
+    *,
+    tell: Callable[[], None] = lambda: None,
+) -> Evaluation:
+    """Run one episode for each seed, each of them with a new brain.
+
+    Args:
+        who: drives the agent; the others follow their brains.
+        scene: the scene, with its own limit of steps.
+        seeds: seeds of the episodes; trainings use none below 2**32 on purpose.
+        tell: called after each episode.
+    """
+    sim = expect_here(who).fitted(scene).build()
+    agent = sim.agent(who.agent) if who.agent else sim.agents[0]
+    goal = scene.description.success
+    episodes = []
+    for seed in seeds:
+        agent.use_brain(who.brain(agent))  # no episode depends on what a driver has kept of others
+        episodes.append(_drive(sim, agent, seed, goal))
+        tell()
+    return Evaluation(who.name, scene.description.name, goal is not None, tuple(episodes))
+
+
+def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> Episode:
+    sim.reset(seed)
+    reward, length, episode = 0.0, 0, sim.episode
+    while not agent.done and length < DEFAULT_MAX_DECISIONS:
+        sim.step(agent)
+        if sim.episode != episode or agent.stopped or agent.paused:
+            return Episode(seed, False, reward, length, False)  # it gave up
+        reward += agent.reward
+        length += 1
+    paid = agent.ledger.episode_terms
+    won = bool(goal and paid.get(goal, 0.0) > 0)
+    return Episode(seed, won, reward, length, agent.terminated)
+
+
+def _spread(numbers: Sequence[float]) -> dict[str, float]:
+    return {
+        "mean": float(np.mean(numbers)),
+        "deviation": float(np.std(numbers)),
+        "lowest": float(np.min(numbers)),
+        "highest": float(np.max(numbers)),
+    }

@@ -1,0 +1,231 @@
+"""Training of an agent in a scene with Stable-Baselines3."""
+
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from stable_baselines3.common.base_class import BaseAlgorithm
+from stable_baselines3.common.callbacks import BaseCallback, CallbackList
+from stable_baselines3.common.logger import configure
+from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
+from stable_baselines3.common.vec_env import VecEnv
+
+from ai4u_edu.base.errors import ParameterError, SetupError
+from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
+from ai4u_edu.learn.envs import SceneEnv
+from ai4u_edu.learn.training.algorithms import check_actions, load_model, new_model
+from ai4u_edu.learn.training.eval_callback import EvalCallback
+from ai4u_edu.learn.training.interrupt import Interrupt
+from ai4u_edu.learn.training.prepare import prepare, with_learner
+from ai4u_edu.learn.training.progress import ProgressCallback
+from ai4u_edu.learn.training.run import Check, Config, Run
+from ai4u_edu.learn.training.settings import Algorithm, Settings
+from ai4u_edu.learn.training.worlds import ABOVE, Choices, make_worlds
+from ai4u_edu.scenes import Scene
+
+if TYPE_CHECKING:
+    from ai4u_edu.learn.training.watch import Watch
+
+PACKAGES = ("ai4u-edu", "stable-baselines3", "torch", "numpy", "pymunk", "gymnasium")
+
+
+@dataclass(frozen=True)
+class Trained:
+    """Result of a training."""
+
+    run: Run
+    steps: int
+    """Decisions learned from, including those before a resume."""
+    interrupted: bool
+    """True if Ctrl-C ended it."""
+    enough: bool
+    """True if it ended early because the policy was good enough."""
+    checks: list[Check]
+
+    @property
+    def best(self) -> Check:
+        """Check of the model that was kept."""
+        return max(self.checks, key=lambda check: check.rank)
+
+    @property
+    def folder(self) -> Path:
+        """Folder with everything that the training wrote."""
+        return self.run.folder
+
+    def __repr__(self) -> str:
+        """Return one line.
+
+        The dataclass's own would list every check.
+        """
+        best, config = self.best, self.run.config()
+        why = "interrupted" if self.interrupted else "good enough" if self.enough else "done"
+        success = "" if best.success is None else f"success {best.success:.0%}, "
+        return (
+            f"Trained({config.scene}, {config.algorithm}: {why} after {self.steps} steps and "
+            f"{self.checks[-1].seconds:.0f} s; best {success}reward {best.reward:.2f} "
+            f"after {best.steps} steps; in {self.folder})"
+        )
+
+
+def train(
+    scene: Scene,
+    algorithm: Algorithm,
+    settings: Settings,
+    folder: Path,
+    *,
+    steps: int | None = None,
+    seed: int = 0,
+    overwrite: bool = False,
+    keep_checkpoints: bool = False,
+    quiet: bool = False,
+    watch: "Watch | None" = None,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
+) -> Trained:
+    """Start a training.
+
+    The same seed on the same machine gives the same model.
+
+    Args:
+        scene: the scene.
+        algorithm: the algorithm's name.
+        settings: settings of all algorithms for this scene.
+        folder: the folder for all results; see :class:`~ai4u_edu.learn.training.run.Run`.
+        steps: decisions to learn from; left out, as the settings say.
+        seed: seed of the network, the worlds and all random choices.
+        overwrite: True replaces a training that is in the folder.
+        keep_checkpoints: True keeps the model of each check.
+        quiet: True shows nothing.
+        watch: page that shows the policy driving as it learns.
+        stop: called with all checks after each one; True ends the training.
+
+    Raises:
+        SetupError: the settings don't fit the scene, or the folder holds a training already.
+        ParameterError: the seed is larger than :data:`MAX_TRAINING_SEED`.
+    """
+    if checked_seed(seed) > MAX_TRAINING_SEED:
+        raise ParameterError(
+            f"seed: expected a whole number from 0 to {MAX_TRAINING_SEED} for a training, got "
+            f"{seed}"
+        )
+    own = settings.of(algorithm)
+    named, settings = settings.agent, with_learner(scene, settings)
+    if settings.agent != named and not quiet:
+        ids = ", ".join(agent.id for agent in scene.build().agents)
+        sys.stderr.write(
+            f"{settings.agent!r} learns, the first of several agents ({ids}); to choose another "
+            "one, write agent: ID into a settings file\n"
+        )
+    prepared = prepare(scene, settings)
+    check_actions(algorithm, _env(prepared, settings).action_space)
+    worlds = make_worlds(prepared, settings, algorithm)
+    model = new_model(algorithm, own, worlds, seed)
+    worlds.seed(ABOVE + 1000 * seed)  # a new model has given them its own, which is small
+    run = Run(folder)
+    config = Config(
+        scene=scene.description.name,
+        algorithm=algorithm,
+        seed=seed,
+        steps=steps or own.steps,
+        settings=settings,
+        versions={name: version(name) for name in PACKAGES},
+    )
+    if overwrite:
+        run.clear()
+    run.begin(config, scene)
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints, stop)
+
+
+def resume(
+    folder: Path,
+    *,
+    steps: int | None = None,
+    keep_checkpoints: bool = False,
+    quiet: bool = False,
+    watch: "Watch | None" = None,
+) -> Trained:
+    """Resume a training that was interrupted, or extend one.
+
+    The worlds begin new episodes, so it is not bit for bit what it would have been without a break.
+
+    Args:
+        folder: the training's folder.
+        steps: decisions to learn from, the ones before counted too; left out, as it was begun.
+        keep_checkpoints: True keeps the model of each check.
+        quiet: True shows nothing.
+        watch: page that shows the policy driving as it learns.
+
+    Raises:
+        SetupError: there is no training in the folder.
+    """
+    run = Run(folder)
+    config = run.config()
+    settings = with_learner(run.scene(), config.settings)
+    prepared = prepare(run.scene(), settings)
+    worlds = make_worlds(prepared, settings, config.algorithm)
+    model = load_model(config.algorithm, run.last, worlds)
+    # other episodes than those that it began with
+    worlds.seed(ABOVE + 1000 * config.seed + 7919 * (1 + model.num_timesteps))
+    if isinstance(model, OffPolicyAlgorithm) and run.replay.is_file():
+        model.load_replay_buffer(run.replay)
+    config = config.model_copy(update={"steps": steps or config.steps, "settings": settings})
+    if model.num_timesteps >= config.steps:
+        raise SetupError(
+            f"{folder} has learned from {model.num_timesteps} steps already; "
+            f"expected --steps larger than that, got {config.steps}"
+        )
+    return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints)
+
+
+def _learn(
+    run: Run,
+    config: Config,
+    prepared: Scene,
+    model: BaseAlgorithm,
+    worlds: VecEnv,
+    quiet: bool,
+    watch: "Watch | None",
+    keep_checkpoints: bool,
+    stop: Callable[[Sequence[Check]], bool] | None = None,
+) -> Trained:
+    settings = config.settings
+    evaluation = EvalCallback(
+        run,
+        lambda: _env(prepared, settings),
+        settings,
+        table=worlds.table if isinstance(worlds, Choices) else None,
+        every=settings.of(config.algorithm).check_every,
+        has_goal=prepared.description.success is not None,
+        keep_checkpoints=keep_checkpoints,
+        stop=stop,
+    )
+    interrupt = Interrupt()
+    bar = ProgressCallback(evaluation, config.steps, quiet=quiet)
+    formats = ["tensorboard"] if find_spec("tensorboard") else []
+    model.set_logger(configure(str(run.tensorboard), formats))
+    left = config.steps - model.num_timesteps
+    callbacks: list[BaseCallback] = [interrupt, evaluation, bar]
+    if watch:
+        watch.set_training(run, config.steps)
+        callbacks.append(watch)
+    try:
+        with interrupt.listening():
+            model.learn(left, CallbackList(callbacks), reset_num_timesteps=False)
+            if not evaluation.checks or evaluation.checks[-1].steps < model.num_timesteps:
+                evaluation.check()
+    finally:
+        bar.close()
+        model.logger.close()
+    run.put(run.last, model.save)
+    if isinstance(model, OffPolicyAlgorithm):
+        run.put(run.replay, model.save_replay_buffer)
+    if watch:
+        watch.finish()
+    return Trained(run, model.num_timesteps, interrupt.asked, evaluation.enough, evaluation.checks)
+
+
+def _env(prepared: Scene, settings: Settings) -> SceneEnv:
+    return SceneEnv(prepared, observation=settings.observation, agent=settings.agent or None)

@@ -1,0 +1,305 @@
+"""The training commands of ``ai4u-edu`` as functions for notebooks and scripts.
+
+torch and Stable-Baselines3 are imported when a function needs them.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ai4u_edu.base.atomic_write import make_folder
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.base.seeding import seeds_from
+
+if TYPE_CHECKING:
+    from ai4u_edu.blocks import Controller
+    from ai4u_edu.learn.training.cloning import Cloned
+    from ai4u_edu.learn.training.evaluating import Evaluation
+    from ai4u_edu.learn.training.learning import Trained
+    from ai4u_edu.learn.training.watch import Watch
+    from ai4u_edu.recording import Episode
+    from ai4u_edu.scenes import Scene
+
+    SceneLike = str | Path | Scene
+    Who = str | Path | Trained | Cloned | Controller | Callable[..., Any]
+
+
+def train(
+    scene: "SceneLike" = "box_chase",
+    algo: str = "",
+    *,
+    steps: int | None = None,
+    seed: int = 0,
+    out: str | Path | None = None,
+    settings: str | Path | Mapping[str, Any] | None = None,
+    policy: str = "",
+    observe: Sequence[str] = (),
+    resume: bool = False,
+    overwrite: bool = False,
+    keep_checkpoints: bool = False,
+    watch: "bool | Watch" = False,
+    quiet: bool = False,
+) -> "Trained":
+    """Train an agent in a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
+
+    The same seed on the same machine gives the same model. It may end before the last step, when
+    the policy is good enough (``settings={"enough": 0}``: never).
+
+    Args:
+        scene: a scene of the library, a YAML file, or a Scene.
+        algo: ``"sac"``, ``"ppo"`` or ``"dqn"``; left out, as the scene's settings say.
+        steps: decisions to learn from; left out, as the settings say.
+        seed: seed of the network, the worlds and all random choices.
+        out: the training's folder; left out, ``runs/SCENE-ALGO-SEED``.
+        settings: changes to the scene's own settings, such as
+            ``{"ppo": {"learning_rate": 1e-4}}``; or a YAML file in place of them.
+        policy: Stable-Baselines3's name of the network's kind: ``"MlpPolicy"``, ``"CnnPolicy"`` for
+            an agent whose only input is a picture, ``"MultiInputPolicy"`` for pictures and others.
+        observe: the perception keys that the policy gets; left out, as the settings say.
+        resume: True goes on with the training in ``out``, up to ``steps`` in all.
+        overwrite: True replaces a training that is in ``out`` already, as when a notebook's cell
+            runs for the second time.
+        keep_checkpoints: True keeps the model of each check, as ``checkpoint-STEPS.zip``.
+        watch: True shows the policy driving in the browser as it learns, until it has learned; a
+            :class:`~ai4u_edu.learn.training.watch.Watch` shows it until that is closed.
+        quiet: True shows nothing.
+
+    Returns:
+        Its result, with ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
+        ``steps``, ``folder``. It can be evaluated and exported.
+
+    Raises:
+        SetupError: a setting is wrong or something is not installed; says what.
+    """
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.learn.training import learning
+    from ai4u_edu.learn.training.settings import ALGORITHMS, settings_for
+
+    if resume:
+        if out is None:
+            raise SetupError("resume needs out, the folder of the training to go on with")
+        with _page_of(watch) as page:
+            return learning.resume(
+                Path(out),
+                steps=steps,
+                keep_checkpoints=keep_checkpoints,
+                quiet=quiet,
+                watch=page,
+            )
+    loaded = _scene(scene)
+    name = loaded.description.name
+    changes = dict(settings) if isinstance(settings, Mapping) else {}
+    changes |= ({"policy": policy} if policy else {}) | ({"observe": observe} if observe else {})
+    file = Path(settings) if isinstance(settings, str | Path) else None
+    how = settings_for(name, file, changes)
+    algorithm = algo.lower() or how.algorithm
+    for each in ALGORITHMS:
+        if algorithm == each:
+            folder = Path(out) if out else Path("runs") / f"{name}-{each}-{seed}"
+            with _page_of(watch) as page:
+                return learning.train(
+                    loaded,
+                    each,
+                    how,
+                    folder,
+                    steps=steps,
+                    seed=seed,
+                    overwrite=overwrite,
+                    keep_checkpoints=keep_checkpoints,
+                    quiet=quiet,
+                    watch=page,
+                )
+    raise SetupError(
+        f"algo: expected one of {', '.join(ALGORITHMS)}, got {algo!r}; {suggest(algo, ALGORITHMS)}"
+    )
+
+
+def evaluate(
+    who: "Who",
+    scene: "SceneLike | None" = None,
+    *,
+    episodes: int = 100,
+    seed: int = 0,
+    quiet: bool = False,
+) -> "Evaluation":
+    """Measure how well a driver does, on seeds not used for training.
+
+    Args:
+        who: what :func:`train` or :func:`clone` gave; a function from percept to action, or a
+            Controller; a training's folder, a model (.zip), a network (.onnx, ``"zoo:SCENE"``), a
+            controller's name, ``"random"``, or ``"scene"`` for the scene's own controller.
+        scene: the scene; left out, the one it was trained in.
+        episodes: number of episodes.
+        seed: seed of the first episode; the next ones follow.
+        quiet: True shows no progress.
+
+    Returns:
+        ``success_rate`` (0..1), ``interval``, ``rewards``, ``lengths``, ``episodes``; as text or in
+        a notebook, a table.
+
+    >>> from ai4u_edu.learn.training import evaluate
+    >>> told = evaluate("random", "box_chase", episodes=2, quiet=True)
+    >>> [each.seed for each in told.episodes]
+    [0, 1]
+    """
+    from ai4u_edu.learn.training.evaluating import evaluate as evaluated
+    from ai4u_edu.learn.training.policies import entrant_of
+    from ai4u_edu.learn.training.progress_bar import counted
+
+    driver = entrant_of(who)
+    where = scene if scene is not None else driver.scene
+    if not where:
+        raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
+    seeds: Iterable[int] = seeds_from(seed, episodes)
+    return evaluated(driver, _scene(where), counted(seeds, driver.name, quiet=quiet))
+
+
+def export(
+    model: "str | Path | Trained",
+    out: str | Path = "policy.onnx",
+    *,
+    with_critic: bool = False,
+) -> Path:
+    """Write a model as a network (.onnx) that drives without torch and can be shared.
+
+    Args:
+        model: the result of :func:`train`, its folder, or a model (.zip) in it.
+        out: the network's file.
+        with_critic: True keeps the critic too, for a map of values; see :mod:`ai4u_edu.explain`.
+
+    Returns:
+        The file; ``trained_brain(file)`` and ``evaluate(file)`` take it.
+    """
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.learn.training.algorithms import load_model
+    from ai4u_edu.learn.training.exporting import export as exported
+    from ai4u_edu.learn.training.run import run_of
+
+    path = Path(model) if isinstance(model, str | Path) else model.folder
+    run = run_of(path)
+    config = run.config()
+    loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
+    return exported(loaded, run.scene(), config, Path(out), with_critic=with_critic)
+
+
+def export_checkpoints(
+    model: "str | Path | Trained", out: str | Path, *, with_critic: bool = False
+) -> list[Path]:
+    """Write the model of each check that a training kept as a network (.onnx), to compare them.
+
+    Args:
+        model: the result of :func:`train` with ``keep_checkpoints``, or its folder.
+        out: the folder for the files, ``checkpoint-STEPS.onnx``.
+        with_critic: as for :func:`export`.
+
+    Returns:
+        The files, the earliest check first.
+
+    Raises:
+        SetupError: the training kept no checkpoints.
+    """
+    from ai4u_edu.learn.training.run import run_of
+
+    path = Path(model) if isinstance(model, str | Path) else model.folder
+    checkpoints = run_of(path).checkpoints
+    if not checkpoints:
+        raise SetupError(
+            f"{path} has no checkpoints; train with: ai4u-edu train SCENE --keep-checkpoints"
+        )
+    make_folder(Path(out), "networks")
+    return [
+        export(each, Path(out) / f"{each.stem}.onnx", with_critic=with_critic)
+        for each in checkpoints
+    ]
+
+
+def demonstrate(
+    who: "Who",
+    scene: "SceneLike | None" = None,
+    *,
+    episodes: int = 10,
+    seed: int = 1000,
+    quiet: bool = False,
+) -> "list[Episode]":
+    """Record episodes of a driver, for :func:`clone`.
+
+    Args:
+        who: as in :func:`evaluate`.
+        scene: the scene; left out, the one it was trained in.
+        episodes: number of episodes.
+        seed: seed of the first episode; the next ones follow.
+        quiet: True shows no progress.
+
+    >>> from ai4u_edu.learn.training import demonstrate
+    >>> episodes = demonstrate("random", "box_chase", episodes=2, quiet=True)
+    >>> [episode.seed for episode in episodes]
+    [1000, 1001]
+    """
+    from ai4u_edu.learn.training.policies import entrant_of
+    from ai4u_edu.learn.training.progress_bar import counted
+    from ai4u_edu.learn.training.showing import show
+
+    driver = entrant_of(who)
+    where = scene if scene is not None else driver.scene
+    if not where:
+        raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
+    return show(
+        driver, _scene(where), counted(seeds_from(seed, episodes), driver.name, quiet=quiet)
+    )
+
+
+def clone(
+    data: "str | Path | Sequence[str | Path | Episode]",
+    out: str | Path = "policy.onnx",
+    *,
+    agent: str | None = None,
+    seed: int = 0,
+    updates: int = 2000,
+    quiet: bool = False,
+) -> "Cloned":
+    """Train a network to imitate recorded episodes (behaviour cloning).
+
+    Args:
+        data: recorded episodes (the result of :func:`demonstrate`, .episode files, folders).
+        out: the network's file.
+        agent: the id of the agent to imitate; left out, the one that acts first.
+        seed: the same seed gives the same network.
+        updates: gradient steps.
+        quiet: True shows nothing.
+
+    Returns:
+        ``path`` of the network, ``loss``, ``decisions`` learned from; it can be evaluated.
+    """
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.learn.training.cloning import clone as cloned
+    from ai4u_edu.learn.training.demonstrations import load_episodes
+    from ai4u_edu.recording import Episode
+
+    given = [data] if isinstance(data, str | Path) else list(data)
+    episodes = [each for each in given if isinstance(each, Episode)]
+    paths = [Path(each) for each in given if isinstance(each, str | Path)]
+    if paths or not episodes:
+        episodes += load_episodes(paths)
+    return cloned(episodes, Path(out), agent=agent, seed=seed, updates=updates, quiet=quiet)
+
+
+@contextmanager
+def _page_of(watch: "bool | Watch") -> "Iterator[Watch | None]":
+    """Give the page of a training; close it afterwards, unless the caller made it."""
+    if not isinstance(watch, bool):
+        yield watch
+    elif watch:
+        from ai4u_edu.learn.training.watch import Watch
+
+        with Watch() as page:
+            yield page
+    else:
+        yield None
+
+
+def _scene(given: "SceneLike") -> "Scene":
+    from ai4u_edu.scenes import Scene
+
+    return given if isinstance(given, Scene) else Scene.load(str(given))

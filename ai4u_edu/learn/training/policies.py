@@ -1,0 +1,259 @@
+"""Drivers for evaluations and ``--brain``: models, networks, controllers, random actions."""
+
+import importlib.util
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import AI4UError, SetupError, suggest
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.blocks import (
+    Block,
+    Brain,
+    Controller,
+    LocalBrain,
+    NeuralNetController,
+    Percept,
+    trained_brain,
+)
+from ai4u_edu.blocks.brains.address import brain_at
+from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.learn.envs.spaces_of import Observer, outputs_of
+from ai4u_edu.learn.training.prepare import prepare
+from ai4u_edu.learn.training.program_files import load_program, program_controller, program_text
+from ai4u_edu.learn.training.run import Config, run_of
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.serialization import is_serializable
+
+ZOO = "zoo"
+"""Name of the scene's own network in the package."""
+SCHEME = "ai4u://"
+FORMS = (
+    "a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo for the scene's "
+    "own), FILE.py:NAME, an AI4U script (ai4u://127.0.0.1:8080), random, scene, or a controller"
+)
+"""Forms in which a command line names a driver."""
+
+
+def _as_it_is(scene: Scene) -> Scene:
+    return scene
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """Description of a driver, and how to make its brain."""
+
+    name: str
+    brain: Callable[[BasicAgent], Brain]
+    """Make a brain for an agent; a trained policy acts deterministically."""
+    scene: str = ""
+    """Scene that it was made for, a name or a file; empty for any."""
+    fitted: Callable[[Scene], Scene] = _as_it_is
+    """Adapt a scene so that its agent observes as in the training."""
+    agent: str = ""
+    """Id of the agent that it drives; empty for the one that acts first."""
+    is_remote: bool = False
+    """True for a script on the other side of a connection, which needs a served world."""
+
+
+def entrant(spec: str, scene: str = "") -> Entrant:
+    """Parse the name of a driver; the one place that does.
+
+    Args:
+        spec: a training's folder or a model in it (.zip); a network (.onnx,
+            ``zoo:SCENE``, or ``zoo`` for the scene's own); a function from percept to action or a
+            Controller, in a Python file of one's own (FILE.py:NAME), which runs as in the page if
+            it could run there, see :mod:`ai4u_edu.program`; an AI4U script by its address
+            (``ai4u://HOST:PORT``); a controller by its name; ``random``; ``scene`` for the
+            controller that the scene's file names.
+        scene: the name of the scene that ``zoo`` means.
+
+    Raises:
+        AI4UError: there is nothing of that name.
+    """
+    path = Path(spec)
+    if spec == "random":
+        return Entrant("random", _by_chance)
+    if spec == "scene":
+        return Entrant("scene", lambda agent: agent.brain)
+    if spec == ZOO and scene:
+        return _network(f"{ZOO_PREFIX}{scene}")
+    if spec.startswith(ZOO_PREFIX) or path.suffix == ".onnx":
+        return _network(spec)
+    if spec.startswith(SCHEME):
+        brain_at(spec)  # so that its mistakes are told before a world is built
+        return Entrant(spec, lambda agent: brain_at(spec, **_rhythm(agent)), is_remote=True)
+    if path.is_dir() or path.suffix == ".zip":
+        return _model(path)
+    file, _, name = spec.rpartition(":")
+    if file.endswith(".py"):
+        return Entrant(name, _of_file(Path(file), name))
+    controllers = {
+        name: cls
+        for name, cls in Block.types.items()
+        if issubclass(cls, Controller)
+        and is_serializable(cls)
+        and not any(field.is_required() for field in cls.parameters().values())
+    }
+    if spec in controllers:
+        return Entrant(spec, _in_rhythm(controllers[spec]))
+    raise SetupError(f"nobody is called {spec!r}: expected {FORMS}; {suggest(spec, controllers)}")
+
+
+def expect_here(who: Entrant) -> Entrant:
+    """Return a driver that needs no served world.
+
+    Raises:
+        SetupError: it is a script on the other side of a connection.
+    """
+    if who.is_remote:
+        raise SetupError(
+            f"{who.name}: a script drives in a served world only; expected: "
+            f"ai4u-edu play SCENE --brain {who.name} (with --record DIR to keep the episodes)"
+        )
+    return who
+
+
+def entrant_of(who: Any) -> Entrant:
+    """Return the driver for anything that can drive.
+
+    Args:
+        who: a function from percept to action, a Controller (or its class), the result of a
+            training or a cloning, or as for :func:`entrant`.
+    """
+    if isinstance(who, Entrant):
+        return who
+    if isinstance(who, str | Path):
+        return entrant(str(who))
+    for place in ("folder", "path"):  # of a training, of a clone
+        if hasattr(who, place):
+            return entrant(str(getattr(who, place)))
+    if isinstance(who, Controller):
+        return Entrant(type(who).__name__, _in_rhythm(lambda: who))
+    if isinstance(who, type) and issubclass(who, Controller):
+        return Entrant(who.__name__, _in_rhythm(who))
+    if callable(who):
+        return Entrant(getattr(who, "__name__", "function"), _in_rhythm(lambda: who))
+    raise SetupError(
+        "expected a function from percept to action, a Controller, what train() or clone() gave, "
+        f"or a name as in ai4u-edu evaluate --help; got {who!r}"
+    )
+
+
+def _network(spec: str) -> Entrant:
+    about = NeuralNetController(model_path=spec).network.about
+    return Entrant(
+        Path(spec).name, lambda _agent: trained_brain(spec), scene=str(about.get("scene", ""))
+    )
+
+
+def _model(path: Path) -> Entrant:
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.learn.training.algorithms import load_model
+
+    run = run_of(path)
+    config = run.config()
+    settings = config.settings
+    model = load_model(config.algorithm, run.best if path.is_dir() else path)
+
+    def brain(agent: BasicAgent) -> Brain:
+        drive = driver_of(config, agent, lambda: model)
+        return LocalBrain(controller=drive, skip_frame=agent.brain.skip_frame)
+
+    return Entrant(
+        path.name,
+        brain,
+        scene=str(run.folder / "scene.yaml"),
+        fitted=lambda scene: prepare(scene, settings, learning=False),
+        agent=settings.agent,
+    )
+
+
+def driver_of(
+    config: Config, agent: BasicAgent, latest: Callable[[], Any]
+) -> Callable[[Percept], dict[str, Any]]:
+    """Return a controller that asks a Stable-Baselines3 model for deterministic actions.
+
+    Args:
+        config: its training's set-up.
+        agent: the agent it drives.
+        latest: the model; asked at each decision.
+    """
+    from ai4u_edu.learn.training.worlds import table_for
+
+    settings = config.settings
+    observer = Observer(agent, settings.observation)
+    ((output, actuator),) = outputs_of(agent).items()
+    space: Any = actuator.space()
+    chooses = config.algorithm == "dqn" and hasattr(space, "low")
+    table = table_for(space, settings.actions) if chooses else None
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        action, _ = latest().predict(observer.observe(percept), deterministic=True)
+        return {output: action if table is None else table[action]}
+
+    return drive
+
+
+def _by_chance(agent: BasicAgent) -> Brain:
+    spaces = {name: actuator.space() for name, actuator in outputs_of(agent).items()}
+    view = agent.view
+
+    def drive(_percept: Percept) -> dict[str, Any]:
+        chance = view.random("random entrant")
+        return {name: _drawn(space, chance) for name, space in spaces.items()}
+
+    return _in_rhythm(lambda: drive)(agent)
+
+
+def _drawn(space: Any, chance: np.random.Generator) -> Any:
+    if hasattr(space, "n"):
+        return int(space.start + chance.integers(space.n))
+    return chance.uniform(space.low, space.high)
+
+
+def _in_rhythm(make: Callable[[], Any]) -> Callable[[BasicAgent], Brain]:
+    """Return a LocalBrain that decides as often as the agent's own brain."""
+    return lambda agent: LocalBrain(controller=make(), **_rhythm(agent))
+
+
+def _rhythm(agent: BasicAgent) -> dict[str, Any]:
+    """Return ``skip_frame`` and ``repeat_action`` of an agent's own brain."""
+    brain = agent.brain
+    return {"skip_frame": brain.skip_frame, "repeat_action": brain.repeat_action}
+
+
+def _of_file(path: Path, name: str) -> Callable[[BasicAgent], Brain]:
+    """Return how to make a brain from a function or a controller in a user's Python file."""
+    if not path.is_file():
+        raise SetupError(f"{path}: there is no such Python file")
+    source = program_text(path)
+    if source is None:
+        return _in_rhythm(_from_file(path, name))
+    load_program(source, path, name)  # so that its mistakes are told before a world is built
+    return lambda agent: _in_rhythm(lambda: program_controller(source, path, name, agent))(agent)
+
+
+def _from_file(path: Path, name: str) -> Callable[[], Any]:
+    """Run a Python file that the user named, and return a function or a controller from it."""
+    called = f"own_controllers_{path.stem}"
+    found = importlib.util.spec_from_file_location(called, path)
+    if found is None or found.loader is None:
+        raise SetupError(f"{path}: there is no such Python file")
+    module = sys.modules[called] = importlib.util.module_from_spec(found)
+    try:
+        found.loader.exec_module(module)
+    except (Exception, SystemExit) as error:  # it is theirs, so it may be any
+        raise SetupError(f"{path}: {type(error).__name__}: {error}") from error
+    if not hasattr(module, name):
+        known = [each for each in vars(module) if not each.startswith("_")]
+        raise AI4UError(f"{path} has no {name!r}; {suggest(name, known)}")
+    value = getattr(module, name)
+    if isinstance(value, type) and issubclass(value, Controller):
+        return value
+    return lambda: value

@@ -1,0 +1,176 @@
+"""A run of a sweep: its trials on an engine, and the files in its folder.
+
+::
+
+    DIR/sweep.json      the plan
+    DIR/journal.jsonl   the results of all trials; a sweep goes on from it
+    DIR/optuna.log      the study, for Optuna's tools
+    DIR/networks/       the best network of each trial
+    DIR/best.onnx       the best of all
+    DIR/trials.csv, parallel.png, curves.png, index.html
+    DIR/terms.png       how it learned without each reward term, if that was tried
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.optional_deps import need
+from ai4u_edu.games.jobs import Engine, Journal, run_jobs
+from ai4u_edu.learn.training.evaluating import Evaluation, evaluate
+from ai4u_edu.learn.training.policies import entrant
+from ai4u_edu.learn.training.sweep.page import page_of
+from ai4u_edu.learn.training.sweep.pictures import plot_curves, plot_parallel, plot_terms
+from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+from ai4u_edu.learn.training.sweep.result import TrialResult, csv_text, ranked
+from ai4u_edu.learn.training.sweep.search_space import LEFT_OUT
+from ai4u_edu.scenes.scene_data import scene_from
+
+NETWORKS = "networks"
+BEST = "best.onnx"
+PAGE = "index.html"
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Results of a sweep so far."""
+
+    plan: Plan
+    folder: Path
+    results: tuple[TrialResult, ...]
+    """Results of the trials that ended, by number."""
+    is_interrupted: bool
+    evaluation: Evaluation | None = None
+    """Evaluation of the best network on seeds that no training or check used; None if the sweep
+    was interrupted or no trial finished."""
+
+    @property
+    def best(self) -> TrialResult | None:
+        """The best finished trial."""
+        return next((each for each in ranked(self.results) if each.network), None)
+
+
+def total_of(plan: Plan) -> int:
+    """Return the number of trials of a plan."""
+    return plan.trials or len(plan.choices())
+
+
+def run_sweep(
+    plan: Plan,
+    folder: Path,
+    engine: Engine,
+    *,
+    tell: Callable[[TrialResult], object] = lambda _result: None,
+) -> Sweep:
+    """Run the trials of a plan that have not been run; Ctrl-C keeps those that are finished.
+
+    Args:
+        plan: the plan.
+        folder: a sweep's folder, with the plan in it.
+        engine: runs the trials.
+        tell: called with the result of each trial when it ends.
+    """
+    results: list[TrialResult] = []
+    interrupted = False
+
+    def take(result: TrialResult) -> None:
+        results.append(result)
+        if result.network:
+            path = folder / NETWORKS / f"trial-{result.number:03}.onnx"
+            path.parent.mkdir(exist_ok=True)
+            write_atomically(path, result.network)
+        tell(result)
+
+    with Journal(folder) as journal:
+        try:
+            if plan.is_search:
+                _search(plan, folder, engine, journal, take)
+            else:
+                _run_batch(plan, plan.choices(), 0, [], engine, journal, take)
+        except KeyboardInterrupt:
+            interrupted = True
+    results.sort(key=lambda result: result.number)
+    return Sweep(plan, folder, tuple(results), interrupted)
+
+
+def _search(
+    plan: Plan,
+    folder: Path,
+    engine: Engine,
+    journal: Journal,
+    take: Callable[[TrialResult], object],
+) -> None:
+    need("sweep", "optuna")
+    from ai4u_edu.learn.training.sweep.optuna_search import OptunaSearch
+
+    search = OptunaSearch(plan, folder)
+    done: list[TrialResult] = []
+    while len(done) < plan.trials:
+        choices = search.ask(min(plan.batch, plan.trials - len(done)))
+        rivals = [each.curve for each in done if each.state == "finished"]
+        batch = _run_batch(plan, choices, len(done), rivals, engine, journal, take)
+        search.tell(batch)
+        done += batch
+
+
+def _run_batch(
+    plan: Plan,
+    choices: Sequence[Choice],
+    first: int,
+    rivals: list[list[float]],
+    engine: Engine,
+    journal: Journal,
+    take: Callable[[TrialResult], object],
+) -> list[TrialResult]:
+    """Run some trials, and return their results in order."""
+    has_goal = plan.has_goal
+    jobs = [plan.job(each, rivals) for each in choices]
+    places: dict[str, list[int]] = {}
+    for place, job in enumerate(jobs):
+        places.setdefault(job.key, []).append(place)
+    results: dict[int, TrialResult] = {}
+    for outcome in run_jobs(jobs, engine, journal=journal):
+        for place in places[outcome.job.key]:
+            number = first + place
+            results[place] = TrialResult.of(number, choices[place], outcome, has_goal)
+            take(results[place])
+    return [results[place] for place in range(len(jobs))]
+
+
+def evaluated(sweep: Sweep, seeds: Sequence[int], tell: Callable[[], None]) -> Sweep:
+    """Evaluate a sweep's best network, and return the sweep with the evaluation.
+
+    Args:
+        sweep: the sweep.
+        seeds: of the episodes; trainings and their checks use none below 2**32.
+        tell: called after each episode.
+    """
+    if sweep.best is None:
+        return sweep
+    path = sweep.folder / BEST
+    write_atomically(path, sweep.best.network)
+    told = evaluate(entrant(str(path)), scene_from(sweep.plan.scene), seeds, tell=tell)
+    return Sweep(sweep.plan, sweep.folder, sweep.results, sweep.is_interrupted, told)
+
+
+def write_report(sweep: Sweep) -> Path | None:
+    """Write table, pictures and page; return the page's path, or None if no trial has ended."""
+    if not sweep.results:
+        return None
+    folder, names = sweep.folder, [each.name for each in sweep.plan.parameters]
+    write_atomically(folder / "trials.csv", csv_text(sweep.results, names))
+    if sweep.best is not None:
+        write_atomically(folder / BEST, sweep.best.network)
+    pictures = []
+    if any(each.checks for each in sweep.results):
+        pictures = [folder / "curves.png", folder / "parallel.png"]
+        plot_curves(sweep.results, pictures[0])
+        plot_parallel(sweep.results, names, pictures[1])
+        if LEFT_OUT in names:
+            pictures.append(folder / "terms.png")
+            plot_terms(sweep.results, pictures[2])
+    page = folder / PAGE
+    text = page_of(sweep.plan, sweep.results, sweep.evaluation, total_of(sweep.plan), pictures)
+    write_atomically(page, text)
+    return page

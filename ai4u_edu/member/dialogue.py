@@ -1,0 +1,240 @@
+"""A room's side of the dialogue with its class, without input and output.
+
+A client tells it of each event on the connection, and sends the frames that it gives. Times are in
+seconds of any clock that only goes forward.
+"""
+
+import random
+from collections.abc import Callable
+from enum import Enum
+
+from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.member.timeouts import LinkTimeouts
+from ai4u_edu.wire.class_link import (
+    MAX_FRAME_BYTES,
+    Ack,
+    Applied,
+    Drawing,
+    FromClass,
+    Hello,
+    Poses,
+    Problem,
+    State,
+    Welcome,
+    Work,
+    decode_from_class,
+    encode_from_room,
+)
+from ai4u_edu.wire.validation import WireError
+
+MIN_BACKOFF_S = 0.5
+"""Pause after the first failed attempt to connect; it doubles with each failure."""
+MAX_BACKOFF_S = 10.0
+MIN_BYTES_PER_S = 50_000
+"""Rate of a slow network; a large result has more time until it is sent again."""
+MAX_RESULTS_IN_FLIGHT = 8
+"""Limit of the results that were sent and are not acknowledged yet."""
+POLICY_VIOLATION = 1008
+"""Close code of a class that refuses the link for good."""
+
+PresentState = Drawing | Poses | State | Work | Applied
+"""Messages of which only the latest one of each kind counts."""
+_ORDER: tuple[type, ...] = (Drawing, Poses, State, Work, Applied)
+
+
+class Phase(Enum):
+    """Phase of a link."""
+
+    WAITING = "waiting"
+    """There is no connection; the next attempt is due at :attr:`LinkDialogue.retry_at`."""
+    OPENING = "opening"
+    GREETING = "greeting"
+    """The hello was sent, and has no answer yet."""
+    LINKED = "linked"
+    OVER = "over"
+    """The class has ended the link; it is opened again only if somebody asks for that."""
+
+
+_NEXT: dict[Phase, frozenset[Phase]] = {
+    Phase.WAITING: frozenset({Phase.OPENING}),
+    Phase.OPENING: frozenset({Phase.GREETING, Phase.WAITING}),
+    Phase.GREETING: frozenset({Phase.LINKED, Phase.WAITING, Phase.OVER}),
+    Phase.LINKED: frozenset({Phase.WAITING, Phase.OVER}),
+    Phase.OVER: frozenset({Phase.WAITING}),
+}
+
+
+class LinkDialogue:
+    """State of a link. Not thread-safe.
+
+    Args:
+        hello: begins each connection.
+        outbox: results to deliver.
+        jitter: returns random numbers in [0, 1).
+        timeouts: of the class's answers.
+    """
+
+    def __init__(
+        self,
+        hello: Hello,
+        outbox: Outbox,
+        jitter: Callable[[], float] = random.random,
+        timeouts: LinkTimeouts | None = None,
+    ) -> None:
+        self.phase = Phase.WAITING
+        self.problem = ""
+        """Sentence on why there is no link, or why the class refused a message; empty if all is
+        well."""
+        self.retry_at = 0.0
+        """Time of the next attempt to connect, while :attr:`phase` is WAITING."""
+        self._hello, self._outbox, self._jitter = hello, outbox, jitter
+        self._timeouts = timeouts or LinkTimeouts()
+        self._backoff_s = MIN_BACKOFF_S
+        self._greeted_at = 0.0
+        self._latest: dict[type, PresentState] = {}
+        self._unsent: dict[type, None] = {}
+        """Kinds of present states to send, in this order."""
+        self._in_flight: dict[str, float] = {}
+        """Results that were sent over this connection, and when to send them again."""
+
+    # -- the connection --------------------------------------------------------------------------
+
+    def open(self) -> None:
+        """Begin an attempt to connect."""
+        self._enter(Phase.OPENING)
+
+    def opened(self, now: float) -> bytes:
+        """Return the first frame of a connection that was opened."""
+        self._enter(Phase.GREETING)
+        self._greeted_at = now
+        return encode_from_room(self._hello)
+
+    def lost(self, now: float, why: str, code: int = 0) -> None:
+        """Note that an attempt failed, or that the connection was lost.
+
+        Args:
+            now: the time.
+            why: the reason, without a full stop.
+            code: of the WebSocket's close; 0 if it had none.
+        """
+        if self.phase is Phase.OVER:
+            return
+        if code == POLICY_VIOLATION:
+            self.problem = why or "The class has ended this link."
+            self._enter(Phase.OVER)
+            return
+        self.problem = f"The class can't be reached ({why}). Results are kept and sent later."
+        self._enter(Phase.WAITING)
+        self.retry_at = now + self._backoff_s * (0.5 + self._jitter() / 2)
+        self._backoff_s = min(2 * self._backoff_s, MAX_BACKOFF_S)
+
+    def stop(self) -> None:
+        """Note that the connection was closed on purpose."""
+        if self.phase not in (Phase.WAITING, Phase.OVER):
+            self._enter(Phase.WAITING)
+
+    def renew(self, now: float) -> None:
+        """Try again although the class has ended the link."""
+        if self.phase is Phase.OVER:
+            self.problem, self.retry_at = "", now
+            self._enter(Phase.WAITING)
+
+    def is_overdue(self, now: float) -> bool:
+        """Return True if the class has not answered the hello in time."""
+        return self.phase is Phase.GREETING and now >= self._greeted_at + self._timeouts.welcome
+
+    # -- from the class --------------------------------------------------------------------------
+
+    def receive(self, frame: bytes) -> FromClass | None:
+        """Handle a frame; return its message, or None if it is none for the room.
+
+        A frame that can't be read is ignored.
+        """
+        if self.phase not in (Phase.GREETING, Phase.LINKED):
+            return None
+        try:
+            message = decode_from_class(frame)
+        except WireError as error:
+            self.problem = f"The class sent a message that this version can't read: {error}"
+            return None
+        match message:
+            case Welcome() if self.phase is Phase.GREETING:
+                self._begin()
+            case Ack(key):
+                self._in_flight.pop(key, None)
+                self._outbox.acknowledge(key)
+                return None
+            case Problem(code="message", text=text):
+                self.problem = text
+            case Problem(text=text):
+                self.problem = text
+                self._enter(Phase.OVER)
+        return message
+
+    def _begin(self) -> None:
+        self._enter(Phase.LINKED)
+        self.problem = ""
+        self._backoff_s = MIN_BACKOFF_S
+        self._in_flight.clear()
+        self._unsent = {kind: None for kind in _ORDER if kind in self._latest}
+
+    # -- to the class ----------------------------------------------------------------------------
+
+    def set(self, message: PresentState) -> None:
+        """Replace the present state of the message's kind; it is sent as soon as possible."""
+        kind = type(message)
+        if kind is Drawing:  # the poses are of the drawing before
+            self._latest.pop(Poses, None)
+            self._unsent.pop(Poses, None)
+        self._latest[kind] = message
+        self._unsent[kind] = None
+
+    def clear(self) -> None:
+        """Forget all present states; after a reconnect, none is sent again."""
+        self._latest.clear()
+        self._unsent.clear()
+
+    def next_frame(self, now: float) -> bytes | None:
+        """Return the next frame to send; None if there is none at present."""
+        if self.phase is not Phase.LINKED:
+            return None
+        keys = self._outbox.keys()
+        self._in_flight = {key: due for key, due in self._in_flight.items() if key in keys}
+        for key in keys:
+            due = self._in_flight.get(key)
+            if due is None and len(self._in_flight) >= MAX_RESULTS_IN_FLIGHT:
+                break
+            frame = self._outbox.frame(key)
+            if frame is not None and (due is None or now >= due):
+                due = now + self._timeouts.ack + len(frame) // MIN_BYTES_PER_S
+                self._in_flight[key] = due
+                return frame
+        while self._unsent:
+            kind = next(iter(self._unsent))
+            del self._unsent[kind]
+            frame = encode_from_room(self._latest[kind])
+            if len(frame) <= MAX_FRAME_BYTES:
+                return frame
+            self.problem = (
+                f"{kind.__name__}: expected at most {MAX_FRAME_BYTES} bytes, got {len(frame)}; "
+                "make the scene smaller"
+            )
+        return None
+
+    def wait_s(self, now: float) -> float | None:
+        """Return the seconds until this dialogue has to be asked again; None: at an event only."""
+        match self.phase:
+            case Phase.WAITING:
+                due = self.retry_at
+            case Phase.GREETING:
+                due = self._greeted_at + self._timeouts.welcome
+            case Phase.LINKED if self._in_flight:
+                due = min(self._in_flight.values())
+            case _:
+                return None
+        return max(0.0, due - now)
+
+    def _enter(self, phase: Phase) -> None:
+        if phase not in _NEXT[self.phase]:
+            raise RuntimeError(f"expected a phase after {self.phase.name}, got {phase.name}")
+        self.phase = phase

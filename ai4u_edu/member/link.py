@@ -1,0 +1,51 @@
+"""The link to a class, from the side of a world."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal, Protocol
+
+from ai4u_edu.wire.class_link import (
+    Applied,
+    Drawing,
+    EpisodeResult,
+    ExerciseResult,
+    FromClass,
+    Poses,
+    State,
+    Work,
+)
+
+Receive = Callable[[FromClass], object]
+"""Called with each message of the class, in a thread of the link."""
+
+
+@dataclass(frozen=True)
+class ClassLinkSettings:
+    """Address of a class, and the secret that the class gave."""
+
+    url: str
+    """Address, such as ``http://teacher:8080/``."""
+    secret: str = field(repr=False)
+    kind: Literal["room", "notebook"] = "room"
+    page: str = ""
+    """Path of its page at a JupyterHub; see :attr:`~ai4u_edu.wire.class_link.State.page`."""
+
+
+class Link(Protocol):
+    """A connection with a class; thread-safe. :class:`~ai4u_edu.member.client.LinkClient`."""
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the class has accepted the link."""
+
+    def start(self) -> None:
+        """Connect, in the background."""
+
+    def stop(self, timeout_s: float = 2.0) -> None:
+        """End the link; send what is pending if possible."""
+
+    def send(self, message: Drawing | Poses | State | Work | Applied) -> None:
+        """Send a present state, which replaces an earlier one of its kind."""
+
+    def send_result(self, result: EpisodeResult | ExerciseResult) -> None:
+        """Deliver a result; it may wait for the disk."""

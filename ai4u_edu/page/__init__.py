@@ -1,0 +1,1 @@
+"""A running world's page: its server, drawing, panel and editing."""

@@ -1,0 +1,80 @@
+"""Dry run of a state in a new world, before anything in the running world is changed."""
+
+from typing import Any
+
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import AI4UError, WorldError
+from ai4u_edu.base.parameters import Problem
+from ai4u_edu.blocks import Answer, Brain, Command, Percept
+from ai4u_edu.blocks.brains.network import files_in
+from ai4u_edu.page.editing.errors import ChangeError
+from ai4u_edu.page.editing.plain import BlockPath
+from ai4u_edu.page.editing.state import EditState
+from ai4u_edu.scenes.description import check_success, make_agents
+from ai4u_edu.scenes.serialization import PlainDataError
+from ai4u_edu.scenes.setup_errors import field_named_in
+from ai4u_edu.world import World
+
+
+class IdleBrain(Brain):
+    """A brain that does nothing, so that a dry run opens no socket and loads no network."""
+
+    abstract = True
+
+    def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - it needs to sense nothing
+        """Wait."""
+        return Command.WAIT
+
+
+def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> ControlRequestor:
+    """Build a state's world with idle brains, reset it, and let its agents sense once.
+
+    Args:
+        state: the state to try.
+        path: of the part that was changed; problems are told relative to it.
+        resets: number of resets to try if the scene is randomized.
+
+    Raises:
+        ChangeError: something in it does not fit.
+    """
+    description = state.description
+    try:
+        world = World(**dict(description.world))
+        world.add_all(description.things)
+        with files_in(state.folder):
+            agents = make_agents(description)
+        for agent in agents:
+            agent.brains = [IdleBrain()]
+        check_success(description.success, agents)
+        sim = ControlRequestor(world, agents)
+        for seed in range(resets if any(each.random for each in description.things) else 1):
+            sim.reset(seed)
+    except PlainDataError as error:
+        raise ChangeError([relative_to(path, each) for each in error.problems]) from None
+    except WorldError as error:
+        problem = Problem(description.where_is(error.thing), f"where all begin, {error}")
+        raise ChangeError([relative_to(path, problem)]) from None
+    except AI4UError as error:
+        changed = _at(description.agents, path[1:]) if path else None
+        field = field_named_in(str(error), changed)
+        raise ChangeError([Problem(field, str(error))]) from None
+    except (ArithmeticError, MemoryError) as error:
+        text = f"it can't be set up: {type(error).__name__}: {error}"
+        raise ChangeError([Problem((), text)]) from error
+    return sim
+
+
+def relative_to(path: BlockPath, problem: Problem) -> Problem:
+    """Return a problem with a relative path; one that lies elsewhere has its path in its text."""
+    if problem.path[: len(path)] == path:
+        return Problem(problem.path[len(path) :], problem.text)
+    return Problem((), str(problem))
+
+
+def _at(data: Any, path: BlockPath) -> Any:
+    for part in path:
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            return None
+    return data

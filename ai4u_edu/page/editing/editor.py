@@ -1,0 +1,348 @@
+"""The editor of a running world's scene."""
+
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+from ai4u_edu.base.errors import AI4UError, SetupError, shown
+from ai4u_edu.blocks import Brain
+from ai4u_edu.page.editing import blocks, proposals, things
+from ai4u_edu.page.editing.change_result import ChangeResult, failed
+from ai4u_edu.page.editing.driver_options import driver_of, driver_options, with_driver
+from ai4u_edu.page.editing.drivers import Driver, DriverRegistry
+from ai4u_edu.page.editing.plain import BlockPath, Plain
+from ai4u_edu.page.editing.proposals import Proposal
+from ai4u_edu.page.editing.reasons import reason_against_driver
+from ai4u_edu.page.editing.recovery import Recovery
+from ai4u_edu.page.editing.scene_store import SceneStore
+from ai4u_edu.page.editing.state import EditState
+from ai4u_edu.page.editing.transactions import Transactions
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.runtime.tick_monitor import Stall
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.yaml.file import YamlFile
+from ai4u_edu.world import BodyDescription
+
+
+class SceneEditor:
+    """Changes a running world: its agents' blocks and brains, its bodies, or the whole scene.
+
+    Every method that changes something may be called from any thread and returns a future at once.
+    The change is made in the runner's thread between two decisions. The future's result is a
+    :class:`ChangeResult` (when it takes effect), its exception a :class:`ChangeError` (what is
+    wrong, field by field; nothing was changed then). Don't wait for it in the runner's thread.
+
+    Args:
+        runner: runs the world.
+        scene: the scene that the world was built from.
+        offers: Python files with drivers, recorded episodes and networks, folders of them, and
+            addresses of AI4U scripts, from which a page may choose a driver.
+
+    >>> scene = Scene.load("box_chase")
+    >>> runner = Runner(scene.build(), seed=1)
+    >>> editor = SceneEditor(runner, scene)
+    >>> future = editor.add_block("0", "sensors", {"type": "BearingSensor", "target": "box"})
+    >>> runner.advance()
+    >>> str(future.result())
+    'works from the next decision on'
+    >>> "bearing" in runner.sim.agents[0].percept
+    True
+    """
+
+    def __init__(self, runner: Runner, scene: Scene, *, offers: Iterable[Path | str] = ()) -> None:
+        self._runner = runner
+        self._drivers = DriverRegistry(offers)
+        state = EditState(scene.description, scene.folder, source=scene.source)
+        self._transactions = Transactions(runner, state, self._drivers)
+        self._submit = self._transactions.submit
+        self.recovery = Recovery(self)
+        self.scene_store: SceneStore | None = None
+        """Keeps scenes by name for pages; without it a page can only download them."""
+        self.listeners = self._transactions.listeners
+        """Functions called with the state after each change, in the runner's thread."""
+        self.listeners.append(self._on_change)
+
+    @property
+    def state(self) -> EditState:
+        """The wanted state; immutable, replaced with every change."""
+        return self._transactions.state
+
+    @property
+    def opened(self) -> EditState:
+        """The state that was opened last, before any change."""
+        return self._transactions.opened
+
+    @property
+    def version(self) -> int:
+        """A number that grows with every change."""
+        return self._transactions.version
+
+    @property
+    def is_as_opened(self) -> bool:
+        """True if the scene does not differ from the one that was opened."""
+        return self.state.description == self.opened.description
+
+    @property
+    def scene(self) -> Scene:
+        """The wanted state as a scene."""
+        return self.state.scene
+
+    @property
+    def title(self) -> str:
+        """The scene's title, or its name."""
+        return self.state.title
+
+    @property
+    def stall(self) -> Stall | None:
+        """The block that does not return, and so keeps changes from being made; or None."""
+        return self._runner.stall
+
+    @property
+    def waits_for_reset(self) -> bool:
+        """True if some change takes effect at the next reset only."""
+        return self._transactions.waits_for_reset
+
+    @property
+    def is_dragging(self) -> bool:
+        """True while some body is dragged."""
+        return self._transactions.is_dragging
+
+    @property
+    def undo_label(self) -> str:
+        """A few words about the change that undo takes back; empty if there is none."""
+        step = self._transactions.history.last
+        return step.label if step else ""
+
+    @property
+    def redo_label(self) -> str:
+        """A few words about the change that redo makes again; empty if there is none."""
+        step = self._transactions.history.next
+        return step.label if step else ""
+
+    def text(self) -> str:
+        """Return the scene as YAML text."""
+        return self.scene.dumps()
+
+    def drivers(self, agent_id: str) -> list[Driver]:
+        """Return all drivers that an agent can have."""
+        offered = self._drivers.offered()
+        names = {driver.name for driver in offered}
+        own = [each for each in driver_options(self.state, agent_id) if each.name not in names]
+        return [*own, *offered]
+
+    def driver_of(self, agent_id: str) -> str:
+        """Return the name of an agent's driver, as in :meth:`drivers`; "" for any other one."""
+        return driver_of(self.state, self._runner.sim.agent(agent_id))
+
+    def reason_against_driver(self, agent_id: str, name: str) -> str:
+        """Return why a driver can't drive an agent, as a sentence; empty if it can.
+
+        It takes a decision in a copy of the world, which takes a few milliseconds.
+        """
+        return reason_against_driver(self.state, agent_id, name, self._drivers)
+
+    def driver_brain(self, agent_id: str, name: str) -> Brain:
+        """Return the brain of a driver for an agent, without letting it drive.
+
+        Args:
+            agent_id: the agent.
+            name: of one of :meth:`drivers`.
+
+        Raises:
+            AI4UError: there is no such driver, or its file can't be read or run.
+        """
+        if self._drivers.has(name):
+            like = self._runner.sim.agent(agent_id).brain
+            return self._drivers.brain(name, agent_id, like)
+        scene = with_driver(self.state, agent_id, name, self._drivers).scene
+        return scene.build().agent(agent_id).brain
+
+    def change_block(self, agent_id: str, path: BlockPath, values: Plain) -> "Future[ChangeResult]":
+        """Change parameters of a block.
+
+        Args:
+            agent_id: the agent that has the block.
+            path: of the block in its agent: ``("sensors", 2)``, ``("brains", 0, "controller")``.
+            values: parameters as plain data; None resets one to its default.
+        """
+        return self._change_block(
+            agent_id, path, "change", lambda a: blocks.changed(a, path, values)
+        )
+
+    def add_block(
+        self, agent_id: str, kind: str | BlockPath, block: Plain, index: int | None = None
+    ) -> "Future[ChangeResult]":
+        """Add a block.
+
+        Args:
+            agent_id: the agent that gets it.
+            kind: ``sensors``, ``actuators``, ``rewards`` or ``brains``; or a path into another
+                block, such as ``("rewards", 0, "children")``.
+            block: its ``type`` and parameters.
+            index: its position among the blocks of its kind; by default the last one.
+        """
+        return self._submit(lambda: proposals.add_block(self.state, agent_id, kind, block, index))
+
+    def remove_block(self, agent_id: str, path: BlockPath) -> "Future[ChangeResult]":
+        """Remove a block."""
+        return self._change_block(agent_id, path, "remove", lambda a: blocks.removed(a, path))
+
+    def move_block(self, agent_id: str, path: BlockPath, by: int) -> "Future[ChangeResult]":
+        """Move a block up (-1) or down (1) among the blocks of its kind."""
+        return self._change_block(agent_id, path, "move", lambda a: blocks.moved(a, path, by))
+
+    def switch_block(self, agent_id: str, path: BlockPath, on: bool) -> "Future[ChangeResult]":
+        """Enable or disable a block; enabling a brain disables the others."""
+        verb = "switch on" if on else "switch off"
+        return self._change_block(agent_id, path, verb, lambda a: blocks.with_enabled(a, path, on))
+
+    def change_agent(self, agent_id: str, values: Plain) -> "Future[ChangeResult]":
+        """Change parameters of an agent itself, such as ``max_steps_per_episode``.
+
+        ``skip_frame`` and ``repeat_action`` are set on the enabled brain.
+        """
+        return self._submit(lambda: proposals.change_agent(self.state, agent_id, values))
+
+    def set_driver(self, agent_id: str, name: str) -> "Future[ChangeResult]":
+        """Choose an agent's driver: one of :meth:`drivers`, or an ``ai4u://`` address."""
+        return self._submit(
+            lambda: proposals.set_driver(self.state, agent_id, name, self._drivers),
+            driver_of=agent_id,
+        )
+
+    def drag(
+        self, name: str, x: float, y: float, heading_deg: float | None = None
+    ) -> "Future[None]":
+        """Move a body during a drag, which :meth:`move_body` or :meth:`cancel_drag` ends.
+
+        Metres, degrees. Collisions are ignored, the scene does not change, and undo does not know
+        of it.
+        """
+        return self._runner.submit(lambda: self._transactions.drag(name, x, y, heading_deg))
+
+    def cancel_drag(self, name: str) -> "Future[None]":
+        """Put a dragged body back where the drag began."""
+        return self._runner.submit(lambda: self._transactions.cancel_drag(name))
+
+    def move_body(
+        self,
+        name: str,
+        x: float,
+        y: float,
+        heading_deg: float | None = None,
+        *,
+        is_nudge: bool = False,
+    ) -> "Future[ChangeResult]":
+        """Put a body, a floor or an area somewhere, now and at each reset from now on.
+
+        A body is at rest then.
+
+        Args:
+            name: of the body, the floor or the area.
+            x: metres.
+            y: metres.
+            heading_deg: degrees; by default the present heading.
+            is_nudge: True if undo takes back the nudges of the same thing that came just before,
+                too.
+        """
+        pose_of = self._transactions.pose
+
+        def propose() -> Proposal:
+            moved = proposals.move_body(self.state, name, x, y, heading_deg, pose_of)
+            return moved._replace(merge_key=f"nudge {name}") if is_nudge else moved
+
+        return self._submit(propose)
+
+    def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[ChangeResult]":
+        """Add a body, from its description; :meth:`free_name` returns an unused name."""
+        return self._submit(lambda: proposals.add_thing(self.state, body, "bodies"))
+
+    def add_region(
+        self, region: things.Thing | Mapping[str, Any], kind: things.ThingKind
+    ) -> "Future[ChangeResult]":
+        """Add a floor (``floors``) or an area (``areas``) from its description."""
+        return self._submit(lambda: proposals.add_thing(self.state, region, kind))
+
+    def add_agent(self, body: Mapping[str, Any], like: str) -> "Future[ChangeResult]":
+        """Add an agent with copies of another one's blocks; another episode begins.
+
+        Args:
+            body: description of its body.
+            like: id of the agent whose blocks are copied.
+        """
+        return self._submit(lambda: proposals.add_agent(self.state, body, like))
+
+    def remove_agent(self, agent_id: str) -> "Future[ChangeResult]":
+        """Remove an agent and its body; another episode begins. The last one stays."""
+        return self._submit(lambda: proposals.remove_agent(self.state, agent_id))
+
+    def remove_body(self, name: str) -> "Future[ChangeResult]":
+        """Remove a body, a floor or an area; refused if an agent or a block needs it."""
+        return self._submit(lambda: proposals.remove_thing(self.state, name))
+
+    def change_body(self, name: str, values: Mapping[str, Any]) -> "Future[ChangeResult]":
+        """Change parameters of a body, a floor or an area, those of its description."""
+        return self._submit(lambda: proposals.change_thing(self.state, name, values))
+
+    def free_name(self, like: str) -> str:
+        """Return a name that nothing in the scene has."""
+        return things.free_name(self.state, like)
+
+    def change_scene(self, values: Mapping[str, Any]) -> "Future[ChangeResult]":
+        """Change entries of the scene file: ``title``, ``goal``, ``world``, ``floors``..."""
+        return self._submit(lambda: proposals.change_scene(self.state, values))
+
+    def change_settings(self, values: Plain) -> "Future[ChangeResult]":
+        """Change the scene's ``title`` or ``goal``, or settings of its world such as ``gravity``.
+
+        Texts apply at once, settings of the world at the next reset.
+        """
+        return self._submit(lambda: proposals.change_settings(self.state, values))
+
+    def open(self, scene: Scene) -> "Future[ChangeResult]":
+        """Run another scene in place of this one; undo brings this one back."""
+        state = EditState(scene.description, scene.folder, source=scene.source)
+        proposal = Proposal(state, f"open {scene.description.name}")
+        return self._submit(lambda: proposal, whole=True)
+
+    def load(self, text: object, name: str = "scene.yaml") -> "Future[ChangeResult]":
+        """Run a scene that somebody wrote: YAML text, which is read and checked, never executed.
+
+        It is read in the caller's thread. The file's errors come with their lines.
+        """
+        try:
+            return self.open(self.read(text, name))
+        except AI4UError as error:
+            return failed(error)
+
+    def read(self, text: object, name: str = "scene.yaml") -> Scene:
+        """Read a scene that somebody wrote, as :meth:`load` does, without running it.
+
+        Raises:
+            AI4UError: it can't be used here.
+        """
+        if not isinstance(text, str):
+            raise SetupError(f"expected a scene as text (YAML), got {shown(text)}")
+        agents = YamlFile(text, name).data.get("agents", ())
+        self._transactions.permissions.check(agents)
+        return Scene.loads(text, name=name, folder=self.state.folder)
+
+    def undo(self) -> "Future[ChangeResult]":
+        """Take back the last change; the world's time goes on."""
+        return self._runner.submit(self._transactions.undo)
+
+    def redo(self) -> "Future[ChangeResult]":
+        """Make the change again that was undone last."""
+        return self._runner.submit(self._transactions.redo)
+
+    def _change_block(
+        self, agent_id: str, path: BlockPath, verb: str, change: Callable[[Plain], Plain]
+    ) -> "Future[ChangeResult]":
+        return self._submit(
+            lambda: proposals.change_block(self.state, agent_id, path, verb, change)
+        )
+
+    def _on_change(self, state: EditState) -> None:
+        can_redo = self._transactions.history.next is not None
+        self.recovery.on_change(state, can_redo=can_redo)

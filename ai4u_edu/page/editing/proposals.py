@@ -1,0 +1,144 @@
+"""Wanted states, worked out from the present one; nothing here touches the running world."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from ai4u_edu.page.editing import agents, blocks, settings, things
+from ai4u_edu.page.editing.driver_options import with_driver
+from ai4u_edu.page.editing.drivers import DriverRegistry
+from ai4u_edu.page.editing.input_checks import check_name, check_plain
+from ai4u_edu.page.editing.plain import BlockPath, Plain
+from ai4u_edu.page.editing.state import EditState
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.yaml.file import write_yaml
+from ai4u_edu.world import Pose
+
+Poses = Mapping[str, Pose]
+
+
+class Proposal(NamedTuple):
+    """A wanted state, and what to tell about it."""
+
+    state: EditState
+    label: str
+    """A few words for the undo button."""
+    path: BlockPath = ()
+    """The changed part of the scene; problems are told relative to it."""
+    poses: Poses = MappingProxyType({})
+    """Poses to which bodies are moved, by name."""
+    restarts: bool = False
+    """True if the world has to be built anew at once, which begins another episode."""
+    merge_key: str = ""
+    """Key of the step, as in :class:`~ai4u_edu.page.editing.history.Step`."""
+
+
+def change_block(
+    state: EditState, agent_id: str, path: BlockPath, verb: str, change: Callable[[Plain], Plain]
+) -> Proposal:
+    """Propose another agent, in which one block was changed."""
+    agent = state.agent(agent_id)
+    label = f"{verb} {blocks.block_at(agent, path)['type']}"
+    return Proposal(state.with_agent(agent_id, change(agent)), label, _path(state, agent_id, path))
+
+
+def add_block(
+    state: EditState, agent_id: str, kind: str | BlockPath, block: Plain, index: int | None
+) -> Proposal:
+    """Propose another block of an agent; a brain that is added is also enabled."""
+    parent = (kind,) if isinstance(kind, str) else kind
+    agent, path = blocks.added(state.agent(agent_id), parent, block, index)
+    if parent == ("brains",) and len(agent["brains"]) > 1 and block.get("enabled", True):
+        agent = blocks.with_enabled(agent, path, True)
+    state = state.with_agent(agent_id, agent)
+    return Proposal(state, f"add {block['type']}", _path(state, agent_id, path))
+
+
+def change_agent(state: EditState, agent_id: str, values: Plain) -> Proposal:
+    """Propose other parameters of an agent."""
+    agent = settings.with_agent_settings(state.agent(agent_id), values)
+    path = _path(state, agent_id, ())
+    return Proposal(state.with_agent(agent_id, agent), f"change agent {agent_id}", path)
+
+
+def set_driver(state: EditState, agent_id: str, name: str, drivers: DriverRegistry) -> Proposal:
+    """Propose another driver of an agent."""
+    check_name(name, "the name of a driver")
+    driven = with_driver(state, agent_id, name, drivers)
+    path = _path(driven, agent_id, ("brains",))
+    return Proposal(driven, f"{agent_id}: driven by {name}", path)
+
+
+def move_body(
+    state: EditState,
+    name: str,
+    x: float,
+    y: float,
+    heading_deg: float | None,
+    pose_of: Callable[[str], Pose],
+) -> Proposal:
+    """Propose another pose of a thing; without a heading it keeps its present one."""
+    things.check_place(x, y, heading_deg)
+    thing, path = things.thing_named(state, name), state.description.where_is(name)
+    if things.kind_of(thing) != "bodies":
+        degrees = thing.heading_deg if heading_deg is None else heading_deg
+        return Proposal(things.with_pose(state, name, x, y, degrees), f"move {name}", path)
+    degrees = math.degrees(pose_of(name)[2]) if heading_deg is None else heading_deg
+    moved = things.with_pose(state, name, x, y, degrees)
+    pose = (x, y, math.radians(degrees))
+    return Proposal(moved, f"move {name}", path, {name: pose})
+
+
+def add_thing(
+    state: EditState, given: things.Thing | Mapping[str, Any], kind: things.ThingKind
+) -> Proposal:
+    """Propose another body, floor or area."""
+    thing = things.checked_description(given, kind)
+    path = (kind, len(getattr(state.description, kind)))
+    return Proposal(things.with_thing(state, thing), f"add {thing.name}", path)
+
+
+def remove_thing(state: EditState, name: str) -> Proposal:
+    """Propose the scene without a body, a floor or an area."""
+    return Proposal(things.without_thing(state, name), f"remove {name}")
+
+
+def change_thing(state: EditState, name: str, values: Mapping[str, Any]) -> Proposal:
+    """Propose other parameters of a body, a floor or an area."""
+    path = state.description.where_is(name)
+    verb = "resize" if set(values) == {"shape"} else "change"
+    return Proposal(things.with_changed_thing(state, name, values), f"{verb} {name}", path)
+
+
+def add_agent(state: EditState, body: Mapping[str, Any], like: str) -> Proposal:
+    """Propose another agent with a new body and copies of another agent's blocks."""
+    added = things.with_thing(state, things.checked_description(body))
+    agent = agents.copy_of(state.agent(like), state, str(body["name"]))
+    proposed = added.describing(agents=(*state.description.agents, agent))
+    return Proposal(proposed, f"add {body['name']}", restarts=True)
+
+
+def remove_agent(state: EditState, agent_id: str) -> Proposal:
+    """Propose the scene without an agent and its body."""
+    name = str(state.agent(agent_id)["body"])
+    return Proposal(agents.without(state, agent_id), f"remove {name}", restarts=True)
+
+
+def change_scene(state: EditState, values: Mapping[str, Any]) -> Proposal:
+    """Propose other top-level entries of the scene file."""
+    check_plain(values)
+    plain = {**state.scene.plain(), **values}
+    scene = Scene.loads(write_yaml(plain), folder=state.folder)
+    return Proposal(replace(state, description=scene.description), "change the scene")
+
+
+def change_settings(state: EditState, values: Plain) -> Proposal:
+    """Propose another title or goal of the scene, or other settings of its world."""
+    description = settings.with_scene_settings(state.description, values)
+    return Proposal(replace(state, description=description), "change the scene")
+
+
+def _path(state: EditState, agent_id: str, path: BlockPath) -> BlockPath:
+    return ("agents", state.agent_index(agent_id), *path)

@@ -1,0 +1,148 @@
+"""Forms for bodies, floors and areas with their most used properties."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ai4u_edu.base.colors import PALETTE
+from ai4u_edu.base.parameters import DataPath, Problem
+from ai4u_edu.page.editing.errors import ChangeError
+from ai4u_edu.page.editing.forms import NONE_LABEL, Field
+from ai4u_edu.page.editing.things import Thing
+from ai4u_edu.world import (
+    BodyDescription,
+    BoxShape,
+    CapsuleShape,
+    CircleShape,
+    FloorDescription,
+    RingShape,
+    SegmentShape,
+)
+
+KINDS = {
+    "static": "stands still",
+    "dynamic": "can be pushed",
+    "kinematic": "moves, can't be pushed",
+}
+"""Labels of the kinds of bodies."""
+POSE_FIELDS = ("x", "y", "heading_deg")
+
+
+def thing_form(thing: Thing) -> list[Field]:
+    """Return the fields of a thing's form, with their current values.
+
+    Properties that are not among them are changed in the scene file.
+    """
+    x, y = thing.position
+    colours = (NONE_LABEL, *PALETTE)
+    if thing.colour is not None and thing.colour not in PALETTE:
+        colours = (*colours, thing.colour)
+    return [
+        _number("x", "x", "m", x),
+        _number("y", "y", "m", y),
+        _number("heading_deg", "heading", "deg", thing.heading_deg),
+        *(_number(name, name, "m", value) for name, value in _lengths(thing).items()),
+        *_own_fields(thing),
+        Field("colour", "colour", "choice", thing.colour, "", colours),
+        Field("label", "label", "text", thing.label, ""),
+    ]
+
+
+def pose_and_changes(
+    thing: Thing, entered: Mapping[str, Any]
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Read what a person entered into a thing's form.
+
+    Args:
+        thing: the thing before.
+        entered: values by field; texts are parsed.
+
+    Returns:
+        The new pose as arguments of ``move_body``, {} if it is unchanged; and all other
+        changes, as fields of the thing's description.
+
+    Raises:
+        ChangeError: a value is invalid, or no field has such a name.
+    """
+    known = {field.name: field for field in thing_form(thing)}
+    values: dict[str, Any] = {}
+    for name, value in entered.items():
+        if name not in known:
+            raise ChangeError([Problem((name,), f"expected one of {', '.join(known)}")])
+        read = _read(known[name], value)
+        if read != _read(known[name], known[name].value):
+            values[name] = read
+    pose = {name: values.pop(name) for name in POSE_FIELDS if name in values}
+    if pose:
+        (x, y), heading = thing.position, thing.heading_deg
+        pose = {"x": x, "y": y, "heading_deg": heading} | pose
+    lengths = {name: values.pop(name) for name in _lengths(thing) if name in values}
+    if lengths:
+        values["shape"] = _resized_shape(thing, lengths)
+    return pose, values
+
+
+def field_of_problem(thing: Thing, path: DataPath) -> str:
+    """Return the name of the field that a problem is about; empty if it is about none."""
+    lengths = tuple(_lengths(thing))
+    inner = [part for part in path if part not in {"shape", thing.shape.type}]
+    name = str(inner[0]) if inner else ""
+    if name in {"size", "position"} and len(inner) > 1 and isinstance(inner[1], int):
+        name = (lengths if name == "size" else POSE_FIELDS)[inner[1]]
+    return name
+
+
+def _number(name: str, label: str, unit: str, value: float) -> Field:
+    return Field(name, f"{label} ({unit})", "number", value, "", unit=unit)
+
+
+def _own_fields(thing: Thing) -> list[Field]:
+    """Return the fields that only things of this kind have."""
+    if isinstance(thing, BodyDescription):
+        kinds = tuple(KINDS.values())
+        return [
+            _number("height", "height", "m", thing.height),
+            Field("kind", "kind", "choice", KINDS[thing.kind], "", kinds),
+        ]
+    if isinstance(thing, FloorDescription):
+        return [_number("top", "top", "m", thing.top)]
+    hint = "paint: drawn in its full colour, for line sensors to follow"
+    return [Field("paint", "paint", "switch", thing.paint, hint)]
+
+
+def _read(field: Field, entered: Any) -> Any:
+    """Return an entered value as plain data."""
+    if field.name == "kind":
+        return next((kind for kind, words in KINDS.items() if words == entered), entered)
+    value = field.read(entered) if isinstance(entered, str | bool) else entered
+    if field.name in POSE_FIELDS and (
+        isinstance(value, bool) or not isinstance(value, int | float)
+    ):
+        raise ChangeError([Problem((field.name,), f"expected a number, got {entered!r}")])
+    if field.name in POSE_FIELDS and not math.isfinite(value):
+        raise ChangeError([Problem((field.name,), f"expected a finite number, got {entered!r}")])
+    return value
+
+
+def _lengths(thing: Thing) -> Mapping[str, float]:
+    """Return the lengths that describe a thing's outline; empty for shapes with many corners."""
+    match thing.shape:
+        case BoxShape(size=(length, width)):
+            return {"length": length, "width": width}
+        case CircleShape(radius=radius):
+            return {"radius": radius}
+        case CapsuleShape(length=length, radius=radius):
+            return {"length": length, "radius": radius}
+        case SegmentShape(thickness=thickness):
+            return {"thickness": thickness}
+        case RingShape(inner=inner, outer=outer):
+            return {"inner": inner, "outer": outer}
+    return {}
+
+
+def _resized_shape(thing: Thing, lengths: Mapping[str, Any]) -> dict[str, Any]:
+    plain: dict[str, Any] = thing.shape.model_dump(mode="json")
+    if isinstance(thing.shape, BoxShape):
+        both: Mapping[str, Any] = {**_lengths(thing), **lengths}
+        return plain | {"size": [both["length"], both["width"]]}
+    return plain | dict(lengths)

@@ -1,0 +1,145 @@
+"""Changes of bodies, floors and areas as data: a function takes a state and returns another one."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import ValidationError
+
+from ai4u_edu.base.errors import NameNotFoundError, shown, suggest
+from ai4u_edu.base.parameters import MAX_NUMBER, Problem, explain
+from ai4u_edu.page.editing.errors import ChangeError
+from ai4u_edu.page.editing.input_checks import check_name, check_number, check_plain
+from ai4u_edu.page.editing.state import EditState
+from ai4u_edu.page.editing.type_checks import (
+    check_typed,
+    check_typed_and,
+)
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+
+MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0
+"""Bounds of a position and a heading, as in a body's description."""
+Thing = BodyDescription | FloorDescription | AreaDescription
+ThingKind = Literal["bodies", "floors", "areas"]
+"""Entry of a scene's description that holds things of one kind."""
+KINDS: Mapping[ThingKind, type[Thing]] = {
+    "bodies": BodyDescription,
+    "floors": FloorDescription,
+    "areas": AreaDescription,
+}
+_SCHEMAS = {kind: cls.model_json_schema() for kind, cls in KINDS.items()}
+
+
+def thing_named(state: EditState, name: str) -> Thing:
+    """Return the description of a body, a floor or an area."""
+    things = {thing.name: thing for thing in state.description.things}
+    check_name(name, "the name of a thing")
+    if name not in things:
+        raise NameNotFoundError(f"nothing is named {name!r}; {suggest(name, things)}")
+    return things[name]
+
+
+def body_named(state: EditState, name: str) -> BodyDescription:
+    """Return the description of a body."""
+    bodies = {body.name: body for body in state.description.bodies}
+    check_name(name, "the name of a body")
+    if name not in bodies:
+        raise NameNotFoundError(f"no body is named {name!r}; {suggest(name, bodies)}")
+    return bodies[name]
+
+
+def kind_of(thing: Thing) -> ThingKind:
+    """Return the entry of a scene's description that holds a thing."""
+    return next(kind for kind, cls in KINDS.items() if type(thing) is cls)
+
+
+def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bodies") -> Thing:
+    """Validate a thing's description.
+
+    Raises:
+        ChangeError: some parameters are wrong; each is told with its path.
+    """
+    cls = KINDS[kind]
+    if isinstance(given, cls):
+        return given
+    check_typed(given, _SCHEMAS[kind])
+    if not isinstance(given, Mapping):
+        raise ChangeError([Problem((), f"expected parameters by name, got {shown(given)}")])
+    try:
+        return cls.model_validate(dict(given))
+    except ValidationError as error:
+        raise ChangeError(explain(error.errors(), cls)) from None
+
+
+def with_thing(state: EditState, thing: Thing) -> EditState:
+    """Add a thing, as the last one of its kind."""
+    if any(other.name == thing.name for other in state.description.things):
+        text = f"something is named {thing.name!r} already; expected another name, such as "
+        raise ChangeError([Problem(("name",), text + repr(free_name(state, thing.name)))])
+    kind = kind_of(thing)
+    return state.describing(**{kind: (*getattr(state.description, kind), thing)})
+
+
+def without_thing(state: EditState, name: str) -> EditState:
+    """Remove a thing."""
+    kind = kind_of(thing_named(state, name))
+    for agent in state.description.agents:
+        if agent.get("body") == name:
+            text = f"it is the body of agent {agent.get('id', '0')!r}; an agent needs its body"
+            raise ChangeError([Problem((), text)])
+    others = tuple(each for each in getattr(state.description, kind) if each.name != name)
+    return state.describing(**{kind: others})
+
+
+def with_changed_thing(state: EditState, name: str, values: Mapping[str, Any]) -> EditState:
+    """Change parameters of a thing; None resets one to its default."""
+    thing = thing_named(state, name)
+    kind = kind_of(thing)
+    check_plain(values)
+    given = thing.model_dump(exclude_unset=True, exclude_defaults=True) | dict(values)
+    given["name"] = values.get("name", name)
+    if "shape" not in values:
+        given["shape"] = thing.shape
+    named = {key: value for key, value in given.items() if value is not None}
+    other = check_typed_and(values, _SCHEMAS[kind], lambda: checked_description(named, kind))
+    if other.name != name and any(each.name == other.name for each in state.description.things):
+        raise ChangeError([Problem(("name",), f"something is named {other.name!r} already")])
+    things = getattr(state.description, kind)
+    return state.describing(**{kind: tuple(other if each is thing else each for each in things)})
+
+
+def with_pose(state: EditState, name: str, x: float, y: float, heading_deg: float) -> EditState:
+    """Move a thing (m, m, degrees)."""
+    check_place(x, y, heading_deg)
+    values = {"position": (round(x, 4), round(y, 4)), "heading_deg": round(heading_deg, 3)}
+    return with_changed_thing(state, name, values)
+
+
+def check_place(x: float, y: float, heading_deg: float | None) -> None:
+    """Raise a ChangeError unless a pose is made of finite numbers; the body checks its bounds."""
+    for what, value in (
+        ("x", x),
+        ("y", y),
+        ("heading_deg", 0.0 if heading_deg is None else heading_deg),
+    ):
+        check_number(value, what, MAX_NUMBER)
+
+
+def check_dragged(x: float, y: float, heading_deg: float | None) -> None:
+    """Raise a ChangeError for a pose out of bounds during a drag; the world itself refuses NaN."""
+    bounds = (MAX_POSITION_M, MAX_POSITION_M, MAX_HEADING_DEG)
+    heading: object = 0.0 if heading_deg is None else heading_deg
+    values: tuple[tuple[str, object], ...] = (("x", x), ("y", y), ("heading_deg", heading))
+    for (what, value), bound in zip(values, bounds, strict=True):
+        if not (isinstance(value, float) and not math.isfinite(value)):
+            check_number(value, what, bound)
+
+
+def free_name(state: EditState, like: str) -> str:
+    """Return an unused name: ``box``, ``box 2``, ``box 3``."""
+    taken = {thing.name for thing in state.description.things}
+    stem = like.rstrip("0123456789 ") or like
+    name, number = like, 2
+    while name in taken:
+        name, number = f"{stem} {number}", number + 1
+    return name

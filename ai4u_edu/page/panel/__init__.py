@@ -1,0 +1,5 @@
+"""The page's panel: its state as JSON, and the commands that a page may send."""
+
+from ai4u_edu.page.panel.socket import PanelSockets
+
+__all__ = ["PanelSockets"]

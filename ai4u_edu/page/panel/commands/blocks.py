@@ -1,0 +1,191 @@
+"""Commands that change an agent's blocks, settings and driver, and undo."""
+
+import asyncio
+from collections.abc import Mapping
+
+from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.base.parameters import Problem
+from ai4u_edu.page.editing import ChangeError, SceneEditor
+from ai4u_edu.page.editing.blocks import block_at, types_of
+from ai4u_edu.page.editing.drivers import Driver
+from ai4u_edu.page.editing.forms import block_form, read_values
+from ai4u_edu.page.editing.goals import with_goal_values
+from ai4u_edu.page.editing.plain import BlockPath, Plain
+from ai4u_edu.page.editing.scene_names import SceneNames
+from ai4u_edu.page.editing.settings import agent_form, problems_in_agent_form
+from ai4u_edu.page.editing.suggestion import copy_of_block, suggest_block
+from ai4u_edu.page.panel.answers import Answer, change_answer
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.gallery import driver_title, gallery_items, words_of
+from ai4u_edu.page.panel.labels import change_label, driven_by
+from ai4u_edu.page.panel.messages import edit as m
+from ai4u_edu.page.panel.messages.base import Command
+from ai4u_edu.page.panel.page import Page
+
+
+async def _drivers(page: Page, _command: m.ListDrivers) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    present = editor.driver_of(agent_id)
+
+    def listed() -> list[dict[str, object]]:
+        return [
+            {
+                "name": each.name,
+                "title": driver_title(each),
+                "reason": editor.reason_against_driver(agent_id, each.name),
+                "is_chosen": each.name == present,
+            }
+            for each in editor.drivers(agent_id)
+        ]
+
+    # each driver is tried in a copy of the world
+    return Answer(more={"items": await page.in_thread(listed)})
+
+
+async def _driver(page: Page, command: m.SetDriver) -> Answer:
+    editor = page.context.required_editor()
+    agent_id = page.view.agent if command.agent is None else command.agent
+    agent = page.context.runner.sim.agent(agent_id)
+    offered = await asyncio.to_thread(editor.drivers, agent_id)
+    driver = next((each for each in offered if each.name == command.name), None)
+    result = await page.result(editor.set_driver(agent_id, command.name))
+    words = driven_by(driver or Driver(command.name, command.name))
+    return Answer(f"{agent.body_name} is now driven by {words}.", {"when": result.when})
+
+
+async def _gallery(page: Page, command: m.ListBlocks) -> Answer:
+    state, agent_id = page.context.required_editor().state, page.view.agent
+    items = await page.in_thread(lambda: gallery_items(state, agent_id, command.kind))
+    return Answer(
+        more={
+            "items": [
+                {
+                    "class": each.type_name,
+                    "title": each.title,
+                    "question": each.question,
+                    "summary": each.summary,
+                    "picture": each.picture,
+                    "reason": each.reason,
+                }
+                for each in items
+            ]
+        }
+    )
+
+
+async def _add(page: Page, command: m.AddBlock) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    parent = tuple(command.parent)
+    known = [cls.__name__ for cls in types_of(str(parent[-1]))]
+    if command.type_name not in known:
+        hint = suggest(command.type_name, known)
+        raise NameNotFoundError(f"no block is called {command.type_name!r}; {hint}")
+    block = suggest_block(editor.state, agent_id, command.type_name)
+    if parent == ("rewards",):
+        block = with_goal_values(editor.state, block)
+    return await _add_to(page, block, parent, command.index, "added")
+
+
+async def _duplicate(page: Page, command: m.DuplicateBlock) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    *parent, index = command.path
+    if not isinstance(index, int):
+        raise ChangeError([Problem((), "it stands alone; expected a block in a list")])
+    block = _block_of(editor, agent_id, tuple(command.path))
+    copy = copy_of_block(editor.state, agent_id, block)
+    return await _add_to(page, copy, tuple(parent), index + 1, "duplicated")
+
+
+async def _add_to(
+    page: Page, block: Plain, parent: BlockPath, index: int | None, done: str
+) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    result = await page.result(editor.add_block(agent_id, parent, block, index))
+    if index is None:
+        owner = editor.state.agent(agent_id)
+        for part in parent:
+            owner = owner[part]  # type: ignore[index]
+        index = len(owner) - 1
+    return change_answer(f"{_title(block)} {done}.", result, path=[*parent, index])
+
+
+async def _remove(page: Page, command: m.RemoveBlock) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    path = tuple(command.path)
+    title = _title(_block_of(editor, agent_id, path))
+    result = await page.result(editor.remove_block(agent_id, path))
+    return change_answer(f"{title} deleted.", result)
+
+
+async def _move(page: Page, command: m.MoveBlock) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    *above, index = command.path
+    title = _title(_block_of(editor, agent_id, tuple(command.path)))
+    result = await page.result(editor.move_block(agent_id, tuple(command.path), command.by))
+    where = max(0, index + command.by) if isinstance(index, int) else index
+    word = "up" if command.by < 0 else "down"
+    return change_answer(f"{title} moved {word}.", result, path=[*above, where])
+
+
+async def _switch(page: Page, command: m.SwitchBlock) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    path = tuple(command.path)
+    title = _title(_block_of(editor, agent_id, path))
+    result = await page.result(editor.switch_block(agent_id, path, command.on))
+    return change_answer(f"{title} turned {'on' if command.on else 'off'}.", result)
+
+
+async def _change(page: Page, command: m.ChangeBlock) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    path = tuple(command.path)
+    block = _block_of(editor, agent_id, path)
+    fields = block_form(block, SceneNames(editor.state, agent_id))
+    values = read_values(fields, command.values)
+    result = await page.result(editor.change_block(agent_id, path, values))
+    return change_answer(f"{_title(block)} changed.", result)
+
+
+async def _change_agent(page: Page, command: m.ChangeAgent) -> Answer:
+    editor, agent_id = page.context.required_editor(), page.view.agent
+    values = read_values(agent_form(editor.state.agent(agent_id)), command.values)
+    name = page.context.runner.sim.agent(agent_id).body_name
+    try:
+        result = await page.result(editor.change_agent(agent_id, values))
+    except ChangeError as error:
+        raise ChangeError(list(problems_in_agent_form(error.problems))) from None
+    return change_answer(f"Settings of {name} changed.", result)
+
+
+async def _undo(page: Page, _command: m.Undo) -> Answer:
+    result = await page.result(page.context.required_editor().undo())
+    return Answer(f"Undone: {change_label(result.label.removeprefix('undo: '))}.")
+
+
+async def _redo(page: Page, _command: m.Redo) -> Answer:
+    result = await page.result(page.context.required_editor().redo())
+    return Answer(f"Done again: {change_label(result.label.removeprefix('redo: '))}.")
+
+
+def _block_of(editor: SceneEditor, agent_id: str, path: BlockPath) -> Plain:
+    return block_at(editor.state.agent(agent_id), path)
+
+
+def _title(block: Plain) -> str:
+    return words_of(str(block["type"])).title
+
+
+HANDLERS: Mapping[type[Command], Handler] = {
+    m.ListDrivers: _drivers,
+    m.SetDriver: _driver,
+    m.ListBlocks: _gallery,
+    m.AddBlock: _add,
+    m.DuplicateBlock: _duplicate,
+    m.RemoveBlock: _remove,
+    m.MoveBlock: _move,
+    m.SwitchBlock: _switch,
+    m.ChangeBlock: _change,
+    m.ChangeAgent: _change_agent,
+    m.Undo: _undo,
+    m.Redo: _redo,
+}
+"""Handlers by the type of their command."""

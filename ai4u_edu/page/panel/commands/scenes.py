@@ -1,0 +1,124 @@
+"""Commands that open, save and restore scenes."""
+
+import asyncio
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.page.editing.scene_cards import Card, stored_cards
+from ai4u_edu.page.editing.scene_pictures import LibraryScene, library_scenes
+from ai4u_edu.page.panel.answers import Answer
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.messages import edit as m
+from ai4u_edu.page.panel.messages.base import Command
+from ai4u_edu.page.panel.page import Page
+from ai4u_edu.page.server.library_pictures import picture_address
+from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
+
+MAX_FILE_NAME_CHARS = 60
+MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS
+"""Size of a scene's file; no character takes more bytes."""
+
+
+async def _scenes(page: Page, _command: m.ListScenes) -> Answer:
+    store = page.context.required_editor().scene_store
+
+    def listed() -> list[dict[str, Any]]:
+        saved = [] if store is None else stored_cards(store)
+        return [
+            *(_card(each, each.picture_url, is_saved=True) for each in saved),
+            *(_card(each, picture_address(each.name)) for each in library_scenes()),
+        ]
+
+    return Answer(more={"items": await page.in_thread(listed)})
+
+
+async def _open(page: Page, command: m.OpenScene) -> Answer:
+    editor = page.context.required_editor()
+    load = partial(Scene.load, command.name)
+    if command.is_saved:
+        if editor.scene_store is None:
+            raise SetupError("no scenes are saved here")
+        load = partial(editor.scene_store.load, command.name)
+    elif command.name not in Scene.names():
+        raise SetupError(f"no scene of the library is called {command.name!r}")
+    scene = await page.in_thread(load)
+    await page.result(editor.open(scene))
+    return Answer(f"Opened {editor.title}.")
+
+
+async def _save(page: Page, command: m.SaveScene) -> Answer:
+    editor = page.context.required_editor()
+    if editor.scene_store is None:
+        raise SetupError("scenes can't be saved here; download the file")
+    scene = editor.scene
+    save = partial(editor.scene_store.save, command.name, scene, over=command.over)
+    name = await asyncio.to_thread(save)
+    editor.recovery.mark_saved(scene)
+    return Answer(f"Saved as “{name}”. Find it under Choose a scene.", {"saved_as": name})
+
+
+async def _download(page: Page, _command: m.Download) -> Answer:
+    editor = page.context.required_editor()
+    scene = editor.scene
+    text = await asyncio.to_thread(scene.dumps)
+    editor.recovery.mark_saved(scene)
+    more = {"file": f"{file_name(scene)}.yaml", "content": text}
+    return Answer("The scene's file is in your downloads.", more)
+
+
+async def _load(page: Page, command: m.LoadText) -> Answer:
+    editor = page.context.required_editor()
+    data = page.upload.take(command.size)
+    if len(data) > MAX_SCENE_BYTES:
+        raise SetupError(f"{command.name}: expected at most {MAX_SCENE_BYTES} bytes")
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        raise SetupError(f"{command.name}: expected a text file, YAML") from None
+    await page.result(await page.in_thread(lambda: editor.load(text, command.name)))
+    return Answer(f"Opened {editor.title}.")
+
+
+async def _restore(page: Page, _command: m.Restore) -> Answer:
+    editor = page.context.required_editor()
+    await page.result(await page.in_thread(editor.recovery.restore))
+    return Answer(f"Restored {editor.title}.")
+
+
+async def _discard(page: Page, _command: m.Discard) -> Answer:
+    page.context.required_editor().recovery.discard()
+    return Answer("The unsaved scene is deleted.")
+
+
+def file_name(scene: Scene) -> str:
+    """Return a name for a scene's file, without a suffix."""
+    name = "".join(c if c.isalnum() or c in "-_" else "_" for c in scene.description.name)
+    return name[:MAX_FILE_NAME_CHARS].strip("_") or "scene"
+
+
+def _card(card: Card | LibraryScene, picture: str, *, is_saved: bool = False) -> dict[str, Any]:
+    return {
+        "name": card.name,
+        "title": card.title,
+        "goal": card.goal,
+        "level": card.level,
+        "minutes": card.minutes,
+        "stars": card.stars if isinstance(card, LibraryScene) else 0,
+        "picture": picture,
+        "is_saved": is_saved,
+    }
+
+
+HANDLERS: Mapping[type[Command], Handler] = {
+    m.ListScenes: _scenes,
+    m.OpenScene: _open,
+    m.SaveScene: _save,
+    m.Download: _download,
+    m.LoadText: _load,
+    m.Restore: _restore,
+    m.Discard: _discard,
+}
+"""Handlers by the type of their command."""

@@ -1,0 +1,220 @@
+"""Commands that change the things in the world, and the scene's settings."""
+
+import math
+from collections.abc import Mapping
+from concurrent.futures import Future
+from typing import Any
+
+from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
+from ai4u_edu.base.parameters import Problem
+from ai4u_edu.page.editing import ChangeError, ChangeResult, SceneEditor
+from ai4u_edu.page.editing.forms import read_values
+from ai4u_edu.page.editing.settings import scene_form
+from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
+from ai4u_edu.page.editing.things import Thing, kind_of, thing_named
+from ai4u_edu.page.panel.answers import Answer, change_answer
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.messages import edit as m
+from ai4u_edu.page.panel.messages.base import Command
+from ai4u_edu.page.panel.page import Page
+from ai4u_edu.page.panel.templates import TEMPLATES, Template
+from ai4u_edu.page.viewer.scene.new_things import free_position, ground_at_center
+from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.world import BodyDescription, Pose
+
+COPY_OFFSET_M = 0.5
+"""Distance (m) of a copied floor or area from the original, to the right and down."""
+
+
+async def _move_mode(page: Page, command: m.MoveMode) -> Answer:
+    page.context.required_editor()
+    page.view.set_move_mode(command.on)
+    return Answer()
+
+
+async def _snap(page: Page, command: m.Snap) -> Answer:
+    page.view.set_snap(command.distance)
+    return Answer()
+
+
+async def _select(page: Page, command: m.SelectBody) -> Answer:
+    page.view.select(command.body)
+    return Answer()
+
+
+async def _add(page: Page, command: m.AddBody) -> Answer:
+    editor = page.context.required_editor()
+    template = TEMPLATES.get(command.template)
+    if template is None:
+        hint = suggest(command.template, TEMPLATES)
+        raise NameNotFoundError(f"nothing is called {command.template!r}; {hint}")
+    at = None if command.x is None or command.y is None else (command.x, command.y)
+    return await _add_thing(page, template, _described(page, editor, template), at, "Added")
+
+
+async def _add_thing(
+    page: Page,
+    template: Template,
+    described: Mapping[str, Any],
+    at: tuple[float, float] | None,
+    done: str,
+) -> Answer:
+    """Add a thing at a place, or where there is room in the picture; then select it."""
+    editor = page.context.required_editor()
+    name = editor.free_name(str(described["name"]))
+    thing = dict(described) | {
+        "name": name,
+        "position": at or _place_for(page, described, template),
+    }
+    future: Future[ChangeResult]
+    if template.kind == "agents":
+        future = editor.add_agent(thing, page.view.agent)
+    elif template.kind == "bodies":
+        future = editor.add_body(thing)
+    else:
+        future = editor.add_region(thing, template.kind)
+    result = await page.result(future)
+    page.view.select(name)
+    return change_answer(f"{done} {name}.", result, body=name)
+
+
+async def _duplicate(page: Page, command: m.DuplicateBody) -> Answer:
+    editor = page.context.required_editor()
+    thing = thing_named(editor.state, command.name)
+    described = _copy_of(thing)
+    is_agent = _agent_of(editor, thing.name) is not None
+    kind = "agents" if is_agent else kind_of(thing)
+    at = None
+    if not isinstance(thing, BodyDescription):
+        x, y = thing.position
+        at = x + COPY_OFFSET_M, y - COPY_OFFSET_M
+    return await _add_thing(page, Template("", "", kind, {}), described, at, "Copied it as")
+
+
+async def _change(page: Page, command: m.ChangeBody) -> Answer:
+    editor = page.context.required_editor()
+    thing = thing_named(editor.state, command.name)
+    pose, values = pose_and_changes(thing, command.values)
+    if pose and values:
+        values |= {"position": (pose["x"], pose["y"]), "heading_deg": pose["heading_deg"]}
+    future = (
+        editor.move_body(thing.name, **pose)
+        if pose and not values
+        else editor.change_body(thing.name, values)
+    )
+    try:
+        result = await page.result(future)
+    except ChangeError as error:
+        raise ChangeError(_named(thing, error)) from None
+    return change_answer(f"{'Changed' if values else 'Moved'} {thing.name}.", result)
+
+
+async def _move(page: Page, command: m.MoveBody) -> Answer:
+    future = page.context.required_editor().move_body(
+        command.name, command.x, command.y, command.heading_deg
+    )
+    return change_answer(f"Moved {command.name}.", await page.result(future))
+
+
+async def _nudge(page: Page, command: m.Nudge) -> Answer:
+    """Move a thing from where it is; several nudges follow one another."""
+    editor = page.context.required_editor()
+    async with page.moves:
+        x, y, heading = await page.result(
+            page.context.runner.submit(lambda: _present_pose(page, editor, command.name))
+        )
+        heading_deg = math.degrees(heading) + command.turn_deg if command.turn_deg else None
+        result = await page.result(
+            editor.move_body(
+                command.name, x + command.dx, y + command.dy, heading_deg, is_nudge=True
+            )
+        )
+    return change_answer(f"Moved {command.name}.", result)
+
+
+async def _remove(page: Page, command: m.RemoveBody) -> Answer:
+    editor = page.context.required_editor()
+    agent = _agent_of(editor, command.name)
+    future = editor.remove_body(command.name) if agent is None else editor.remove_agent(agent)
+    return change_answer(f"Deleted {command.name}.", await page.result(future))
+
+
+async def _settings(page: Page, command: m.ChangeSettings) -> Answer:
+    editor = page.context.required_editor()
+    values = read_values(scene_form(editor.state.description), command.values)
+    result = await page.result(editor.change_settings(values))
+    return change_answer("Settings of the scene changed.", result)
+
+
+def _described(page: Page, editor: SceneEditor, template: Template) -> Mapping[str, Any]:
+    if template.kind != "agents":
+        return template.description
+    body = str(editor.state.agent(page.view.agent)["body"])
+    return _copy_of(thing_named(editor.state, body))
+
+
+def _copy_of(thing: Thing) -> dict[str, Any]:
+    return {
+        **thing.model_dump(mode="json", exclude_defaults=True),
+        "shape": thing.shape.model_dump(mode="json"),
+    }
+
+
+def _place_for(page: Page, described: Mapping[str, Any], template: Template) -> tuple[float, float]:
+    """Return a place in the middle of the picture, for a body one where it touches nothing."""
+    client, snapshot = page.view.client, page.context.runner.latest
+    center = _middle(snapshot.static_scene)
+    if client is not None:
+        camera = client.client.camera
+        center = ground_at_center(camera.position, camera.look_at)
+    if template.kind in {"floors", "areas"}:
+        return round(center[0], 1), round(center[1], 1)
+    found = free_position(snapshot, dict(described), *center)
+    if found is None:
+        raise SetupError("there is no room for it around the middle of the picture")
+    return found
+
+
+def _middle(static_scene: StaticScene) -> tuple[float, float]:
+    (left, low), (right, high) = static_scene.bounds
+    return (left + right) / 2, (low + high) / 2
+
+
+def _present_pose(page: Page, editor: SceneEditor, name: str) -> Pose:
+    """Return a thing's pose now; in the runner's thread."""
+    thing = thing_named(editor.state, name)
+    if isinstance(thing, BodyDescription):
+        x, y, _, heading = page.context.runner.sim.world[name].pose
+        return x, y, heading
+    return (*thing.position, math.radians(thing.heading_deg))
+
+
+def _agent_of(editor: SceneEditor, body: str) -> str | None:
+    """Return the id of the agent that a body belongs to; None if it belongs to none."""
+    for agent in editor.state.description.agents:
+        if agent.get("body") == body:
+            return str(agent.get("id", "0"))
+    return None
+
+
+def _named(thing: Thing, error: ChangeError) -> list[Problem]:
+    """Return problems with the names of the form's fields as paths."""
+    return [
+        Problem((name,), text) if (name := field_of_problem(thing, path)) else Problem(path, text)
+        for path, text in error.problems
+    ]
+
+
+HANDLERS: Mapping[type[Command], Handler] = {
+    m.MoveMode: _move_mode,
+    m.Snap: _snap,
+    m.SelectBody: _select,
+    m.AddBody: _add,
+    m.DuplicateBody: _duplicate,
+    m.ChangeBody: _change,
+    m.MoveBody: _move,
+    m.Nudge: _nudge,
+    m.RemoveBody: _remove,
+    m.ChangeSettings: _settings,
+}
+"""Handlers by the type of their command."""

@@ -1,0 +1,98 @@
+"""The running world that all pages' panels share."""
+
+import asyncio
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.panel.upload import UPLOAD_IDLE_S
+from ai4u_edu.page.viewer import Viewer
+from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.runtime.runner import Runner
+
+FRAME_TIMEOUT_S = 10.0
+"""Usual time that the replay of an episode has for its next decision."""
+MAX_CACHED = 200
+"""Most texts that a cache holds; it is emptied then."""
+
+
+class PartCache:
+    """JSON texts of parts, so that pages that look at the same thing share them.
+
+    Belongs to the server's event loop.
+    """
+
+    def __init__(self) -> None:
+        self._snapshot: Snapshot | None = None
+        self._of_snapshot: dict[object, bytes] = {}
+        self._by_key: dict[object, bytes] = {}
+
+    def of_snapshot(
+        self, snapshot: Snapshot, key: object, build: Callable[[], dict[str, Any]]
+    ) -> bytes:
+        """Return a part of a snapshot; it is kept until the next snapshot."""
+        if snapshot is not self._snapshot:
+            self._snapshot, self._of_snapshot = snapshot, {}
+        return _cached(self._of_snapshot, key, build)
+
+    def by_key(self, key: object, build: Callable[[], dict[str, Any]]) -> bytes:
+        """Return a part that does not change while its key is the same."""
+        return _cached(self._by_key, key, build)
+
+
+@dataclass(frozen=True)
+class PanelContext:
+    """The running world, its viewer and its editor, for parts and commands.
+
+    Args:
+        runner: runs the world.
+        viewer: draws it.
+        editor: changes it; None if it can only be watched and driven.
+        frame_timeout: time (s) that the replay of an episode has for its next decision.
+        upload_timeout: time (s) without a new part after which an unfinished file is dropped.
+    """
+
+    runner: Runner
+    viewer: Viewer
+    editor: SceneEditor | None = None
+    frame_timeout: float = FRAME_TIMEOUT_S
+    upload_timeout: float = UPLOAD_IDLE_S
+    cache: PartCache = field(default_factory=PartCache)
+    slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
+    """Held by a page whose command does slow work in another thread."""
+    clock: Callable[[], float] = time.monotonic
+    began: float = field(default_factory=time.monotonic)
+    """Time (s) of the clock from which periods count; see :meth:`until_next_look`."""
+
+    def until_next_look(self, period: float) -> float:
+        """Return the time (s) until all pages look for changed parts, once in a period (s).
+
+        Pages of one world look at the same moments, so that they share what was made for one.
+        Worlds in other processes have other moments: else a class's rooms would all look at once.
+        """
+        return period - (self.clock() - self.began) % period
+
+    def required_editor(self) -> SceneEditor:
+        """Return the editor.
+
+        Raises:
+            SetupError: there is none.
+        """
+        if self.editor is None:
+            raise SetupError("this world can be watched and driven here, but not changed")
+        return self.editor
+
+
+def _cached(texts: dict[object, bytes], key: object, build: Callable[[], dict[str, Any]]) -> bytes:
+    text = texts.get(key)
+    if text is None:
+        if len(texts) >= MAX_CACHED:
+            texts.clear()
+        # numbers that JSON can't hold (NaN, infinity) become null
+        text = texts[key] = msgspec.json.encode(build())
+    return text

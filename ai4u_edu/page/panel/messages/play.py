@@ -1,0 +1,200 @@
+"""Commands for the running world, the view of one page, and recorded episodes."""
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from ai4u_edu.page.panel.messages.base import Command, Degrees, Metres, Name, Number, Seed
+
+MAX_CHANGES = 128
+"""Most numbers of a percept that are changed at once."""
+
+
+class Pause(Command, tag="pause"):
+    """Pause the world."""
+
+
+class Resume(Command, tag="resume"):
+    """Let the world run."""
+
+
+class Tick(Command, tag="tick"):
+    """Pause, and tick once."""
+
+
+class Decision(Command, tag="decision"):
+    """Pause, and run until the agent's decision is over."""
+
+
+class TryAgain(Command, tag="try_again"):
+    """Begin an episode with the same start."""
+
+
+class NewStart(Command, tag="new_start"):
+    """Begin an episode with a new start."""
+
+
+class SetSeed(Command, tag="seed"):
+    """Begin an episode with a seed."""
+
+    seed: Seed
+
+
+class LockSeed(Command, tag="lock_seed"):
+    """Begin each episode with the same seed from now on, or with new ones."""
+
+    on: bool
+
+
+class SetSpeed(Command, tag="speed"):
+    """Set the time scale; 1 is real time."""
+
+    speed: Annotated[float, Meta(gt=0, le=1000)] | Literal["max"]
+
+
+class ShowAgent(Command, tag="agent"):
+    """Show another agent."""
+
+    agent: Name
+
+
+class Camera(Command, tag="camera"):
+    """Put the camera somewhere."""
+
+    mode: Literal["arena", "follow", "turn", "eyes"]
+
+
+class ShowSensor(Command, tag="sensor"):
+    """Draw a sensor in the picture, or hide it."""
+
+    key: Name
+    on: bool
+
+
+class ShowWhy(Command, tag="why"):
+    """Show why the agent acts as it does, or no longer."""
+
+    on: bool
+
+
+class ShowMaps(Command, tag="maps"):
+    """Show maps over the floor: what the agent would do at each place, and what it is worth."""
+
+    field: bool
+    values: bool
+    facing: Name = ""
+
+
+class Change(Struct, forbid_unknown_fields=True):
+    """Another value of one number of a percept."""
+
+    key: Name
+    index: Number
+    value: Annotated[float, Meta(ge=-1e9, le=1e9)]
+
+
+class AskWhatIf(Command, tag="what_if"):
+    """Return the action on the agent's percept, and on a changed one."""
+
+    changes: Annotated[list[Change], Meta(max_length=MAX_CHANGES)]
+
+
+class AskElsewhere(Command, tag="elsewhere"):
+    """Return the action at another pose, and show it; left out, where the agent stands now."""
+
+    x: Metres | None = None
+    y: Metres | None = None
+    heading_deg: Degrees | None = None
+
+
+class HideElsewhere(Command, tag="hide_elsewhere"):
+    """Show no other pose any more."""
+
+
+class ShowTrail(Command, tag="trail"):
+    """Draw the agent's trail, or hide it."""
+
+    on: bool
+
+
+class Dark(Command, tag="dark"):
+    """Draw the picture in dark colours, or light ones."""
+
+    on: bool
+
+
+class ReduceMotion(Command, tag="reduce_motion"):
+    """Leave out motion that nothing in the world makes, or not."""
+
+    on: bool
+
+
+class OpenEpisode(Command, tag="episode"):
+    """Choose a recorded episode; 0 is the one that runs."""
+
+    number: Number
+
+
+class GoToStep(Command, tag="step"):
+    """Show a decision of the chosen episode, counted from 0."""
+
+    step: Number
+
+
+class Play(Command, tag="play"):
+    """Play the chosen episode."""
+
+
+class Stop(Command, tag="stop"):
+    """Stop playing."""
+
+
+class SetPlaySpeed(Command, tag="play_speed"):
+    """Set the speed of playing; 1 is the recorded speed."""
+
+    speed: Annotated[float, Meta(ge=0.1, le=16)]
+
+
+class BackToLive(Command, tag="back_to_live"):
+    """Show the present again."""
+
+
+class ContinueHere(Command, tag="continue"):
+    """Let the world run on from the shown decision."""
+
+
+class Race(Command, tag="race"):
+    """Begin an episode with the same start, against a ghost of the chosen one."""
+
+
+class RemoveGhost(Command, tag="remove_ghost"):
+    """Remove the ghost."""
+
+
+class AskPaid(Command, tag="paid"):
+    """Return the reward terms of the chosen episode over time, and the decisions that paid most."""
+
+
+class ListRivals(Command, tag="rivals"):
+    """Return the drivers that the present one can be compared with."""
+
+
+class CompareDrivers(Command, tag="compare"):
+    """Return where two drivers first disagree in the chosen episode; empty for the present one."""
+
+    first: Name
+    second: Name
+
+
+class Pin(Command, tag="pin"):
+    """Keep an episode however many others come, or no longer."""
+
+    number: Number
+    on: bool
+
+
+class OpenRecording(Command, tag="open_recording"):
+    """Open the recording that was sent in binary messages before."""
+
+    name: Name
+    size: Number

@@ -1,0 +1,97 @@
+"""The part "run": time, score and state of the episode."""
+
+import math
+from typing import Any
+
+from ai4u_edu.blocks.rewards.reward_func import Stages
+from ai4u_edu.page.panel.context import PanelContext
+from ai4u_edu.recording.snapshot import AgentState, Snapshot
+from ai4u_edu.recording.snapshot.agent_words import ending
+from ai4u_edu.recording.snapshot.outcome import outcome
+
+MAX_STAGES = 12
+"""Most stages that are told one by one."""
+MIN_SPEED_SHARE = 0.9
+"""Share of the wanted speed below which a page is told that the world can't keep up."""
+MAX_USUAL_CONTACTS = 6
+"""Contacts for each body above which bodies must overlap; side by side they have fewer."""
+
+
+def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> dict[str, Any]:
+    """Return the state of the episode, for a page that shows an agent."""
+    agent = next((each for each in snapshot.agents if each.id == agent_id), snapshot.agents[0])
+    stall = context.runner.stall
+    return {
+        "type": "part",
+        "name": "run",
+        "episode": snapshot.episode if agent.episode <= 1 else agent.episode,
+        "decision": agent.steps,
+        "time_s": round(snapshot.episode_time, 2),
+        "speed": "max" if math.isinf(snapshot.time_scale) else snapshot.time_scale,
+        "real_speed": round(snapshot.real_time_factor, 1),
+        "is_paused": snapshot.paused,
+        "waiting": snapshot.waiting,
+        "past": snapshot.past,
+        "seed": str(snapshot.seed),
+        "is_seed_locked": snapshot.is_seed_locked,
+        "score": agent.episode_reward,
+        "stages": [stage for each in agent.stages for stage in _stages(each)],
+        "seconds_left": agent.seconds_left,
+        "result": outcome(agent, snapshot.agents, snapshot.static_scene.success),
+        "result_text": _result_text(agent),
+        "status": _status(snapshot),
+        "slow": slow_warning(snapshot),
+        "error": snapshot.error,
+        "stall": "" if stall is None else str(stall),
+    }
+
+
+def _stages(stages: Stages) -> list[dict[str, Any]]:
+    """Return a set of stages one by one, or in one line if there are too many.
+
+    >>> [each["title"] for each in _stages(Stages(1, 3, ()))]
+    ['1', '2', '3']
+    >>> _stages(Stages(4, 40, ()))[0]["title"]
+    '4 of 40'
+    """
+    passed, total = stages.passed, stages.total
+    if total > MAX_STAGES:
+        title = f"{passed} of {total}"
+        return [{"title": title, "is_done": passed >= total, "is_now": passed < total}]
+    return [
+        {"title": str(number + 1), "is_done": number < passed, "is_now": number == passed}
+        for number in range(total)
+    ]
+
+
+def _status(snapshot: Snapshot) -> str:
+    if snapshot.error:
+        return "Stopped"
+    if snapshot.past:
+        return f"Showing {snapshot.past}"
+    if snapshot.waiting == "teacher":
+        return "Stopped by your teacher"
+    if snapshot.paused:
+        return "Paused"
+    if snapshot.waiting:
+        return "Waiting for a key"
+    wanted, factor = snapshot.time_scale, snapshot.real_time_factor
+    if not math.isinf(wanted) and factor < MIN_SPEED_SHARE * wanted:
+        return f"Running at {factor:.1f}x: this computer can't keep up with {wanted:g}x"
+    return "Running"
+
+
+def _result_text(agent: AgentState) -> str:
+    """Return the end of the agent's episode as a short sentence; empty while it runs."""
+    text = ending(agent) if agent.terminated or agent.truncated else ""
+    return text[:1].upper() + text[1:]
+
+
+def slow_warning(snapshot: Snapshot) -> str:
+    """Return a warning about a slow tick; empty if there was none."""
+    slow = snapshot.slow_tick
+    if slow is None:
+        return ""
+    overlap = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
+    why = f" with {slow.contacts} contacts. Move bodies out of each other" if overlap else ""
+    return f"Slow computer: a step took {1000 * slow.seconds:.0f} ms{why}."

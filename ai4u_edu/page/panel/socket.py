@@ -1,0 +1,270 @@
+"""The panel's sockets: each page gets the parts that it looks at, and sends commands."""
+
+import asyncio
+import math
+from collections.abc import Coroutine, Mapping
+from concurrent.futures import Future
+from contextlib import suppress
+
+import msgspec
+from starlette.types import Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
+
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError
+from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.explain.elsewhere import Pose
+from ai4u_edu.page.editing import ChangeResult, SceneEditor
+from ai4u_edu.page.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
+from ai4u_edu.page.panel.commands import blocks, compare, past, run, scenes, view, why, world
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.context import FRAME_TIMEOUT_S, PanelContext
+from ai4u_edu.page.panel.labels import past_tense
+from ai4u_edu.page.panel.messages.base import Command, Show
+from ai4u_edu.page.panel.messages.reader import id_in, read_message
+from ai4u_edu.page.panel.page import Level, Page
+from ai4u_edu.page.panel.page_view import PageView
+from ai4u_edu.page.panel.parts.due import due_parts
+from ai4u_edu.page.panel.upload import MAX_PART_BYTES, UPLOAD_IDLE_S, Upload
+from ai4u_edu.page.server.bindings import choose_agent
+from ai4u_edu.page.server.keepalive import keepalives
+from ai4u_edu.page.server.page_receiver import ReceiveLimits, receive_messages
+from ai4u_edu.page.server.proxy import PAGE_ID_PARAM, page_id
+from ai4u_edu.page.viewer import Viewer
+from ai4u_edu.runtime.runner import Runner
+
+LIMITS = ReceiveLimits(100, 2**16, MAX_PART_BYTES)
+"""Limits of one page; dragging a slider sends some thirty messages a second."""
+MAX_PENDING_COMMANDS = 16
+"""Commands of one page that may be under way."""
+MIN_SEND_S = 0.03
+"""Shortest time (s) between two looks for changed parts, after commands."""
+
+HANDLERS: Mapping[type[Command], Handler] = {
+    **run.HANDLERS,
+    **view.HANDLERS,
+    **blocks.HANDLERS,
+    **world.HANDLERS,
+    **scenes.HANDLERS,
+    **past.HANDLERS,
+    **why.HANDLERS,
+    **compare.HANDLERS,
+}
+"""Handlers of all commands by the type of their message."""
+
+_error_log = ErrorLog()
+
+
+class PanelSockets:
+    """The sockets of all pages' panels; an ASGI app.
+
+    Args:
+        runner: runs the world.
+        viewer: draws it; knows which picture belongs to which page.
+        editor: changes the world; left out, it can only be watched and driven.
+        frame_timeout: time (s) that the replay of an episode has for its next decision.
+        upload_timeout: time (s) without a new part after which an unfinished file is dropped.
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        viewer: Viewer,
+        editor: SceneEditor | None = None,
+        *,
+        frame_timeout: float = FRAME_TIMEOUT_S,
+        upload_timeout: float = UPLOAD_IDLE_S,
+    ) -> None:
+        self._context = PanelContext(
+            runner, viewer, editor, frame_timeout=frame_timeout, upload_timeout=upload_timeout
+        )
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one page's socket until it is closed."""
+        socket = WebSocket(scope, receive, send)
+        await socket.accept()
+        with suppress(WebSocketDisconnect):
+            if PAGE_ID_PARAM in socket.query_params and not page_id(scope):
+                await socket.close(1008, "expected a page id of 8 to 64 letters, digits and -")
+                return
+            await _Connection(socket, self._context, page_id(scope)).serve()
+
+
+class _Connection:
+    """One page's connection.
+
+    The server's event loop calls everything but :meth:`on_selected`, :meth:`on_dropped` and
+    :meth:`on_stand_in`.
+    """
+
+    def __init__(self, socket: WebSocket, context: PanelContext, page_id: str) -> None:
+        self._socket, self._context = socket, context
+        agent = _first_agent(context.runner, socket.query_params.get("agent"))
+        self._view = PageView(context.viewer.viewer_clients, page_id, agent, self)
+        upload = Upload(context.upload_timeout)
+        self._page = Page(context, self._view, self._note, upload)
+        self._loop = asyncio.get_running_loop()
+        self._changed = asyncio.Event()
+        self._sent: dict[str, bytes] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    async def serve(self) -> None:
+        """Send parts and carry out commands until the page leaves."""
+        sending = asyncio.create_task(self._send_parts())
+        try:
+            async with keepalives(self._send_text):
+                await self._receive()
+        finally:
+            self._view.close()
+            self._page.upload.drop()
+            for task in (sending, *self._tasks):
+                task.cancel()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect):
+                await sending
+
+    # -- from the picture, in viser's event loop -------------------------------------------------
+
+    def on_selected(self, body: str) -> None:
+        """Note that somebody clicked on a body in the page's picture."""
+        with suppress(RuntimeError):  # the server's loop has ended
+            self._loop.call_soon_threadsafe(self._select, body)
+
+    def on_dropped(self, change: "Future[ChangeResult]") -> None:
+        """Report the result of a move with the mouse."""
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(lambda: self._spawn(self._report_drop(change)))
+
+    def on_stand_in(self, pose: Pose) -> None:
+        """Tell the page that somebody put the agent's stand-in somewhere."""
+        degrees = round(math.degrees(pose.heading), 1)
+        message = {"type": "stand_in", "x": pose.x, "y": pose.y, "heading_deg": degrees}
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(lambda: self._spawn_send(message))
+
+    async def _report_drop(self, change: "Future[ChangeResult]") -> None:
+        try:
+            result = await self._page.result(change)
+        except Exception as error:
+            self._note("error", str(failure(error)["text"]))
+            return
+        self._note("info", change_answer(f"{past_tense(result.label)}.", result).text)
+        self._changed.set()
+
+    def _select(self, body: str) -> None:
+        self._view.select(body)
+        agent = self._context.runner.latest.static_scene.agent_of.get(body, self._view.agent)
+        if agent != self._view.agent:
+            self._view.choose_agent(agent)
+        self._spawn_send({"type": "selected", "body": body, "agent": agent})
+        self._changed.set()
+
+    # -- messages from the page ------------------------------------------------------------------
+
+    async def _receive(self) -> None:
+        async for message in receive_messages(self._socket, LIMITS, _read, self._refuse_message):
+            if isinstance(message, bytes):
+                self._add_part(message)
+            elif isinstance(message, Show):
+                self._look_at(message)
+            elif len(self._tasks) >= MAX_PENDING_COMMANDS:
+                await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
+            else:
+                self._spawn(self._carry_out(message))
+
+    def _add_part(self, part: bytes) -> None:
+        """Keep a part of a file."""
+        try:
+            self._page.upload.add(part)
+        except AI4UError as error:
+            self._note("error", str(error))
+
+    def _look_at(self, show: Show) -> None:
+        if show.agent not in self._context.runner.latest.static_scene.agent_of.values():
+            show.agent = self._view.agent
+        self._view.look_at(show)
+        self._changed.set()
+
+    async def _carry_out(self, command: Command) -> None:
+        try:
+            answer: Answer = await HANDLERS[type(command)](self._page, command)
+        except asyncio.CancelledError:
+            task = asyncio.current_task()
+            if task is not None and task.cancelling():
+                raise
+            text = "the world has ended"
+            await self._send({"type": "failed", "id": command.id, "text": text, "problems": []})
+        except Exception as error:  # a student's block may raise anything in a reset
+            if not isinstance(error, AI4UError):
+                _error_log.write(error)
+            await self._send({"type": "failed", "id": command.id, **failure(error)})
+        else:
+            done = {"type": "done", "id": command.id, "text": answer.text}
+            await self._send(done | dict(answer.more))
+        self._changed.set()
+
+    async def _refuse_message(self, data: str | bytes, text: str) -> None:
+        await self._refuse(id_in(data), text)
+
+    async def _refuse(self, number: int | None, text: str) -> None:
+        text = text[:MAX_ERROR_CHARS]
+        if number is None:
+            await self._send({"type": "note", "level": "error", "text": text})
+        else:
+            await self._send({"type": "failed", "id": number, "text": text, "problems": []})
+
+    # -- messages to the page --------------------------------------------------------------------
+
+    async def _send_parts(self) -> None:
+        period = 1 / self._context.runner.frame_budget.texts_per_s
+        while True:
+            self._changed.clear()
+            self._view.refresh()
+            self._settle()
+            for name in self._view.take_asked_again():
+                self._sent.pop(name, None)
+            with _error_log.caught():
+                for name, text in due_parts(self._context, self._view):
+                    if self._sent.get(name) != text:
+                        self._sent[name] = text
+                        await self._send_text(text.decode())
+            await asyncio.sleep(MIN_SEND_S)
+            with suppress(TimeoutError):
+                async with asyncio.timeout(self._context.until_next_look(period)):
+                    await self._changed.wait()
+
+    def _settle(self) -> None:
+        """Show another agent if another world has no agent of that id."""
+        agents = self._context.runner.latest.agents
+        if not any(agent.id == self._view.agent for agent in agents):
+            self._view.choose_agent(agents[0].id)
+
+    def _note(self, level: Level, text: str) -> None:
+        self._spawn_send({"type": "note", "level": level, "text": text[:MAX_ERROR_CHARS]})
+
+    def _spawn_send(self, message: Mapping[str, object]) -> None:
+        self._spawn(self._send(message))
+
+    def _spawn(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _send(self, message: Mapping[str, object]) -> None:
+        await self._send_text(msgspec.json.encode(message).decode())
+
+    async def _send_text(self, text: str) -> None:
+        if self._socket.application_state is WebSocketState.CONNECTED:
+            with suppress(WebSocketDisconnect):
+                await self._socket.send_text(text)
+
+
+def _read(data: str | bytes) -> bytes | Show | Command:
+    """Return the message in a text, or a part of a file, which is binary."""
+    return data if isinstance(data, bytes) else read_message(data)
+
+
+def _first_agent(runner: Runner, wanted: str | None) -> str:
+    """Return the id of the agent that a page asks for; else of the first that a person drives."""
+    try:
+        return choose_agent(runner.sim, wanted).id
+    except NameNotFoundError:
+        return choose_agent(runner.sim, None).id

@@ -1,0 +1,154 @@
+"""viser's page with our scripts and styles inserted.
+
+It is one document without frames, so that no frame keeps keys from the others.
+"""
+
+import hashlib
+import html
+from collections.abc import Awaitable, Callable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+from starlette.requests import Request
+from starlette.responses import Response
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles
+
+_PLACE = "<title>Viser</title>"
+_OURS = """<title>{title}</title>
+    <script src="./web/dark.js"></script>
+    <script src="./web/page_id.js"{panel}></script>
+    <link rel="stylesheet" href="./web/all_styles.css" />
+    <script type="module" src="./web/main.js"></script>
+    {preloads}"""
+STYLES = (
+    "page.css",
+    "dock.css",
+    "banners.css",
+    "help.css",
+    "panel.css",
+    "panel_layout.css",
+    "panel_controls.css",
+    "panel_run.css",
+    "scene_picture.css",
+    "panel_cards.css",
+    "panel_windows.css",
+    "panel_drive.css",
+    "panel_build.css",
+    "panel_code.css",
+    "panel_test.css",
+    "panel_blocks.css",
+    "panel_stars.css",
+    "panel_why.css",
+    "panel_maps.css",
+    "question.css",
+    "class_bar.css",
+)
+"""Our styles, in the order in which later ones override earlier ones.
+
+A browser gets them as one file: each file costs it, and the server, some milliseconds.
+"""
+FRAME_ANCESTORS = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
+"""Policy for pages that notebooks show in a frame."""
+
+
+class Page:
+    """Routes of the page and its files.
+
+    Args:
+        title: returns the page's present title; any text.
+        has_panel: True if the room has a panel; else the page shows viser's own, empty one.
+
+    Raises:
+        SetupError: viser's page or our files are missing.
+    """
+
+    def __init__(self, title: Callable[[], str], *, has_panel: bool = False) -> None:
+        self._files = WebFiles()
+        self._modules = self._files.modules("main.js", *["panel.js"] * has_panel)
+        self._title, self._has_panel = title, has_panel
+        self._index = self._read_index()
+
+    async def index(self, request: Request) -> Response:
+        """Return the page."""
+        index = self._index
+        # another scene has been opened, or somebody works on our files
+        if (index.title, index.version) != (self._title(), self._files.version):
+            index = self._index = self._read_index()
+        headers = ALWAYS_ASK | {
+            "ETag": index.etag,
+            "Content-Security-Policy": _policy(request.headers["host"]),
+        }
+        if request.headers.get("if-none-match") == index.etag:
+            return Response(status_code=304, headers=headers)
+        return Response(index.content, media_type="text/html", headers=headers)
+
+    async def styles(self, request: Request) -> Response:
+        """Return all styles of the page as one file."""
+        return self._files.response(request, *STYLES)
+
+    async def file(self, request: Request) -> Response:
+        """Return one of our files."""
+        return self._files.response(request, request.path_params["file"])
+
+    def public_file(self, name: str) -> Callable[[Request], Awaitable[Response]]:
+        """Return the route of one file."""
+
+        async def route(request: Request) -> Response:
+            return self._files.response(request, name)
+
+        return route
+
+    def _read_index(self) -> "_Index":
+        """Return the page with its present title."""
+        return _index(self._title(), self._modules, self._files, has_panel=self._has_panel)
+
+
+class _Index(NamedTuple):
+    title: str
+    version: str
+    content: bytes
+    etag: str
+
+
+def _index(title: str, modules: list[str], files: WebFiles, *, has_panel: bool) -> _Index:
+    spec = find_spec("viser")
+    if spec is None or spec.origin is None:
+        raise SetupError("expected the package viser, found none; install ai4u-edu anew")
+    path = Path(spec.origin).parent / "client" / "build" / "index.html"
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    if text.count(_PLACE) != 1:
+        raise SetupError(
+            f"expected viser's page with {_PLACE} in {path}; install the viser that ai4u-edu asks "
+            "for (pip install --force-reinstall ai4u-edu)"
+        )
+    ours = _OURS.format(
+        title=html.escape(title),
+        panel=" data-panel" if has_panel else "",
+        # else a browser finds a module's imports only after it has read the module
+        preloads="\n    ".join(
+            f'<link rel="modulepreload" href="./web/{each}" />' for each in modules
+        ),
+    )
+    content = text.replace(_PLACE, files.versioned(ours)).encode()
+    return _Index(title, files.version, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
+
+
+def _policy(host: str) -> str:
+    # viser's client connects to ?websocket= and ?playbackPath= of the page's address, and a server
+    # there could run scripts in the page: so it may connect to us only. viser's code is inline, and
+    # starts workers and WebAssembly from blobs.
+    return "; ".join(
+        [
+            "default-src 'self' data: blob:",
+            "script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:",
+            "style-src 'self' 'unsafe-inline'",
+            f"connect-src 'self' data: blob: ws://{host} wss://{host}",
+            "object-src 'none'",
+            "base-uri 'none'",
+            "form-action 'none'",
+            FRAME_ANCESTORS,
+        ]
+    )

@@ -1,0 +1,236 @@
+"""The lease of one agent to one script."""
+
+import asyncio
+from collections.abc import Callable
+from secrets import token_hex
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
+from ai4u_edu.blocks import Brain
+from ai4u_edu.blocks.brains.remote import RemoteBrain
+from ai4u_edu.page.server.loop_queue import LoopQueue
+from ai4u_edu.page.server.scripts.outbox import Outbox
+from ai4u_edu.page.server.scripts.refusal import RefusalError
+from ai4u_edu.page.server.scripts.report import Report
+from ai4u_edu.page.server.scripts.session import Session
+from ai4u_edu.page.server.scripts.settings import Rules
+from ai4u_edu.page.server.scripts.welcome import ObservationSubset, output_of
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.runtime.world_thread import WORLD_REPLACED
+from ai4u_edu.wire import native
+from ai4u_edu.wire.validation import MAX_TEXT_CHARS
+
+SHORT_DROP_S = 0.3
+"""Time for which a script whose connection is lost counts as late; after that it counts as lost."""
+
+
+class AgentLease:
+    """The lease of one agent to one script: from its hello until it leaves, or stays away too long.
+
+    Only the server's event loop calls its methods; what changes the agent is submitted to the
+    runner's thread.
+
+    Args:
+        runner: the room's.
+        agent: the agent that the script drives.
+        hello: the script's request.
+        rules: of the room.
+        queue: of calls for the event loop, shared by the room.
+        report: of what happens with the script.
+        on_released: called when the lease has ended.
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        agent: BasicAgent,
+        hello: native.Hello,
+        rules: Rules,
+        queue: LoopQueue,
+        report: Report,
+        on_released: Callable[["AgentLease"], None],
+    ) -> None:
+        self.agent = agent
+        self.secret = hello.secret
+        self._runner = runner
+        self._hello = hello
+        self._rules = rules
+        self._report = report
+        self._on_released = on_released
+        self._name = token_hex(4)
+        self._on_missing = hello.on_missing or rules.on_missing
+        self._timers: list[asyncio.TimerHandle] = []
+        self.is_released = False
+        self._is_lost = False
+        """The script's connection is lost for more than a moment."""
+        self._brain: RemoteBrain | None = None
+        self._before: Brain | None = None
+        self.claimed = asyncio.Event()
+        """Set as soon as the script has the agent, or can't have it."""
+        is_only_agent = len(runner.sim.agents) == 1
+        if hello.mode == "lockstep":
+            _check_lockstep(rules, len(runner.sim.agents))
+        self.session = Session(
+            runner,
+            self._on_brain_closed,
+            may_seed=is_only_agent or rules.seeded_resets,
+            queue=queue,
+            report_mistake=self._report_mistake,
+        )
+        self.welcome = b""
+
+    @property
+    def outbox(self) -> Outbox | None:
+        """The connection; None while it is lost."""
+        return self.session.outbox
+
+    async def claim(self, title: str) -> None:
+        """Put a remote brain in the place of the agent's brain.
+
+        Everything that the script is told about the agent is read in the runner's thread, since
+        others may be changing its blocks.
+
+        Raises:
+            RefusalError: the agent can't be claimed.
+        """
+        try:
+            self.welcome = await asyncio.wrap_future(
+                self._runner.submit(lambda: self._install_brain(title))
+            )
+        except RefusalError as refusal:
+            self.release(str(refusal))
+            raise
+        except (AI4UError, asyncio.CancelledError) as error:
+            self.release("it could not be taken")
+            raise RefusalError("ended", f"the agent can't be taken now ({error})") from None
+        finally:
+            self.claimed.set()
+        self._report.note_event(f"a script drives agent {self.agent.id!r} ({self._hello.mode})")
+
+    def attach(self, outbox: Outbox) -> None:
+        """Use this connection to the script from now on."""
+        self._stop_timers()
+        if self._is_lost:
+            self._is_lost = False
+            self._report.note_event(f"the script of agent {self.agent.id!r} is back")
+        if self._brain is not None:
+            self._brain.on_missing = self._on_missing or "hold"
+        outbox.send(self.welcome)
+        self.session.attach(outbox)
+
+    def detach(self, outbox: Outbox) -> None:
+        """Note that a connection is lost; if it was the current one, wait for the script."""
+        if self.session.outbox is not outbox or self.is_released:
+            return
+        self.session.detach()
+        call_later = asyncio.get_running_loop().call_later
+        self._timers = [
+            call_later(SHORT_DROP_S, self._mark_lost),
+            call_later(self._rules.grace, self.release, "the script did not come back"),
+        ]
+
+    def release(self, reason: str) -> None:
+        """End the lease, and give the agent back to the brain that it had before."""
+        if self.is_released:
+            return
+        self.is_released = True
+        self._stop_timers()
+        if self.session.outbox is not None:
+            self.session.outbox.close(native.PROBLEMS["ended"], reason)
+        self._runner.submit(self._restore_brain)
+        self._on_released(self)
+        if self._brain is not None:
+            self._report.note_event(f"the script of agent {self.agent.id!r} has left: {reason}")
+
+    # -- in the runner's thread ------------------------------------------------------------------
+
+    def _install_brain(self, title: str) -> bytes:
+        """Give the agent a remote brain, and return the script's welcome."""
+        if not any(agent is self.agent for agent in self._runner.sim.agents):
+            raise RefusalError("ended", WORLD_REPLACED)  # since the script said hello
+        try:
+            self.session.subset = ObservationSubset(self.agent, self._hello.keys)
+        except NameNotFoundError as error:
+            raise RefusalError("unknown_key", str(error)) from None
+        self._before = before = self.agent.brain
+        self._brain = RemoteBrain.with_link(
+            self.session,
+            mode=self._hello.mode,
+            receive_timeout=self._rules.receive_timeout,
+            on_missing=self._on_missing or "hold",
+            skip_frame=before.skip_frame,
+            repeat_action=before.repeat_action,
+        )
+        self.agent.use_brain(self._brain)
+        return self._encode_welcome(title)
+
+    def _encode_welcome(self, title: str) -> bytes:
+        agent, settings = self.agent, self._runner.sim.world.settings
+        return native.encode(
+            native.Welcome(
+                version=native.VERSION,
+                session=self._name,
+                grace=self._rules.grace,
+                agent=agent.id,
+                mode=self._hello.mode,
+                title=shorten(title, MAX_TEXT_CHARS),
+                ticks_per_second=settings.ticks_per_second,
+                skip_frame=agent.brain.skip_frame,
+                repeat_action=agent.brain.repeat_action,
+                max_steps=agent.max_steps_per_episode,
+                rewards=tuple(reward.name for reward in agent.bound_blocks.rewards),
+                success=self._runner.sim.success,
+                readings=self.session.subset.readings,
+                outputs=tuple(
+                    output_of(name, each) for name, each in agent.bound_blocks.actuators.items()
+                ),
+            )
+        )
+
+    def _restore_brain(self) -> None:
+        agent, brain, before = self.agent, self._brain, self._before
+        if brain is None or before is None or agent not in self._runner.sim.agents:
+            return  # the agent was never claimed, or another world runs by now
+        if agent.brain is brain:
+            agent.use_brain(before)
+        agent.brains[:] = [each for each in agent.brains if each is not brain]
+
+    # -- events ----------------------------------------------------------------------------------
+
+    def _on_brain_closed(self, reason: str) -> None:
+        """Release the agent after another brain took its place, or the world ended."""
+        if not self.is_released and self.session.outbox is not None:
+            self.session.outbox.send(native.encode(native.Bye(reason)))
+        self.release(reason)
+
+    def _mark_lost(self) -> None:
+        # first, since whoever sees that the script is lost may rely on it
+        if self._brain is not None:
+            self._brain.on_missing = self._on_missing or "stop"  # nobody supervises the last action
+        self._is_lost = True
+        kept = f"the agent is kept for it for {self._rules.grace:g} s"
+        self._report.note_event(f"the script of agent {self.agent.id!r} is lost; {kept}")
+        is_waited_for = self._hello.mode == "lockstep"
+        reason = f"the script's connection is lost; {kept}"
+        self.session.mark_lost(reason, is_waited_for=is_waited_for)
+
+    def _report_mistake(self, reason: str) -> None:
+        script = f"the script of agent {self.agent.id!r}"
+        self._report.note_mistake(self.agent.id, f"{script} sent what has no effect: {reason}")
+
+    def _stop_timers(self) -> None:
+        for timer in self._timers:
+            timer.cancel()
+        self._timers.clear()
+
+
+def _check_lockstep(rules: Rules, agents: int) -> None:
+    """Raise a RefusalError if the world may not wait for a script."""
+    if rules.lockstep or (rules.lockstep is None and agents == 1):
+        return
+    wait = "the world wait" if agents == 1 else f"all {agents} agents of this world wait"
+    raise RefusalError(
+        "lockstep_refused",
+        f"expected mode='realtime' (ai4u-edu bridge --realtime), got 'lockstep', in which a script "
+        f"has {wait} for it; whoever runs the world has to allow that (ai4u-edu play --lockstep)",
+    )

@@ -1,0 +1,217 @@
+"""The link between a RemoteBrain and a script that connects by WebSocket."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
+from ai4u_edu.page.server.loop_queue import LoopQueue
+from ai4u_edu.page.server.scripts.answers import find_problem, is_request_for_time, to_brain_answer
+from ai4u_edu.page.server.scripts.exchange import Exchange, Turn
+from ai4u_edu.page.server.scripts.outbox import Outbox
+from ai4u_edu.page.server.scripts.reward_sum import RewardSum
+from ai4u_edu.page.server.scripts.welcome import ObservationSubset
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.wire import native
+
+
+class Session:
+    """One script that drives one agent, over any number of connections in turn.
+
+    It is the brain's :class:`~ai4u_edu.blocks.brains.links.link.Link`. The runner's thread calls
+    the link's methods; the server's event loop calls ``attach``, ``detach``, ``mark_lost`` and
+    ``hear``. The state that both change is in a thread-safe :class:`Exchange`.
+
+    Args:
+        runner: the room's.
+        on_close: called in the event loop when the agent's brain is closed.
+        may_seed: whether a reset may have a seed, which resets the whole world.
+        queue: of calls for the event loop, shared by a room; left out, a new one.
+        report_mistake: called with the reason why an action has no effect, in any thread.
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        on_close: Callable[[str], None],
+        *,
+        may_seed: bool = True,
+        queue: LoopQueue | None = None,
+        report_mistake: Callable[[str], object] = lambda _: None,
+    ) -> None:
+        self.state = LinkState.CONNECTED
+        self.reason = ""
+        self.time_asked_at = 0.0
+        self.subset: ObservationSubset
+        """The readings that the script gets; set in the runner's thread before the first one."""
+        self.exchange = Exchange()
+        self.outbox: Outbox | None = None
+        """The connection; None while it is lost. Only the event loop changes it."""
+        self._runner = runner
+        self._queue = queue or LoopQueue()
+        self._on_close = on_close
+        self._may_seed = may_seed
+        self._report_mistake = report_mistake
+        self._rewards = RewardSum()
+
+    # -- for the brain, in the runner's thread ---------------------------------------------------
+
+    @property
+    def ignored(self) -> int:
+        """Messages that were no answer."""
+        return self.exchange.ignored
+
+    @property
+    def expects_reply(self) -> bool:
+        """True while the brain can expect an answer to the latest percept."""
+        return self.exchange.turn is not Turn.IDLE
+
+    @property
+    def will_notify(self) -> bool:
+        """True while the script owes an answer, of which the runner will be notified."""
+        return self.exchange.turn is Turn.ASKED
+
+    def open(self, spec: AgentSpec) -> None:
+        """Do nothing: the script is connected, and knows the agent from its welcome."""
+
+    def tell(self, observation: Observation) -> None:
+        """Send an observation in advance, unless the script still computes its last answer."""
+        if self.outbox is not None and self.exchange.turn is not Turn.ASKED:
+            self._rewards.add(observation)
+            self._send_percept(observation)
+
+    def ask(self, observation: Observation, timeout: float) -> Reply | None:
+        """Return the script's answer if it is there; if not, the runner is notified of it later."""
+        self._rewards.add(observation)
+        reply = self.exchange.take()
+        if reply is None:
+            asked = self.exchange.observation
+            if asked is None or (self.outbox is None and _replaces(observation, asked)):
+                self._send_percept(observation)
+            if timeout:  # the world waits for it
+                self._runner.expect_answer()
+            return None
+        is_late = reply.observation is not observation
+        if is_late and not self.expects_reply and not isinstance(reply.answer, Reset):
+            self._send_percept(observation)  # the late answer counts now; the observation is new
+        return reply
+
+    def refuse(self, reply: Reply, reason: str) -> bool:
+        """Tell the script that its action can't be carried out."""
+        observation = reply.observation
+        if observation is None:
+            return False
+        self._report_mistake(reason)
+        may_answer_again = self.exchange.ask_again(observation)
+        problem = native.Problem("bad_action", reason, observation.number)
+        self._call_in_loop(self._send, native.encode(problem))
+        return may_answer_again
+
+    def idle(self) -> None:
+        """Do nothing: WebSocket pings keep the connection alive."""
+
+    def close(self, reason: str) -> None:
+        """End the session: the agent has another brain, or the world has ended."""
+        self.state, self.reason = LinkState.WAITING, reason
+        self.exchange.cancel()
+        self._call_in_loop(self._on_close, reason)
+
+    # -- for the connections, in the event loop --------------------------------------------------
+
+    def attach(self, outbox: Outbox) -> None:
+        """Use this connection from now on; repeat a percept that waits for its answer."""
+        self.outbox = outbox
+        self._repeat_percept()
+        self.state, self.reason = LinkState.CONNECTED, ""
+
+    def detach(self) -> None:
+        """Forget the connection, which is lost."""
+        self.outbox = None
+
+    def mark_lost(self, reason: str, *, is_waited_for: bool) -> None:
+        """Note that the script has been away for more than a moment.
+
+        Args:
+            reason: for the page.
+            is_waited_for: whether the world waits for it to come back.
+        """
+        self.reason = reason
+        if not is_waited_for:
+            self.state = LinkState.LOST
+
+    def hear(self, message: native.Answer) -> native.Problem | None:
+        """Handle an answer; if it answers nothing, ignore it and repeat the latest percept.
+
+        Returns:
+            The reason why it can't be an answer to the latest percept, if it was meant as one.
+        """
+        asks_for_time = is_request_for_time(message)
+        asked = self.exchange.observation_for(message.seq)
+        if asked is None:
+            if not asks_for_time:
+                self.exchange.ignored += 1
+                self._repeat_percept()
+            return None
+        if asks_for_time:
+            self.time_asked_at = time.monotonic()
+            return None
+        agents = len(self._runner.sim.agents)
+        problem = find_problem(message, asked, agents=agents, may_seed=self._may_seed)
+        if problem is not None:
+            self._report_mistake(problem.text)
+            return problem
+        if self.exchange.answer(Reply(to_brain_answer(message), asked)):
+            self._runner.notify_answer()
+        return None
+
+    # -- frames ------------------------------------------------------------------------------------
+
+    def _send_percept(self, observation: Observation) -> None:
+        if self.exchange.turn is Turn.RESETTING:
+            return
+        data, texts = self.subset.extract(observation.percept)
+        frame = native.encode(
+            native.Percept(
+                episode=observation.episode,
+                step=observation.steps,
+                seq=observation.number,
+                tick=observation.tick,
+                reward=self._rewards.total,
+                terms=self._rewards.terms,
+                terminated=observation.done and not observation.truncated,
+                truncated=observation.truncated,
+                paused=observation.paused,
+                stopped=observation.stopped,
+                data=data,
+                texts=texts,
+            )
+        )
+        if not self.exchange.ask(observation, frame):
+            return
+        self._rewards.clear()
+        if self.outbox is not None:  # else it is sent with the next connection
+            self._call_in_loop(self._send, frame)
+
+    def _repeat_percept(self) -> None:
+        frame = self.exchange.unanswered_frame()
+        if frame is not None:
+            self._send(frame)
+
+    def _send(self, frame: bytes) -> None:
+        if self.outbox is not None:
+            self.outbox.send(frame)
+
+    def _call_in_loop(self, function: Callable[[Any], None], argument: object) -> None:
+        try:
+            self._queue.call(function, argument)
+        except RuntimeError:  # the server has ended before the world
+            self.state, self.reason = LinkState.LOST, "the server has ended"
+
+
+def _replaces(observation: Observation, asked: Observation) -> bool:
+    """Return True if a script that is away is to see this in place of what it was asked.
+
+    The first percept of an episode stays, since it is the result of a reset.
+    """
+    is_first = asked.steps == 0 and asked.episode == observation.episode
+    return observation is not asked and not is_first

@@ -1,0 +1,48 @@
+"""Text that the terminal shows when a room is served."""
+
+import socket
+from urllib.parse import urlsplit
+
+from ai4u_edu.page.server.address import WILDCARD_HOSTS
+from ai4u_edu.page.server.host_origin import is_loopback
+from ai4u_edu.page.server.token_auth import with_token
+
+_UNUSED_ADDRESS = ("192.0.2.1", 9)  # reserved for documentation
+
+
+def startup_banner(title: str, host: str, url: str, token: str) -> str:
+    """Return the addresses of a room, and a warning if other machines can reach it.
+
+    Args:
+        title: the room's title.
+        host: address that the server listens at.
+        url: the page's address, on this machine.
+        token: the room's token; empty for none.
+
+    >>> print(startup_banner("Box chase", "127.0.0.1", "http://127.0.0.1:8080/", ""))
+    Box chase is served at http://127.0.0.1:8080/  (Ctrl-C ends it)
+    >>> print(startup_banner("Maze", "10.0.0.5", "http://10.0.0.5:8080/", "sesame sesame"))
+    Maze is served at http://10.0.0.5:8080/?token=sesame%20sesame  (Ctrl-C ends it)
+    Other machines can reach it. Page, API and scripts are asked for the token in this address:
+    give it only to those who may drive.
+    """
+    lines = [f"{title} is served at {with_token(url, token)}  (Ctrl-C ends it)"]
+    if not is_loopback(host):
+        if host in WILDCARD_HOSTS:
+            others = f"http://{own_address()}:{urlsplit(url).port}/"
+            lines.append(f"from other machines: {with_token(others, token)}")
+        lines.append(
+            "Other machines can reach it. Page, API and scripts are asked for the token in this "
+            "address:\ngive it only to those who may drive."
+        )
+    return "\n".join(lines)
+
+
+def own_address() -> str:
+    """Return this machine's address in its network; its host name if it has none."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            probe.connect(_UNUSED_ADDRESS)  # a UDP socket sends nothing here, it only picks a route
+        except OSError:
+            return socket.gethostname()
+        return str(probe.getsockname()[0])

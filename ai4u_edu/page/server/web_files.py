@@ -1,0 +1,127 @@
+"""Our scripts and styles, which pages load from ``web/``."""
+
+import hashlib
+import re
+import time
+from collections.abc import Callable, Iterable
+from functools import lru_cache
+from pathlib import Path
+
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+
+from ai4u_edu.base.errors import SetupError
+
+# a system's own media types are not reliable: some call a .js plain text
+_MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+WEB_PATHS = ("/web", "/web-{version}")
+"""Paths of the folder in routes."""
+_ADDRESS = '"./web/'
+"""Beginning of a file's address in the text of a page."""
+_STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
+ALWAYS_ASK = {"Cache-Control": "no-cache"}
+"""Headers of what a browser may keep, but asks for each time."""
+NEVER_ASK = {"Cache-Control": "private, max-age=31536000, immutable"}
+"""Headers of a file whose address changes with its content."""
+_POLICIES = {
+    "code_worker.js": (
+        "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'"
+    )
+}
+"""Content security policies of workers. The one that runs a student's program connects to nobody:
+the page hands it what it needs."""
+
+
+class WebFiles:
+    """The files of a folder, without its subfolders.
+
+    A page asks for some forty of them at once, so they are kept in memory until they change: for
+    each, a response from the disk would change threads three times.
+
+    Args:
+        clock: returns the time (s) by which they are looked up.
+
+    Raises:
+        SetupError: the files are missing.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._folder, self._clock = web_folder(), clock
+
+    def response(self, request: Request, *names: str) -> Response:
+        """Return a file, or several of one kind as one; 304 if the browser has it, or 404.
+
+        Names are compared, so no path leads out of the folder. The browser keeps what it asks for
+        with the present version.
+        """
+        files = _files(self._folder, self._folder.stat().st_mtime_ns)
+        for name in names:
+            if name not in files:
+                return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
+        content, etag = _read(files[name] for name in names)
+        is_present = request.path_params.get("version") == self.version
+        headers = {**(NEVER_ASK if is_present else ALWAYS_ASK), "ETag": etag}
+        if names[0] in _POLICIES:
+            headers["Content-Security-Policy"] = _POLICIES[names[0]]
+        if request.headers.get("if-none-match") == etag:
+            return Response(status_code=304, headers=headers)
+        return Response(content, headers=headers, media_type=_MEDIA_TYPES[files[names[0]].suffix])
+
+    @property
+    def version(self) -> str:
+        """Version of all files together, looked up once a second."""
+        return _version(self._folder, int(self._clock()))
+
+    def versioned(self, page: str) -> str:
+        """Return a page that asks for the files at addresses with their version.
+
+        A file's imports are relative to its own address, and so have the version, too.
+        """
+        return page.replace(_ADDRESS, f'"./web-{self.version}/')
+
+    def modules(self, *entries: str) -> list[str]:
+        """Return modules and all that they import, in the order in which browsers find them.
+
+        What ``import()`` loads later is not among them.
+        """
+        found = list(entries)
+        for name in found:
+            text = (self._folder / name).read_text(encoding="utf-8")
+            found += [each for each in _STATIC_IMPORT.findall(text) if each not in found]
+        return found
+
+
+def web_folder() -> Path:
+    """Return the folder of our scripts and styles: in the package, or in a checkout."""
+    package = Path(__file__).resolve().parents[2]
+    for folder in (package / "web", package.parent / "web"):
+        if (folder / "main.js").is_file():
+            return folder
+    raise SetupError(
+        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
+    )
+
+
+@lru_cache(maxsize=4)
+def _files(folder: Path, _modified_ns: int) -> dict[str, Path]:
+    files = (path for path in folder.iterdir() if path.suffix in _MEDIA_TYPES)
+    return {path.name: path for path in files if path.is_file()}
+
+
+@lru_cache(maxsize=1)
+def _version(folder: Path, _second: int) -> str:
+    files = _files(folder, folder.stat().st_mtime_ns)
+    tags = sorted((name, _read([path])[1]) for name, path in files.items())
+    return hashlib.sha256(repr(tags).encode()).hexdigest()[:16]
+
+
+def _read(paths: Iterable[Path]) -> tuple[bytes, str]:
+    """Return the content of files as one, and its tag."""
+    return _read_once(tuple((path, path.stat().st_mtime_ns) for path in paths))
+
+
+@lru_cache(maxsize=256)
+def _read_once(files: tuple[tuple[Path, int], ...]) -> tuple[bytes, str]:
+    """Do so for files of a time of change (ns)."""
+    content = b"\n".join(path.read_bytes() for path, _ in files)
+    return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'

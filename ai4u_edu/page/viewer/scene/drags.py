@@ -1,0 +1,86 @@
+"""A thing that is being moved, rotated or resized by hand."""
+
+import math
+from enum import Enum
+from typing import NamedTuple
+
+from ai4u_edu.page.viewer.scene.resize import resized
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.shapes import Shape
+
+Thing = BodyDescription | FloorDescription | AreaDescription
+
+ROTATION_STEP_DEG, FREE_ROTATION_STEP_DEG = 5.0, 1.0
+"""Things rotate in steps of this size, because most walls are meant to be straight."""
+MAX_DRAG_M = 1e6
+"""Largest distance (m) from the origin to which a thing can be dragged."""
+
+
+class Action(Enum):
+    """The part of a thing that is changed."""
+
+    MOVE = "move"
+    TURN = "turn"
+    RESIZE = "resize"
+
+
+class Goal(NamedTuple):
+    """Pose and shape that a drag has reached: metres, degrees."""
+
+    x: float
+    y: float
+    heading_deg: float | None
+    shape: Shape | None = None
+
+
+class Drag(NamedTuple):
+    """A thing that is being dragged, rotated or resized."""
+
+    thing: Thing
+    action: Action
+    x: float
+    y: float
+    """Offset from the pointer to the centre; for a rotation or another size, the centre."""
+    heading: float = 0.0
+    """Heading of the thing, in radians."""
+
+    @property
+    def name(self) -> str:
+        """Name of the thing."""
+        return self.thing.name
+
+    @property
+    def is_live(self) -> bool:
+        """True if the world follows during the drag; else the page shows an outline only."""
+        return self.action is not Action.RESIZE and isinstance(self.thing, BodyDescription)
+
+    def goal(
+        self, x: float, y: float, snap_m: float = 0.0, *, is_free: bool = False
+    ) -> Goal | None:
+        """Return the goal for a place of the pointer; None for an unusable place.
+
+        Args:
+            x: place of the pointer in the world (m); untrusted, it may be NaN.
+            y: likewise.
+            snap_m: places and sizes are multiples of it; 0 for any.
+            is_free: True for any place, size and nearly any heading.
+        """
+        snap_m = 0.0 if is_free else snap_m
+        moves = self.action is Action.MOVE
+        dx, dy = (x + self.x, y + self.y) if moves else (x - self.x, y - self.y)
+        if not math.hypot(dx, dy) <= MAX_DRAG_M:  # also true for NaN
+            return None
+        if moves:
+            return Goal(_on_grid(dx, snap_m), _on_grid(dy, snap_m), None)
+        if self.action is Action.TURN:
+            step = FREE_ROTATION_STEP_DEG if is_free else ROTATION_STEP_DEG
+            degrees = math.degrees(math.atan2(dy, dx))
+            return Goal(self.x, self.y, step * round(degrees / step))
+        cos, sin = math.cos(self.heading), math.sin(self.heading)
+        local = cos * dx + sin * dy, cos * dy - sin * dx
+        shape: Shape = self.thing.shape
+        return Goal(self.x, self.y, None, resized(shape, *local, snap_m))
+
+
+def _on_grid(value: float, snap_m: float) -> float:
+    return round(round(value / snap_m) * snap_m if snap_m else value, 3)

@@ -1,0 +1,139 @@
+"""The static ground: the void, floors with their edges and shadows, areas."""
+
+from ai4u_edu.page.viewer.backend.local_server import LocalServer
+from ai4u_edu.page.viewer.scene.arena import arena_size, floor_under, lowest_floor, region_outlines
+from ai4u_edu.page.viewer.scene.geometry import (
+    Array,
+    Mesh,
+    flat_mesh,
+    grow,
+    join_meshes,
+    segments,
+    soft_shadow,
+)
+from ai4u_edu.page.viewer.scene.grid import grid_in
+from ai4u_edu.page.viewer.scene.layers import Layers
+from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.page.viewer.scene.subtree import Subtree
+from ai4u_edu.recording.snapshot import Snapshot, StaticScene
+from ai4u_edu.recording.snapshot.marks import half_width
+from ai4u_edu.recording.snapshot.theme import (
+    FLOOR,
+    GRID,
+    VOID,
+    Rgb,
+    area_colour,
+    floor_colour,
+    mix_colours,
+)
+from ai4u_edu.world import AreaDescription, FloorDescription
+
+RIM_WIDTH = 0.0025
+"""Width of a floor's drawn edge, as a share of the arena's size."""
+SIDE_HEIGHT = 0.016
+"""Visible height of a floor's side, as a share of the arena's size."""
+SHADOW_OFFSET = (0.018, -0.034)
+"""Offset of a floor's shadow (x, y), as shares of the arena's size."""
+SHADOW_BLUR = 0.028
+"""Width of the shadow's soft edge, as a share of the arena's size."""
+SHADOW_LAYERS = 8
+"""Number of translucent layers that make the shadow's soft edge."""
+HIDDEN_MARGIN = 0.057
+"""Width of the visible border of a mesh under a floor, as a share of the arena's size."""
+PAINT_OVERLAP_M = 0.01
+"""Overlap (m) of painted areas, so that no gap shows between two of them."""
+BLACK: Rgb = (0, 0, 0)
+
+
+class Ground:
+    """Floors and areas; drawn again only when they change."""
+
+    def __init__(self, server: LocalServer) -> None:
+        self._scene = server.scene
+        self._subtree = Subtree(server.scene, "ground")
+        self._built_for: object = None
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Draw the ground, if it has changed."""
+        wanted = (static_scene.floors, static_scene.areas, static_scene.bounds)
+        if wanted == self._built_for:
+            return
+        with self._subtree.rebuild() as parent:
+            drawer, layers = MeshDrawer(self._scene, parent), Layers.of(static_scene)
+            if static_scene.floors:
+                drawer.mesh("void", _rectangle_around(static_scene, 200), layers.void, VOID)
+            else:
+                _endless_floor(drawer, layers, static_scene)
+            for floor in static_scene.floors:
+                _floor(drawer, layers, floor, arena_size(static_scene))
+            for area in static_scene.areas:
+                top = floor_under(static_scene, *area.position)
+                _area(drawer, layers, area, lowest_floor(static_scene) if top is None else top)
+            drawer.finish()
+        self._built_for = wanted
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Do nothing: the ground does not move."""
+
+
+def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene) -> None:
+    drawer.mesh("floor", _rectangle_around(static_scene, 200), 0.0, FLOOR)
+    drawer.line(
+        grid_in(_rectangle_around(static_scene, 2).vertices[:, :2], None, layers.grid), GRID
+    )
+
+
+def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: float) -> None:
+    outline, hole = region_outlines(floor)
+    name, top, colour = f"floor {floor.name}", floor.top, floor_colour(floor)
+    dark = mix_colours(colour, VOID, 0.55)
+    edge = grow(outline, RIM_WIDTH * scale)
+    edge_hole = grow(hole, -RIM_WIDTH * scale) if hole is not None else _hidden_part(outline, scale)
+    side = flat_mesh(edge, edge_hole).moved(0, -SIDE_HEIGHT * scale)
+    shadow = _shadow(outline, hole, layers, scale)
+    drawer.mesh(f"{name}/shadow", shadow, top + layers.floor_shadow, BLACK, opacity=0.08)
+    drawer.mesh(f"{name}/side", side, top + layers.floor_side, dark)
+    drawer.mesh(f"{name}/rim", flat_mesh(edge, edge_hole), top + layers.rim, dark)
+    drawer.mesh(f"{name}/top", flat_mesh(outline, hole), top, colour)
+    drawer.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
+    if floor.label:
+        drawer.label(f"{name}/label", floor.label, (*floor.position, top))
+
+
+def _shadow(outline: Array, hole: Array | None, layers: Layers, scale: float) -> Mesh:
+    outer = soft_shadow(outline, SHADOW_BLUR * scale, 8 * layers.unit, SHADOW_LAYERS)
+    if hole is None:
+        inner = len(outer) * [_hidden_part(outline, scale)]
+    else:
+        inner = [each for each, _ in soft_shadow(hole, -SHADOW_BLUR * scale, 0.0, SHADOW_LAYERS)]
+    meshes = [flat_mesh(each, rest, z) for (each, z), rest in zip(outer, inner, strict=True)]
+    return join_meshes(meshes).moved(SHADOW_OFFSET[0] * scale, SHADOW_OFFSET[1] * scale)
+
+
+def _hidden_part(outline: Array, scale: float) -> Array | None:
+    """Return the part of a mesh under a floor that is never visible; None if it is small."""
+    margin = HIDDEN_MARGIN * scale
+    return grow(outline, -margin) if half_width(outline) > 1.2 * margin else None
+
+
+def _area(drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float) -> None:
+    outline, hole = region_outlines(area)
+    name, colour = f"area {area.name}", area_colour(area)
+    if area.paint:
+        edge = grow(outline, PAINT_OVERLAP_M)
+        drawer.mesh(f"{name}/fill", flat_mesh(edge, hole), top + layers.paint, colour)
+        return
+    drawer.mesh(f"{name}/fill", flat_mesh(outline, hole), top + layers.area, colour, opacity=0.28)
+    for edge in (outline,) if hole is None else (outline, hole):
+        drawer.line(segments(edge, top + layers.outline), colour)
+    text = area.label or area.name
+    if not text.isspace():
+        drawer.label(f"{name}/label", text, (*area.position, top))
+
+
+def _rectangle_around(static_scene: StaticScene, times: float) -> Mesh:
+    """Return a rectangle that reaches ``times`` the arena's size beyond it."""
+    (left, low), (right, high) = static_scene.bounds
+    by = times * arena_size(static_scene)
+    a, b = (left - by, low - by), (right + by, high + by)
+    return flat_mesh([b, (a[0], b[1]), a, (b[0], a[1])])

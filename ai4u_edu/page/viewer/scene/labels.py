@@ -1,0 +1,158 @@
+"""Labels of agents and of bodies that have one, with the state of agents' remote scripts.
+
+viser draws a label's plate: neither its corners nor its opacity can be set.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from viser import LabelHandle, SceneApi
+
+from ai4u_edu.page.viewer.backend.local_server import LocalServer
+from ai4u_edu.page.viewer.scene.geometry import Array, rotate
+from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.page.viewer.scene.subtree import Subtree
+from ai4u_edu.page.viewer.scene.view import Mode
+from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
+from ai4u_edu.recording.snapshot import BodyState, Snapshot, StaticScene
+from ai4u_edu.recording.snapshot.agent_words import script_problem
+from ai4u_edu.recording.snapshot.theme import label_text
+
+HIDDEN_AFTER_DRIVING_S = 1.0
+"""World time (s) for which the label of an agent stays hidden after the last key is released: who
+drives it looks at what is around it."""
+SOUTH = -math.pi / 2
+
+
+class Labels:
+    """Text labels, each below its body on the screen.
+
+    Pages share them, except those whose camera turns: a shared label would cover an agent's face
+    there. They have labels of their own, with the same names, which viser shows instead.
+
+    Args:
+        server: viser's.
+        viewer_clients: the pages.
+    """
+
+    def __init__(self, server: LocalServer, viewer_clients: ViewerClients) -> None:
+        self._scene, self._viewer_clients = server.scene, viewer_clients
+        self._subtree = Subtree(server.scene, "labels")
+        self._built_for: object = None
+        self.labels: list[_Label] = []
+        self.turned: dict[int, list[_Label]] = {}
+        """Labels of pages whose camera turns, by viser's client number."""
+        self._driven_at: dict[str, float] = {}
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Create the labels, if they have changed."""
+        wanted = (static_scene.bodies, static_scene.agent_of)
+        if wanted == self._built_for:
+            return
+        for number in tuple(self.turned):
+            self._share(number)
+        labels = []
+        with self._subtree.rebuild() as parent:
+            for index, body in enumerate(static_scene.bodies):
+                text = label_text(static_scene, body)
+                if text:
+                    outline = np.array(body.shape.outline())
+                    centre = outline.mean(axis=0)
+                    reach = float(np.linalg.norm(outline - centre, axis=1).max())
+                    handle = _add(self._scene, parent, index, text)
+                    labels.append(
+                        _Label(index, text, centre, 1.08 * reach, body.height, handle, parent)
+                    )
+        self.labels, self._built_for = labels, wanted
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Move the labels with their bodies, and update their texts."""
+        for agent in snapshot.agents:
+            if agent.held_keys:
+                self._driven_at[agent.body] = snapshot.time
+        self._draw(self.labels, snapshot, SOUTH)
+        for number in self.turned.keys() - self._viewer_clients.keys():
+            del self.turned[number]
+        for number, viewer_client in self._viewer_clients.items():
+            body = _shown_body(viewer_client, snapshot)
+            if body is None or viewer_client.view.mode is not Mode.TURN:
+                self._share(number)
+                continue
+            with viewer_client.client.atomic():
+                if number not in self.turned:
+                    scene = viewer_client.client.scene
+                    self.turned[number] = [
+                        replace(
+                            each,
+                            handle=_add(scene, each.parent, each.number, each.text),
+                            drawn=None,
+                        )
+                        for each in self.labels
+                    ]
+                self._draw(self.turned[number], snapshot, body.heading + math.pi)
+
+    def _share(self, number: int) -> None:
+        """Show the shared labels on a page."""
+        for label in self.turned.pop(number, ()):
+            label.handle.remove()
+
+    def _draw(self, labels: "list[_Label]", snapshot: Snapshot, down: float) -> None:
+        """Draw labels below their bodies.
+
+        Args:
+            labels: the labels of all pages, or of one.
+            snapshot: the shown state of the world.
+            down: direction (rad) that is down on the screen.
+        """
+        problems = {agent.body: script_problem(agent) for agent in snapshot.agents}
+        for label in labels:
+            body = snapshot.bodies[label.number]
+            driven_at = self._driven_at.get(body.name, -math.inf)
+            is_driven = 0.0 <= snapshot.time - driven_at < HIDDEN_AFTER_DRIVING_S
+            problem = problems.get(body.name)
+            dx, dy = rotate(label.centre[None], body.heading)[0]
+            x = body.x + dx + label.reach * math.cos(down)
+            y = body.y + dy + label.reach * math.sin(down)
+            label.draw(
+                f"{label.text}  {problem}" if problem else label.text,
+                (x, y, body.z + label.height),
+                is_visible=not body.fallen and (not is_driven or bool(problem)),
+            )
+
+
+@dataclass
+class _Label:
+    number: int
+    """Index of the body in the snapshot."""
+    text: str
+    centre: Array
+    """Centre of the body's outline, in the body's frame."""
+    reach: float
+    """Distance (m) from that centre down to the label."""
+    height: float
+    """The body's height (m)."""
+    handle: LabelHandle
+    parent: str
+    """Name of the parent node."""
+    drawn: object = None
+    """Text, position and visibility that were drawn last."""
+
+    def draw(self, text: str, position: tuple[float, float, float], *, is_visible: bool) -> None:
+        """Set what viser draws, if it has changed: viser compares positions slowly."""
+        drawn = text, position, is_visible
+        if drawn != self.drawn:
+            self.drawn = drawn
+            self.handle.text, self.handle.position, self.handle.visible = drawn
+
+
+def _add(scene: SceneApi, parent: str, index: int, text: str) -> LabelHandle:
+    return MeshDrawer(scene, parent).label(str(index), text, anchor="top-center")
+
+
+def _shown_body(viewer_client: ViewerClient, snapshot: Snapshot) -> BodyState | None:
+    """Return the body of the agent that a page shows."""
+    for agent in snapshot.agents:
+        if agent.id == viewer_client.agent:
+            return next(each for each in snapshot.bodies if each.name == agent.body)
+    return None

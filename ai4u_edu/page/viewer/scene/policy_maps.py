@@ -1,0 +1,137 @@
+"""Maps over the floor: arrows for what an agent would do at each place, colours for its worth."""
+
+import numpy as np
+from viser import BatchedMeshHandle, SceneApi
+
+from ai4u_edu.base.colors import rgb
+from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.explain.map_colours import value_colours
+from ai4u_edu.explain.map_maker import LiveMap
+from ai4u_edu.page.viewer.scene.arena import floor_under, lowest_floor
+from ai4u_edu.page.viewer.scene.field_arrows import FieldArrows
+from ai4u_edu.page.viewer.scene.geometry import Array, cap
+from ai4u_edu.page.viewer.scene.layers import Layers
+from ai4u_edu.page.viewer.scene.light import surface_colours
+from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.page.viewer.scene.subtree import Subtree
+from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
+from ai4u_edu.recording.snapshot import Snapshot, StaticScene
+from ai4u_edu.runtime.frame_budget import TRAILS_PER_S, PageTurns
+
+CELL_OPACITY = 0.85
+
+
+class PolicyMaps:
+    """The maps of each page that shows some.
+
+    Args:
+        viewer_clients: the pages.
+        maps: computes them.
+    """
+
+    def __init__(self, viewer_clients: ViewerClients, maps: LiveMaps) -> None:
+        self._viewer_clients, self._maps = viewer_clients, maps
+        self.pages: dict[int, PageMaps] = {}
+        self._turns = PageTurns(TRAILS_PER_S)
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Read the floors' heights from a static scene."""
+        self._static_scene = static_scene
+        for page in self.pages.values():
+            page.build(static_scene)
+
+    def draw(self, _snapshot: Snapshot) -> None:
+        """Draw the maps on the pages whose turn it is."""
+        for gone in self.pages.keys() - self._viewer_clients.keys():
+            del self.pages[gone]
+        for number in self._turns.due(self._viewer_clients.keys()):
+            client = self._viewer_clients[number]
+            requests = client.maps.requests(client.agent)
+            if number not in self.pages and not requests:
+                continue
+            if number not in self.pages:
+                self.pages[number] = PageMaps(client, self._static_scene)
+            found = {request.kind: self._maps.ask(request) for request in requests}
+            self.pages[number].draw(found.get("field"), found.get("values"))
+
+
+class PageMaps:
+    """The maps on one page."""
+
+    def __init__(self, client: ViewerClient, static_scene: StaticScene) -> None:
+        self._client = client
+        scene: SceneApi = client.client.scene
+        self._arrows, self._cells = FieldArrows(scene, "field"), _Cells(scene)
+        self._drawn: tuple[LiveMap | None, LiveMap | None] = (None, None)
+        self.build(static_scene)
+
+    @property
+    def arrows(self) -> BatchedMeshHandle | None:
+        """An arrow for each place; None if no field is shown."""
+        return self._arrows.arrows
+
+    @property
+    def cells(self) -> BatchedMeshHandle | None:
+        """A square for each place; None if no values are shown."""
+        return self._cells.cells
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Draw the maps anew on another static scene."""
+        self._static_scene = static_scene
+        self._layers = Layers.of(static_scene)
+        self._drawn = (None, None)
+        self._arrows.clear()
+        self._cells.clear()
+
+    def draw(self, field: LiveMap | None, values: LiveMap | None) -> None:
+        """Draw these maps, and remove all others."""
+        if (field, values) == self._drawn:
+            return
+        drawn, self._drawn = self._drawn, (field, values)
+        with self._client.client.atomic():
+            if field is not drawn[0]:
+                self._arrows.draw(field, self._grounds(field), self._layers)
+            if values is not drawn[1]:
+                self._cells.draw(values, self._grounds(values), self._layers)
+
+    def _grounds(self, told: LiveMap | None) -> Array:
+        """Return the heights of the floor at a map's places, (n,)."""
+        places = () if told is None else told.poses
+        lowest = lowest_floor(self._static_scene)
+        tops = (floor_under(self._static_scene, x, y) for x, y, _ in places)
+        return np.array([lowest if top is None else top for top in tops])
+
+
+class _Cells:
+    """The squares of one map."""
+
+    def __init__(self, scene: SceneApi) -> None:
+        self._scene, self._subtree = scene, Subtree(scene, "values")
+        self.cells: BatchedMeshHandle | None = None
+        self._shape: tuple[int, tuple[float, float]] = (0, (0.0, 0.0))
+
+    def clear(self) -> None:
+        self._subtree.remove()
+        self.cells = None
+        self._shape = (0, (0.0, 0.0))
+
+    def draw(self, told: LiveMap | None, grounds: Array, layers: Layers) -> None:
+        if told is None or not len(told.poses):
+            self.clear()
+            return
+        if (len(told.poses), told.cell) != self._shape:
+            self._build(len(told.poses), told.cell)
+        if self.cells is None:
+            return
+        z = grounds + layers.outline + 0.5 * layers.unit
+        self.cells.batched_positions = np.column_stack([told.poses[:, :2], z]).astype(np.float32)
+        self.cells.batched_colors = surface_colours(value_colours(told.values))
+        self.cells.batched_scales = np.isfinite(told.values).astype(np.float32)
+
+    def _build(self, count: int, cell: tuple[float, float]) -> None:
+        self._shape = count, cell
+        x, y = cell[0] / 2, cell[1] / 2
+        square = cap([(x, y), (-x, y), (-x, -y), (x, -y)])
+        with self._subtree.rebuild() as parent:
+            drawer = MeshDrawer(self._scene, parent)
+            self.cells = drawer.batch("cells", square, [rgb("white")] * count, opacity=CELL_OPACITY)

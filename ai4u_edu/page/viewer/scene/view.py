@@ -1,0 +1,200 @@
+"""One page's camera: over the whole arena, over an agent, or in its eye."""
+
+import math
+import time
+from collections import deque
+from collections.abc import Callable
+from enum import StrEnum
+
+import numpy as np
+from viser import CameraHandle, ClientHandle
+
+from ai4u_edu.page.viewer.scene.arena import arena_size, camera_bounds
+from ai4u_edu.page.viewer.scene.eye import (
+    EYE_FAR_IN_ARENAS,
+    EYE_FIELD_OF_VIEW_RAD,
+    EYE_NEAR_M,
+    Daylight,
+    eye_pose,
+)
+from ai4u_edu.page.viewer.scene.framing import (
+    FIELD_OF_VIEW_RAD,
+    Bounds,
+    Frame,
+    frame_arena,
+    frame_point,
+    visible_height,
+)
+from ai4u_edu.page.viewer.scene.geometry import Array
+from ai4u_edu.recording.snapshot import AgentState, BodyState, Snapshot
+
+FOLLOW_HEIGHT_IN_RADII = 22.0
+"""Height of the window that follows an agent, as a multiple of the agent's radius."""
+CAMERA_LAG_S = 0.18
+"""Time constant with which the camera follows an agent."""
+
+
+NORTH = (0.0, 1.0, 0.0)
+
+
+class Mode(StrEnum):
+    """Position of a page's camera."""
+
+    ARENA = "Arena"
+    """Over the whole arena."""
+    FOLLOW = "Follow"
+    """Over the agent that the page shows."""
+    TURN = "Turn"
+    """Over the agent, and turning with it: ahead is up."""
+    EYES = "Eyes"
+    """In the agent's eye."""
+
+
+class View:
+    """The camera of one page. Once a user has moved it, it is no longer moved for another window.
+
+    Args:
+        client: the page.
+        clock: seconds; to be replaced in tests.
+    """
+
+    def __init__(self, client: ClientHandle, clock: Callable[[], float] = time.monotonic) -> None:
+        self._client = client
+        self._clock = clock
+        self.mode = Mode.ARENA
+        self._bounds: Bounds | None = None
+        self._aspect = 0.0
+        self.frame = Frame(0.0, 0.0, 1.0)
+        self._known: deque[Array] = deque(maxlen=4)
+        self._has_arrived = False
+        self._is_moved_by_user = False
+        self._followed = ""
+        self._daylight: Daylight | None = None
+        self._moved_at = 0.0
+        client.camera.on_update(self._on_report)
+
+    def choose(self, mode: Mode) -> None:
+        """Choose the camera's position, from the next update on."""
+        self.mode, self._followed, self._bounds = mode, "", None
+
+    def update(self, snapshot: Snapshot, agent_id: str) -> None:
+        """Move the camera, if the mode, the arena, the agent or the window asks for it.
+
+        Args:
+            snapshot: what is shown.
+            agent_id: of the agent that the page shows.
+        """
+        agent = next((each for each in snapshot.agents if each.id == agent_id), None)
+        if self.mode is Mode.ARENA or agent is None:
+            self._show_all(snapshot)
+            return
+        (body,) = (each for each in snapshot.bodies if each.name == agent.body)
+        is_new, self._followed = agent.body != self._followed, agent.body
+        if self.mode is Mode.EYES:
+            self._look_out(snapshot, agent, body, is_new=is_new)
+        elif is_new:
+            self._begin(snapshot, body)
+        else:
+            self._follow(body, self._shape())
+
+    def _shape(self) -> float:
+        """Return the window's width / height; a window that is minimized reports 0 for both."""
+        camera = self._client.camera
+        return max(camera.image_width, 1) / max(camera.image_height, 1)
+
+    def _show_all(self, snapshot: Snapshot) -> None:
+        bounds, aspect = camera_bounds(snapshot.static_scene), self._shape()
+        reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_moved_by_user
+        if bounds != self._bounds or reshaped:
+            self._bounds, self._aspect = bounds, aspect
+            self._put(frame_arena(bounds, aspect))
+
+    def _begin(self, snapshot: Snapshot, body: BodyState) -> None:
+        aspect = self._shape()
+        (reach,) = (b.shape.reach for b in snapshot.static_scene.bodies if b.name == body.name)
+        whole = frame_arena(camera_bounds(snapshot.static_scene), aspect).height
+        height = min(whole, FOLLOW_HEIGHT_IN_RADII * reach)
+        self._put(frame_point(body.x, body.y, height, aspect), self._up(body))
+
+    def _look_out(
+        self, snapshot: Snapshot, agent: AgentState, body: BodyState, *, is_new: bool
+    ) -> None:
+        """Put the camera in the agent's eye."""
+        camera = self._client.camera
+        place, ahead = eye_pose(snapshot.static_scene, agent, body)
+        with self._client.atomic():
+            if is_new:
+                self._daylight = Daylight(self._client.scene)
+                camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
+                camera.up_direction = (0.0, 0.0, 1.0)
+                camera.fov = EYE_FIELD_OF_VIEW_RAD
+                camera.near, camera.far = (
+                    EYE_NEAR_M,
+                    EYE_FAR_IN_ARENAS * arena_size(snapshot.static_scene),
+                )
+            camera.position = place
+            camera.look_at = ahead
+
+    def _up(self, body: BodyState) -> tuple[float, float, float]:
+        """Return the direction that is up on the screen."""
+        if self.mode is not Mode.TURN:
+            return NORTH
+        return math.cos(body.heading), math.sin(body.heading), 0.0
+
+    async def _on_report(self, camera: CameraHandle) -> None:
+        """Find out from a page's report whether its user has moved the camera.
+
+        A slow page may report an older position: until a pose that we sent has come back and, since
+        a report may be read while we move the camera, for a while after that.
+        """
+        ours = np.array([self.frame.x, self.frame.y, self.frame.distance])
+        if _same(camera.position, ours):
+            self._has_arrived = True
+        elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
+            self._is_moved_by_user = True
+
+    def _leave_eye(self) -> None:
+        if self._daylight is not None:
+            self._daylight.remove()
+            self._daylight = None
+
+    def _put(self, wanted: Frame, up: tuple[float, float, float] = NORTH) -> None:
+        camera, distance = self._client.camera, wanted.distance
+        self._known.append(camera.position)
+        self.frame, self._has_arrived, self._is_moved_by_user = wanted, False, False
+        self._moved_at = self._clock()
+        self._leave_eye()
+        with self._client.atomic():
+            camera.up_direction = up
+            camera.position = (wanted.x, wanted.y, distance)
+            camera.look_at = (wanted.x, wanted.y, 0.0)
+            camera.fov = FIELD_OF_VIEW_RAD
+            camera.near, camera.far = wanted.near, wanted.far
+            camera.min_orbit_distance, camera.max_orbit_distance = distance / 12, distance * 4
+
+    def _follow(self, body: BodyState, aspect: float) -> None:
+        camera, now, up = self._client.camera, self._clock(), self._up(body)
+        # distance and side are the user's choice
+        offset: Array = camera.position - camera.look_at
+        goal = frame_point(body.x, body.y, visible_height(float(np.linalg.norm(offset))), aspect)
+        if self.mode is Mode.TURN:
+            # the overlay covers the lower part of the window: there is what is behind the agent
+            short = goal.y - body.y
+            goal = Frame(body.x + short * up[0], body.y + short * up[1], goal.height)
+        share = 1.0 - math.exp((self._moved_at - now) / CAMERA_LAG_S)
+        dx, dy = share * (goal.x - self.frame.x), share * (goal.y - self.frame.y)
+        self._moved_at = now
+        stands = math.hypot(dx, dy) < 1e-4 * goal.height
+        if stands and np.allclose(camera.up_direction, up, atol=1e-4):
+            return
+        self.frame = Frame(self.frame.x + dx, self.frame.y + dy, goal.height)
+        centre = np.array([self.frame.x, self.frame.y, 0.0])
+        with self._client.atomic():
+            if self.mode is Mode.TURN:
+                camera.up_direction = up
+            camera.position = centre + offset
+            camera.look_at = centre
+
+
+def _same(place: Array, other: Array) -> bool:
+    return bool(np.allclose(place, other, rtol=1e-3, atol=1e-2))

@@ -1,5 +1,0 @@
-"""The page's panel: its state as JSON, and the commands that a page may send."""
-
-from ai4u_edu.panel.socket import PanelSockets
-
-__all__ = ["PanelSockets"]

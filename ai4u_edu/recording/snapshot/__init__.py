@@ -1,0 +1,31 @@
+"""Immutable snapshots of a world, for the page, the API and the recorder."""
+
+from ai4u_edu.blocks import Stages
+from ai4u_edu.recording.snapshot.capture import (
+    capture_agent,
+    capture_bodies,
+    capture_snapshot,
+    capture_static_scene,
+)
+from ai4u_edu.recording.snapshot.types import (
+    AgentState,
+    BodyState,
+    Need,
+    SlowTick,
+    Snapshot,
+    StaticScene,
+)
+
+__all__ = [
+    "AgentState",
+    "BodyState",
+    "Need",
+    "SlowTick",
+    "Snapshot",
+    "Stages",
+    "StaticScene",
+    "capture_agent",
+    "capture_bodies",
+    "capture_snapshot",
+    "capture_static_scene",
+]

@@ -1,0 +1,61 @@
+"""An agent's name and state in words."""
+
+from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
+from ai4u_edu.blocks.brains.remote import RemoteBrain
+from ai4u_edu.recording.snapshot.types import AgentState
+
+DRIVERS = {
+    NeuralNetController: "A network",
+    ReplayController: "A recording",
+    ScriptController: "A script",
+}
+"""Titles of drivers, by the class of their controller."""
+
+SCRIPT_PROBLEMS = {
+    "waiting": "⌛ waits for its script",
+    "late": "⚠ script is late",
+    "lost": "✖ script is lost",
+}
+"""Texts for agents whose script is not driving them, by the state of the remote brain."""
+
+WITHOUT_EFFECT = "⚠ its script sends what has no effect"
+"""Text for agents whose script makes mistakes."""
+
+
+def title(agent_id: str, body: str) -> str:
+    """Return an agent's name for people.
+
+    >>> title("0", "robot"), title("runner_1", "runner 1")
+    ('Agent 0: robot', 'runner 1')
+    """
+    alike = agent_id.replace("_", " ") == body.replace("_", " ")
+    return body if alike else f"Agent {agent_id}: {body}"
+
+
+def ending(agent: AgentState) -> str:
+    """Return in a few words how an agent's episode ended; empty while it runs."""
+    done = agent.terminated or agent.truncated
+    if done and agent.succeeded:
+        return "reached the goal"
+    if agent.terminated:
+        return "fell" if agent.fell else "episode over"
+    if agent.truncated:
+        return "time is up"
+    return "paused" if agent.paused else ""
+
+
+def script_problem(agent: AgentState) -> str:
+    """Return the problem with the script that should drive an agent; empty if there is none."""
+    remote = agent.remote
+    if remote is None:
+        return ""
+    return SCRIPT_PROBLEMS.get(remote.state, "") or (WITHOUT_EFFECT if remote.warning else "")
+
+
+def driver_title(brain: Brain) -> str:
+    """Return a brain's title for people, as the beginning of a sentence."""
+    if isinstance(brain, RemoteBrain):
+        return "A script elsewhere"
+    controller = getattr(brain, "controller", brain)
+    titles = (title for kind, title in DRIVERS.items() if isinstance(controller, kind))
+    return next(titles, type(controller).__name__)

@@ -1,0 +1,249 @@
+"""Rendering of a snapshot from above, without a browser."""
+
+import math
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image, ImageChops, ImageDraw, ImageFont
+
+from ai4u_edu.blocks import RayPicture, SpotPicture
+from ai4u_edu.recording.snapshot import BodyState, Snapshot, StaticScene, theme
+from ai4u_edu.recording.snapshot.marks import (
+    DARK,
+    EYES,
+    LIGHT,
+    NOSE,
+    PUPILS,
+    RING,
+    RING_CENTRE,
+    Disc,
+    half_width,
+)
+from ai4u_edu.world import BodyDescription, RegionDescription, RingShape
+
+Points = npt.NDArray[np.float64]
+
+SUPERSAMPLING = 2
+"""Factor by which everything is drawn larger and then reduced, for antialiasing."""
+MARGIN_M = 0.75
+"""Width of the void around the arena."""
+MIN_LABELLED_PX = 320
+"""Smallest longer side of a picture with labels."""
+LABEL_PX = 12
+"""Size of a label's text."""
+LABEL_ALPHA = 150
+"""Opacity of a label's plate, of 255."""
+MAX_LABEL_CHARS = 40
+MIN_GRID_PX = 8
+"""Least distance between two lines of the grid."""
+SHADOW_OFFSET_M = (0.12, -0.12)
+"""Offset of a body's shadow for each metre of height."""
+
+_last_ground: tuple[object, Image.Image] | None = None
+"""Picture of the ground that was drawn last, and what it shows: frames of a film share it."""
+
+
+def draw_snapshot(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.uint8]:
+    """Draw a snapshot from above; +x to the right, +y up.
+
+    Args:
+        snapshot: the snapshot to draw.
+        longest: pixels of the longer side.
+
+    Returns:
+        (height, width, 3) uint8.
+    """
+    return _Canvas(snapshot.static_scene, longest).draw(snapshot)
+
+
+class _Canvas:
+    """An image that is being drawn; converts metres to pixels."""
+
+    def __init__(self, static_scene: StaticScene, longest: int) -> None:
+        self.static_scene = static_scene
+        (left, low), (right, high) = static_scene.bounds
+        wide, tall = right - left + 2 * MARGIN_M, high - low + 2 * MARGIN_M
+        scale = longest / max(wide, tall)
+        self.size = round(wide * scale), round(tall * scale)
+        self.scale = scale * SUPERSAMPLING
+        self.origin = left - MARGIN_M, high + MARGIN_M
+        self.image = Image.new(
+            "RGB", (self.size[0] * SUPERSAMPLING, self.size[1] * SUPERSAMPLING), theme.VOID
+        )
+        self.pen = ImageDraw.Draw(self.image)
+
+    def draw(self, snapshot: Snapshot) -> npt.NDArray[np.uint8]:
+        global _last_ground
+        static_scene = self.static_scene
+        key = static_scene.floors, static_scene.areas, static_scene.bounds, self.size
+        ground = _last_ground
+        if ground is None or ground[0] != key:
+            self._ground()
+            ground = _last_ground = key, self.image.copy()
+        else:
+            self.image.paste(ground[1])
+        for agent in snapshot.agents:
+            self._rays(agent.rays.values())
+        described = {body.name: body for body in self.static_scene.bodies}
+        for state in sorted(snapshot.bodies, key=lambda state: state.z):
+            if not state.fallen and state.name in described:
+                self._body(described[state.name], state)
+        for agent in snapshot.agents:
+            self._spots(agent.spots.values())
+        if max(self.size) >= MIN_LABELLED_PX:
+            self._labels(snapshot)
+        smooth = self.image.reduce(SUPERSAMPLING)
+        return np.asarray(smooth, np.uint8)
+
+    def _ground(self) -> None:
+        floors = sorted(self.static_scene.floors, key=lambda floor: floor.top)
+        if not floors:
+            self.pen.rectangle((0, 0, *self.image.size), fill=theme.FLOOR)
+            self._grid(Image.new("L", self.image.size, 255), theme.GRID)
+        for floor in floors:
+            colour = theme.floor_colour(floor)
+            self._region(floor, colour, theme.FLOOR_EDGE)
+            inside = Image.new("L", self.image.size)
+            self._region(floor, 255, None, ImageDraw.Draw(inside))
+            self._grid(inside, theme.mix_colours(colour, theme.VOID, 0.12))
+        for area in self.static_scene.areas:
+            self._region(area, theme.area_fill(area), theme.area_colour(area))
+
+    def _grid(self, inside: Image.Image, colour: theme.Rgb) -> None:
+        """Draw lines 1 m apart, more in large arenas, where the mask ``inside`` is 255."""
+        lines = Image.new("L", inside.size)
+        pen, (wide, tall) = ImageDraw.Draw(lines), inside.size
+        step = 1.0
+        while step * self.scale < MIN_GRID_PX * SUPERSAMPLING:
+            step *= 2.0
+        left, top = self.origin
+        for number in range(math.floor(left / step), math.ceil((left + wide / self.scale) / step)):
+            x = (number * step - left) * self.scale
+            pen.line([(x, 0), (x, tall)], fill=255, width=SUPERSAMPLING)
+        for number in range(math.floor((top - tall / self.scale) / step), math.ceil(top / step)):
+            y = (top - number * step) * self.scale
+            pen.line([(0, y), (wide, y)], fill=255, width=SUPERSAMPLING)
+        self.image.paste(colour, mask=ImageChops.multiply(lines, inside))
+
+    def _region(
+        self,
+        region: RegionDescription,
+        fill: theme.Rgb | int,
+        edge: theme.Rgb | None,
+        pen: ImageDraw.ImageDraw | None = None,
+    ) -> None:
+        heading = math.radians(region.heading_deg)
+        outline = _placed(region.shape.outline(), *region.position, heading)
+        self._polygon(outline, fill, edge, pen)
+        if isinstance(region.shape, RingShape):
+            hole = _placed(region.shape.hole(), *region.position, heading)
+            self._polygon(hole, 0 if isinstance(fill, int) else theme.VOID, edge, pen)
+
+    def _body(self, body: BodyDescription, state: BodyState) -> None:
+        colour = theme.body_colour(body, body.name in self.static_scene.agent_of)
+        if state.z < 0:  # falling: the deeper, the darker
+            colour = theme.mix_colours(colour, theme.VOID, min(1.0, -state.z / 2))
+        outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
+        lift = max(0.0, state.z) + 0.4
+        if state.z >= 0:
+            shade = theme.mix_colours(theme.FLOOR, theme.VOID, 0.35)
+            self._polygon(outline + np.multiply(SHADOW_OFFSET_M, lift), shade, None)
+        self._polygon(outline, colour, theme.mix_colours(colour, (0, 0, 0), 0.45))
+        radius = half_width(body.shape.outline())
+        if body.name in self.static_scene.agent_of:
+            nose = radius * np.array(NOSE)
+            self._polygon(_placed(nose, state.x, state.y, state.heading), LIGHT, None)
+            self._discs(EYES, radius, state, LIGHT)
+            self._discs(PUPILS, radius, state, DARK)
+        elif "target" in body.tags:
+            outer, inner = RING
+            self._discs(((0.0, 0.0, outer),), radius, state, LIGHT)
+            self._discs(((0.0, 0.0, inner),), radius, state, colour)
+            self._discs(((0.0, 0.0, RING_CENTRE),), radius, state, LIGHT)
+
+    def _discs(
+        self, discs: Iterable[Disc], radius: float, state: BodyState, colour: theme.Rgb
+    ) -> None:
+        for x, y, size in discs:
+            centre = _placed([(x * radius, y * radius)], state.x, state.y, state.heading)
+            ((u, v),) = self._pixels(centre)
+            r = size * radius * self.scale
+            self.pen.ellipse((u - r, v - r, u + r, v + r), fill=colour)
+
+    def _labels(self, snapshot: Snapshot) -> None:
+        for floor in self.static_scene.floors:
+            self._label(floor.label, *floor.position)
+        for area in self.static_scene.areas:
+            self._label("" if area.paint else area.label or area.name, *area.position)
+        states = {state.name: state for state in snapshot.bodies}
+        for body in self.static_scene.bodies:
+            text, state = theme.label_text(self.static_scene, body), states.get(body.name)
+            if text and state is not None and not state.fallen:
+                outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
+                x, y = outline.mean(axis=0)
+                reach = np.linalg.norm(outline - (x, y), axis=1).max()
+                self._label(text, x, y - 1.08 * reach, is_below=True)
+
+    def _label(self, text: str, x: float, y: float, *, is_below: bool = False) -> None:
+        if not text.strip():
+            return
+        plate = _plate(text.strip()[:MAX_LABEL_CHARS])
+        ((u, v),) = self._pixels(np.array([(x, y)]))
+        place = round(u - plate.width / 2), round(v - (0 if is_below else plate.height / 2))
+        self.image.paste(plate, place, plate)
+
+    def _rays(self, pictures: Iterable[RayPicture]) -> None:
+        groups = theme.group_colours(self.static_scene)
+        for rays in pictures:
+            start = self._pixels(np.array([rays.origin[:2]]))[0]
+            ends = self._pixels(rays.ends[:, :2])
+            for end, group in zip(ends, rays.groups, strict=True):
+                colour = groups.get(group, theme.UNKNOWN_GROUP) if group else theme.RAY_MISS
+                self.pen.line([start, end], fill=colour, width=SUPERSAMPLING)
+
+    def _spots(self, pictures: Iterable[SpotPicture]) -> None:
+        radius = theme.SPOT_RADIUS_M * self.scale
+        for spots in pictures:
+            for (x, y), lit in zip(self._pixels(spots.places[:, :2]), spots.lit, strict=True):
+                disc = (x - radius, y - radius, x + radius, y + radius)
+                self.pen.ellipse(disc, fill=theme.SPOT_LIT if lit else theme.SPOT_UNLIT)
+
+    def _polygon(
+        self,
+        points: Points,
+        fill: theme.Rgb | int,
+        edge: theme.Rgb | None,
+        pen: ImageDraw.ImageDraw | None = None,
+    ) -> None:
+        pen = pen or self.pen
+        pen.polygon(self._pixels(points), fill=fill, outline=edge, width=SUPERSAMPLING)
+
+    def _pixels(self, points: Points) -> list[tuple[float, float]]:
+        left, top = self.origin
+        x = (points[:, 0] - left) * self.scale
+        y = (top - points[:, 1]) * self.scale
+        return list(zip(x.tolist(), y.tolist(), strict=True))
+
+
+@lru_cache(maxsize=256)
+def _plate(text: str) -> Image.Image:
+    """Return a label: dark text on a rounded, half transparent plate (RGBA)."""
+    font = ImageFont.load_default(LABEL_PX * SUPERSAMPLING)
+    left, top, right, bottom = font.getbbox(text, anchor="ls")
+    ascent, pad = -min(top, font.getbbox("b", anchor="ls")[1]), 3 * SUPERSAMPLING
+    size = round(right - left + 2 * pad), round(ascent + max(bottom, 0) + 1.4 * pad)
+    plate = Image.new("RGBA", size, (*LIGHT, 0))
+    pen = ImageDraw.Draw(plate)
+    pen.rounded_rectangle((0, 0, size[0] - 1, size[1] - 1), pad, fill=(*LIGHT, LABEL_ALPHA))
+    pen.text((pad - left, 0.7 * pad + ascent), text, fill=(*DARK, 255), font=font, anchor="ls")
+    return plate
+
+
+def _placed(
+    points: Sequence[tuple[float, float]] | Points, x: float, y: float, heading: float
+) -> Points:
+    cos, sin = math.cos(heading), math.sin(heading)
+    turned: Points = np.array(points) @ np.array([[cos, sin], [-sin, cos]]) + (x, y)
+    return turned

@@ -1,0 +1,87 @@
+"""Default colours: Okabe-Ito, and greys."""
+
+from collections.abc import Iterable
+
+from ai4u_edu.base.colors import rgb
+from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+
+Rgb = tuple[int, int, int]
+
+VOID: Rgb = (50, 58, 69)
+FLOOR: Rgb = (228, 232, 236)
+FLOOR_EDGE: Rgb = (128, 139, 150)
+GRID: Rgb = (204, 210, 216)
+WALL: Rgb = (84, 93, 104)
+RAY_MISS: Rgb = (152, 161, 170)
+"""Colour of a ray that hit nothing."""
+UNKNOWN_GROUP: Rgb = rgb("purple")
+"""Colour of a ray that hit something without a group code."""
+ACTION: Rgb = (52, 60, 70)
+SPOT_LIT: Rgb = rgb("yellow")
+"""Colour of a point at which a sensor detects something."""
+SPOT_UNLIT: Rgb = (120, 129, 138)
+"""Colour of a point at which a sensor detects nothing."""
+SPOT_RADIUS_M = 0.06
+"""Radius of a point that a sensor reads."""
+
+
+def mix_colours(a: Rgb, b: Rgb, share: float) -> Rgb:
+    """Blend two colours: ``share`` 0 gives ``a``, 1 gives ``b``.
+
+    >>> mix_colours((0, 0, 0), (100, 200, 50), 0.5)
+    (50, 100, 25)
+    """
+    red, green, blue = (round(x + (y - x) * share) for x, y in zip(a, b, strict=True))
+    return red, green, blue
+
+
+def body_colour(body: BodyDescription, is_agent: bool) -> Rgb:
+    """Return a body's described colour, or the default of its role."""
+    if body.colour is not None:
+        return rgb(body.colour)
+    if is_agent:
+        return rgb("blue")
+    if "target" in body.tags:
+        return rgb("orange")
+    return {"static": WALL, "dynamic": rgb("sky blue"), "kinematic": rgb("green")}[body.kind]
+
+
+def label_text(static_scene: StaticScene, body: BodyDescription) -> str:
+    """Return a body's label, for agents by default their name; empty if it has none."""
+    return body.label or (body.name if body.name in static_scene.agent_of else "")
+
+
+def floor_colour(floor: FloorDescription) -> Rgb:
+    """Return a floor's described or default colour."""
+    return FLOOR if floor.colour is None else rgb(floor.colour)
+
+
+def area_colour(area: AreaDescription) -> Rgb:
+    """Return an area's described or default colour."""
+    if area.colour is not None:
+        return rgb(area.colour)
+    return rgb("orange" if "target" in area.tags else "green")
+
+
+def area_fill(area: AreaDescription) -> Rgb:
+    """Return the opaque fill colour of an area: pale, unless the area is paint."""
+    colour = area_colour(area)
+    return colour if area.paint else mix_colours(colour, FLOOR, 0.65)
+
+
+def group_colours(static_scene: StaticScene) -> dict[str, Rgb]:
+    """Return the colour of each group for rays: that of the first thing in the group."""
+    colours: dict[str, Rgb] = {}
+
+    def add(tags: Iterable[str], colour: Rgb) -> None:
+        for tag in tags:
+            colours.setdefault(tag, colour)
+
+    for body in static_scene.bodies:
+        add(body.tags, body_colour(body, body.name in static_scene.agent_of))
+    for area in static_scene.areas:
+        add(area.tags, area_colour(area))
+    for floor in static_scene.floors:  # darker: a ray that ends on a floor is drawn on that floor
+        add(floor.tags, mix_colours(floor_colour(floor), (0, 0, 0), 0.42))
+    return colours

@@ -1,0 +1,167 @@
+"""Types of snapshots: the state of a world at one tick, for the page, the API and the recorder."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from ai4u_edu.agent import Entry
+from ai4u_edu.agent.decision_cycle import Phase
+from ai4u_edu.blocks import (
+    Legend,
+    Percept,
+    RayPicture,
+    RemoteStatus,
+    SpotPicture,
+    Stages,
+)
+from ai4u_edu.recording.snapshot.block_info import ActuatorInfo, SensorInfo
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
+
+NOWHERE = Phase()
+"""Phase before the first decision."""
+EMPTY: Mapping[str, Any] = MappingProxyType({})
+
+
+@dataclass(frozen=True, slots=True)
+class StaticScene:
+    """The parts of a world that do not change during an episode; shared between snapshots.
+
+    Randomized values are those of the present episode.
+    """
+
+    settings: WorldSettings
+    floors: tuple[FloorDescription, ...]
+    areas: tuple[AreaDescription, ...]
+    bodies: tuple[BodyDescription, ...]
+    agent_of: dict[str, str]
+    """Ids of agents by the names of their bodies."""
+    bounds: tuple[tuple[float, float], tuple[float, float]]
+    """A rectangle around everything in all episodes: ((left, low), (right, high)), metres."""
+    goal: str = ""
+    """The goal in words."""
+    success: str = ""
+    """The reward term that is paid when the goal is reached; empty if there is none."""
+
+
+class Need(NamedTuple):
+    """The present level of a homeostatic variable."""
+
+    name: str
+    level: float
+    range: tuple[float, float]
+    comfort: tuple[float, float]
+    """Bounds of the comfort zone."""
+
+
+class BodyState(NamedTuple):
+    """Pose and velocity of a body: metres, radians, m/s, rad/s, in the world's frame.
+
+    Like :class:`AgentState` a named tuple, since a frozen dataclass takes several times as long to
+    make and many bodies need thousands a second.
+    """
+
+    name: str
+    x: float
+    y: float
+    z: float
+    heading: float
+    vx: float
+    vy: float
+    vz: float
+    angular_velocity: float
+    on_ground: bool
+    fallen: bool
+
+
+class AgentState(NamedTuple):
+    """Percept, action and reward of an agent's last decision."""
+
+    id: str
+    body: str
+    brain: str
+    percept: Percept
+    action: dict[str, tuple[float, ...]]
+    clipped: int
+    """Numbers of actions so far that were out of range and clipped."""
+    reward: float
+    """Reward of the last finished decision."""
+    reward_terms: dict[str, float]
+    """Its terms by name."""
+    episode_reward: float
+    episode_terms: dict[str, float]
+    steps: int
+    terminated: bool
+    truncated: bool
+    paused: bool
+    held_keys: frozenset[str]
+    is_driven_by_keys: bool
+    """True if a person drives it, False for a script or network."""
+    rays: Mapping[str, RayPicture]
+    """Rays of the last reading, by perception key."""
+    remote: RemoteStatus | None = None
+    """Status of the remote script, if one drives."""
+    episode: int = 1
+    """Episodes that the agent has begun, alone or with the world."""
+    succeeded: bool = False
+    """True if it was paid in this episode for reaching the scene's goal."""
+    fell: bool = False
+    """True if its episode ended because it fell."""
+    needs: tuple[Need, ...] = ()
+    stages: tuple[Stages, ...] = ()
+    """Stages on the way to the goal, such as marks that it passed; one for each set of targets."""
+    seconds_left: float | None = None
+    """World time (s) from its last decision to the end by the step limit; None without a limit."""
+    spots: Mapping[str, SpotPicture] = EMPTY
+    """Points that sensors read in their last reading, by perception key."""
+    legends: Mapping[str, Legend] = EMPTY
+    """Colours for showing readings as pictures, by perception key."""
+    phase: Phase = NOWHERE
+    """Progress in its present decision."""
+    history: tuple[Entry, ...] = ()
+    """Rewards of its latest decisions, if the ledger keeps them."""
+    sensor_infos: tuple[SensorInfo, ...] = ()
+    """Descriptions of its sensors; the same object until its blocks are rebound."""
+    actuator_infos: tuple[ActuatorInfo, ...] = ()
+    """Descriptions of its actuators, likewise."""
+
+
+@dataclass(frozen=True, slots=True)
+class SlowTick:
+    """A tick that took too long."""
+
+    seconds: float
+    contacts: int
+    """Approximate number of touching pairs of bodies."""
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """State of a world and its agents at one tick."""
+
+    static_scene: StaticScene
+    tick: int
+    time: float
+    """World time (s) since the reset."""
+    seed: int
+    episode: int
+    paused: bool
+    time_scale: float
+    """Wanted speed; 1 is real time."""
+    real_time_factor: float
+    """Measured speed."""
+    error: str
+    """Sentence about the error that stopped the world; empty if none did."""
+    bodies: tuple[BodyState, ...]
+    agents: tuple[AgentState, ...]
+    slow_tick: SlowTick | None = None
+    """Slowest tick of the last seconds, if it took too long."""
+    episode_time: float = 0.0
+    """Time (s) of the episode; it stops at the episode's end, while the world goes on."""
+    waiting: str = ""
+    """``key`` while the world waits for a person to press a key, ``teacher`` while a teacher holds
+    it; empty otherwise."""
+    is_seed_locked: bool = False
+    """True if a reset without a seed repeats the present seed."""
+    past: str = ""
+    """Label of a moment of the past; empty for the present."""

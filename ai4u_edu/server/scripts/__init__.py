@@ -1,7 +1,0 @@
-"""The server's side of scripts on other machines: connections, and leases of agents."""
-
-from ai4u_edu.server.scripts.report import Report, ScriptReport
-from ai4u_edu.server.scripts.settings import Rules
-from ai4u_edu.server.scripts.sockets import RemoteSockets
-
-__all__ = ["RemoteSockets", "Report", "Rules", "ScriptReport"]

@@ -1,5 +1,0 @@
-"""The page: snapshots drawn with viser, and its side panel."""
-
-from ai4u_edu.viewer.viewer import Viewer
-
-__all__ = ["Viewer"]

@@ -1,0 +1,189 @@
+"""The things in the world and the scene itself, changed through the panel's socket."""
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from uuid import uuid4
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.page.editing.scene_store import SceneStore
+from ai4u_edu.page.editing.unsaved import Unsaved
+from tests.page.panel.rooms import Message, PanelPage, PanelRoom, panel_room, picture
+from tests.waiting import until
+
+
+@pytest.fixture
+def room() -> Iterator[PanelRoom]:
+    with panel_room() as room:
+        yield room
+
+
+@pytest.fixture
+def page(room: PanelRoom) -> Iterator[PanelPage]:
+    with room.page() as page:
+        page.show("0", "world")
+        page.part("world")
+        yield page
+
+
+def things(part: Message) -> dict[str, Message]:
+    return {thing["name"]: thing for thing in part["bodies"]}
+
+
+def test_everything_in_the_scene_is_listed(page: PanelPage) -> None:
+    listed = things(page.part("world"))
+    assert listed["robot"]["kind"] == "agent"
+    assert listed["box"]["kind"] == "body"
+    assert {thing["kind"] for thing in listed.values()} == {"agent", "body", "floor"}
+    # an actuator chooses where the robot starts
+    assert [name for name, thing in listed.items() if thing["is_random"]] == ["robot"]
+
+
+@pytest.mark.parametrize("template", ["wall", "box", "ball", "target", "lamp", "area", "floor"])
+def test_things_are_added_and_deleted(page: PanelPage, room: PanelRoom, template: str) -> None:
+    before = things(page.part("world"))
+    done = page.done("add_body", template=template)
+    name = done["body"]
+    assert name not in before
+    assert done["text"].startswith(f"Added {name}.")
+    part = page.part("world", lambda m: m["form"] and m["form"]["name"] == name)
+    assert things(part)[name]["kind"] in {template, "body"}
+    page.done("remove_body", name=name)
+    page.part("world", lambda m: things(m).keys() == before.keys())
+
+
+def test_an_agent_is_added_like_the_one_that_is_shown(page: PanelPage, room: PanelRoom) -> None:
+    done = page.done("add_body", template="agent")
+    page.part("scene", lambda m: len(m["agents"]) == 2)
+    added = room.runner.sim.agents[1]
+    assert [type(each) for each in added.sensors] == [
+        type(each) for each in room.runner.sim.agents[0].sensors
+    ]
+    page.done("remove_body", name=done["body"])
+    page.part("scene", lambda m: len(m["agents"]) == 1)
+    assert "the only agent" in page.failed("remove_body", name="robot")["text"]
+
+
+def test_a_thing_is_moved_nudged_and_copied(page: PanelPage, room: PanelRoom) -> None:
+    assert page.done("move_body", name="box", x=2, y=-1)["text"].startswith("Moved box.")
+    page.part("world", lambda m: (things(m)["box"]["x"], things(m)["box"]["y"]) == (2, -1))
+    for number in range(100, 104):
+        page.send({"type": "do", "id": number, "command": "nudge", "name": "box", "dx": 0.5})
+    page.receive(lambda m: m.get("id") == 103)
+    box = room.editor.state.description.bodies[-1]
+    assert room.runner.sim.world["box"].pose[0] == pytest.approx(4.0)
+    copy = page.done("duplicate_body", name="box")["body"]
+    assert copy == "box 2"
+    assert things(page.part("world", lambda m: copy in things(m)))[copy]["shape"] == box.shape.type
+    page.part("scene", undo={"label": "add box 2"})  # whichever tab is open
+    page.done("undo")
+    page.part("world", lambda m: copy not in things(m))
+
+
+def test_the_form_of_a_thing(page: PanelPage) -> None:
+    page.show("0", "world", body="box")
+    form = page.part("world", lambda m: m["form"])["form"]
+    fields = {field["name"]: field for field in form["fields"]}
+    assert fields["x"]["unit"] == "m"
+    assert fields["kind"]["choices"][1] == "can be pushed"
+    page.done("change_body", name="box", values={"length": "2,5", "kind": "stands still"})
+    part = page.part("world", lambda m: not things(m)["box"]["movable"])
+    assert next(f for f in part["form"]["fields"] if f["name"] == "length")["value"] == 2.5
+    failed = page.failed("change_body", name="box", values={"width": -1})
+    assert failed["problems"][0]["path"] == ["width"]
+    failed = page.failed("change_body", name="box", values={"y": "up"})
+    assert failed["problems"] == [{"path": ["y"], "text": "expected a number, got 'up'"}]
+
+
+def test_settings_of_the_scene(page: PanelPage) -> None:
+    page.done("change_settings", values={"goal": "Push it.", "gravity": "3"})
+    page.part("scene", goal="Push it.")
+    page.part("world", waits_for_reset=True)
+
+
+def test_scenes_are_listed_opened_and_downloaded(page: PanelPage) -> None:
+    items = {each["name"]: each for each in page.done("scenes")["items"]}
+    assert re.fullmatch(r"api/scenes/maze.png\?v=\w{16}", items["maze"]["picture"])
+    assert page.done("open_scene", name="maze")["text"] == "Opened Maze."
+    page.part("scene", title="Maze")
+    done = page.done("download")
+    assert done["file"] == "maze.yaml"
+    assert Scene.loads(done["content"]).description.name == "maze"
+    assert "is called 'amze'" in page.failed("open_scene", name="amze")["text"]
+    page.failed("open_scene", name="../maze", is_saved=True)
+
+
+def test_a_scene_file_is_sent_in_parts(page: PanelPage) -> None:
+    text = Scene.load("sumo").dumps().encode()
+    page.socket.send(text[:100])
+    page.socket.send(text[100:])
+    done = page.done("load_text", name="mine.yaml", size=len(text))
+    assert done["text"].startswith("Opened ")
+    page.part("scene", scene="sumo")
+    page.socket.send(text[:100])
+    assert "got 100" in page.failed("load_text", name="mine.yaml", size=len(text))["text"]
+    page.socket.send(b"\xff\xfe")
+    assert "text file" in page.failed("load_text", name="mine.yaml", size=2)["text"]
+    page.socket.send(b"agents: [")
+    assert "mine.yaml" in page.failed("load_text", name="mine.yaml", size=9)["text"]
+
+
+def test_a_scene_is_saved_and_replaced(page: PanelPage, room: PanelRoom, tmp_path: Path) -> None:
+    assert "can't be saved" in page.failed("save_scene", name="mine")["text"]
+    room.editor.scene_store = SceneStore(tmp_path)
+    assert page.done("save_scene", name="mine")["saved_as"] == "mine"
+    failed = page.failed("save_scene", name="mine")
+    assert failed["code"] == "exists"
+    page.done("save_scene", name="mine", over=True)
+    assert [each["name"] for each in page.done("scenes")["items"] if each["is_saved"]] == ["mine"]
+    page.done("open_scene", name="mine", is_saved=True)
+
+
+def test_an_unsaved_scene_is_restored(page: PanelPage, room: PanelRoom, tmp_path: Path) -> None:
+    text = Scene.load("maze").dumps()
+    left = Unsaved(tmp_path / "x.unsaved", text, None, 1e9, "maze")
+    room.editor.recovery.unsaved = left
+    assert page.part("world", lambda m: m["unsaved"])["unsaved"]["name"] == "maze"
+    assert page.done("restore")["text"] == "Restored Maze."
+    assert page.part("world", title="Maze")["unsaved"] is None
+    assert page.failed("restore")["text"] == "there is no unsaved scene"
+
+
+def test_nudges_of_one_thing_are_undone_together(
+    page: PanelPage, room: PanelRoom, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ai4u_edu.page.editing.history.MERGE_S", math.inf)
+    before = room.runner.latest.bodies
+    for _ in range(3):
+        page.done("nudge", name="box", dx=0.25, dy=0)
+    moved = room.runner.latest.bodies
+    page.done("nudge", name="robot", dx=0.25, dy=0)
+    page.done("undo")
+    assert room.runner.latest.bodies == moved != before
+    page.done("undo")
+    assert room.runner.latest.bodies == before
+    assert room.editor.undo_label == ""
+    page.done("redo")
+    assert room.runner.latest.bodies == moved
+
+
+def test_moving_with_the_mouse(room: PanelRoom) -> None:
+    page_id = uuid4().hex
+    with room.page(f"?page={page_id}") as page, picture(room, page_id) as client:
+        page.show("0", "world")
+        page.done("snap", distance=0.5)
+        page.done("move_mode", on=True)
+        until(lambda: client.is_move_mode and client.snap_m == 0.5)
+        handles = next(
+            part.part for part in room.viewer.parts if type(part.part).__name__ == "PageHandles"
+        )
+        until(lambda: handles.pages and next(iter(handles.pages.values())).node)  # type: ignore[attr-defined]
+        assert client.panel is not None
+        client.panel.on_selected("box")
+        assert page.receive(lambda m: m["type"] == "selected")["body"] == "box"
+        assert page.part("world", lambda m: m["form"])["form"]["name"] == "box"
+        client.panel.on_dropped(room.editor.move_body("box", 3, 3))
+        assert page.receive(lambda m: m["type"] == "note")["text"].startswith("Moved box.")

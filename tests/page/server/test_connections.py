@@ -1,0 +1,177 @@
+"""Limits of connections: idle ones make room, and nobody takes all of them."""
+
+import errno
+import logging
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+
+from ai4u_edu.page.server import connections as limits
+from ai4u_edu.page.server.connections import (
+    MAX_EVICTING,
+    MAX_PER_ADDRESS,
+    Connections,
+    max_connections,
+)
+from tests.page.server import http_client
+from tests.page.server.rooms import UPGRADE, Page, Room, log_intervals, raw_request, served
+from tests.waiting import LIMIT_S, until
+
+
+class Transport:
+    """An asyncio transport, as far as the limits use it."""
+
+    def __init__(self, peer: tuple[str, int]) -> None:
+        self.peer = peer
+        self.is_aborted = False
+
+    def get_extra_info(self, name: str) -> Any:
+        return {"peername": self.peer}[name]
+
+    def abort(self) -> None:
+        self.is_aborted = True
+
+
+def connect(connections: Connections, peer: tuple[str, int], *, idle: bool = True) -> Transport:
+    assert connections.admit(peer) == ""
+    transport = Transport(peer)
+    connections.set_idle(transport, idle)  # type: ignore[arg-type]
+    return transport
+
+
+def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
+    connections = Connections(limit=500)
+    for port in range(MAX_PER_ADDRESS):
+        connect(connections, ("10.0.0.7", port), idle=False)
+    assert connections.admit(("10.0.0.7", 5000)) == (
+        "expected at most 120 connections from one address, got another one from 10.0.0.7; close "
+        "some pages, or start with --connections N"
+    )
+    assert connections.admit(("10.0.0.8", 5000)) == ""
+    connections.leave(("10.0.0.7", 0))
+    assert connections.admit(("10.0.0.7", 5000)) == ""
+
+
+def test_this_machine_may_have_as_many_as_there_are() -> None:
+    connections = Connections(limit=300)
+    for port in range(300):
+        connect(connections, ("127.0.0.1", port), idle=False)
+    for host in ("127.0.0.1", "10.0.0.8"):
+        assert connections.admit((host, 5000)) == (
+            "expected at most 300 connections, got another one; try again later"
+        )
+
+
+def test_the_connection_that_is_idle_for_the_longest_time_makes_room() -> None:
+    connections = Connections(limit=500, per_address=3)
+    first, busy, later = (connect(connections, ("10.0.0.7", port)) for port in range(3))
+    connections.set_idle(busy, False)  # type: ignore[arg-type]
+    connections.set_idle(first, True)  # type: ignore[arg-type]
+    connect(connections, ("10.0.0.7", 10), idle=False)
+    assert (first.is_aborted, busy.is_aborted, later.is_aborted) == (False, False, True)
+    connections.leave(later.peer)
+    connect(connections, ("10.0.0.7", 11), idle=False)
+    assert first.is_aborted
+    assert connections.admit(("10.0.0.7", 12)) != ""
+    assert not busy.is_aborted
+
+
+def test_nothing_is_left_of_connections_that_are_closed() -> None:
+    connections = Connections(limit=10)
+    for port in range(1000):
+        connect(connections, ("10.0.0.7", port))
+        if connections.evicting == MAX_EVICTING:
+            for gone in range(port):
+                connections.leave(("10.0.0.7", gone))
+    for port in range(1000):
+        connections.leave(("10.0.0.7", port))
+    assert len(connections) == connections.evicting == 0
+    assert connections._by_address == {}
+    assert connections._idle == {}
+
+
+def test_the_limit_leaves_descriptors_for_everything_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    resource = pytest.importorskip("resource")
+    for soft, expected in ((1024, 298), (256, 42), (10, 16), (10**6, 1000), (-1, 1000)):
+        monkeypatch.setattr(resource, "getrlimit", lambda _, soft=soft: (soft, soft))
+        assert max_connections() == expected
+
+
+@contextmanager
+def crowd(room: Room, count: int) -> Iterator[list[socket.socket]]:
+    parts = urlsplit(room.url)
+    with ExitStack() as stack:
+        place = (str(parts.hostname), parts.port or 80)
+        yield [
+            stack.enter_context(socket.create_connection(place, timeout=LIMIT_S))
+            for _ in range(count)
+        ]
+
+
+@pytest.fixture
+def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
+    """A room with 20 connections."""
+    monkeypatch.setattr(limits, "max_connections", lambda: 20)
+    with served() as room:
+        yield room
+
+
+def test_idle_connections_make_room_for_those_who_ask(small: Room) -> None:
+    with small.page() as page:
+        page.receive("hello")
+        with crowd(small, 100):
+            # those that come in one turn of the loop find nobody who can be sent away
+            until(lambda: http_client.get(small.url + "healthz").status_code == 200)
+            for _ in range(30):
+                assert http_client.get(small.url + "healthz").status_code == 200
+            with small.page() as another:
+                another.receive("hello")
+            page.hold("KeyW")
+            page.receive("state", held=["KeyW"])
+
+
+def test_beyond_the_limit_a_connection_is_refused_with_a_sentence(
+    small: Room, caplog: pytest.LogCaptureFixture
+) -> None:
+    began = time.monotonic()  # real time: for the number of lines that a log may have
+    with ExitStack() as stack:
+        for _ in range(20):
+            taken = stack.enter_context(
+                raw_request(small.url + "ws/input", "Host: localhost", *UPGRADE)
+            )
+            assert taken.recv(1000).startswith(b"HTTP/1.1 101 ")
+        for _ in range(10):
+            answer = http_client.get(small.url + "healthz")
+            assert answer.status_code == 503
+            assert answer.text.startswith("expected at most 20 connections")
+            assert int(answer.headers["Retry-After"]) > 0
+    assert len(caplog.messages) <= log_intervals(began)
+    until(lambda: http_client.get(small.url + "healthz").status_code == 200)
+    with Page(small.url + "ws/input") as page:
+        page.receive("hello")
+
+
+def test_a_lack_of_descriptors_costs_the_new_connection_and_one_line(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    accept = socket.socket.accept
+    failures = iter(range(200))
+    began = time.monotonic()  # real time: for the number of lines that a log may have
+
+    def fail(listener: socket.socket) -> tuple[socket.socket, Any]:
+        if next(failures, None) is not None:
+            raise OSError(errno.EMFILE, "Too many open files")
+        return accept(listener)
+
+    with served() as room:
+        monkeypatch.setattr(socket.socket, "accept", fail)
+        assert http_client.get(room.url + "healthz").status_code == 200
+        monkeypatch.undo()
+        assert http_client.get(room.url + "healthz").status_code == 200
+    assert 1 <= len(caplog.records) <= 3 * log_intervals(began)
+    assert all(record.levelno == logging.ERROR for record in caplog.records)

@@ -1,0 +1,70 @@
+import math
+
+import pytest
+
+from ai4u_edu.page.viewer.scene.framing import (
+    FIELD_OF_VIEW_RAD,
+    PORTRAIT_UNCOVERED_SHARE,
+    Bounds,
+    Frame,
+    frame_arena,
+    frame_point,
+    uncovered_share,
+    visible_height,
+)
+
+SQUARE = ((-5.0, -5.0), (5.0, 5.0))
+WIDE = ((0.0, 0.0), (100.0, 10.0))
+TALL = ((-2.0, -40.0), (2.0, 0.0))
+
+
+def on_screen(shown: Frame, aspect: float, x: float, y: float) -> tuple[float, float]:
+    """Return a point's position in the window: 0..1 from the left and from the top."""
+    return (
+        0.5 + (x - shown.x) / (shown.height * aspect),
+        0.5 - (y - shown.y) / shown.height,
+    )
+
+
+@pytest.mark.parametrize("bounds", [SQUARE, WIDE, TALL])
+@pytest.mark.parametrize("aspect", [0.46, 0.75, 1.0, 1.2, 2.2])
+def test_all_of_the_arena_is_in_the_free_part_of_the_window(bounds: Bounds, aspect: float) -> None:
+    shown = frame_arena(bounds, aspect)
+    free = uncovered_share(aspect)
+    for x, y in bounds:
+        across, down = on_screen(shown, aspect, x, y)
+        assert 0.02 < across < 0.98
+        assert 0.02 * free < down < 0.98 * free
+
+
+@pytest.mark.parametrize("aspect", [0.46, 1.2])
+def test_the_arena_fills_the_free_part(aspect: float) -> None:
+    shown = frame_arena(SQUARE, aspect)
+    free = uncovered_share(aspect)
+    assert shown.height * min(aspect, free) == pytest.approx(11.4)
+
+
+def test_the_keys_have_room_below_the_arena_or_beside_it() -> None:
+    keys = 140  # pixels that they are high, with the space below them
+    low = on_screen(frame_arena(SQUARE, 957 / 800), 957 / 800, *SQUARE[0])[1]
+    assert low * 800 < 800 - keys + 24
+    assert uncovered_share(844 / 390) == 1.0
+
+
+def test_a_followed_body_is_in_the_middle_of_the_free_part() -> None:
+    shown = frame_point(3.0, 4.0, 9.0, aspect=0.5)
+    assert on_screen(shown, 0.5, 3.0, 4.0) == pytest.approx((0.5, PORTRAIT_UNCOVERED_SHARE / 2))
+    assert on_screen(frame_point(3.0, 4.0, 9.0, 2.0), 2.0, 3.0, 4.0) == pytest.approx((0.5, 0.5))
+
+
+def test_the_lens_is_so_long_that_walls_stand_straight() -> None:
+    shown = frame_arena(SQUARE, 1.2)
+    lean = 5.0 / shown.distance  # how far the top of a 1 m wall at the edge leans outwards, in m
+    assert lean / shown.height * 800 < 2  # pixels
+    assert shown.near < shown.distance < shown.far
+
+
+def test_distance_and_height_belong_together() -> None:
+    shown = frame_arena(SQUARE, 1.2)
+    assert visible_height(shown.distance) == pytest.approx(shown.height)
+    assert math.degrees(FIELD_OF_VIEW_RAD) < 5

@@ -1,0 +1,51 @@
+"""The target that was reached pulses."""
+
+from dataclasses import replace
+
+import pytest
+
+from ai4u_edu.page.viewer.scene.pulse import PULSE_S, Pulse, reached_target
+from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.runtime.runner import Runner
+
+
+def ended(snapshot: Snapshot, x: float, *, succeeded: bool = True) -> Snapshot:
+    """Return the end of an episode with the robot at (x, 0); the box is at (3, 0)."""
+    agent = snapshot.agents[0]._replace(terminated=True, succeeded=succeeded)
+    robot, *others = snapshot.bodies
+    return replace(snapshot, agents=(agent,), bodies=(robot._replace(x=x), *others))
+
+
+def test_the_target_at_the_agent_is_reached_by_success_only(runner: Runner) -> None:
+    for x, succeeded, name in ((2.1, True, "box"), (2.1, False, ""), (0.0, True, "")):
+        end = ended(runner.latest, x, succeeded=succeeded)
+        assert reached_target(end, end.agents[0]) == name
+    assert reached_target(runner.latest, runner.latest.agents[0]) == ""
+
+
+def test_it_pulses_for_a_while_in_each_episode(runner: Runner) -> None:
+    now = 5.0
+    pulse, end = Pulse(clock=lambda: now), ended(runner.latest, 2.1)
+    assert (pulse.scales(runner.latest) == 1.0).all()
+    pulse.scales(end)
+    now += PULSE_S / 4
+    scales = pulse.scales(end)
+    assert scales[1] == pytest.approx(1.22)
+    assert (scales[[0, 2, 3, 4]] == 1.0).all()
+    now += PULSE_S
+    assert (pulse.scales(end) == 1.0).all()
+    again = replace(end, episode=end.episode + 1)
+    pulse.scales(again)
+    now += PULSE_S / 4
+    assert pulse.scales(again)[1] == pytest.approx(1.22)
+
+
+def test_nothing_pulses_while_motion_is_reduced(runner: Runner) -> None:
+    now, is_reduced = 5.0, False
+    pulse = Pulse(clock=lambda: now, is_motion_reduced=lambda: is_reduced)
+    end = ended(runner.latest, 2.1)
+    pulse.scales(end)
+    now += PULSE_S / 4
+    assert pulse.scales(end)[1] > 1.0
+    is_reduced = True
+    assert (pulse.scales(end) == 1.0).all()

@@ -1,0 +1,224 @@
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from viser import CameraHandle
+
+from ai4u_edu.page.viewer import Viewer
+from ai4u_edu.page.viewer.scene.arena import camera_bounds
+from ai4u_edu.page.viewer.scene.framing import Frame, frame_arena, frame_point
+from ai4u_edu.page.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
+from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.runtime.runner import Runner
+from tests.page.viewer.pages import Page, page
+from tests.waiting import until
+
+PLACE = (1.0, -2.0, 80.0)
+"""Somewhere a person might move the camera."""
+
+
+class Watched:
+    """A page, its camera as viser has it, and the view that moves it."""
+
+    def __init__(self, viewer: Viewer, here: Page) -> None:
+        (client,) = viewer.server.get_clients().values()
+        self.now = 100.0
+        self.page, self.client, self.view = here, client, View(client, clock=lambda: self.now)
+
+    @property
+    def camera(self) -> CameraHandle:
+        return self.client.camera
+
+    def report(self, place: tuple[float, float, float], size: tuple[int, int] = (960, 800)) -> None:
+        """The page reports where its camera is."""
+        before = self.camera.update_timestamp
+        self.page.report_camera(place, size)
+        until(lambda: self.camera.update_timestamp > before)
+
+    def sent(self) -> int:
+        """The number of messages sent to this page alone."""
+        return self.client._websock_connection.get_message_buffer().message_counter
+
+
+@pytest.fixture
+def watched(viewer: Viewer) -> Iterator[Watched]:
+    with page(viewer) as here:
+        yield Watched(viewer, here)
+
+
+def whole(snapshot: Snapshot, aspect: float = 1.2) -> Frame:
+    return frame_arena(camera_bounds(snapshot.static_scene), aspect)
+
+
+def place(shown: Frame) -> tuple[float, float, float]:
+    return shown.x, shown.y, shown.distance
+
+
+def middle(x: float, y: float, height: float) -> list[float]:
+    """Return the target of a camera that shows a point in the middle of the uncovered window."""
+    shown = frame_point(x, y, height, 1.2)
+    return [shown.x, shown.y, 0.0]
+
+
+def with_robot_at(snapshot: Snapshot, x: float, y: float) -> Snapshot:
+    first, *others = snapshot.bodies
+    return replace(snapshot, bodies=(first._replace(x=x, y=y), *others))
+
+
+def test_a_page_sees_the_whole_arena_from_above(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest, "0")
+    shown, camera = whole(runner.latest), watched.camera
+    assert camera.position == pytest.approx(place(shown))
+    assert camera.look_at == pytest.approx([shown.x, shown.y, 0.0])
+    assert camera.up_direction == pytest.approx([0.0, 1.0, 0.0])
+    assert camera.near < shown.distance < camera.far
+
+
+def test_a_camera_is_left_alone_while_nothing_changes(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest, "0")
+    before = watched.sent()
+    for _ in range(3):
+        watched.view.update(runner.latest, "0")
+    assert watched.sent() == before
+
+
+def test_another_window_is_framed_anew(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest, "0")
+    watched.report(place(whole(runner.latest)))
+    watched.report(place(whole(runner.latest)), size=(390, 844))
+    watched.view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest, 390 / 844)))
+
+
+def test_a_camera_that_a_person_moved_is_theirs(watched: Watched, runner: Runner) -> None:
+    watched.view.update(runner.latest, "0")
+    watched.report(place(whole(runner.latest)))
+    watched.report(PLACE)
+    watched.report(PLACE, size=(500, 800))
+    watched.view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(PLACE)
+
+
+def test_until_a_page_has_followed_its_old_place_counts_for_nothing(
+    watched: Watched, runner: Runner
+) -> None:
+    watched.view.update(runner.latest, "0")
+    watched.report((3.0, 3.0, 3.0), size=(500, 800))  # from before our message came
+    watched.view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest, 500 / 800)))
+
+
+def test_a_report_that_comes_too_late_is_nobodys_move(watched: Watched, runner: Runner) -> None:
+    old, wide = place(whole(runner.latest)), place(whole(runner.latest, 1.6))
+    watched.view.update(runner.latest, "0")
+    watched.report(old)
+    watched.report(old, size=(1280, 800))
+    watched.view.update(runner.latest, "0")
+    watched.report(wide, size=(1280, 800))
+    watched.report(old, size=(1280, 800))
+    watched.report(wide, size=(390, 844))
+    watched.view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest, 390 / 844)))
+
+
+def test_another_arena_is_shown_whole_whoever_moved_the_camera(
+    watched: Watched, runner: Runner
+) -> None:
+    watched.view.update(runner.latest, "0")
+    watched.report(place(whole(runner.latest)))
+    watched.report(PLACE)
+    static_scene = replace(runner.latest.static_scene, bounds=((0.0, 0.0), (40.0, 40.0)))
+    other = replace(runner.latest, static_scene=static_scene)
+    watched.view.update(other, "0")
+    assert watched.camera.position == pytest.approx(place(whole(other)))
+
+
+def test_a_followed_agent_comes_to_the_middle_smoothly(watched: Watched, runner: Runner) -> None:
+    view = watched.view
+    view.update(runner.latest, "0")
+    view.choose(Mode.FOLLOW)
+    view.update(runner.latest, "0")
+    assert watched.camera.look_at == pytest.approx(middle(0.0, 0.0, 0.4 * FOLLOW_HEIGHT_IN_RADII))
+    assert watched.camera.position[2] == pytest.approx(
+        Frame(0, 0, 0.4 * FOLLOW_HEIGHT_IN_RADII).distance
+    )
+    ways = []
+    for _ in range(60):
+        watched.now += 1 / 60
+        view.update(with_robot_at(runner.latest, 2.0, -1.0), "0")
+        ways.append(float(watched.camera.look_at[0]))
+    assert np.diff([0.0, *ways]).min() >= 0.0
+    assert ways[0] < 0.25
+    assert ways[-1] == pytest.approx(2.0, abs=0.02)
+    before = watched.sent()
+    watched.now += 1.0
+    view.update(with_robot_at(runner.latest, ways[-1], -1.0), "0")
+    view.update(with_robot_at(runner.latest, ways[-1], -1.0), "0")
+    assert watched.sent() - before <= 4  # it has arrived: nothing more is sent
+
+
+def test_who_follows_may_zoom(watched: Watched, runner: Runner) -> None:
+    view = watched.view
+    view.choose(Mode.FOLLOW)
+    view.update(runner.latest, "0")
+    watched.report((0.0, 0.0, 60.0))
+    view.update(with_robot_at(runner.latest, 2.0, 0.0), "0")
+    assert watched.camera.position[2] == pytest.approx(60.0)
+
+
+def test_following_goes_on_with_the_agent_that_is_looked_at_and_ends(
+    watched: Watched, runner: Runner
+) -> None:
+    (agent,) = runner.latest.agents
+    other = agent._replace(id="1", body="box")
+    both = replace(runner.latest, agents=(agent, other))
+    view = watched.view
+    view.choose(Mode.FOLLOW)
+    for agent_id, expected in (("0", "robot"), ("1", "box"), ("0", "robot")):
+        view.update(both, agent_id)
+        body = next(body for body in runner.latest.bodies if body.name == expected)
+        height = watched.view.frame.height
+        assert watched.camera.look_at == pytest.approx(middle(body.x, body.y, height))
+    view.choose(Mode.ARENA)
+    view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest)))
+
+
+def turned(snapshot: Snapshot, heading: float) -> Snapshot:
+    first, *others = snapshot.bodies
+    return replace(snapshot, bodies=(first._replace(heading=heading), *others))
+
+
+def test_a_camera_that_turns_has_ahead_on_top(watched: Watched, runner: Runner) -> None:
+    view = watched.view
+    view.choose(Mode.TURN)
+    for heading, up in ((0.0, (1, 0, 0)), (np.pi / 2, (0, 1, 0)), (np.pi, (-1, 0, 0))):
+        view.update(turned(runner.latest, heading), "0")
+        assert watched.camera.up_direction == pytest.approx(up, abs=1e-6)
+        assert watched.camera.position[2] > 50
+    view.choose(Mode.FOLLOW)
+    view.update(turned(runner.latest, 1.0), "0")
+    assert watched.camera.up_direction == pytest.approx((0, 1, 0))
+
+
+def test_through_its_eyes_the_camera_is_where_the_rays_begin(
+    watched: Watched, runner: Runner
+) -> None:
+    view = watched.view
+    view.choose(Mode.EYES)
+    view.update(turned(runner.latest, np.pi / 2), "0")
+    origin = runner.latest.agents[0].rays["fan"].origin
+    assert watched.camera.position == pytest.approx(origin, abs=0.1)  # as bodies are, a bit higher
+    ahead = watched.camera.look_at - watched.camera.position
+    assert ahead[:2] == pytest.approx([0, 1], abs=1e-6)
+    assert watched.camera.up_direction == pytest.approx((0, 0, 1))
+    assert watched.camera.fov > 1
+    lamps = [name for name in watched.client.scene._handle_from_node_name if "daylight/" in name]
+    assert lamps
+    view.choose(Mode.ARENA)
+    view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(place(whole(runner.latest)))
+    assert watched.camera.fov < 0.1
+    left = watched.client.scene._handle_from_node_name
+    assert not [name for name in left if name in lamps]

@@ -1,0 +1,226 @@
+import threading
+from collections import Counter
+from collections.abc import Iterator
+from threading import Semaphore
+from typing import Any
+
+import pytest
+
+from ai4u_edu import BoxShape
+from ai4u_edu.page.viewer import Viewer
+from ai4u_edu.page.viewer.scene.bodies import Bodies
+from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.runtime.runner import Runner
+from tests.page.viewer.pages import page, publish
+from tests.page.viewer.worlds import busy_sim
+from tests.waiting import LIMIT_S, until
+
+
+def nodes(viewer: Viewer) -> list[str]:
+    """The names of the scene's nodes, without the number of the turn in which they were built."""
+    return sorted(viewer.server.scene._handle_from_node_name)
+
+
+def buffered(viewer: Viewer) -> Counter[str]:
+    """Return the buffered messages that a new page receives, counted by type."""
+    buffer = viewer.server._websock_server._broadcast_buffer
+    return Counter(type(message).__name__ for message in buffer.message_from_id.values())
+
+
+def pushed(viewer: Viewer) -> int:
+    """Return the number of messages sent to all pages so far."""
+    return viewer.server._websock_server._broadcast_buffer.message_counter
+
+
+def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
+    names = nodes(viewer)
+    for expected in (
+        "/ground1/void",
+        "/ground1/floor plate/top",
+        "/ground1/floor ring/side",
+        "/ground1/area goal/fill",
+        "/ground1/lines",
+        "/bodies1/0/body",
+        "/bodies1/0/face",
+        "/bodies1/0 shadow/shadow",
+        "/bodies1/1/rings",
+        "/bodies1/0/action",
+        "/labels1/0",
+    ):
+        assert expected in names
+
+
+def test_bodies_that_look_alike_share_a_batch(viewer: Viewer) -> None:
+    twins: Any = viewer.server.scene.get_handle_by_name("/bodies1/2/body")
+    assert twins.batched_positions[:, :2].tolist() == [[-3.0, -1.0], [-3.0, 1.0]]
+    assert twins.batched_colors[0].tolist() != twins.batched_colors[1].tolist()
+
+
+def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
+    before = pushed(viewer)
+    for part in viewer.parts:
+        part.make_due()
+        part.draw(runner.latest)
+    assert pushed(viewer) == before
+
+
+def test_what_is_kept_for_later_pages_does_not_grow(viewer: Viewer) -> None:
+    sim = busy_sim(controller=lambda _percept: {"move": [0.5, 0.3, 0.0, 0.0]})
+    runner = Runner(sim, seed=1)
+
+    def play() -> int:
+        for _ in range(30):
+            runner._tick()
+            for part in viewer.parts:
+                part.make_due()
+            viewer.draw(runner.latest)
+        return sum(buffered(viewer).values())
+
+    play()
+    assert play() == play()
+
+
+def test_a_changed_stage_is_built_anew_and_the_old_one_goes(viewer: Viewer, runner: Runner) -> None:
+    kept = [name for name in nodes(viewer) if name.startswith("/ground")]
+    world = runner.sim.world
+    world.add_body("late", BoxShape(size=(1, 2)), position=(-3, 3), label="late")
+    publish(runner)
+    viewer.draw(runner.latest)
+    names = nodes(viewer)
+    assert "/bodies2/0/body" not in names  # two names are used by turns
+    assert not [name for name in names if name.startswith(("/bodies1", "/labels1"))]
+    assert len([name for name in names if name.startswith("/labels0/")]) == 3
+    assert [name for name in names if name.startswith("/ground")] == kept
+
+
+def test_an_area_whose_label_is_blank_has_no_label(viewer: Viewer, runner: Runner) -> None:
+    for name, label in (("quiet", " "), ("nameless", "")):
+        shape = BoxShape(size=(1, 1))
+        runner.sim.world.add_area(name, shape, position=(-3, -3), label=label)
+    publish(runner)
+    viewer.draw(runner.latest)
+    found = [name.split("/area ")[1] for name in nodes(viewer) if "/area " in name]
+    assert "quiet/fill" in found
+    assert "quiet/label" not in found
+    assert "nameless/label" in found  # its name is written
+
+
+def test_paint_is_opaque_and_has_neither_outline_nor_label(viewer: Viewer, runner: Runner) -> None:
+    before: Any = viewer.server.scene.get_handle_by_name("/ground1/lines")
+    strokes = len(before.points)
+    shape = BoxShape(size=(1, 1))
+    runner.sim.world.add_area("line", shape, position=(-3, -3), paint=True, label="unseen")
+    publish(runner)
+    viewer.draw(runner.latest)
+    scene = viewer.server.scene
+    fill: Any = scene.get_handle_by_name("/ground0/area line/fill")
+    goal: Any = scene.get_handle_by_name("/ground0/area goal/fill")
+    lines: Any = scene.get_handle_by_name("/ground0/lines")
+    assert (fill.opacity, goal.opacity) == (None, 0.28)
+    assert "/ground0/area line/label" not in nodes(viewer)
+    assert len(lines.points) == strokes
+
+
+def test_a_reset_builds_nothing_anew(viewer: Viewer, runner: Runner) -> None:
+    before = nodes(viewer)
+    runner.sim.reset(2)
+    publish(runner)
+    viewer.draw(runner.latest)
+    assert nodes(viewer) == before
+
+
+def test_an_error_is_told_once_and_drawing_goes_on(
+    viewer: Viewer,
+    runner: Runner,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    drawn = threading.Event()
+
+    def fail(_self: Bodies, snapshot: Snapshot) -> None:
+        if snapshot.tick > 3:
+            drawn.set()
+        raise ValueError(f"no bodies at tick {snapshot.tick}")
+
+    monkeypatch.setattr(Bodies, "draw", fail)
+    runner.start()
+    viewer.start()
+    with page(viewer):
+        for _ in range(2):  # the first one is written before it draws again
+            assert drawn.wait(LIMIT_S)
+            drawn.clear()
+    viewer.stop(LIMIT_S)
+    told = capsys.readouterr().err
+    assert told.count("ValueError: no bodies at tick") == 1
+    assert told.count("Traceback") == 1
+
+
+def test_an_error_beside_the_parts_does_not_end_the_thread(
+    viewer: Viewer, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    failed = threading.Event()
+
+    def fail() -> None:
+        failed.set()
+        raise OSError("no clients")
+
+    monkeypatch.setattr(viewer.viewer_clients, "refresh", fail)
+    viewer.start()
+    assert failed.wait(LIMIT_S)
+    failed.clear()
+    assert failed.wait(LIMIT_S)
+    viewer.stop(LIMIT_S)
+    assert capsys.readouterr().err.count("OSError: no clients") == 1
+
+
+@pytest.fixture
+def moving() -> Iterator[Viewer]:
+    """A viewer of a world in which a body moves."""
+    sim = busy_sim(controller=lambda _percept: {"move": [0.5, 0.3, 0.0, 0.0]})
+    runner = Runner(sim, seed=1)
+    viewer = Viewer(runner)
+    yield viewer
+    viewer.stop(LIMIT_S)
+    runner.stop(LIMIT_S)
+
+
+def test_while_nobody_watches_nothing_is_sent(
+    moving: Viewer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    viewer, runner = moving, moving.runner
+    turns, refresh = Semaphore(0), viewer.viewer_clients.refresh
+
+    def refreshed() -> None:
+        turns.release()
+        refresh()
+
+    def take_turns() -> None:
+        """Wait until the viewer's thread has begun and ended a turn."""
+        for _ in range(2):
+            assert turns.acquire(timeout=LIMIT_S)
+
+    monkeypatch.setattr(viewer.viewer_clients, "refresh", refreshed)
+    runner.start()
+    viewer.start()
+    take_turns()
+    before, tick = pushed(viewer), runner.latest.tick
+    until(lambda: runner.latest.tick > tick)
+    while turns.acquire(blocking=False):
+        pass
+    take_turns()
+    assert pushed(viewer) == before
+
+
+def test_pages_come_and_go(viewer: Viewer, runner: Runner) -> None:
+    runner.start()
+    viewer.start()
+    for _ in range(3):
+        with page(viewer) as first, page(viewer) as second:
+            until(lambda: len(viewer.viewer_clients) == 2)
+            until(lambda: min(first.received, second.received) > 1000)
+        until(lambda: not viewer.viewer_clients)
+        assert not viewer.server.get_clients()
+
+
+def test_a_viewer_that_was_never_started_can_be_stopped(runner: Runner) -> None:
+    Viewer(runner).stop()
