@@ -1,6 +1,6 @@
 /** Blocks of an agent's own senses and actions, with their Python. */
 
-import { ATOM, COMPARISON, PRODUCT, identifier } from "./blocks_words.js";
+import { ATOM, COMPARISON, PRODUCT, identifier } from "./words.js";
 
 /** Rays that are "ahead": their largest angle to the heading (degrees). */
 const AHEAD_DEG = 20;

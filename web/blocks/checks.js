@@ -1,6 +1,6 @@
 /** The checks of the five steps: they look at what the robot senses and does, not at its blocks. */
 
-import { sideOf } from "./blocks_agent.js";
+import { sideOf } from "./agent.js";
 
 /** Distances (m) of the robot's centre to a wall; its radius is 0.4. */
 const [REACHED_M, FREE_M, TOUCHING_M] = [0.45, 0.6, 0.41];

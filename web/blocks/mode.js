@@ -1,9 +1,9 @@
 /** A program of blocks in the tab "Code": the switch to blocks and back, and the Python that they mean. */
 
-import { joinProgram, splitProgram } from "./blocks_text.js";
-import { button, element, setText } from "./dom.js";
-import { freeId } from "./panel_parts.js";
-import { retried } from "./retry.js";
+import { joinProgram, splitProgram } from "./text.js";
+import { button, element, setText } from "../shared/dom.js";
+import { freeId } from "../panel/widgets/parts.js";
+import { retried } from "../shared/retry.js";
 
 const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
 const DAMAGED = "The blocks of this program are damaged. This is the Python that came with them.";
@@ -195,7 +195,7 @@ export class BlocksMode {
     this.#say("Loading the blocks …");
     try {
       const names = ["agent", "python", "workspace", "steps"];
-      const modules = await retried(() => Promise.all(names.map((name) => import(`./blocks_${name}.js`))));
+      const modules = await retried(() => Promise.all(names.map((name) => import(`./${name}.js`))));
       this.#loaded = Object.assign({}, ...modules);
     } catch {
       this.#say(FAILED);

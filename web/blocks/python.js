@@ -1,7 +1,7 @@
 /** The Python that a program of blocks means. It reads the blocks as they are kept, so it needs no editor. */
 
-import { blockOf } from "./blocks_kinds.js";
-import { AND, ANY, ATOM, COMPARISON, identifier, NOT, OR, PRODUCT, SIGN, SUM } from "./blocks_words.js";
+import { blockOf } from "./kinds.js";
+import { AND, ANY, ATOM, COMPARISON, identifier, NOT, OR, PRODUCT, SIGN, SUM } from "./words.js";
 
 const OPERATORS = { ADD: ["+", SUM], MINUS: ["-", SUM], MULTIPLY: ["*", PRODUCT], DIVIDE: ["/", PRODUCT] };
 const COMPARISONS = { LT: "<", LTE: "<=", GT: ">", GTE: ">=", EQ: "==", NEQ: "!=" };

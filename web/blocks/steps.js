@@ -1,10 +1,10 @@
 /** Five steps from one block to a program that follows walls: each is done when the robot does it. */
 
-import { CHECKS, seen } from "./blocks_checks.js";
-import { roomOfPage } from "./class_programs.js";
-import { button, element, setAttributes, setText } from "./dom.js";
-import { section } from "./panel_parts.js";
-import { recall, remember } from "./storage.js";
+import { CHECKS, seen } from "./checks.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { button, element, setAttributes, setText } from "../shared/dom.js";
+import { section } from "../panel/widgets/parts.js";
+import { recall, remember } from "../shared/storage.js";
 
 const SCENE = "maze";
 /** The steps: {title, texts, goal}; what stands in stars is a block or a button. */

@@ -1,6 +1,6 @@
 /** The blocks to choose from, in groups. */
 
-import { KINDS } from "./blocks_kinds.js";
+import { KINDS } from "./kinds.js";
 
 const shadow = (NUM) => ({ shadow: { type: "number", fields: { NUM } } });
 /** Values that blocks of the toolbox hold already, by type and input. */

@@ -1,8 +1,8 @@
 /** The editor of blocks: Blockly with an agent's own blocks. Loaded when a person chooses blocks. */
 
-import { blocksTheme } from "./blocks_theme.js";
-import { definitions, memoryBlocks, toolbox } from "./blocks_toolbox.js";
-import { Blockly } from "./vendor/blockly.js?v=e631db10";
+import { blocksTheme } from "./theme.js";
+import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
+import { Blockly } from "../vendor/blockly.js?v=e631db10";
 
 /** Where a block stands if nobody has moved it (pixels of the workspace). */
 const FIRST_PLACE = { x: 16, y: 16 };
@@ -62,7 +62,7 @@ export class BlocksWorkspace {
     addEventListener("scroll", ({ target }) => target.contains?.(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
   }
 
-  /** The blocks with their ids, as blocks_python.js reads them. */
+  /** The blocks with their ids, as blocks/python.js reads them. */
   get state() {
     return Blockly.serialization.workspaces.save(this.#workspace);
   }

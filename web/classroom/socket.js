@@ -1,6 +1,6 @@
 /** The WebSocket of the teacher's page and of the projector page: the class's state, drawings and poses. */
 
-import { JsonSocket } from "./socket.js";
+import { JsonSocket } from "../shared/socket.js";
 
 const LOST = "The class can't be reached. Is its program still running? This page tries again by itself.";
 

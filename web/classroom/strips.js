@@ -1,8 +1,8 @@
 /** Strips below the toolbar that say what holds for the whole class now: attention, and a race. */
 
-import { HELD, isHeld } from "./attention_dialog.js";
-import { commandOrTell } from "./class_command.js";
-import { element, setText } from "./dom.js";
+import { HELD, isHeld } from "./teacher/attention_dialog.js";
+import { commandOrTell } from "./teacher/command.js";
+import { element, setText } from "../shared/dom.js";
 import { clock } from "./room_words.js";
 
 const TICK_MS = 250;

@@ -1,7 +1,7 @@
 /** What a program prints, with the number of the decision; the oldest lines go. */
 
-import { element } from "./dom.js";
-import { section } from "./panel_parts.js";
+import { element } from "../shared/dom.js";
+import { section } from "../panel/widgets/parts.js";
 
 const MAX_LINES = 200;
 const MAX_LINE_CHARS = 2000;

@@ -24,9 +24,9 @@ import {
   syntaxHighlighting,
   tagHighlighter,
   tags,
-} from "./vendor/codemirror.js?v=b595b00f";
+} from "../vendor/codemirror.js?v=b595b00f";
 
-/** Classes of what is written, which panel_code.css gives the panel's colors. */
+/** Classes of what is written, which styles/panel/code.css gives the panel's colors. */
 const COLORS = tagHighlighter([
   { tag: [tags.keyword, tags.operatorKeyword, tags.bool, tags.null, tags.self], class: "ai4u-code-keyword" },
   { tag: [tags.string, tags.special(tags.string)], class: "ai4u-code-string" },

@@ -1,12 +1,12 @@
 /** Python in the browser: starts the worker of a student's program, and ends it if it does not answer. */
 
-import { codeLimits } from "./code_limits.js";
+import { codeLimits } from "./limits.js";
 
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
-const WASM = "./vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
-const LIBRARY = "./vendor/pyodide/python_stdlib.zip?v=aabcb2cf";
-const PROGRAM = "../program.zip";
+const WASM = "../vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
+const LIBRARY = "../vendor/pyodide/python_stdlib.zip?v=aabcb2cf";
+const PROGRAM = "../../program.zip";
 const ENDLESS = "The program did not come back from this line, so it was ended. Is something in it endless or huge?";
 const NOT_LOADED = "The program is not running. Press Run.";
 const UNAVAILABLE = "Python could not be loaded. Is the world still running? Reload the page.";
@@ -153,7 +153,7 @@ const ENDED_ANSWER = JSON.stringify(problem("ended", NOT_LOADED));
 
 /** One worker. */
 class Runtime {
-  #worker = new Worker(new URL("./code_worker.js", import.meta.url), { type: "module" });
+  #worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
   #isEnded = false;
   #lastId = 0;
   /** Functions that take an answer's text, by the id of the call. */

@@ -1,7 +1,7 @@
 /** Lists beside a program: what the agent senses and can do, and the variables of the latest decision. */
 
-import { element, keyed, setText } from "./dom.js";
-import { section } from "./panel_parts.js";
+import { element, keyed, setText } from "../shared/dom.js";
+import { section } from "../panel/widgets/parts.js";
 
 /** Names to put into the program by a click. */
 export class NameList {
@@ -23,7 +23,7 @@ export class NameList {
     this.#onChoose = onChoose;
   }
 
-  /** @param names as namesOf() in code_start.js gives them */
+  /** @param names as namesOf() in code/start.js gives them */
   update({ readings, outputs }) {
     this.#fill(this.#readings, readings.map(({ key, words }) => ({ code: `percept["${key}"]`, words })));
     this.#fill(this.#outputs, outputs.map(({ name, words }) => ({ code: `"${name}"`, words })));

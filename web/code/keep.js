@@ -1,7 +1,7 @@
 /** Programs that this browser keeps: the present one of each agent and scene, and those of its latest runs. */
 
-import { roomOfPage } from "./class_programs.js";
-import { forget, recall, remember } from "./storage.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { forget, recall, remember } from "../shared/storage.js";
 
 /** Most runs whose programs are kept, for each agent and scene. */
 const MAX_RUNS = 50;

@@ -1,6 +1,6 @@
 /** The moment of the past that the world shows, beside the program: what it did there, and steps from there. */
 
-import { button, element, setText } from "./dom.js";
+import { button, element, setText } from "../shared/dom.js";
 
 export class CodeMoment {
   #panel;

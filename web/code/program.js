@@ -1,14 +1,14 @@
 /** The section "Your program": where the program comes from, and where it is kept. */
 
-import { splitProgram } from "./blocks_text.js";
-import { handoutFor, handouts } from "./class_handout.js";
-import { ClassPrograms } from "./class_programs.js";
-import { downloadText, KeptPrograms } from "./code_keep.js";
-import { button, element } from "./dom.js";
-import { freeId, section } from "./panel_parts.js";
-import { fileButton } from "./panel_scene_files.js";
-import { copyLink } from "./share.js";
-import { SharedOffer, sharedFor, sharedPrograms } from "./shared_program.js";
+import { splitProgram } from "../blocks/text.js";
+import { handoutFor, handouts } from "../classroom/student/handout.js";
+import { ClassPrograms } from "../classroom/student/programs.js";
+import { downloadText, KeptPrograms } from "./keep.js";
+import { button, element } from "../shared/dom.js";
+import { freeId, section } from "../panel/widgets/parts.js";
+import { fileButton } from "../panel/world/scene_files.js";
+import { copyLink } from "../scenes/share.js";
+import { SharedOffer, sharedFor, sharedPrograms } from "../scenes/shared_program.js";
 
 /** Largest program that is read from a file (bytes). */
 const MAX_FILE_BYTES = 100_000;

@@ -245,11 +245,11 @@ export class CodeRun extends EventTarget {
 }
 
 async function makeEngine() {
-  return new (await import("./code_engine.js")).CodeEngine();
+  return new (await import("./engine.js")).CodeEngine();
 }
 
 export async function connect(options) {
-  return (await import("./remote_client.js")).RemoteClient.connect(options);
+  return (await import("../remote/client.js")).RemoteClient.connect(options);
 }
 
 /** Return what a promise gives, unless the run was stopped meanwhile. */

@@ -1,6 +1,6 @@
 /** The world's speed during a test, and how it comes back to what it was. */
 
-import { codeLimits } from "./code_limits.js";
+import { codeLimits } from "./limits.js";
 
 export class WorldSpeed {
   #panel;

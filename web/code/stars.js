@@ -1,10 +1,10 @@
 /** The goals of a scene of the library, and the stars that the person's program earns with a run or a test. */
 
-import { syncStars } from "./class_stars.js";
-import { averageDecisions, STARTS } from "./code_test.js";
-import { element, setAttributes, setText } from "./dom.js";
-import { section } from "./panel_parts.js";
-import { earn, starRow, stars, starsOf } from "./stars.js";
+import { syncStars } from "../classroom/student/stars.js";
+import { averageDecisions, STARTS } from "./test.js";
+import { element, setAttributes, setText } from "../shared/dom.js";
+import { section } from "../panel/widgets/parts.js";
+import { earn, starRow, stars, starsOf } from "../scenes/stars.js";
 
 const NOTICES = [
   "A star: your program has reached the goal.",

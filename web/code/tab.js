@@ -1,23 +1,23 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
-import { BlocksMode } from "./blocks_mode.js";
-import { CodeConsole } from "./code_console.js";
-import { CodeEditor } from "./code_editor.js";
-import { NameList, VariableList } from "./code_facts.js";
-import { CodeMoment } from "./code_moment.js";
-import { ProgramSection } from "./code_program.js";
-import { CodeRun } from "./code_run.js";
-import { CodeStars } from "./code_stars.js";
-import { outcomeOf, WorldSpeed } from "./code_speed.js";
-import { namesOf, startProgram } from "./code_start.js";
-import { CodeTest } from "./code_test.js";
-import { CodeTimeline } from "./code_timeline.js";
-import { TestTable, testWords } from "./code_test_table.js";
-import { runWords } from "./code_words.js";
-import { button, element, setAttributes, setText } from "./dom.js";
-import { freeId } from "./panel_parts.js";
-import { retried } from "./retry.js";
-import { ProgramReports } from "./program_reports.js";
+import { BlocksMode } from "../blocks/mode.js";
+import { CodeConsole } from "./console.js";
+import { CodeEditor } from "./editor.js";
+import { NameList, VariableList } from "./facts.js";
+import { CodeMoment } from "./moment.js";
+import { ProgramSection } from "./program.js";
+import { CodeRun } from "./run.js";
+import { CodeStars } from "./stars.js";
+import { outcomeOf, WorldSpeed } from "./speed.js";
+import { namesOf, startProgram } from "./start.js";
+import { CodeTest } from "./test.js";
+import { CodeTimeline } from "./timeline.js";
+import { TestTable, testWords } from "./test_table.js";
+import { runWords } from "./words.js";
+import { button, element, setAttributes, setText } from "../shared/dom.js";
+import { freeId } from "../panel/widgets/parts.js";
+import { retried } from "../shared/retry.js";
+import { ProgramReports } from "../classroom/student/program_reports.js";
 
 const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";

@@ -1,6 +1,6 @@
 /** A test of the person's program: it drives several starts that it has not seen, as fast as the world goes. */
 
-import { connect, isOver, ProgramMistake, programFacts, STOPPED, toldBy, valid } from "./code_run.js";
+import { connect, isOver, ProgramMistake, programFacts, STOPPED, toldBy, valid } from "./run.js";
 
 export const STARTS = 10;
 /** Number of different seeds; trainings use none of them, see evaluating.py. */

@@ -1,9 +1,9 @@
 /** The results of a test: a sentence, and a table of its starts. */
 
-import { averageDecisions, STARTS } from "./code_test.js";
-import { button, element, keyed, setAttributes, setText } from "./dom.js";
-import { seconds } from "./panel_numbers.js";
-import { section } from "./panel_parts.js";
+import { averageDecisions, STARTS } from "./test.js";
+import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
+import { seconds } from "../shared/numbers.js";
+import { section } from "../panel/widgets/parts.js";
 
 const HEADS = ["No.", "Seed", "End", "Decisions", "Time"];
 const WORDS = { goal: "goal", won: "goal", time: "time is up", fell: "fell", lost: "lost", mistake: "mistake" };

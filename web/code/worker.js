@@ -9,8 +9,8 @@
  * the call has begun, and {line} which line of the program is about to run.
  */
 
-import createPyodideModule from "./vendor/pyodide/pyodide.asm.mjs?v=f7cdc8ec";
-import { loadPyodide } from "./vendor/pyodide/pyodide.mjs?v=6f1d60f7";
+import createPyodideModule from "../vendor/pyodide/pyodide.asm.mjs?v=f7cdc8ec";
+import { loadPyodide } from "../vendor/pyodide/pyodide.mjs?v=6f1d60f7";
 
 /** The first lines of Pyodide's own file of packages, of which none is here. */
 const LOCK = {
@@ -66,7 +66,7 @@ async function start({ wasm, library, program }) {
   });
   const python = await loadPyodide({
     createPyodideModule,
-    indexURL: new URL("./vendor/pyodide/", import.meta.url).href,
+    indexURL: new URL("../vendor/pyodide/", import.meta.url).href,
     lockFileContents: LOCK,
     jsglobals: {},
     stdin: () => null,

@@ -1,8 +1,8 @@
 /** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
 
-import { element } from "./dom.js";
+import { element } from "../shared/dom.js";
 import { capitalized } from "./driver_status.js";
-import { openNextScene } from "./next_scene.js";
+import { openNextScene } from "../scenes/next_scene.js";
 import { timeText } from "./results.js";
 
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
@@ -69,7 +69,7 @@ export class Banners {
    * @param page.restart the label of the restart key
    * @param page.name the agent's name, if this page can't drive it
    * @param page.isNew true until the person has pressed a key: then the goal is shown
-   * @param page.result of the episode that a person has just won: see results.js; else null
+   * @param page.result of the episode that a person has just won: see page/results.js; else null
    * @param page.isLost true once the connection has been gone for some seconds
    * @param page.held the text for a world that a teacher holds; empty for none
    * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't

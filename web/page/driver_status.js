@@ -1,6 +1,6 @@
 /** The line that says who drives the agent, with buttons to take over and to let go. */
 
-import { element } from "./dom.js";
+import { element } from "../shared/dom.js";
 
 export class DriverStatus {
   #dot = element("span", { className: "ai4u-dot", ariaHidden: "true" });

@@ -1,11 +1,11 @@
 /** The help dialog ("?"): the scene's goal, the parts of the page, and the keys, which can be changed. */
 
-import { element } from "./dom.js";
+import { element } from "../shared/dom.js";
 import { isDrawnBySoftware } from "./graphics.js";
 import { isTextInput } from "./keys.js";
 import { label } from "./labels.js";
-import { isToneOn, setTone } from "./tone.js";
-import { copyLink } from "./share.js";
+import { isToneOn, setTone } from "../shared/tone.js";
+import { copyLink } from "../scenes/share.js";
 
 const PAGE_PARTS = {
   "The picture": "The world from above. Scroll or pinch to zoom; click Arena to see everything again.",

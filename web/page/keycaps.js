@@ -1,6 +1,6 @@
 /** The keys on the screen: lit while held, and usable with mouse, fingers and screen readers. */
 
-import { element } from "./dom.js";
+import { element } from "../shared/dom.js";
 import { label } from "./labels.js";
 import { dpadActions } from "./dpad.js";
 import { Stick } from "./stick.js";

@@ -1,12 +1,12 @@
 /** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
 
-import "./panel_shortcuts.js"; // the first one: its listener comes before the one that drives
+import "../panel/shortcuts.js"; // the first one: its listener comes before the one that drives
 import { Banners } from "./banners.js";
-import { ClassBar } from "./class_bar.js";
-import { noteHandout } from "./class_handout.js";
-import { showLeft } from "./class_overlay.js";
-import { roomOfPage } from "./class_programs.js";
-import { element } from "./dom.js";
+import { ClassBar } from "../classroom/student/bar.js";
+import { noteHandout } from "../classroom/student/handout.js";
+import { showLeft } from "../classroom/student/overlay.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { element } from "../shared/dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
 import { keysReachPage, watchFocus } from "./focus.js";
@@ -17,10 +17,10 @@ import { HeldKeys } from "./keys.js";
 import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
-import { watchSharedScene } from "./share.js";
+import { watchSharedScene } from "../scenes/share.js";
 import { KEYS, PROGRAM, Results } from "./results.js";
-import { JsonSocket } from "./socket.js";
-import { playTone } from "./tone.js";
+import { JsonSocket } from "../shared/socket.js";
+import { playTone } from "../shared/tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -210,7 +210,7 @@ socket.open();
 trackCanvasEdges();
 watchSharedScene();
 if (HAS_PANEL) {
-  const { startPanel } = await import("./panel.js");
+  const { startPanel } = await import("../panel/panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
   panel.addEventListener("part:scene", draw);
   draw();

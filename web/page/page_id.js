@@ -12,7 +12,7 @@
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
   const url = new URL(location.href);
-  // viser writes the address anew, without what stands after its "#"; share.js looks here first
+  // viser writes the address anew, without what stands after its "#"; scenes/share.js looks here first
   document.documentElement.dataset.ai4uFragment = url.hash;
   if (!("panel" in document.currentScript.dataset)) return;
 
@@ -20,7 +20,7 @@
   const bytes = crypto.getRandomValues(new Uint8Array(16));
   const id = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
   window.ai4uPageId = id;
-  document.documentElement.dataset.ai4uPanel = "open"; // panel_layout.css makes room for it
+  document.documentElement.dataset.ai4uPanel = "open"; // styles/panel/layout.css makes room for it
   url.searchParams.set(PARAMETER, `${location.origin.replace(/^http/, "ws")}${location.pathname}?page=${id}`);
   history.replaceState(history.state, "", url);
 

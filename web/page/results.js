@@ -1,6 +1,6 @@
 /** A person's results: the time of an episode that reached the goal, and the best times in this browser. */
 
-import { recall, remember } from "./storage.js";
+import { recall, remember } from "../shared/storage.js";
 
 const WINS = ["goal", "won"];
 /** Drivers whose times are kept apart. */

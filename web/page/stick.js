@@ -1,6 +1,6 @@
 /** An analog stick on the screen for the thumb: forward, backward, left and right. */
 
-import { element } from "./dom.js";
+import { element } from "../shared/dom.js";
 
 /** Dead zone of each axis, as a share of its full deflection: a thumb is not exact. */
 const DEAD_ZONE = 0.15;

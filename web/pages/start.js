@@ -1,12 +1,12 @@
 /** The start page: play a scene of the library, build one, or learn. */
 
-import { syncStars } from "./class_stars.js";
-import { element } from "./dom.js";
-import { ask, tell } from "./question.js";
-import { request, unsavedSentence } from "./scene_api.js";
-import { scenePicture } from "./scene_picture.js";
-import { watchSharedScene } from "./share.js";
-import { starRow, starsOf } from "./stars.js";
+import { syncStars } from "../classroom/student/stars.js";
+import { element } from "../shared/dom.js";
+import { ask, tell } from "../shared/question.js";
+import { request, unsavedSentence } from "../scenes/api.js";
+import { scenePicture } from "../scenes/picture.js";
+import { watchSharedScene } from "../scenes/share.js";
+import { starRow, starsOf } from "../scenes/stars.js";
 
 /** Name of the empty plate with a robot. */
 const EMPTY_SCENE = "my_scene";

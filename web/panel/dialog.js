@@ -1,7 +1,7 @@
 /** Windows of the panel: galleries, the scene picker, questions. */
 
-import { button, element, setAttributes } from "./dom.js";
-import { freeId } from "./panel_parts.js";
+import { button, element, setAttributes } from "../shared/dom.js";
+import { freeId } from "./widgets/parts.js";
 
 /**
  * Open a modal window. Closing it gives the focus back to where it was.

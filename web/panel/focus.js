@@ -1,6 +1,6 @@
 /** The focus goes back to the page after each use of the panel by pointer, so that W, A, S and D drive at once. */
 
-import { isTextInput } from "./keys.js";
+import { isTextInput } from "../page/keys.js";
 
 /** @param {HTMLElement} root the panel */
 export function returnFocus(root) {

@@ -2,11 +2,11 @@
  * Where the panel stands: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
  *
  * It sets data-ai4u-layout (side, below, sheet) and data-ai4u-panel (open, folded) of the document's root, and
- * the CSS variables --ai4u-panel-size and --ai4u-dock-height; panel.css does the rest.
+ * the CSS variables --ai4u-panel-size and --ai4u-dock-height; styles/panel/panel.css does the rest.
  */
 
-import { element, setAttributes } from "./dom.js";
-import { recall, remember } from "./storage.js";
+import { element, setAttributes } from "../shared/dom.js";
+import { recall, remember } from "../shared/storage.js";
 
 const PHONE = matchMedia("(max-width: 576px)");
 /** A phone on its side: the panel stands beside the canvas, but folded at first. */

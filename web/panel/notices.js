@@ -1,6 +1,6 @@
 /** Results and errors at the lower edge of the panel: a fixed place, so that they move no button. */
 
-import { button, element } from "./dom.js";
+import { button, element } from "../shared/dom.js";
 
 /** How long a result is shown (ms); an error stays until somebody closes it or the next one comes. */
 const INFO_MS = 6000;

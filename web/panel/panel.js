@@ -1,20 +1,20 @@
 /** Our panel beside viser's canvas: its frame, its tabs, and what they share. */
 
-import { button, element, setAttributes } from "./dom.js";
-import { openDialog } from "./panel_dialog.js";
-import { DriveTab } from "./panel_drive.js";
-import { focusWorld, returnFocus } from "./panel_focus.js";
-import { Layout } from "./panel_layout.js";
-import { Notices } from "./panel_notices.js";
-import { segments } from "./panel_parts.js";
-import { RunControls } from "./panel_run.js";
-import { installShortcuts } from "./panel_shortcuts.js";
-import { ScenePicker } from "./panel_scenes.js";
-import { PanelSocket } from "./panel_socket.js";
-import { Tabs } from "./panel_tabs.js";
-import { ViewControls } from "./panel_view.js";
-import { retried } from "./retry.js";
-import { recall, remember } from "./storage.js";
+import { button, element, setAttributes } from "../shared/dom.js";
+import { openDialog } from "./dialog.js";
+import { DriveTab } from "./drive/tab.js";
+import { focusWorld, returnFocus } from "./focus.js";
+import { Layout } from "./layout.js";
+import { Notices } from "./notices.js";
+import { segments } from "./widgets/parts.js";
+import { RunControls } from "./run.js";
+import { installShortcuts } from "./shortcuts.js";
+import { ScenePicker } from "./scenes.js";
+import { PanelSocket } from "./socket.js";
+import { Tabs } from "./tabs.js";
+import { ViewControls } from "./view.js";
+import { retried } from "../shared/retry.js";
+import { recall, remember } from "../shared/storage.js";
 
 const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["code", "Code"], ["past", "Past"]];
 const MAX_FILE_NAME_CHARS = 80;
@@ -23,10 +23,10 @@ const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", code: "ag
 /** Modules of the tabs that are loaded when they are first opened. */
 const LOADERS = {
   drive: async () => DriveTab,
-  build: async () => (await import("./panel_build.js")).BuildTab,
-  world: async () => (await import("./panel_world.js")).WorldTab,
-  code: async () => (await import("./panel_code.js")).CodeTab,
-  past: async () => (await import("./panel_past.js")).PastTab,
+  build: async () => (await import("./build/tab.js")).BuildTab,
+  world: async () => (await import("./world/tab.js")).WorldTab,
+  code: async () => (await import("../code/tab.js")).CodeTab,
+  past: async () => (await import("./past/tab.js")).PastTab,
 };
 
 /**

@@ -1,13 +1,13 @@
 /** The scene's title, as a button that opens the scene picker. */
 
-import { syncStars } from "./class_stars.js";
-import { button, element, setAttributes, setText } from "./dom.js";
-import { icon } from "./panel_icons.js";
-import { freeId, tile, tiles } from "./panel_parts.js";
-import { ask } from "./question.js";
-import { unsavedSentence } from "./scene_api.js";
-import { scenePicture } from "./scene_picture.js";
-import { starRow, starsOf } from "./stars.js";
+import { syncStars } from "../classroom/student/stars.js";
+import { button, element, setAttributes, setText } from "../shared/dom.js";
+import { icon } from "../shared/icons.js";
+import { freeId, tile, tiles } from "./widgets/parts.js";
+import { ask } from "../shared/question.js";
+import { unsavedSentence } from "../scenes/api.js";
+import { scenePicture } from "../scenes/picture.js";
+import { starRow, starsOf } from "../scenes/stars.js";
 
 const [MINE, OTHERS] = ["My scenes", "More scenes"];
 /** Headings in their order: the scenes' levels, and those without one. */

@@ -1,6 +1,6 @@
 /** Shortcuts for changing the world: undo and redo anywhere; delete, copy and nudge for the chosen thing. */
 
-import { isTextInput } from "./keys.js";
+import { isTextInput } from "../page/keys.js";
 
 /** How far an arrow key moves a thing if there is no grid, or while Alt is held (m). */
 const FREE_STEP_M = 0.05;
@@ -15,7 +15,7 @@ export function installShortcuts(itsPanel) {
   panel = itsPanel;
 }
 
-// When this module is loaded, because it has to come before the listener that drives (keys.js): arrow keys
+// When this module is loaded, because it has to come before the listener that drives (page/keys.js): arrow keys
 // may drive, too.
 addEventListener(
   "keydown",

@@ -1,6 +1,6 @@
 /** The panel's WebSocket: commands with answers, and the parts of the world's state that the page looks at. */
 
-import { JsonSocket } from "./socket.js";
+import { JsonSocket } from "../shared/socket.js";
 
 /** Size of the parts in which a file is sent. */
 const PART_BYTES = 2 ** 18;

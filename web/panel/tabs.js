@@ -1,7 +1,7 @@
 /** The panel's tabs: a tablist with arrow keys, and a panel for each. */
 
-import { element, setAttributes } from "./dom.js";
-import { recall, remember } from "./storage.js";
+import { element, setAttributes } from "../shared/dom.js";
+import { recall, remember } from "../shared/storage.js";
 
 /** A phone, upright or on its side: what stands above the tabs fills the panel. */
 const SMALL = matchMedia("(max-width: 576px), (max-height: 500px)");

@@ -1,7 +1,7 @@
 /** The picture of the world: where its camera is, the trail, and the dark colours. */
 
-import { element } from "./dom.js";
-import { segments, toggle } from "./panel_parts.js";
+import { element } from "../shared/dom.js";
+import { segments, toggle } from "./widgets/parts.js";
 
 const CAMERAS = [
   { value: "arena", text: "Arena", title: "See everything from above" },
@@ -26,7 +26,7 @@ export class ViewControls {
     });
     const root = document.documentElement;
     const dark = toggle("Dark", (on) => {
-      dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // dark.js keeps the choice
+      dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // page/dark.js keeps the choice
       panel.send("dark", { on }, { quiet: true });
     });
     const sendMotion = () => panel.send("reduce_motion", { on: LESS_MOTION.matches }, { quiet: true });

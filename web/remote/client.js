@@ -1,9 +1,9 @@
 /** An agent of the page's own world, driven from the page over the protocol for scripts. */
 
-import { ConnectionLostError, Dialogue, RemoteError } from "./remote_dialogue.js";
-import { SUBPROTOCOL } from "./remote_messages.js";
+import { ConnectionLostError, Dialogue, RemoteError } from "./dialogue.js";
+import { SUBPROTOCOL } from "./messages.js";
 
-const PATH = "../ws/remote";
+const PATH = "../../ws/remote";
 const SECRET_BYTES = 16;
 
 export { RemoteError };
@@ -39,7 +39,7 @@ export class RemoteClient {
     return client;
   }
 
-  /** The world's description of the agent; see `welcome` and READING, OUTPUT in remote_messages.js. */
+  /** The world's description of the agent; see `welcome` and READING, OUTPUT in remote/messages.js. */
   get welcome() {
     return this.#dialogue.welcome;
   }

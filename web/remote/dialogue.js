@@ -6,8 +6,8 @@
  * last frame; if the connection is lost, it reconnects, as long as the world keeps the agent for it.
  */
 
-import { codeLimits } from "./code_limits.js";
-import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./remote_messages.js";
+import { codeLimits } from "../code/limits.js";
+import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./messages.js";
 
 /** Time after which a frame is repeated for the first time; it doubles with each repetition. */
 const FIRST_TIMEOUT_MS = 200;

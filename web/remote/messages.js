@@ -3,7 +3,7 @@
  * A frame is one msgpack array: the kind of message, then its fields.
  */
 
-import { decode, Encoder } from "./vendor/msgpack.js?v=269ec7b2";
+import { decode, Encoder } from "../vendor/msgpack.js?v=269ec7b2";
 
 export const VERSION = 1;
 export const SUBPROTOCOL = `ai4u-edu-remote.v${VERSION}`;

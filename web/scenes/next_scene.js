@@ -1,7 +1,7 @@
 /** Opens the scene that follows in the library. */
 
-import { ask, tell } from "./question.js";
-import { request, unsavedSentence } from "./scene_api.js";
+import { ask, tell } from "../shared/question.js";
+import { request, unsavedSentence } from "./api.js";
 
 /** Open the next scene of the library, after a question if the present one has unsaved changes. */
 export async function openNextScene() {

@@ -1,7 +1,7 @@
 /** Pictures of scenes from above, and what stands where there is none. */
 
-import { element } from "./dom.js";
-import { icon } from "./panel_icons.js";
+import { element } from "../shared/dom.js";
+import { icon } from "../shared/icons.js";
 
 /**
  * Return a frame with a scene's picture, which is loaded when it comes into view. If the picture is

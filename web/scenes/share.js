@@ -2,10 +2,10 @@
  * Sharing by link: a link to this page holds the whole scene after its "#", which no browser sends to a server.
  */
 
-import { element } from "./dom.js";
-import { ask, tell } from "./question.js";
+import { element } from "../shared/dom.js";
+import { ask, tell } from "../shared/question.js";
 import { programIn, withoutProgram, withProgram } from "./program_link.js";
-import { request, unsavedSentence } from "./scene_api.js";
+import { request, unsavedSentence } from "./api.js";
 import { keepShared } from "./shared_program.js";
 
 const PREFIX = "#scene=";

@@ -1,9 +1,9 @@
 /** A program that came with a link to a scene: kept until the person takes it or does not want it. */
 
-import { splitProgram } from "./blocks_text.js";
-import { roomOfPage } from "./class_programs.js";
-import { button, element, setText } from "./dom.js";
-import { forget, recall, remember } from "./storage.js";
+import { splitProgram } from "../blocks/text.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { button, element, setText } from "../shared/dom.js";
+import { forget, recall, remember } from "../shared/storage.js";
 
 /** Students of a class may use one device in turn. */
 const KEY = `shared-program-${roomOfPage()}`;

@@ -1,8 +1,8 @@
 /** Stars that a person's programs have earned in the scenes of the library; this browser keeps them. */
 
-import { roomOfPage } from "./class_programs.js";
-import { element, setAttributes, setText } from "./dom.js";
-import { recall, remember } from "./storage.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { element, setAttributes, setText } from "../shared/dom.js";
+import { recall, remember } from "../shared/storage.js";
 
 export const MAX_STARS = 3;
 /** Most scenes whose stars are kept. */

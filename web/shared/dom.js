@@ -1,6 +1,6 @@
 /** Helpers for building and updating elements. Text becomes text nodes, never HTML. */
 
-import { icon as iconNamed } from "./panel_icons.js";
+import { icon as iconNamed } from "./icons.js";
 
 /**
  * Create an element.

@@ -1,6 +1,6 @@
 /** Another try of what failed because the network, or a busy server, did for a moment. */
 
-import { pageLimits } from "./page_limits.js";
+import { pageLimits } from "./limits.js";
 
 /** Most tries; the pause before each is twice as long as the one before. */
 const TRIES = 5;

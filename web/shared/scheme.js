@@ -1,4 +1,4 @@
-/** The color scheme of a page without viser: the choice that dark.js stored, else the system's preference. */
+/** The color scheme of a page without viser: the choice that page/dark.js stored, else the system's preference. */
 (() => {
   try {
     const choice = localStorage.getItem("ai4u-dark");

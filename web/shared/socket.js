@@ -1,6 +1,6 @@
 /** A WebSocket for JSON messages that reconnects with backoff: of the keys and of the panel. */
 
-import { pageLimits } from "./page_limits.js";
+import { pageLimits } from "./limits.js";
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;

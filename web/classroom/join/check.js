@@ -1,6 +1,6 @@
 /** The page that checks a browser and its network before a class. */
 
-import { element } from "./dom.js";
+import { element } from "../../shared/dom.js";
 
 const ECHOES = 5;
 const ECHO_TIMEOUT_MS = 5000;

@@ -1,6 +1,6 @@
 /** The page on which a student joins a class. */
 
-import { element } from "./dom.js";
+import { element } from "../../shared/dom.js";
 
 const find = (selector) => document.querySelector(selector);
 const code = find("#code");

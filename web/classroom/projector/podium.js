@@ -1,8 +1,8 @@
 /** The podium of the projector page: the best three, who come one after another, with a sound for each. */
 
-import { element } from "./dom.js";
-import { recall, remember } from "./storage.js";
-import { playNotes } from "./tone.js";
+import { element } from "../../shared/dom.js";
+import { recall, remember } from "../../shared/storage.js";
+import { playNotes } from "../../shared/tone.js";
 
 /** Time from the third to the second, and from there to the first (ms). */
 const STEP_MS = 1200;

@@ -1,12 +1,12 @@
 /** The projector page: what the teacher shows to all. */
 
-import { openClassSocket } from "./class_socket.js";
-import { Countdown } from "./class_strips.js";
-import { element, keyed, setText } from "./dom.js";
+import { openClassSocket } from "../socket.js";
+import { Countdown } from "../strips.js";
+import { element, keyed, setText } from "../../shared/dom.js";
 import { Podium, soundButton } from "./podium.js";
-import { clock, counted } from "./room_words.js";
-import { ProjectedTournament } from "./projected_tournament.js";
-import { Wall } from "./wall.js";
+import { clock, counted } from "../room_words.js";
+import { ProjectedTournament } from "./tournament.js";
+import { Wall } from "../wall/wall.js";
 
 const TICK_MS = 100;
 const MARGIN_PX = 16;

@@ -1,9 +1,9 @@
 /** The tournament on the projector page: standings, the cross table, and the match that was played last. */
 
-import { element, setText } from "./dom.js";
+import { element, setText } from "../../shared/dom.js";
 import { Podium } from "./podium.js";
-import { counted } from "./room_words.js";
-import { contestLine, dot, standingsTable } from "./tournament_tables.js";
+import { counted } from "../room_words.js";
+import { contestLine, dot, standingsTable } from "../tournament/tables.js";
 
 /** Entries up to which there is a table with ratings; more have a list in columns. */
 const MAX_ROWS = 10;

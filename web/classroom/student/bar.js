@@ -4,11 +4,11 @@
  * The page of a world without a class never makes one.
  */
 
-import { BlankScreen, clockText, RaceCountdown } from "./class_overlay.js";
-import { element, keyed, setAttributes, setText } from "./dom.js";
+import { BlankScreen, clockText, RaceCountdown } from "./overlay.js";
+import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { showHandIn } from "./hand_in_dialog.js";
-import { icon } from "./panel_icons.js";
-import { ask, tell } from "./question.js";
+import { icon } from "../../shared/icons.js";
+import { ask, tell } from "../../shared/question.js";
 
 /** Interval at which countdowns are drawn (ms). */
 const TICK_MS = 200;

@@ -1,8 +1,8 @@
 /** The dialog with which a student hands in a network for a tournament of the class. */
 
-import { element, keyed, setText } from "./dom.js";
-import { field, select, showForm } from "./form_dialog.js";
-import { tell } from "./question.js";
+import { element, keyed, setText } from "../../shared/dom.js";
+import { field, select, showForm } from "../../shared/form_dialog.js";
+import { tell } from "../../shared/question.js";
 
 const ADDRESS = "../../api/network";
 /** Interval at which the class is asked for the verdict on a network (ms). */

@@ -1,6 +1,6 @@
 /** What a class lays over the world: the teacher's blank screen, and a race's countdown. */
 
-import { element, setText } from "./dom.js";
+import { element, setText } from "../../shared/dom.js";
 
 /** How long "Go!" is shown (ms). */
 const GO_MS = 900;

@@ -6,8 +6,8 @@
  * is kept among the earlier runs.
  */
 
-import { element, setText } from "./dom.js";
-import { recall, remember } from "./storage.js";
+import { element, setText } from "../../shared/dom.js";
+import { recall, remember } from "../../shared/storage.js";
 
 /** Pause in typing after which a program is saved (ms). */
 const SAVE_DELAY_MS = 2000;

@@ -1,9 +1,9 @@
 /** The dialog that gives a scene or a lesson to one, some or all rooms. */
 
-import { command } from "./class_command.js";
-import { element } from "./dom.js";
-import { choice, choices, chosenIn, field, showForm } from "./form_dialog.js";
-import { roomName } from "./room_words.js";
+import { command } from "./command.js";
+import { element } from "../../shared/dom.js";
+import { choice, choices, chosenIn, field, showForm } from "../../shared/form_dialog.js";
+import { roomName } from "../room_words.js";
 import { sceneChoice, seedField } from "./scene_choice.js";
 
 /** As MAX_STARTING_PROGRAM_CHARS of the class link. */

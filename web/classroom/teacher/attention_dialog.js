@@ -1,8 +1,8 @@
 /** The dialog with which a teacher gets everybody's attention. */
 
-import { command } from "./class_command.js";
-import { element } from "./dom.js";
-import { choices, chosenIn, field, select, showForm } from "./form_dialog.js";
+import { command } from "./command.js";
+import { element } from "../../shared/dom.js";
+import { choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
 
 /** Longest message; as MAX_MESSAGE_CHARS of the class link. */
 const MAX_MESSAGE_CHARS = 200;

@@ -1,8 +1,8 @@
 /** The end of a class: export first, then forget everything. */
 
-import { command } from "./class_command.js";
-import { element } from "./dom.js";
-import { choice, field, showForm } from "./form_dialog.js";
+import { command } from "./command.js";
+import { element } from "../../shared/dom.js";
+import { choice, field, showForm } from "../../shared/form_dialog.js";
 
 export const EXPORT = "./teacher/export";
 

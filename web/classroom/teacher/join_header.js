@@ -1,9 +1,9 @@
 /** The head of the teacher's page: how to join, small while a class runs, large while it gathers. */
 
-import { commandOrTell } from "./class_command.js";
-import { element, keyed, setText } from "./dom.js";
+import { commandOrTell } from "./command.js";
+import { element, keyed, setText } from "../../shared/dom.js";
 import { showMoveCode } from "./move_code_dialog.js";
-import { ask } from "./question.js";
+import { ask } from "../../shared/question.js";
 
 /** Words by a seat's state; "in" needs none. */
 const STATES = { left: "left", kicked: "sent out; may join again", banned: "may not come back" };

@@ -1,7 +1,7 @@
 /** The board of misconceptions: which mistake of which exercise was made how often, and what to say about it. */
 
-import { element } from "./dom.js";
-import { counted } from "./room_words.js";
+import { element } from "../../shared/dom.js";
+import { counted } from "../room_words.js";
 
 export class Misconceptions {
   #place;

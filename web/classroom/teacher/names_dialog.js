@@ -1,8 +1,8 @@
 /** The dialog for real names, which stay in this browser. */
 
-import { element, setText } from "./dom.js";
-import { field, showForm } from "./form_dialog.js";
-import { counted } from "./room_words.js";
+import { element, setText } from "../../shared/dom.js";
+import { field, showForm } from "../../shared/form_dialog.js";
+import { counted } from "../room_words.js";
 
 export function showNames(realNames) {
   const file = element("input", { type: "file", accept: ".csv,.tsv,.txt" });

@@ -1,7 +1,7 @@
 /** The board of programs: the mistakes that stopped them, and the beginning of each student's program. */
 
-import { splitProgram } from "./blocks_text.js";
-import { element, keyed, setAttributes, setText } from "./dom.js";
+import { splitProgram } from "../../blocks/text.js";
+import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { mistakeCard } from "./misconceptions.js";
 import { programFacts, programsOf } from "./room_programs.js";
 
@@ -29,7 +29,7 @@ export class ProgramsBoard {
 
   /**
    * @param place the panel of the tab
-   * @param realNames see real_names.js
+   * @param realNames see classroom/teacher/real_names.js
    * @param onOpen called with the number of the seat whose program is chosen
    */
   constructor(place, realNames, onOpen) {

@@ -1,8 +1,8 @@
 /** The tables of progress: students by exercises, and the stars of their programs by scenes. */
 
-import { element, setText } from "./dom.js";
-import { counted } from "./room_words.js";
-import { starRow } from "./stars.js";
+import { element, setText } from "../../shared/dom.js";
+import { counted } from "../room_words.js";
+import { starRow } from "../../scenes/stars.js";
 
 /** Signs and words of an exercise's state; a sign differs in shape. */
 const STATES = {

@@ -1,8 +1,8 @@
 /** The dialog that starts a race. */
 
-import { command } from "./class_command.js";
-import { element } from "./dom.js";
-import { choice, field, select, showForm } from "./form_dialog.js";
+import { command } from "./command.js";
+import { element } from "../../shared/dom.js";
+import { choice, field, select, showForm } from "../../shared/form_dialog.js";
 import { sceneChoice, seedField } from "./scene_choice.js";
 
 const COUNTDOWNS = [

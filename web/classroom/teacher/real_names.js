@@ -1,6 +1,6 @@
 /** Real names of students, from a table that the teacher loads. They stay in this browser and are never sent. */
 
-import { forget, recall, remember } from "./storage.js";
+import { forget, recall, remember } from "../../shared/storage.js";
 
 const STORAGE_KEY = "real-names";
 const MAX_NAME_CHARS = 60;

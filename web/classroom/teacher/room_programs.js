@@ -1,9 +1,9 @@
 /** The programs of a room's students, for the teacher to read. */
 
-import { splitProgram } from "./blocks_text.js";
-import { element } from "./dom.js";
-import { showForm } from "./form_dialog.js";
-import { roomName } from "./room_words.js";
+import { splitProgram } from "../../blocks/text.js";
+import { element } from "../../shared/dom.js";
+import { showForm } from "../../shared/form_dialog.js";
+import { roomName } from "../room_words.js";
 
 const UNREACHABLE = "The class can't be reached. Is its program still running?";
 const ELSEWHERE = "In this class, students' programs stay on their own machines.";

@@ -1,9 +1,9 @@
 /** Where a scene for the class comes from: the library, a student's room, or a file of the teacher. */
 
-import { choices, chosenIn, field, select } from "./form_dialog.js";
-import { element } from "./dom.js";
-import { roomName } from "./room_words.js";
-import { scenePicture } from "./scene_picture.js";
+import { choices, chosenIn, field, select } from "../../shared/form_dialog.js";
+import { element } from "../../shared/dom.js";
+import { roomName } from "../room_words.js";
+import { scenePicture } from "../../scenes/picture.js";
 
 /** Largest scene file; as MAX_SCENE_CHARS of the class link. */
 const MAX_SCENE_CHARS = 200_000;

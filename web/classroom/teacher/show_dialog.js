@@ -1,9 +1,9 @@
 /** The dialog that chooses what the projector page shows. */
 
-import { command } from "./class_command.js";
-import { element } from "./dom.js";
-import { choices, chosenIn, field, select, showForm } from "./form_dialog.js";
-import { roomName } from "./room_words.js";
+import { command } from "./command.js";
+import { element } from "../../shared/dom.js";
+import { choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
+import { roomName } from "../room_words.js";
 
 const KINDS = { join: "How to join: address, code and QR code", board: "The wall", room: "One room, live", race: "The race", tournament: "The tournament" };
 

@@ -2,11 +2,11 @@
 
 import { showAssign } from "./assign_dialog.js";
 import { END_ATTENTION, isHeld, showAttention } from "./attention_dialog.js";
-import { commandOrTell } from "./class_command.js";
-import { openClassSocket } from "./class_socket.js";
-import { ClassStrips } from "./class_strips.js";
-import { watchTabs } from "./class_tabs.js";
-import { setText } from "./dom.js";
+import { commandOrTell } from "./command.js";
+import { openClassSocket } from "../socket.js";
+import { ClassStrips } from "../strips.js";
+import { watchTabs } from "./tabs.js";
+import { setText } from "../../shared/dom.js";
 import { showEnd } from "./end_dialog.js";
 import { JoinHeader } from "./join_header.js";
 import { Misconceptions } from "./misconceptions.js";
@@ -18,10 +18,10 @@ import { RealNames } from "./real_names.js";
 import { showRoom } from "./room_dialog.js";
 import { showPrograms } from "./room_programs.js";
 import { showProjector } from "./show_dialog.js";
-import { TournamentBoard } from "./tournament_board.js";
-import { Wall } from "./wall.js";
-import { WallControls } from "./wall_controls.js";
-import { FILTERS } from "./wall_order.js";
+import { TournamentBoard } from "../tournament/board.js";
+import { Wall } from "../wall/wall.js";
+import { WallControls } from "../wall/controls.js";
+import { FILTERS } from "../wall/order.js";
 
 const BOTTOM_PX = 16;
 const MIN_WALL_PX = 240;

@@ -1,10 +1,10 @@
 /** The tournament on the teacher's page: who handed in what, its start and end, and its results. */
 
-import { commandOrTell } from "./class_command.js";
-import { element } from "./dom.js";
-import { counted } from "./room_words.js";
-import { showBegin, showStart } from "./tournament_dialogs.js";
-import { contestLine, dot, standingsTable } from "./tournament_tables.js";
+import { commandOrTell } from "../teacher/command.js";
+import { element } from "../../shared/dom.js";
+import { counted } from "../room_words.js";
+import { showBegin, showStart } from "./dialogs.js";
+import { contestLine, dot, standingsTable } from "./tables.js";
 
 const HOW =
   "No tournament yet. Choose its scene; then students hand in networks that they have trained: with “Hand in” above their world, or with submit(…) in a notebook. Here you see who did, and start the games.";

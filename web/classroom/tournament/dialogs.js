@@ -1,10 +1,10 @@
 /** The dialogs that begin a tournament, and start its games. */
 
-import { command } from "./class_command.js";
-import { element, setText } from "./dom.js";
-import { choice, choices, chosenIn, field, select, showForm } from "./form_dialog.js";
-import { counted } from "./room_words.js";
-import { scenePicture } from "./scene_picture.js";
+import { command } from "../teacher/command.js";
+import { element, setText } from "../../shared/dom.js";
+import { choice, choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
+import { counted } from "../room_words.js";
+import { scenePicture } from "../../scenes/picture.js";
 
 const SEEDS = [1, 2, 3, 5, 10];
 const DEFAULT_SEED = "2";

@@ -1,6 +1,6 @@
 /** Tables of a tournament's results, for the teacher's page and the projector page. */
 
-import { element } from "./dom.js";
+import { element } from "../../shared/dom.js";
 
 /** Most entries of a cross table that can be read. */
 const MAX_CROSSED = 16;

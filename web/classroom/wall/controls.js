@@ -1,8 +1,8 @@
 /** The wall's filter, order and size of cards, which this browser remembers. */
 
-import { element, setText } from "./dom.js";
-import { recall, remember } from "./storage.js";
-import { FILTERS } from "./wall_order.js";
+import { element, setText } from "../../shared/dom.js";
+import { recall, remember } from "../../shared/storage.js";
+import { FILTERS } from "./order.js";
 
 const STORAGE_KEY = "wall";
 /** Widths of cards (px) at the two ends of the slider. Below its first step, all cards fit into the window. */

@@ -1,6 +1,6 @@
 /** Which rooms a wall shows, and in which order. */
 
-import { needsHelp } from "./room_words.js";
+import { needsHelp } from "../room_words.js";
 
 /** Needs of help that differ by less count as the same, so that cards don't change places all the time. */
 const HELP_STEP = 10;

@@ -1,7 +1,7 @@
 /** A room's card on the wall: who is in it, how it goes, and an empty area that the wall's canvas shows through. */
 
-import { element, setAttributes, setText } from "./dom.js";
-import { needsHelp, roomName, seatsOf, statusOf } from "./room_words.js";
+import { element, setAttributes, setText } from "../../shared/dom.js";
+import { needsHelp, roomName, seatsOf, statusOf } from "../room_words.js";
 
 const MAX_DOTS = 8;
 const MAX_COLOUR_DOTS = 3;

@@ -1,14 +1,14 @@
 /** The wall: a card for each room, sorted, filtered and sized, with the drawings of all rooms behind them. */
 
-import { keyed } from "./dom.js";
+import { keyed } from "../../shared/dom.js";
 import { roomCard, updateCard } from "./room_card.js";
-import { roomName } from "./room_words.js";
-import { WallCanvas } from "./wall_canvas.js";
-import { FILTERS, fitting, ordered } from "./wall_order.js";
+import { roomName } from "../room_words.js";
+import { WallCanvas } from "./canvas.js";
+import { FILTERS, fitting, ordered } from "./order.js";
 
 const GAP_PX = 10;
 const MIN_CARD_PX = 112;
-/** Cards below this width have no foot; as in wall.css. */
+/** Cards below this width have no foot; as in styles/classroom/wall.css. */
 const MIN_FOOT_PX = 170;
 /** How long a pointer that rests on a card holds the order. */
 const POINTER_HOLDS_MS = 10_000;
@@ -29,7 +29,7 @@ export class Wall {
   /**
    * @param {HTMLElement} wall has a canvas and a list
    * @param options.onOpen called with a room's id; without it, cards are no buttons
-   * @param options.realNames see real_names.js
+   * @param options.realNames see classroom/teacher/real_names.js
    * @param options.heightLeft returns the height that all cards should fit into
    */
   constructor(wall, { onOpen = null, realNames = { of: () => "" }, heightLeft }) {
@@ -63,7 +63,7 @@ export class Wall {
     this.#update();
   }
 
-  /** Change the view: `by` ("help" or "name"), `filter` (see wall_order.js), `width` of a card (0: so that all fit). */
+  /** Change the view: `by` ("help" or "name"), `filter` (see classroom/wall/order.js), `width` of a card (0: so that all fit). */
   look(view) {
     Object.assign(this.#view, view);
     this.#order = [];
@@ -150,7 +150,7 @@ export class Wall {
   }
 }
 
-/** Return a card's height; as in wall.css. */
+/** Return a card's height; as in styles/classroom/wall.css. */
 function heightOf(width) {
   const fontSize = Math.min(34, Math.max(12, 0.052 * width));
   const lines = width < MIN_FOOT_PX ? 2 : 4;

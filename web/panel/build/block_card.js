@@ -1,9 +1,9 @@
 /** A block as a card: switch, order, copy, delete, and its form when it is open. */
 
-import { button, element, keyed, setText } from "./dom.js";
-import { Card } from "./panel_card.js";
-import { Form } from "./panel_form.js";
-import { openGallery } from "./panel_gallery.js";
+import { button, element, keyed, setText } from "../../shared/dom.js";
+import { Card } from "../widgets/card.js";
+import { Form } from "../widgets/form.js";
+import { openGallery } from "./gallery.js";
 
 export const isSamePath = (one, other) => JSON.stringify(one ?? null) === JSON.stringify(other ?? null);
 

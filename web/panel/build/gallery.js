@@ -1,8 +1,8 @@
 /** The gallery of blocks that can be added, grouped by the question that each answers. */
 
-import { element } from "./dom.js";
-import { tile, tiles } from "./panel_parts.js";
-import { picture } from "./panel_pictures.js";
+import { element } from "../../shared/dom.js";
+import { tile, tiles } from "../widgets/parts.js";
+import { picture } from "./pictures.js";
 
 /**
  * Open the gallery.

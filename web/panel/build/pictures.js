@@ -1,6 +1,6 @@
 /** Small pictures for the gallery of blocks: a robot seen from above, and what a block does for it. */
 
-import { icon } from "./panel_icons.js";
+import { icon } from "../../shared/icons.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -10,7 +10,7 @@ const NOSE = ["nose", "M22 30h9"];
 const BALL = ["thing", circle(76, 16, 7)];
 const WALL = ["thing", "M80 6h8v48h-8z"];
 
-/** Strokes by name: a class of panel_build.css, and path data on a grid of 96 x 60. */
+/** Strokes by name: a class of styles/panel/build.css, and path data on a grid of 96 x 60. */
 const PICTURES = {
   bearing: [BALL, ["hot", "M32 27L66 18M58 15l9 3-6 7"]],
   smell: [BALL, ["hot", "M62 22c-6-4-8 6-14 2s-8 6-12 3M64 30c-6-4-8 6-14 2s-8 6-12 3"]],

@@ -1,10 +1,10 @@
 /** The tab "Build": the blocks of the shown agent, its driver and its settings. */
 
-import { button, element } from "./dom.js";
-import { updateCards } from "./panel_block_card.js";
-import { Form } from "./panel_form.js";
-import { openGallery } from "./panel_gallery.js";
-import { choice, section } from "./panel_parts.js";
+import { button, element } from "../../shared/dom.js";
+import { updateCards } from "./block_card.js";
+import { Form } from "../widgets/form.js";
+import { openGallery } from "./gallery.js";
+import { choice, section } from "../widgets/parts.js";
 
 const KINDS = {
   sensors: { title: "Sensors", one: "Sensor", add: "Add a sensor", none: "It notices nothing yet." },

@@ -1,7 +1,7 @@
 /** Python code that drives the shown agent from a notebook or a script, with a button to copy it. */
 
-import { button, element, setText } from "./dom.js";
-import { copyText } from "./panel_run.js";
+import { button, element, setText } from "../../shared/dom.js";
+import { copyText } from "../run.js";
 
 export class PythonLines {
   #code = element("code");

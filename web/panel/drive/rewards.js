@@ -1,8 +1,8 @@
 /** The rewards of an agent: each term's last and summed reward, and the curve of the episode. */
 
-import { element, keyed, setText } from "./dom.js";
-import { Curve } from "./panel_curve.js";
-import { number } from "./panel_numbers.js";
+import { element, keyed, setText } from "../../shared/dom.js";
+import { Curve } from "../widgets/curve.js";
+import { number } from "../../shared/numbers.js";
 
 
 export class RewardTable {

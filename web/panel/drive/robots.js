@@ -1,7 +1,7 @@
 /** All robots of the world, and the script that drives one of them. */
 
-import { element, keyed, setText } from "./dom.js";
-import { number } from "./panel_numbers.js";
+import { element, keyed, setText } from "../../shared/dom.js";
+import { number } from "../../shared/numbers.js";
 
 const HEADS = ["Robot", "Decisions", "Score", "State"];
 /** Names of a script's counts. */

@@ -1,10 +1,10 @@
 /** One sensor of the Drive tab: its name in words, and its reading as bars, strips, pictures or text. */
 
-import { button, element, keyed, setAttributes, setText } from "./dom.js";
-import { Bars } from "./panel_bars.js";
-import { icon } from "./panel_icons.js";
-import { drawStrip, makeStrip } from "./panel_strip.js";
-import { drawWeights } from "./panel_why.js";
+import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { Bars } from "../widgets/bars.js";
+import { icon } from "../../shared/icons.js";
+import { drawStrip, makeStrip } from "../widgets/strip.js";
+import { drawWeights } from "../why/why.js";
 
 /** A picture with fewer rows is stretched to a line. */
 const MIN_ROWS = 4;

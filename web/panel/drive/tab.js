@@ -1,18 +1,18 @@
 /** The Drive tab: who drives, what the agent senses, what it does and what it gets for it. */
 
-import { DriverStatus } from "./driver_status.js";
-import { button, element, keyed, setText } from "./dom.js";
-import { Bars } from "./panel_bars.js";
-import { Elsewhere } from "./panel_elsewhere.js";
-import { Maps } from "./panel_maps.js";
-import { number } from "./panel_numbers.js";
-import { choice, section } from "./panel_parts.js";
-import { PythonLines } from "./panel_python.js";
-import { RewardTable } from "./panel_rewards.js";
-import { RobotTable, scriptWarning, scriptWords } from "./panel_robots.js";
-import { SensorView } from "./panel_sensor.js";
-import { Training } from "./panel_training.js";
-import { Why } from "./panel_why.js";
+import { DriverStatus } from "../../page/driver_status.js";
+import { button, element, keyed, setText } from "../../shared/dom.js";
+import { Bars } from "../widgets/bars.js";
+import { Elsewhere } from "../why/elsewhere.js";
+import { Maps } from "../why/maps.js";
+import { number } from "../../shared/numbers.js";
+import { choice, section } from "../widgets/parts.js";
+import { PythonLines } from "./python.js";
+import { RewardTable } from "./rewards.js";
+import { RobotTable, scriptWarning, scriptWords } from "./robots.js";
+import { SensorView } from "./sensor.js";
+import { Training } from "./training.js";
+import { Why } from "../why/why.js";
 
 export class DriveTab {
   #panel;

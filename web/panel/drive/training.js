@@ -1,8 +1,8 @@
 /** The progress of a training whose policy drives: decisions so far, and the learning curve. */
 
-import { element, setText } from "./dom.js";
-import { Curve } from "./panel_curve.js";
-import { number } from "./panel_numbers.js";
+import { element, setText } from "../../shared/dom.js";
+import { Curve } from "../widgets/curve.js";
+import { number } from "../../shared/numbers.js";
 
 export class Training {
   #text = element("p", { role: "status" });

@@ -1,9 +1,9 @@
 /** Two drivers on the chosen episode: where they first disagree, by how much, and because of what. */
 
-import { button, element, setAttributes, setText } from "./dom.js";
-import { Bars, changedRow } from "./panel_bars.js";
-import { Curve } from "./panel_curve.js";
-import { choice, freeId, section } from "./panel_parts.js";
+import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { Bars, changedRow } from "../widgets/bars.js";
+import { Curve } from "../widgets/curve.js";
+import { choice, freeId, section } from "../widgets/parts.js";
 
 export class Comparison {
   #panel;

@@ -1,8 +1,8 @@
 /** A finished episode as a card: a click chooses and shows it. */
 
-import { button, element, keyed, setAttributes, setText } from "./dom.js";
-import { Card } from "./panel_card.js";
-import { fact } from "./panel_parts.js";
+import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { Card } from "../widgets/card.js";
+import { fact } from "../widgets/parts.js";
 
 /** How long "Copied" stands on a button (ms). */
 const COPIED_MS = 1500;

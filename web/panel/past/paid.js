@@ -1,8 +1,8 @@
 /** What the chosen episode was rewarded for: each term over time, and the decisions that paid most. */
 
-import { button, element } from "./dom.js";
-import { Curve } from "./panel_curve.js";
-import { section } from "./panel_parts.js";
+import { button, element } from "../../shared/dom.js";
+import { Curve } from "../widgets/curve.js";
+import { section } from "../widgets/parts.js";
 
 export class PaidTerms {
   #panel;

@@ -1,7 +1,7 @@
 /** The player of an episode: one number for the moment that is shown, and what can be done from there. */
 
-import { button, element, setAttributes, setText } from "./dom.js";
-import { segments } from "./panel_parts.js";
+import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { segments } from "../widgets/parts.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4];
 

@@ -1,12 +1,12 @@
 /** The tab "Past": finished episodes, and the player of the chosen one. */
 
-import { button, element, keyed } from "./dom.js";
-import { Comparison } from "./panel_compare.js";
-import { EpisodeCard } from "./panel_episode_card.js";
-import { PaidTerms } from "./panel_paid.js";
-import { section } from "./panel_parts.js";
-import { Player } from "./panel_player.js";
-import { fileButton } from "./panel_scene_files.js";
+import { button, element, keyed } from "../../shared/dom.js";
+import { Comparison } from "./compare.js";
+import { EpisodeCard } from "./episode_card.js";
+import { PaidTerms } from "./paid.js";
+import { section } from "../widgets/parts.js";
+import { Player } from "./player.js";
+import { fileButton } from "../world/scene_files.js";
 
 /** Number that stands for the episode that is still running. */
 const RUNNING_EPISODE = 0;

@@ -1,8 +1,8 @@
 /** Maps over the floor: arrows for what the agent would do at each place, colours for what it is worth. */
 
-import { button, element, setText } from "./dom.js";
-import { number, seconds } from "./panel_numbers.js";
-import { choice, toggle } from "./panel_parts.js";
+import { button, element, setText } from "../../shared/dom.js";
+import { number, seconds } from "../../shared/numbers.js";
+import { choice, toggle } from "../widgets/parts.js";
 
 const AS_NOW = "";
 const TURNS = [

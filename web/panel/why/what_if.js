@@ -1,9 +1,9 @@
 /** "What if": other values for the numbers that an agent senses, and the action that would follow. */
 
-import { button, element, setAttributes, setText } from "./dom.js";
-import { Bars, changedRow } from "./panel_bars.js";
-import { number } from "./panel_numbers.js";
-import { choice, freeId } from "./panel_parts.js";
+import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { Bars, changedRow } from "../widgets/bars.js";
+import { number } from "../../shared/numbers.js";
+import { choice, freeId } from "../widgets/parts.js";
 
 /** Time without a change after which the action is asked for. */
 const PAUSE_MS = 40;

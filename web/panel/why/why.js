@@ -1,8 +1,8 @@
 /** "Because of what": how far each slot of the percept moves the action, and the method's limits. */
 
-import { element, keyed, setAttributes, setText } from "./dom.js";
-import { toggle } from "./panel_parts.js";
-import { WhatIf } from "./panel_what_if.js";
+import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { toggle } from "../widgets/parts.js";
+import { WhatIf } from "./what_if.js";
 
 /** A sentence that changes five times a second can't be read. */
 const SENTENCE_MS = 1000;

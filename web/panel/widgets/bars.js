@@ -1,7 +1,7 @@
 /** Numbers with bars: each has a name, a bar from its lowest to its highest value, and the value. */
 
-import { element, keyed, setAttributes, setText } from "./dom.js";
-import { number } from "./panel_numbers.js";
+import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { number } from "../../shared/numbers.js";
 
 export class Bars {
   element = element("div", { className: "ai4u-bars" });

@@ -1,8 +1,8 @@
 /** A card that folds out: a block, a body or an episode, with small buttons for what can be done with it. */
 
-import { button, element, keyed, setAttributes, setText } from "./dom.js";
-import { icon } from "./panel_icons.js";
-import { freeId } from "./panel_parts.js";
+import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { icon } from "../../shared/icons.js";
+import { freeId } from "./parts.js";
 
 export class Card {
   #onToggle;

@@ -1,6 +1,6 @@
 /** A line through numbers, from left to right, with zero always in sight. */
 
-import { element, setAttributes } from "./dom.js";
+import { element, setAttributes } from "../../shared/dom.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const [WIDTH, HEIGHT] = [280, 60];

@@ -1,8 +1,8 @@
 /** A form from a description of its fields. Each entry is sent when it is made; problems stand below their fields. */
 
-import { element, keyed, setText } from "./dom.js";
-import { FieldRow } from "./panel_field.js";
-import { recall, remember } from "./storage.js";
+import { element, keyed, setText } from "../../shared/dom.js";
+import { FieldRow } from "./field.js";
+import { recall, remember } from "../../shared/storage.js";
 
 /** How many fields stand before "More" if the server doesn't say which. */
 const FIRST_COUNT = 3;

@@ -1,8 +1,8 @@
 /** Parts that the panel's tabs share: sections, switches, lists to choose from, tiles. */
 
-import { element, setAttributes, setText } from "./dom.js";
-import { icon } from "./panel_icons.js";
-import { recall, remember } from "./storage.js";
+import { element, setAttributes, setText } from "../../shared/dom.js";
+import { icon } from "../../shared/icons.js";
+import { recall, remember } from "../../shared/storage.js";
 
 let lastId = 0;
 

@@ -1,6 +1,6 @@
 /** Many numbers side by side as a strip of bars, drawn on a canvas; its older readings above, smaller. */
 
-import { element, setText } from "./dom.js";
+import { element, setText } from "../../shared/dom.js";
 
 const HEIGHT = 40;
 const OLDER_HEIGHT = 14;

@@ -1,8 +1,8 @@
 /** A thing of the world as a card: its form when it is chosen, copy and delete. */
 
-import { button, element } from "./dom.js";
-import { Card } from "./panel_card.js";
-import { Form } from "./panel_form.js";
+import { button, element } from "../../shared/dom.js";
+import { Card } from "../widgets/card.js";
+import { Form } from "../widgets/form.js";
 
 const KIND_ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
 const SHAPE_ICONS = { circle: "ball", segment: "wall", capsule: "wall", ring: "target" };

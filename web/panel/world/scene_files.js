@@ -1,9 +1,9 @@
 /** Buttons to save, download and open a scene, and the offer of an unsaved one. */
 
-import { button, element, setText } from "./dom.js";
-import { freeId } from "./panel_parts.js";
-import { section } from "./panel_parts.js";
-import { copyLink, isThisComputer } from "./share.js";
+import { button, element, setText } from "../../shared/dom.js";
+import { freeId } from "../widgets/parts.js";
+import { section } from "../widgets/parts.js";
+import { copyLink, isThisComputer } from "../../scenes/share.js";
 
 /** Largest file that is read here; the server has limits of its own (bytes). */
 const MAX_SCENE_BYTES = 4_000_000;

@@ -1,10 +1,10 @@
 /** The tab "World": the things in it, the scene's settings and files. */
 
-import { button, element, keyed, setText } from "./dom.js";
-import { BodyCard, choose } from "./panel_body_card.js";
-import { Form } from "./panel_form.js";
-import { section, toggle } from "./panel_parts.js";
-import { SceneFiles } from "./panel_scene_files.js";
+import { button, element, keyed, setText } from "../../shared/dom.js";
+import { BodyCard, choose } from "./body_card.js";
+import { Form } from "../widgets/form.js";
+import { section, toggle } from "../widgets/parts.js";
+import { SceneFiles } from "./scene_files.js";
 
 const DEFAULT_SNAP_M = 0.5;
 const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
