@@ -17,13 +17,13 @@ NEEDED = (
     "ai4u_edu/lessons/course/00_start_here.py",
     "ai4u_edu/py.typed",
     "ai4u_edu/scenes/library/box_chase.yaml",
-    "ai4u_edu/web/main.js",
+    "ai4u_edu/web/page/main.js",
     "ai4u_edu/web/vendor/pyodide/LICENSE",
     "ai4u_edu/world/native/rays.c",
     "ai4u_edu/zoo/box_chase.onnx",
 )
 """Files that each wheel has."""
-SOURCES = ".ci/wheel_hook.py", "pyproject.toml", "tests/conftest.py", "web/main.js"
+SOURCES = ".ci/wheel_hook.py", "pyproject.toml", "tests/conftest.py", "web/page/main.js"
 """Files that the source distribution has besides the package."""
 MAX_WHEEL_BYTES = 20_000_000
 

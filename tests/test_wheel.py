@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.base.version import __version__
+from ai4u_edu.page.server.web_files import FOLDERS
 from ai4u_edu.world.native.compiled import library_name
 
 REPO = Path(__file__).resolve().parent.parent
@@ -97,9 +98,14 @@ def installed(wheel: Path, request: pytest.FixtureRequest) -> list[str | Path]:
 def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as packed:
         names = packed.namelist()
-    assert any(name.startswith("ai4u_edu/web/") for name in names)
-    assert "ai4u_edu/web/vendor/pyodide/pyodide.asm.wasm.gz" in names
-    assert "ai4u_edu/web/vendor/pyodide/LICENSE" in names
+    web = {
+        f"ai4u_edu/{path.relative_to(REPO).as_posix()}"
+        for folder in (*FOLDERS, "vendor")
+        for path in (REPO / "web" / folder).rglob("*")
+        if path.is_file()
+    }
+    assert {name for name in names if name.startswith("ai4u_edu/web/")} == web
+    assert "ai4u_edu/web/vendor/pyodide/pyodide.asm.wasm.gz" in web
     assert "ai4u_edu/scenes/library/box_chase.yaml" in names
     assert "ai4u_edu/lessons/course/02_drive.py" in names
     assert "ai4u_edu/py.typed" in names
@@ -139,7 +145,7 @@ def test_both_wheels_give_the_same_bits(wheel: Path, pure_wheel: Path, tmp_path:
             env={
                 "HOME": str(home),
                 "PATH": str(home),
-                "SYSTEMROOT": os.environ.get("SYSTEMROOT", ""),
+                "SYSTEMREPO": os.environ.get("SYSTEMREPO", ""),
             },
             capture_output=True,
             text=True,

@@ -1,4 +1,4 @@
-"""The pages of a class that are not a room's: files of ``web/``, with a policy for all of them."""
+"""The pages of a class that are not a room's, with a policy for all of them."""
 
 from collections.abc import Awaitable, Callable
 from functools import lru_cache
@@ -18,14 +18,14 @@ async def web_file(request: Request) -> Response:
 
 
 FILE_ROUTES = [
-    *[Route(path + "/{file}", web_file) for path in WEB_PATHS],
+    *[Route(path + "/{file:path}", web_file) for path in WEB_PATHS],
     Route(PICTURE_PATH, library_picture_route),
 ]
 """Routes of the files that these pages load; everybody may have them."""
 
 
 def page_route(name: str) -> Callable[[Request], Awaitable[Response]]:
-    """Return a route's function that answers with a page of ``web/``."""
+    """Return a route's function that answers with a page of ``web/pages/``."""
 
     async def answer(_: Request) -> Response:
         return standalone_page(name)

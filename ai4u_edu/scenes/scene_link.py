@@ -3,8 +3,8 @@
 A browser does not send a fragment to the server, so a shared scene is uploaded nowhere. The
 fragment is ``scene=DATA&seed=NUMBER``; DATA is the scene's YAML text, compressed by zlib, in base64
 for addresses. A scene in a link is data only: no Python code, and no files that the scene names. A
-page may add a student's program (``&program=``, see ``web/program_link.js``), which pages offer in
-their tab "Code" and which is ignored here.
+page may add a student's program (``&program=``, see ``web/scenes/program_link.js``), which pages
+offer in their tab "Code" and which is ignored here.
 """
 
 import re

@@ -27,7 +27,14 @@ from tests.classroom.served_class import environment, served_class
 from tests.playing import played
 from tests.waiting import until
 
-ROOM_PATHS = ("healthz", "api/snapshot", "web/main.js", "vendor/x", "api/past/1.gif", "ws/input")
+ROOM_PATHS = (
+    "healthz",
+    "api/snapshot",
+    "web/page/main.js",
+    "vendor/x",
+    "api/past/1.gif",
+    "ws/input",
+)
 METHODS = (b"GET", b"GET", b"GET", b"HEAD", b"OPTIONS", b"DELETE", b"PATCH", b"CONNECT")
 PIECES: tuple[str, ...] = (*"/\\.@:#?;%[]", "//", "..", "/../", "/./", ":@", "%00")
 """Pieces that are put into a target at any place."""

@@ -50,14 +50,14 @@ PATIENT = {
     "openMs": LIMIT_MS,
     "silenceMs": LIMIT_MS,
 }
-"""Time limits of programs that only a fault reaches; see web/code_limits.js."""
+"""Time limits of programs that only a fault reaches; see web/code/limits.js."""
 SET_LIMITS = """async (limits) => {
     const scripts = [...document.scripts].map((each) => each.src);
     const own = scripts.filter((each) => each.endsWith("/main.js"));
     // modules that a test imports have another address than those of the page itself
-    for (const base of [new URL("./web/main.js", document.baseURI), ...own]) {
-        const { codeLimits } = await import(new URL("code_limits.js", base));
-        const { pageLimits } = await import(new URL("page_limits.js", base));
+    for (const base of [new URL("./web/page/main.js", document.baseURI), ...own]) {
+        const { codeLimits } = await import(new URL("../code/limits.js", base));
+        const { pageLimits } = await import(new URL("../shared/limits.js", base));
         for (const kinds of [codeLimits, pageLimits]) {
             for (const name of Object.keys(kinds)) kinds[name] = limits[name] ?? kinds[name];
         }
@@ -90,9 +90,9 @@ def code_page(chromium: Browser, url: str) -> Page:
     page.goto(url)
     page.evaluate(
         """async () => {
-            Object.assign(window, await import("./web/code_engine.js"));
-            Object.assign(window, await import("./web/remote_client.js"));
-            Object.assign(window, await import("./web/code_limits.js"));
+            Object.assign(window, await import("./web/code/engine.js"));
+            Object.assign(window, await import("./web/remote/client.js"));
+            Object.assign(window, await import("./web/code/limits.js"));
             window.engine = new CodeEngine();
         }"""
     )

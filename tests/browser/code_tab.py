@@ -17,7 +17,7 @@ class CodePage(WithEditor, TabPage):
     """A page with the tab, with an agent of the fake panel."""
 
     def __init__(self, chromium: Browser, **options: Any) -> None:
-        super().__init__(chromium, "panel_code", "CodeTab", "agent", has_fakes=True, **options)
+        super().__init__(chromium, "code/tab", "CodeTab", "agent", has_fakes=True, **options)
         self.give(PARTS["scene"], "scene")
         self.give(PARTS["python"], "python")
         self.give(PARTS["agent"])

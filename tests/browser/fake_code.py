@@ -59,7 +59,7 @@ export class RemoteClient {
 )
 
 
-MODULES = {"code_engine.js": ENGINE, "remote_client.js": CLIENT}
+MODULES = {"code/engine.js": ENGINE, "remote/client.js": CLIENT}
 """Texts in place of the modules that run Python and connect to the world."""
 
 

@@ -16,6 +16,7 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
+from ai4u_edu.page.server.page import STYLES
 from ai4u_edu.page.server.web_files import web_folder
 from tests.browser.fake_code import MODULES
 from tests.chromium import close_page, quick_page
@@ -35,8 +36,8 @@ INDEX = """<!doctype html>
 </aside>
 {scripts}
 <script type="module">
-  import {{ openDialog }} from "./web/panel_dialog.js";
-  import {{ installShortcuts }} from "./web/panel_shortcuts.js";
+  import {{ openDialog }} from "./web/panel/dialog.js";
+  import {{ installShortcuts }} from "./web/panel/shortcuts.js";
   import {{ {name} }} from "./web/{module}.js";
 
   class FakePanel extends EventTarget {{
@@ -81,7 +82,7 @@ class TabPage:
 
     Args:
         chromium: opens the page.
-        module: name of the tab's module, such as ``panel_build``.
+        module: name of the tab's module, such as ``panel/build/tab``.
         name: of its class.
         part: name of the part that it shows.
         size: of the page in pixels.
@@ -180,12 +181,16 @@ class TabPage:
 def _address() -> str:
     """Start the server of all tabs, which ends with the process; return its address."""
 
-    names = sorted(path.name for path in web_folder().glob("pa*.css"))
+    names = [name for name in STYLES if "/panel/" in name or name == "styles/page/page.css"]
     styles = "\n".join((web_folder() / name).read_text(encoding="utf-8") for name in names)
     vendor = Mount("/web/vendor", StaticFiles(directory=web_folder() / "vendor"))
 
     def routes(others: dict[str, str]) -> list[BaseRoute]:
-        return [Route("/", _index(styles, others)), vendor, Route("/web/{name}", _module(others))]
+        return [
+            Route("/", _index(styles, others)),
+            vendor,
+            Route("/web/{name:path}", _module(others)),
+        ]
 
     app = Starlette(routes=[Mount("/fakes", routes=routes(MODULES)), *routes({})])
     # not ServerThread, which limits the process's logs for as long as it runs

@@ -23,7 +23,7 @@ COUNT = {"VAR": {"id": "a"}}
 
 @pytest.fixture(scope="module")
 def page(chromium: Browser) -> Iterator[Page]:
-    tab = TabPage(chromium, "panel_past", "PastTab", "past")
+    tab = TabPage(chromium, "panel/past/tab", "PastTab", "past")
     yield tab.page
     tab.close()
 
@@ -37,8 +37,8 @@ def translated(
 ) -> tuple[str, list[str]]:
     """Return the Python of blocks, and the ids of the blocks by line."""
     script = """async ([state, part]) => {
-      const { agentBlocks } = await import("./web/blocks_agent.js");
-      const { pythonOf } = await import("./web/blocks_python.js");
+      const { agentBlocks } = await import("./web/blocks/agent.js");
+      const { pythonOf } = await import("./web/blocks/python.js");
       const { text, blocks } = pythonOf(state, agentBlocks(part));
       return [text, blocks];
     }"""
@@ -200,7 +200,7 @@ def test_blocks_of_another_robot_are_told_by_run(page: Page) -> None:
 
 def test_the_text_of_a_program_holds_its_blocks(page: Page) -> None:
     script = """async ([python, blocks]) => {
-      const { joinProgram, splitProgram } = await import("./web/blocks_text.js");
+      const { joinProgram, splitProgram } = await import("./web/blocks/text.js");
       const text = joinProgram(python, blocks, true);
       const others = ["x = 1\\n" + text, text + "y = 1", joinProgram(python, blocks, false),
         python + "\\n# blocks: {}"];

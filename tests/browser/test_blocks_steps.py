@@ -22,9 +22,9 @@ DECISIONS = (60, 80, 320, 320, 1000)
 """Decisions in which the step of that number, from 0, is done; the last one: most of an episode."""
 KEPT = "localStorage['ai4u-blocks-steps'] ?? '0'"
 SCRIPT = """async ([part, programs]) => {
-  const { agentBlocks } = await import("./web/blocks_agent.js");
-  const { pythonOf } = await import("./web/blocks_python.js");
-  const { BlockSteps } = await import("./web/blocks_steps.js");
+  const { agentBlocks } = await import("./web/blocks/agent.js");
+  const { pythonOf } = await import("./web/blocks/python.js");
+  const { BlockSteps } = await import("./web/blocks/steps.js");
   panel.parts.scene = { scene: "maze", can_edit: true };
   window.makeSteps = (done) => {
     localStorage["ai4u-blocks-steps"] = done;
@@ -39,7 +39,7 @@ SCRIPT = """async ([part, programs]) => {
 
 @pytest.fixture(scope="module")
 def tab(chromium: Browser) -> Iterator[TabPage]:
-    tab = TabPage(chromium, "panel_past", "PastTab", "past")
+    tab = TabPage(chromium, "panel/past/tab", "PastTab", "past")
     yield tab
     tab.close()
     assert tab.errors == []

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, expect
 
-from ai4u_edu.page.server.web_files import web_folder
+from ai4u_edu.page.server.web_files import FOLDERS, web_folder
 from tests.browser.blocks_keys import choose, to_group
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
@@ -109,7 +109,8 @@ def test_a_program_is_put_together_and_run_by_keyboard_alone(tab: BlocksPage) ->
     expect(tab.page.locator(".ai4u-blocks-mistake")).to_have_count(0)
     tab.keys("Shift+F10")  # a menu
     names = [re.sub(r"^http://127\.0\.0\.1:\d+/fakes/web/|\?.*$", "", url) for url in asked]
-    others = {name for name in names if "/" in name and not name.startswith("data:")}
+    foreign = (name for name in names if "/" in name and name.partition("/")[0] not in FOLDERS)
+    others = {name for name in foreign if not name.startswith("data:")}
     assert others == {"vendor/blockly.js"}
 
 
@@ -203,7 +204,7 @@ def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     expect(tab.canvas).to_contain_text("my steps")
     # blocks may come from anybody, in a link or a file
     broken = """async () => {
-      const { joinProgram } = await import("./web/blocks_text.js");
+      const { joinProgram } = await import("./web/blocks/text.js");
       const blocks = { blocks: { blocks: [{ type: "on_decision", next: { block: 7 } }] } };
       return joinProgram("x = 1\\n", blocks, true);
     }"""
@@ -227,5 +228,5 @@ def test_dark_on_a_phone_it_has_no_grave_finding(chromium: Browser) -> None:
 def test_the_address_of_blockly_changes_with_it() -> None:
     bundle = web_folder() / "vendor" / "blockly.js"
     version = hashlib.sha256(bundle.read_bytes()).hexdigest()[:8]
-    script = (web_folder() / "blocks_workspace.js").read_text()
+    script = (web_folder() / "blocks/workspace.js").read_text()
     assert f'vendor/blockly.js?v={version}"' in script

@@ -285,7 +285,7 @@ def test_without_a_class_nothing_is_sent(chromium: Browser) -> None:
     tab.press("Run")
     expect(tab.state).to_contain_text("The program gets the robot")
     tab.page.clock.fast_forward("01:00:00")  # longer than any pause after which a class gets it
-    tab.page.evaluate("fetch('web/code_run.js')")  # requests are told in their order
-    until_on(tab.page, lambda: sent[-1:] and sent[-1].endswith("code_run.js"))
+    tab.page.evaluate("fetch('web/code/run.js')")  # requests are told in their order
+    until_on(tab.page, lambda: sent[-1:] and sent[-1].endswith("code/run.js"))
     assert [each for each in sent if not each.endswith(".js")] == []
     tab.page.context.close()  # with its clock

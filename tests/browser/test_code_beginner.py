@@ -60,7 +60,7 @@ def lives(server: Played, page: Page) -> None:
     until(lambda: server.snapshot()["tick"] > tick)
     assert page.evaluate("1 + 1") == 2
     # the one that runs, and a spare one; Chromium ends others a bit later
-    until_on(page, lambda: sum("code_worker" in each.url for each in page.workers) <= 2)
+    until_on(page, lambda: sum("code/worker" in each.url for each in page.workers) <= 2)
 
 
 def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:

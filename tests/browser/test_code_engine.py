@@ -244,7 +244,7 @@ def test_nothing_is_left_to_the_worker_that_connects_or_stores(page: Page) -> No
 def test_the_policy_forbids_the_worker_what_it_still_has(page: Page) -> None:
     page.evaluate(
         """() => {
-            const url = new URL("web/code_worker.js?bare", location);
+            const url = new URL("web/code/worker.js?bare", location);
             window.bare = new Worker(url, { type: "module" });
             // it has no program, and says so
             return new Promise((answered) => {
@@ -270,7 +270,7 @@ def test_the_policy_forbids_the_worker_what_it_still_has(page: Page) -> None:
                 }),
                 data: () => import("data:text/javascript,1"),
                 text: () => new Function("1"),
-                scripts: () => importScripts("main.js"),
+                scripts: () => importScripts("../page/main.js"),
             };
             const refused = [];
             for (const [name, attempt] of Object.entries(attempts)) {
@@ -288,7 +288,7 @@ def test_a_server_that_is_gone_is_told_and_asked_again(page: Page, room: Room) -
     other.goto(f"{room.url}healthz")
     other.route("**/program.zip", lambda route: route.abort())
     load_it = "(room) => engine.load('def decide(percept): return {}', room)"
-    other.evaluate("import('./web/code_engine.js').then((each) => Object.assign(window, each))")
+    other.evaluate("import('./web/code/engine.js').then((each) => Object.assign(window, each))")
     other.evaluate("void (window.engine = new CodeEngine())")
     answer = other.evaluate(load_it, ROOM)
     assert (answer["ok"], answer["kind"]) == (False, "unavailable")

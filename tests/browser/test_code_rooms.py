@@ -49,7 +49,7 @@ def decide(percept):
 """Prints the number of modules that are there, and which were compiled from source."""
 DRIVE = """
     async (source) => {
-        for (const name of ["code_engine", "remote_client"]) {
+        for (const name of ["code/engine", "remote/client"]) {
             Object.assign(window, await import(`./web/${name}.js`));
         }
         const client = await RemoteClient.connect({ mode: "lockstep" });
@@ -204,5 +204,5 @@ def test_in_a_class(chromium: Browser, tmp_path_factory: pytest.TempPathFactory)
         assert answer.content == gzip.decompress(packed)
         assert answer.headers["Content-Length"] == str(len(packed))
         assert "immutable" in answer.headers["Cache-Control"]
-        policy = ada.get("web/code_worker.js").headers["Content-Security-Policy"]
+        policy = ada.get("web/code/worker.js").headers["Content-Security-Policy"]
         assert policy.startswith("default-src 'none';")

@@ -79,7 +79,7 @@ def test_pressed_again_while_it_joins_it_connects_when_that_one_has_left(tab: Co
         tab.press("Run")
     tab.page.wait_for_function("fake.calls.some((each) => each[0] === 'connect')")
     # those who asked for the same module before have got it then
-    tab.page.evaluate("import('./web/remote_client.js').then(() => {})")
+    tab.page.evaluate("import('./web/remote/client.js').then(() => {})")
     assert len(tab.calls("connect")) == 1
     tab.page.evaluate("fake.connected()")
     tab.sense()
@@ -249,7 +249,7 @@ def test_an_earlier_run_is_taken_back(tab: CodePage) -> None:
 
 def test_only_the_latest_runs_are_kept(tab: CodePage) -> None:
     script = """async () => {
-      const { KeptPrograms } = await import("./web/code_keep.js");
+      const { KeptPrograms } = await import("./web/code/keep.js");
       const kept = new KeptPrograms();
       kept.open("many", "0");
       for (let each = 0; each < 60; each += 1) kept.addRun(`x = ${each}`);
@@ -358,14 +358,14 @@ def test_typing_does_not_drive(chromium: Browser) -> None:
 def test_the_editor_is_loaded_with_the_tab_and_kept_by_the_browser(chromium: Browser) -> None:
     bundle = web_folder() / "vendor" / "codemirror.js"
     version = hashlib.sha256(bundle.read_bytes()).hexdigest()[:8]
-    assert f'vendor/codemirror.js?v={version}"' in (web_folder() / "code_editor.js").read_text()
+    assert f'vendor/codemirror.js?v={version}"' in (web_folder() / "code/editor.js").read_text()
     asked: list[str] = []
 
     def listen(page: Page) -> None:
         page.on("request", lambda request: asked.append(request.url))
         serve_fakes(page)
 
-    tab = TabPage(chromium, "panel_past", "PastTab", "past", prepare=listen)
+    tab = TabPage(chromium, "panel/past/tab", "PastTab", "past", prepare=listen)
     tab.close()
     assert not [url for url in asked if "vendor" in url or "code_" in url]
     with panel_room() as room:

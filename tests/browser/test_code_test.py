@@ -22,7 +22,7 @@ from tests.waiting import until
 pytestmark = pytest.mark.browser
 
 STAND_IN = """
-const { CodeTest } = await import("./web/code_test.js");
+const { CodeTest } = await import("./web/code/test.js");
 const log = [];
 const world = { max: 0, restored: 0, closed: 0, connected: 0, finished: 0 };
 const setup = {
@@ -209,7 +209,7 @@ def test_a_mistake_ends_it_at_its_line(page: Page) -> None:
 
 def test_the_speed_comes_back_also_after_a_lost_connection(page: Page) -> None:
     script = """async () => {
-      const { WorldSpeed } = await import("./web/code_speed.js");
+      const { WorldSpeed } = await import("./web/code/speed.js");
       const sent = [];
       const panel = new EventTarget();
       let run = { speed: 0.5 };
@@ -241,7 +241,7 @@ def test_the_speed_comes_back_also_after_a_lost_connection(page: Page) -> None:
 
 def test_the_outcome_is_the_worlds_word_for_this_episode(page: Page) -> None:
     script = """async () => {
-      const { outcomeOf } = await import("./web/code_speed.js");
+      const { outcomeOf } = await import("./web/code/speed.js");
       const panel = new EventTarget();
       let run = { result: "time", decision: 4, seed: "12" };
       panel.part = () => run;

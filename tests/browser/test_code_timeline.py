@@ -62,7 +62,7 @@ def test_back_in_time_it_shows_what_the_program_did_there(tab: CodePage) -> None
 def test_the_timeline_keeps_so_much_and_drops_the_oldest(tab: CodePage) -> None:
     found = tab.page.evaluate(
         """async () => {
-      const { CodeTimeline } = await import("./web/code_timeline.js");
+      const { CodeTimeline } = await import("./web/code/timeline.js");
       const timeline = new CodeTimeline();
       const told = (text = "") => ({ lines: [1], variables: {}, printed: text });
       for (let each = 1; each <= 20_010; each += 1) {

@@ -182,7 +182,7 @@ def test_visers_camera_does_not_move(site: ServedViser) -> None:
 @pytest.mark.nightly
 def test_without_our_script_it_would_have_moved(site: ServedViser) -> None:
     def leave_out(page: Page) -> None:
-        page.route("**/web-*/main.js", lambda route: route.fulfill(body=""))
+        page.route("**/web-*/page/main.js", lambda route: route.fulfill(body=""))
 
     page = site.page(has_viser=True, prepare=leave_out, wait=False)
     page.get_by_text("Name", exact=True).wait_for()

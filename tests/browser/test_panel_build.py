@@ -111,7 +111,7 @@ GALLERY = [
 
 @pytest.fixture
 def tab(chromium: Browser) -> Iterator[TabPage]:
-    tab = TabPage(chromium, "panel_build", "BuildTab", "blocks")
+    tab = TabPage(chromium, "panel/build/tab", "BuildTab", "blocks")
     tab.answer("drivers", items=DRIVERS)
     tab.give(PART)
     tab.page.wait_for_function("panel.sent.length === 1")
@@ -271,7 +271,7 @@ def test_controls_are_large_enough_and_have_names(
     is_touch = pointer == "coarse"
     tab = TabPage(
         chromium,
-        "panel_build",
+        "panel/build/tab",
         "BuildTab",
         "blocks",
         size=(390, 844),

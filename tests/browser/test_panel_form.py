@@ -11,7 +11,7 @@ from tests.browser.panel_page import PanelPage, panel_page, panel_room
 pytestmark = pytest.mark.browser
 
 MAKE = """async ({ fields, first }) => {
-  const { Form } = await import("./web/panel_form.js");
+  const { Form } = await import("./web/panel/widgets/form.js");
   document.querySelector("#made")?.remove();
   window.sent = [];
   window.answer = { ok: true, text: "", problems: [] };
@@ -134,7 +134,7 @@ def test_new_values_leave_alone_what_is_being_typed(page: Page) -> None:
 
 def test_a_card_opens_and_its_actions_keep_their_focus(page: Page) -> None:
     page.evaluate("""async () => {
-      const { Card } = await import("./web/panel_card.js");
+      const { Card } = await import("./web/panel/widgets/card.js");
       window.done = [];
       const words = { title: "Rays", type: "RaySensor" };
       const card = new Card({ onToggle: (isOpen) => card.update({ ...words, isOpen }) });

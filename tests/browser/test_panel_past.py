@@ -60,7 +60,7 @@ DOWNLOADS = [
 
 @pytest.fixture
 def tab(chromium: Browser) -> Iterator[TabPage]:
-    tab = TabPage(chromium, "panel_past", "PastTab", "past")
+    tab = TabPage(chromium, "panel/past/tab", "PastTab", "past")
     tab.give(PART)
     yield tab
     tab.close()
@@ -122,7 +122,7 @@ def test_a_click_on_the_slider_shows_the_step_where_it_stands(tab: TabPage) -> N
 def test_the_full_seed_is_copied(chromium: Browser) -> None:
     tab = TabPage(
         chromium,
-        "panel_past",
+        "panel/past/tab",
         "PastTab",
         "past",
         permissions=["clipboard-read", "clipboard-write"],
@@ -229,7 +229,7 @@ def test_controls_are_large_enough_and_have_names(
 ) -> None:
     size = (390, 844)
     options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
-    tab = TabPage(chromium, "panel_past", "PastTab", "past", size=size, **options)
+    tab = TabPage(chromium, "panel/past/tab", "PastTab", "past", size=size, **options)
     tab.give(PART)
     tab.head("Episode 3 · Donut").click()
     tab.give({**PART, "playing": PLAYING, "ghost": "Ghost: episode 3", "downloads": DOWNLOADS})

@@ -219,7 +219,7 @@ def test_a_tab_whose_script_failed_to_load_tries_again(chromium: Browser, room: 
         page.page.evaluate(
             """async () => {
                 const own = [...document.scripts].find(({ src }) => src.endsWith("/main.js")).src;
-                const { pageLimits } = await import(new URL("page_limits.js", own));
+                const { pageLimits } = await import(new URL("../shared/limits.js", own));
                 pageLimits.retryMs = 1;
             }"""
         )
@@ -232,7 +232,7 @@ def test_a_tab_whose_script_failed_to_load_tries_again(chromium: Browser, room: 
             else:
                 route.continue_()
 
-        page.page.route("**/panel_past.js", fail_twice)
+        page.page.route("**/panel/past/tab.js", fail_twice)
         page.tab("Past").click()
         expect(page.page.get_by_role("button", name="Current episode")).to_be_visible()
         assert len(asked) == 3

@@ -62,7 +62,7 @@ MOVING = {**PART, "is_move_mode": True, "form": FORM}
 
 @pytest.fixture
 def tab(chromium: Browser) -> Iterator[TabPage]:
-    tab = TabPage(chromium, "panel_world", "WorldTab", "world")
+    tab = TabPage(chromium, "panel/world/tab", "WorldTab", "world")
     tab.give(PART)
     assert tab.sent() == [{"command": "snap", "distance": 0.5}]
     yield tab
@@ -257,7 +257,7 @@ def test_controls_are_large_enough_and_have_names(
 ) -> None:
     size = (390, 844)
     options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
-    tab = TabPage(chromium, "panel_world", "WorldTab", "world", size=size, **options)
+    tab = TabPage(chromium, "panel/world/tab", "WorldTab", "world", size=size, **options)
     tab.give({**PART, "unsaved": {"when": "06:26"}})
     chosen(tab)
     assert tab.small_controls(smallest) == []

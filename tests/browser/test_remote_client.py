@@ -94,7 +94,7 @@ def plain(percept: Any) -> dict[str, Any]:
 
 def test_the_page_knows_the_fields_of_all_messages(page: Page) -> None:
     found = page.evaluate(
-        """import("./web/remote_messages.js").then(({ FIELDS, READING, OUTPUT, PROBLEMS }) => (
+        """import("./web/remote/messages.js").then(({ FIELDS, READING, OUTPUT, PROBLEMS }) => (
             { ...FIELDS, reading: READING, output: OUTPUT, problems: [...PROBLEMS] }
         ))"""
     )
@@ -217,7 +217,7 @@ def test_a_page_with_the_token_needs_no_other(chromium: Browser) -> None:
         page.goto(f"{room.url}?token=open+sesame")
         set_limits(page)
         page.evaluate(
-            "import('./web/remote_client.js').then((each) => Object.assign(window, each))"
+            "import('./web/remote/client.js').then((each) => Object.assign(window, each))"
         )
         page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
         assert page.evaluate("client.sense()")["seq"] >= 1

@@ -56,7 +56,7 @@ def test_times_of_scenes_and_drivers_are_apart(site: ServedViser) -> None:
     page = site.page()
     found = page.evaluate(
         """async () => {
-            const { KEYS, PROGRAM, Results, timeText } = await import("./web/results.js");
+            const { KEYS, PROGRAM, Results, timeText } = await import("./web/page/results.js");
             const results = new Results(() => {});
             let episode = 0;
             const win = (seconds, task, by) => timeText(results.of(

@@ -23,11 +23,11 @@ pytestmark = pytest.mark.browser
 SHARED = f"# {MARKUP} é 🤖\ndef decide(percept):\n    return {{}}\n"
 FRAGMENT = shared_link(Scene.load("maze"), 77).fragment
 MAKE = """async ([fragment, source]) => {
-  const { withProgram } = await import("./web/program_link.js");
+  const { withProgram } = await import("./web/scenes/program_link.js");
   return withProgram(fragment, { agent: "0", source }).catch((error) => error.message);
 }"""
 READ = """async (link) => {
-  const { programIn } = await import("./web/program_link.js");
+  const { programIn } = await import("./web/scenes/program_link.js");
   return programIn(link).catch((error) => error.message);
 }"""
 
@@ -70,8 +70,8 @@ def test_strange_programs_in_links_are_refused(opened: CodePage) -> None:
 
 def keep(tab: CodePage, **changes: Any) -> None:
     program = {"scene": "box_chase", "agent": "0", "source": SHARED} | changes
-    script = "each => import('./web/shared_program.js').then(({ keepShared }) => keepShared(each))"
-    tab.page.evaluate(script, program)
+    module = "import('./web/scenes/shared_program.js')"
+    tab.page.evaluate(f"each => {module}.then(({{ keepShared }}) => keepShared(each))", program)
 
 
 def test_the_offer_replaces_nothing_until_it_is_taken(opened: CodePage) -> None:

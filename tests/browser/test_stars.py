@@ -42,7 +42,7 @@ def opened(chromium: Browser) -> Iterator[CodePage]:
 @pytest.fixture
 def tab(opened: CodePage) -> CodePage:
     opened.page.evaluate("localStorage.clear(); panel.notices.length = 0; panel.driver = null;")
-    forget = "import('./web/storage.js').then((each) => each.forget('stars-'))"
+    forget = "import('./web/shared/storage.js').then((each) => each.forget('stars-'))"
     opened.page.evaluate(forget)
     opened.give(PARTS["scene"], "scene")
     expect(row(opened)).to_have_text("☆☆☆")
@@ -154,7 +154,7 @@ def test_a_changed_scene_another_robot_and_a_helping_person_earn_none(tab: CodeP
 
 def test_what_is_kept_is_checked(tab: CodePage) -> None:
     script = """async (kept) => {
-      const { allStars, earn, starsOf } = await import("./web/stars.js");
+      const { allStars, earn, starsOf } = await import("./web/scenes/stars.js");
       localStorage.setItem("ai4u-stars-", kept);
       const found = [allStars(), starsOf("maze"), starsOf("constructor")];
       return [...found, earn("maze", 4), earn("tag", 0)];

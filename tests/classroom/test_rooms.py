@@ -47,7 +47,11 @@ def test_nobody_enters_the_room_of_another(served: ServedClass) -> None:
     ada, ben, stranger = served.joined(), served.joined(), served.student()
     assert ada.get("api/snapshot").status_code == 200
     for other in (ben, stranger):
-        for path in ("api/snapshot", "web/main.js", "../../" + ada.room.strip("/") + "/api/scene"):
+        for path in (
+            "api/snapshot",
+            "web/page/main.js",
+            "../../" + ada.room.strip("/") + "/api/scene",
+        ):
             assert other.client.get(ada.room + path).status_code == 403
         to_page = other.client.get(ada.room, headers={"Accept": "text/html"})
         assert (to_page.status_code, to_page.headers["Location"]) == (303, "/")

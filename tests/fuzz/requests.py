@@ -17,7 +17,8 @@ from tests.fuzz.target import MANY, Target
 
 METHODS = (b"GET", b"GET", b"GET", b"HEAD", b"POST", b"PUT", b"OPTIONS", b"TRACE", b"get", b"")
 PATHS = (
-    b"/", b"/healthz", b"/api/snapshot", b"/api/openapi.json", b"/web/main.js", b"/web/page.css",
+    b"/", b"/healthz", b"/api/snapshot", b"/api/openapi.json", b"/web/page/main.js",
+    b"/web/styles/page/page.css",
     b"/web/../pyproject.toml", b"/web/..%2f..%2fREADME.md", b"/web/%00", b"//", b"/ws/remote",
     b"/ws/input", b"/api/", b"/api/past", b"/api/past/x.episode", b"/api/past/..%2f..%2fetc",
     b"/web/.", b"/web/" + b"a" * 5000, b"*", b"http://evil.example/healthz",

@@ -78,7 +78,7 @@ def test_a_world_without_a_scene_can_only_be_driven() -> None:
 def test_who_does_not_know_the_token_neither_sees_nor_drives() -> None:
     world = show("box_chase")
     place = f"http://127.0.0.1:{world.port}/"
-    for path in ("", "healthz", "api/snapshot", "web/main.js"):
+    for path in ("", "healthz", "api/snapshot", "web/page/main.js"):
         assert get(place + path).status_code == 401
         assert raw_answer(place + path, "Host: evil.example")[0] == 401
     asks = f"?token={live.TOKEN}"

@@ -10,7 +10,7 @@ class BlockWords(NamedTuple):
     question: str
     """The question that it answers for the agent or the person who builds it."""
     picture: str
-    """Name of its picture and its icon, as in ``web/panel_icons.js``."""
+    """Name of its picture and its icon, as in ``web/shared/icons.js``."""
     first_fields: tuple[str, ...] = ()
     """The parameters that matter most, at most three; by default the first of its own."""
 

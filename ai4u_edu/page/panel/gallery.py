@@ -30,7 +30,7 @@ class GalleryItem(NamedTuple):
     question: str
     summary: str
     picture: str
-    """Name of its picture and its icon, as in ``web/panel_icons.js``."""
+    """Name of its picture and its icon, as in ``web/shared/icons.js``."""
     reason: str
     """The reason why it can't work in this scene; empty if it can."""
 

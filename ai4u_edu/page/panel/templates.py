@@ -11,7 +11,7 @@ class Template(NamedTuple):
 
     title: str
     icon: str
-    """Name of its icon in ``web/panel_icons.js``."""
+    """Name of its icon in ``web/shared/icons.js``."""
     kind: Literal["bodies", "floors", "areas", "agents"]
     description: Mapping[str, Any]
 

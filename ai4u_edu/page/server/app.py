@@ -121,8 +121,8 @@ def room_app(
 def _file_routes(page: Page, auth: list[Middleware]) -> list[Route]:
     files = {
         "/all_styles.css": page.styles,
-        "/{file}": page.file,
         "/vendor/{file:path}": VendorFiles().file,
+        "/{file:path}": page.file,
     }
     public = [Route(f"/web/{name}", page.public_file(name)) for name in PUBLIC_FILES]
     return public + [

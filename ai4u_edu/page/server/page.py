@@ -18,33 +18,33 @@ from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles
 
 _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
-    <script src="./web/dark.js"></script>
-    <script src="./web/page_id.js"{panel}></script>
+    <script src="./web/page/dark.js"></script>
+    <script src="./web/page/page_id.js"{panel}></script>
     <link rel="stylesheet" href="./web/all_styles.css" />
-    <script type="module" src="./web/main.js"></script>
+    <script type="module" src="./web/page/main.js"></script>
     {preloads}"""
 STYLES = (
-    "page.css",
-    "dock.css",
-    "banners.css",
-    "help.css",
-    "panel.css",
-    "panel_layout.css",
-    "panel_controls.css",
-    "panel_run.css",
-    "scene_picture.css",
-    "panel_cards.css",
-    "panel_windows.css",
-    "panel_drive.css",
-    "panel_build.css",
-    "panel_code.css",
-    "panel_test.css",
-    "panel_blocks.css",
-    "panel_stars.css",
-    "panel_why.css",
-    "panel_maps.css",
-    "question.css",
-    "class_bar.css",
+    "styles/page/page.css",
+    "styles/page/dock.css",
+    "styles/page/banners.css",
+    "styles/page/help.css",
+    "styles/panel/panel.css",
+    "styles/panel/layout.css",
+    "styles/panel/controls.css",
+    "styles/panel/run.css",
+    "styles/scene_picture.css",
+    "styles/panel/cards.css",
+    "styles/panel/windows.css",
+    "styles/panel/drive.css",
+    "styles/panel/build.css",
+    "styles/panel/code.css",
+    "styles/panel/test.css",
+    "styles/panel/blocks.css",
+    "styles/stars.css",
+    "styles/panel/why.css",
+    "styles/panel/maps.css",
+    "styles/question.css",
+    "styles/classroom/bar.css",
 )
 """Our styles, in the order in which later ones override earlier ones.
 
@@ -67,7 +67,7 @@ class Page:
 
     def __init__(self, title: Callable[[], str], *, has_panel: bool = False) -> None:
         self._files = WebFiles()
-        self._modules = self._files.modules("main.js", *["panel.js"] * has_panel)
+        self._modules = self._files.modules("page/main.js", *["panel/panel.js"] * has_panel)
         self._title, self._has_panel = title, has_panel
         self._index = self._read_index()
 

@@ -1,4 +1,4 @@
-"""Pages without viser, which need no inline scripts and styles: files of ``web/`` with a policy."""
+"""Pages without viser, which need no inline scripts and styles, with a policy."""
 
 from starlette.responses import HTMLResponse
 
@@ -21,7 +21,7 @@ STANDALONE_POLICY = "; ".join(
 
 
 def standalone_page(name: str) -> HTMLResponse:
-    """Return a page of ``web/``."""
-    text = (web_folder() / name).read_text(encoding="utf-8")
+    """Return a page of ``web/pages/``."""
+    text = (web_folder() / "pages" / name).read_text(encoding="utf-8")
     headers = {"Content-Security-Policy": STANDALONE_POLICY, **ALWAYS_ASK}
     return HTMLResponse(WebFiles().versioned(text), headers=headers)

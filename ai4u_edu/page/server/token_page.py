@@ -10,7 +10,7 @@ from ai4u_edu.page.server.web_files import web_folder
 
 WRONG = "That token is wrong."
 TOO_MANY = "Too many wrong tokens came from this address. Try again in {seconds} s."
-PUBLIC_FILES = ("scheme.js", "standalone.css", "token.js")
+PUBLIC_FILES = ("shared/scheme.js", "styles/standalone.css", "pages/token.js")
 """Files of the page, which a browser gets without a token."""
 _PLACE = "<!--problem-->"
 
@@ -19,7 +19,7 @@ class TokenPage:
     """The page that asks for the token."""
 
     def __init__(self) -> None:
-        self._text = (web_folder() / "token.html").read_text(encoding="utf-8")
+        self._text = (web_folder() / "pages" / "token.html").read_text(encoding="utf-8")
 
     def response(self, *, is_wrong: bool, wait_s: int) -> Response:
         """Return the page.

@@ -1,6 +1,7 @@
 """Our scripts and styles, which pages load from ``web/``."""
 
 import hashlib
+import posixpath
 import re
 import time
 from collections.abc import Callable, Iterable
@@ -18,13 +19,26 @@ WEB_PATHS = ("/web", "/web-{version}")
 """Paths of the folder in routes."""
 _ADDRESS = '"./web/'
 """Beginning of a file's address in the text of a page."""
-_STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"\./(\w+\.js)";', re.MULTILINE)
+FOLDERS = (
+    "blocks",
+    "classroom",
+    "code",
+    "page",
+    "pages",
+    "panel",
+    "remote",
+    "scenes",
+    "shared",
+    "styles",
+)
+"""Folders with the files. What else lies in ``web/`` is for development, or a library's."""
+_STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"(\.[\w./]+\.js)";', re.MULTILINE)
 ALWAYS_ASK = {"Cache-Control": "no-cache"}
 """Headers of what a browser may keep, but asks for each time."""
 NEVER_ASK = {"Cache-Control": "private, max-age=31536000, immutable"}
 """Headers of a file whose address changes with its content."""
 _POLICIES = {
-    "code_worker.js": (
+    "code/worker.js": (
         "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'"
     )
 }
@@ -33,7 +47,7 @@ the page hands it what it needs."""
 
 
 class WebFiles:
-    """The files of a folder, without its subfolders.
+    """The files of ``FOLDERS``, by their path in ``web/``; new ones are seen after a second.
 
     A page asks for some forty of them at once, so they are kept in memory until they change: for
     each, a response from the disk would change threads three times.
@@ -51,10 +65,10 @@ class WebFiles:
     def response(self, request: Request, *names: str) -> Response:
         """Return a file, or several of one kind as one; 304 if the browser has it, or 404.
 
-        Names are compared, so no path leads out of the folder. The browser keeps what it asks for
+        Names are compared, so no path leads out of the folders. The browser keeps what it asks for
         with the present version.
         """
-        files = _files(self._folder, self._folder.stat().st_mtime_ns)
+        files = _files(self._folder, int(self._clock()))
         for name in names:
             if name not in files:
                 return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
@@ -87,7 +101,9 @@ class WebFiles:
         found = list(entries)
         for name in found:
             text = (self._folder / name).read_text(encoding="utf-8")
-            found += [each for each in _STATIC_IMPORT.findall(text) if each not in found]
+            folder = posixpath.dirname(name)
+            imported = (posixpath.join(folder, path) for path in _STATIC_IMPORT.findall(text))
+            found += [path for path in map(posixpath.normpath, imported) if path not in found]
         return found
 
 
@@ -95,7 +111,7 @@ def web_folder() -> Path:
     """Return the folder of our scripts and styles: in the package, or in a checkout."""
     package = Path(__file__).resolve().parents[2]
     for folder in (package / "web", package.parent / "web"):
-        if (folder / "main.js").is_file():
+        if (folder / "page" / "main.js").is_file():
             return folder
     raise SetupError(
         f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
@@ -103,14 +119,18 @@ def web_folder() -> Path:
 
 
 @lru_cache(maxsize=4)
-def _files(folder: Path, _modified_ns: int) -> dict[str, Path]:
-    files = (path for path in folder.iterdir() if path.suffix in _MEDIA_TYPES)
-    return {path.name: path for path in files if path.is_file()}
+def _files(folder: Path, _second: int) -> dict[str, Path]:
+    paths = (path for name in FOLDERS for path in (folder / name).rglob("*"))
+    return {
+        path.relative_to(folder).as_posix(): path
+        for path in paths
+        if path.suffix in _MEDIA_TYPES and path.is_file()
+    }
 
 
 @lru_cache(maxsize=1)
-def _version(folder: Path, _second: int) -> str:
-    files = _files(folder, folder.stat().st_mtime_ns)
+def _version(folder: Path, second: int) -> str:
+    files = _files(folder, second)
     tags = sorted((name, _read([path])[1]) for name, path in files.items())
     return hashlib.sha256(repr(tags).encode()).hexdigest()[:16]
 

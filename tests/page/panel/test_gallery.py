@@ -37,7 +37,7 @@ def test_titles_differ() -> None:
 
 
 def test_each_picture_is_drawn() -> None:
-    drawn = (web_folder() / "panel_icons.js").read_text()
+    drawn = (web_folder() / "shared/icons.js").read_text()
     missing = {w.picture for w in BLOCK_WORDS.values() if f"\n  {w.picture}:" not in drawn}
     assert missing == set()
 

@@ -127,7 +127,7 @@ def test_guesses_get_429_on_every_way_in(room: Room, guess: dict[str, dict[str, 
         kind: {name: value.format(cookie=cookie) for name, value in values.items()}
         for kind, values in guess.items()
     }
-    paths = ("", "healthz", "api/past/1.gif", "web/main.js")
+    paths = ("", "healthz", "api/past/1.gif", "web/page/main.js")
     for path in paths[:3]:
         assert http_client.get(room.url + path, **given).status_code == 401  # type: ignore[arg-type]
     for path in paths:

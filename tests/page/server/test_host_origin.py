@@ -14,7 +14,7 @@ from ai4u_edu.page.server.host_origin import ANY_ADDRESS
 from tests.page.server import http_client
 from tests.page.server.rooms import UPGRADE, Page, Room, raw_answer, served
 
-PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/main.js", "nothing")
+PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/page/main.js", "nothing")
 SOCKETS = ("", "ws/input")
 WILDCARD_HOSTS = "0.0.0.0"  # noqa: S104 - a name to be asked by, nothing listens there
 
@@ -157,7 +157,14 @@ def test_listening_everywhere_allows_addresses_but_no_foreign_names() -> None:
 
 FETCHED = {"Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
 VISIT = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
-EVERY_PATH = (*PATHS, "api/past", "api/past/1.gif", "web/page.css", "ws/input", "ws/remote")
+EVERY_PATH = (
+    *PATHS,
+    "api/past",
+    "api/past/1.gif",
+    "web/styles/page/page.css",
+    "ws/input",
+    "ws/remote",
+)
 
 
 @pytest.mark.parametrize("site", ["cross-site", "same-site", "Cross-Site", "anything"])
@@ -196,7 +203,7 @@ def test_a_link_and_a_notebooks_frame_open_the_page(
 
 def test_what_our_own_page_and_a_person_ask_for_is_given(client: httpx.Client, room: Room) -> None:
     for site in ("same-origin", "none"):
-        for path in ("", "healthz", "web/main.js", "api/past"):
+        for path in ("", "healthz", "web/page/main.js", "api/past"):
             for how in (FETCHED, VISIT):
                 headers = {"Sec-Fetch-Site": site, **how}
                 assert client.get(room.url + path, headers=headers).status_code == 200

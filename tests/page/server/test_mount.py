@@ -23,7 +23,7 @@ def under(prefix: str) -> Callable[[ASGIApp], ASGIApp]:
 def test_everything_works_under_a_prefix(prefix: str) -> None:
     with served(wrap=under(prefix)) as room:
         base = room.url.rstrip("/") + prefix
-        for path in ("/", "/web/main.js", "/healthz", "/api/snapshot", "/api/openapi.json"):
+        for path in ("/", "/web/page/main.js", "/healthz", "/api/snapshot", "/api/openapi.json"):
             assert http_client.get(base + path).status_code == 200
         assert http_client.get(base, follow_redirects=True).url.path == prefix + "/"
         with Page(base + "/ws/input?agent=0") as page:

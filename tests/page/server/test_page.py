@@ -12,13 +12,19 @@ from starlette.responses import PlainTextResponse
 from websockets.sync.connection import Connection
 
 from ai4u_edu.page.server.page import STYLES
-from ai4u_edu.page.server.web_files import WebFiles, web_folder
+from ai4u_edu.page.server.web_files import FOLDERS, WebFiles, web_folder
 from tests.page.server import http_client
 from tests.page.server.rooms import Room, open_socket, raw_answer, served
 from tests.waiting import LIMIT_S, until
 
 SVG_NAMESPACE = "http://www.w3.org/2000/svg"
 """A name, which no browser asks for."""
+FILES = [
+    path.relative_to(web_folder()).as_posix()
+    for folder in FOLDERS
+    for path in sorted((web_folder() / folder).rglob("*"))
+    if path.is_file()
+]
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +37,7 @@ def test_the_page_is_visers_with_our_script_and_style(room: Room) -> None:
     text = http_client.get(room.url).text
     folder = f"./web-{WebFiles().version}"
     assert re.findall('rel="stylesheet" href="(.+?)"', text) == [f"{folder}/all_styles.css"]
-    assert f'<script type="module" src="{folder}/main.js"></script>' in text
+    assert f'<script type="module" src="{folder}/page/main.js"></script>' in text
     assert '<div id="root"></div>' in text
     assert "<iframe" not in text
 
@@ -74,7 +80,7 @@ def test_a_page_that_is_known_is_not_sent_again(room: Room) -> None:
     assert again.content == b""
 
 
-@pytest.mark.parametrize("name", [path.name for path in web_folder().glob("*.[jc]s*")])
+@pytest.mark.parametrize("name", [name for name in FILES if not name.endswith(".html")])
 def test_each_file_is_served_as_what_it_is(room: Room, name: str) -> None:
     answer = http_client.get(f"{room.url}web/{name}")
     kinds = {"js": "text/javascript", "css": "text/css"}
@@ -92,14 +98,14 @@ def test_all_styles_of_the_page_are_one_file(room: Room) -> None:
 
 
 def test_a_file_that_is_known_is_not_sent_again(room: Room) -> None:
-    first = http_client.get(f"{room.url}web/main.js")
+    first = http_client.get(f"{room.url}web/page/main.js")
     again = http_client.get(
-        f"{room.url}web/main.js", headers={"If-None-Match": first.headers["ETag"]}
+        f"{room.url}web/page/main.js", headers={"If-None-Match": first.headers["ETag"]}
     )
     assert (again.status_code, again.content) == (304, b"")
 
 
-@pytest.mark.parametrize("name", ["main.js", "all_styles.css"])
+@pytest.mark.parametrize("name", ["page/main.js", "all_styles.css"])
 def test_a_browser_keeps_what_has_the_present_version(room: Room, name: str) -> None:
     kept = http_client.get(f"{room.url}web-{WebFiles().version}/{name}")
     assert "immutable" in kept.headers["Cache-Control"]
@@ -115,10 +121,11 @@ def test_another_file_and_another_content_are_another_version(
     monkeypatch.setattr("ai4u_edu.page.server.web_files.web_folder", lambda: tmp_path)
     files = WebFiles(clock=count().__next__)
     versions = [files.version, files.version]
-    for name, text in (("a.js", "1"), ("a.js", "22"), ("b.js", "22")):
-        (tmp_path / name).write_text(text)
-        os.utime(tmp_path, ns=(len(versions), len(versions)))  # clocks of files are slow
-        os.utime(tmp_path / name, ns=(len(versions), len(versions)))
+    for name, text in (("a.js", "1"), ("a.js", "22"), ("b/c.js", "22")):
+        path = tmp_path / "page" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        os.utime(path, ns=(len(versions), len(versions)))  # clocks of files are slow
         versions.append(files.version)
     assert versions[0] == versions[1]
     assert len(set(versions)) == 4
@@ -128,13 +135,15 @@ def test_each_module_that_a_module_imports_is_preloaded() -> None:
     with served(panel=PlainTextResponse("not asked here")) as room:
         text = http_client.get(room.url).text
     preloaded = re.findall(r'rel="modulepreload" href="./web-\w+/(.+?)"', text)
-    assert {"main.js", "panel.js"} <= set(preloaded)
+    assert {"page/main.js", "panel/panel.js"} <= set(preloaded)
     for name in preloaded:
         text = (web_folder() / name).read_text()
-        assert set(re.findall(r'(?:from|import) "./(.+?)"', text)) <= set(preloaded), name
+        imported = re.findall(r'(?:from|import) "(.+?\.js)"', text)
+        paths = {os.path.normpath(Path(name).parent / path) for path in imported}
+        assert paths <= set(preloaded), name
 
 
-@pytest.mark.parametrize("name", [path.name for path in web_folder().iterdir() if path.is_file()])
+@pytest.mark.parametrize("name", FILES)
 def test_no_file_asks_for_anything_elsewhere_or_makes_html_of_text(name: str) -> None:
     text = (web_folder() / name).read_text().replace(SVG_NAMESPACE, "")
     found = re.findall(
@@ -147,7 +156,6 @@ def test_no_file_asks_for_anything_elsewhere_or_makes_html_of_text(name: str) ->
     "path",
     [
         "web/",
-        "web",
         "web/nothing.js",
         "web/..",
         "web/../pyproject.toml",
@@ -156,10 +164,16 @@ def test_no_file_asks_for_anything_elsewhere_or_makes_html_of_text(name: str) ->
         "web/..%5cpyproject.toml",
         "web/%2fetc%2fpasswd",
         "web//etc/passwd",
-        "web/main.js%00",
-        "web/token.html",
+        "web/main.js",
+        "web/page",
+        "web/page/",
+        "web/page/../../pyproject.toml",
+        "web/page/..%2f..%2fpyproject.toml",
+        "web/page//main.js",
+        "web/page/main.js%00",
+        "web/pages/token.html",
         "web/.",
-        "web/MAIN.JS",
+        "web/page/MAIN.JS",
         "web/....//pyproject.toml",
     ],
 )

@@ -208,10 +208,10 @@ def test_what_is_no_request_is_refused(room: Room, line: bytes) -> None:
     [
         "web/..%2f..%2fpyproject.toml",
         "web/%00",
-        "web/main.js%00",
+        "web/page/main.js%00",
         "web/" + "x" * 4000,
         "web/%ff%fe",
-        "web//main.js",
+        "web//page/main.js",
         "..%2f",
         "api/past/%00.gif",
         "api/past/" + "9" * 4000 + ".gif",
@@ -232,7 +232,7 @@ def test_odd_paths_are_not_there(room: Room, path: str) -> None:
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "TRACE", "OPTIONS", "X" * 1000])
 def test_other_methods_are_not_allowed(room: Room, method: str) -> None:
     with http_client.Client(base_url=room.url) as client:
-        for path in ("", "healthz", "web/main.js", "api/past/1.gif"):
+        for path in ("", "healthz", "web/page/main.js", "api/past/1.gif"):
             assert client.request(method, path).status_code == 405
 
 

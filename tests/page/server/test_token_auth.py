@@ -20,7 +20,7 @@ from tests.page.server.rooms import Page, Room, served
 TOKEN = "open sesame; Zoë"
 """With what an address and a cookie can't have as it is."""
 QUERY = "?token=open%20sesame%3B%20Zo%C3%AB"
-PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/main.js")
+PATHS = ("", "healthz", "api/snapshot", "api/openapi.json", "web/page/main.js")
 WHY = (
     "expected this world's token, got {}; open the address with ?token=... that its terminal shows"
 )
@@ -111,7 +111,7 @@ def test_a_browser_gets_a_cookie_and_an_address_without_the_token(
     second = browser.get(QUERY)
     assert second.status_code == 200
     assert str(second.url) == room.url
-    assert "main.js" in second.text
+    assert "page/main.js" in second.text
     for path in PATHS:
         assert browser.get(path).status_code == 200
     said = "; ".join(f"{name}={value}" for name, value in browser.cookies.items())

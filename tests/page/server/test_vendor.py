@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.page.server import Rules
-from ai4u_edu.page.server.web_files import web_folder
+from ai4u_edu.page.server.web_files import FOLDERS, web_folder
 from ai4u_edu.wire import native
 from tests.page.server import http_client
 from tests.page.server.rooms import Room, open_socket, raw_answer, served
@@ -64,7 +64,8 @@ def test_a_browser_keeps_for_good_what_has_a_version(room: Room) -> None:
 def test_versions_in_addresses_are_those_of_the_files() -> None:
     found = {
         (name, version)
-        for path in web_folder().glob("*.js")
+        for folder in FOLDERS
+        for path in (web_folder() / folder).rglob("*.js")
         for name, version in VERSIONED.findall(path.read_text(encoding="utf-8"))
     }
     assert {name for name, _ in found} >= set(KINDS)
@@ -82,9 +83,9 @@ def test_versions_in_addresses_are_those_of_the_files() -> None:
         "pyodide/pyodide.asm.wasm.gz",
         "pyodide//pyodide.mjs",
         "pyodide/../msgpack.js",
-        "../main.js",
-        "%2e%2e/main.js",
-        "..%2fmain.js",
+        "../page/main.js",
+        "%2e%2e/page/main.js",
+        "..%2fpage%2fmain.js",
         "..%2f..%2fpyproject.toml",
         "MSGPACK.js",
         "msgpack.js%00",
@@ -96,14 +97,14 @@ def test_nothing_else_has_a_name(room: Room, name: str) -> None:
 
 
 def test_the_worker_may_connect_to_nobody(room: Room) -> None:
-    policy = http_client.get(f"{room.url}web/code_worker.js").headers["Content-Security-Policy"]
+    policy = http_client.get(f"{room.url}web/code/worker.js").headers["Content-Security-Policy"]
     assert policy.split("; ") == [
         "default-src 'none'",
         "script-src 'self' 'wasm-unsafe-eval'",
         "worker-src 'none'",
     ]
-    known = http_client.get(f"{room.url}web/code_worker.js").headers["ETag"]
-    again = http_client.get(f"{room.url}web/code_worker.js", headers={"If-None-Match": known})
+    known = http_client.get(f"{room.url}web/code/worker.js").headers["ETag"]
+    again = http_client.get(f"{room.url}web/code/worker.js", headers={"If-None-Match": known})
     assert (again.status_code, again.headers["Content-Security-Policy"]) == (304, policy)
 
 

@@ -1,0 +1,173 @@
+/** Blocks of an agent's own senses and actions, with their Python. */
+
+import { ATOM, COMPARISON, PRODUCT, identifier } from "./words.js";
+
+/** Rays that are "ahead": their largest angle to the heading (degrees). */
+const AHEAD_DEG = 20;
+const SECTORS = { around: "on any side", ahead: "ahead", left: "to the left", right: "to the right" };
+const STATISTICS = { min: "smallest", max: "largest", mean: "mean" };
+const TOUCHES = new Set(["TouchSensor", "GroupTouchSensor"]);
+/** A sensor whose reading is the same in all decisions. */
+const LEFT_OUT = new Set(["DoneSensor"]);
+
+const FUNCTIONS = {
+  nearest: [
+    "def nearest(distances, reach):",
+    "    # 0 stands for a ray that hits nothing",
+    "    return min(each or reach for each in distances)",
+  ],
+  sees: ["def sees(codes, code):", "    return any(abs(each - code) < 0.001 for each in codes)"],
+  direction: [
+    "def direction(codes, code, angles):",
+    "    # degrees, to the right above 0; 0 if it is not seen",
+    "    hits = [angle for each, angle in zip(codes, angles) if abs(each - code) < 0.001]",
+    "    return sum(hits) / len(hits) if hits else 0",
+  ],
+};
+
+/**
+ * Return the blocks of an agent.
+ * @param part the part "python" of the panel
+ * @returns {{senses: object[], actions: object[], touches: object[], outputs: object[], rest: object}} blocks are
+ *   {type, message, fields, output, python}: python returns {code, order, functions}
+ */
+export function agentBlocks({ sensors = [], actuators = [] }) {
+  const known = sensors.filter(({ class: type, kind }) => kind !== "text" && !LEFT_OUT.has(type));
+  const outputs = outputsOf(actuators);
+  return {
+    senses: known.flatMap(senseBlocks),
+    actions: outputs.flatMap(({ parts }) => parts.filter((part) => part.type).map(actionBlock)),
+    touches: known.filter((sensor) => TOUCHES.has(sensor.class)),
+    outputs,
+  };
+}
+
+// -- senses ----------------------------------------------------------------------------------------
+
+function senseBlocks(sensor) {
+  const { key, shape, stack = 1, rays, slots = [] } = sensor;
+  const reading = `percept[${JSON.stringify(key)}]${stack > 1 ? "[-1]" : ""}`;
+  if (rays) return rayBlocks(sensor, reading);
+  if (shape.length - (stack > 1) === 0) return [plainBlock(sensor, reading)];
+  if (TOUCHES.has(sensor.class)) return [touchBlock(sensor, `${reading}[0]`)];
+  return slots.length ? [slotBlock(sensor, reading)] : [statisticBlock(sensor, reading)];
+}
+
+function plainBlock({ key, kind, unit }, reading) {
+  const output = kind === "bool" ? "Boolean" : "Number";
+  return sense(`sense:${key}`, `${key}${unit && ` (${unit})`}`, [], output, () => value(reading));
+}
+
+function touchBlock({ key }, reading) {
+  return sense(`sense:${key}`, `${key} is touched`, [], "Boolean", () => value(`${reading} > 0`, COMPARISON));
+}
+
+function slotBlock({ key, slots }, reading) {
+  const words = ({ name, unit }) => [name, unit && `(${unit})`].filter(Boolean).join(" ");
+  const ranges = slots.map(({ name, low, high }) => [name, rangeWords(low, high)].filter(Boolean).join(": ")).join("; ");
+  if (slots.length === 1) return sense(`sense:${key}`, `${key} ${words(slots[0])}`, [], "Number", () => value(`${reading}[0]`), ranges);
+  const options = slots.map((slot, index) => [words(slot), String(index)]);
+  return sense(`sense:${key}`, `${key} %1`, [list("SLOT", options)], "Number", ({ SLOT }) => value(`${reading}[${SLOT}]`), ranges);
+}
+
+function statisticBlock({ key, unit }, reading) {
+  const options = Object.entries(STATISTICS).map(([name, words]) => [words, name]);
+  const message = `%1 of ${key}${unit && ` (${unit})`}`;
+  return sense(`many:${key}`, message, [list("STAT", options)], "Number", ({ STAT }) => value(`${reading}.${STAT}()`));
+}
+
+/** Blocks of a flat fan of rays: the nearest thing, whether a group is seen, and where. */
+function rayBlocks({ key, rays }, reading) {
+  const angles = rays.angles_deg;
+  const sectors = Object.keys(SECTORS).filter((name) => sideOf(name, angles).count);
+  const sides = list("SIDE", sectors.map((name) => [SECTORS[name], name]));
+  const groups = list("GROUP", rays.codes.map(([name]) => [name, name]));
+  const codeOf = (group) => number(rays.codes.find(([name]) => name === group)?.[1] ?? -1);
+  const width = Number(rays.has_code) + Number(rays.has_distance);
+  const part = (name, offset) => `${reading}${slice(sideOf(name, angles), width, offset, angles.length)}`;
+  const made = [];
+  if (rays.has_distance) {
+    const factor = rays.reach === rays.reach_m ? "" : `${number(rays.reach_m)} * `;
+    const near = (side) => `${factor}nearest(${part(side, width - 1)}, ${number(rays.reach)})`;
+    const python = ({ SIDE }) => value(near(SIDE), factor ? PRODUCT : ATOM, FUNCTIONS.nearest);
+    made.push(sense(`near:${key}`, "distance %1 (m)", [sides], "Number", python, `How far it is to what is nearest, up to ${rays.reach_m} m.`));
+  }
+  if (!rays.has_code || !rays.codes.length) return made;
+  const sees = ({ GROUP, SIDE }) => value(`sees(${part(SIDE, 0)}, ${codeOf(GROUP)})`, ATOM, FUNCTIONS.sees);
+  made.push(sense(`sees:${key}`, "sees %1 %2", [groups, sides], "Boolean", sees, "True if a ray hits such a thing."));
+  const rightward = `[${angles.map((angle) => number(-angle || 0)).join(", ")}]`;
+  const where = ({ GROUP }) => {
+    const [codes, code] = [part("around", 0), codeOf(GROUP)];
+    return value(`direction(${codes}, ${code}, ${rightward})`, ATOM, FUNCTIONS.direction);
+  };
+  made.push(sense(`angle:${key}`, "direction of %1 (°)", [groups], "Number", where, "Above 0 to the right, below 0 to the left; 0 if it is straight ahead, or not seen."));
+  return made;
+}
+
+/** Return the rays of a side: {first, count}; angles rise from the right to the left. */
+export function sideOf(name, angles) {
+  const isIn = {
+    around: () => true,
+    ahead: (angle) => Math.abs(angle) <= AHEAD_DEG,
+    left: (angle) => angle > AHEAD_DEG,
+    right: (angle) => angle < -AHEAD_DEG,
+  }[name];
+  return { first: angles.findIndex((angle) => isIn(angle)), count: angles.filter((angle) => isIn(angle)).length };
+}
+
+function slice({ first, count }, width, offset, rays) {
+  const from = first * width + offset || "";
+  const to = first + count === rays ? "" : (first + count) * width;
+  if (width === 1) return from || to ? `[${from}:${to}]` : "";
+  return `[${from}:${to}:${width}]`;
+}
+
+function sense(type, message, fields, output, python, tooltip = "") {
+  return { type, message, fields, output, python, tooltip };
+}
+
+function list(name, options) {
+  return { type: "field_dropdown", name, options };
+}
+
+function value(code, order = ATOM, helper = null) {
+  return { code, order, functions: helper === null ? [] : [helper] };
+}
+
+// -- actions ---------------------------------------------------------------------------------------
+
+/** Return the actuators with their numbers: a number with effect has a type of block and a variable. */
+function outputsOf(actuators) {
+  const taken = new Set(["percept", "nearest", "sees", "direction", "random"]);
+  const isAlone = actuators.length === 1;
+  return actuators.map(({ name, is_choice: isChoice, components }) => ({
+    name,
+    parts: components.map(({ name: own, low, high, has_effect: hasEffect }, index) => {
+      const rest = number(Math.max(low, Math.min(high, 0)));
+      if (!hasEffect) return { rest };
+      const words = own.replaceAll("_", " ");
+      const title = !words ? name : isAlone ? words : `${name}: ${words}`;
+      return { type: `act:${name}:${index}`, title, low, high, isChoice, rest, variable: identifier(title, taken) };
+    }),
+  }));
+}
+
+function actionBlock({ type, title, low, high, variable }) {
+  // of all actuators, a turn above 0 goes to the right
+  const range = title.endsWith("turn") && low < 0 ? `${low} left, ${high} right` : `${low} to ${high}`;
+  return {
+    type,
+    message: `${title} (${range}) %1`,
+    fields: [{ type: "input_value", name: "VALUE", check: "Number" }],
+    start: Math.max(low, Math.min(high, 1)),
+    variable,
+  };
+}
+
+function rangeWords(low, high) {
+  return low === null || high === null ? "" : `${low} to ${high}`;
+}
+
+function number(value) {
+  return String(Math.round(value * 1e6) / 1e6);
+}

@@ -1,0 +1,235 @@
+/** A program of blocks in the tab "Code": the switch to blocks and back, and the Python that they mean. */
+
+import { joinProgram, splitProgram } from "./text.js";
+import { button, element, setText } from "../shared/dom.js";
+import { freeId } from "../panel/widgets/parts.js";
+import { retried } from "../shared/retry.js";
+
+const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
+const DAMAGED = "The blocks of this program are damaged. This is the Python that came with them.";
+const HELP =
+  "T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. " +
+  "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
+
+export class BlocksMode {
+  /** Called with true or false when the person sees blocks, or no longer. */
+  onSwitch = (_isOn) => {};
+  #tab;
+  #panel;
+  #part = null;
+  #agentText = "";
+  #agent = null;
+  /** The blocks of the program, also of one that went on in Python; null if there are none. */
+  #blocks = null;
+  #isOn = false;
+  /** The modules that are loaded with the first blocks. */
+  #loaded = null;
+  #workspace = null;
+  /** Resolves when the latest blocks are shown. */
+  #shown = Promise.resolve();
+  /** Ids of blocks by line. */
+  #blockOfLine = [];
+  #open = button("Blocks", () => this.#toBlocks(), { icon: "build", title: "Put the program together from blocks" });
+  #leave = button("Continue in Python", () => this.#toPython(), { title: "The Python becomes yours to change; the blocks are kept" });
+  #words = element("p", { className: "ai4u-soft", role: "status" });
+  #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
+  #frame = element("div", { className: "ai4u-blocks-editor" });
+  #steps = null;
+  /** The steps that lead to a program; filled with the first blocks. */
+  steps = element("div", {});
+  bar = element("div", { className: "ai4u-blocks-bar" }, this.#open, this.#leave);
+  element = element("div", { className: "ai4u-blocks", dataset: { ai4uKeys: "" } }, this.#words, this.#frame, this.#help);
+
+  /**
+   * @param panel the panel
+   * @param tab.editor the CodeEditor, which shows the blocks' Python
+   * @param tab.changed called when the person has changed the blocks
+   * @param tab.replace called with another program
+   * @param tab.keys [{key, run}], with Ctrl or Cmd and a key, such as "Enter" or "Shift+Enter"
+   */
+  constructor(panel, tab) {
+    [this.#panel, this.#tab] = [panel, tab];
+    this.#frame.addEventListener("keydown", (event) => this.#onKey(event), { capture: true });
+    this.element.addEventListener("keydown", (event) => event.stopPropagation());
+    this.#draw();
+  }
+
+  get isOn() {
+    return this.#isOn;
+  }
+
+  /** Offer the blocks of an agent. @param part the part "python" */
+  async setAgent(part) {
+    const text = JSON.stringify([part.sensors, part.actuators]);
+    if (text === this.#agentText) return;
+    [this.#agentText, this.#part] = [text, part];
+    if (this.#loaded === null) return;
+    this.#steps.setAgent(part);
+    this.#agent = this.#loaded.agentBlocks(part);
+    this.#workspace?.setAgent(this.#agent);
+    if (this.#isOn) this.#show(this.#blocks);
+  }
+
+  /** Return a program as it is kept: its Python, and the blocks. */
+  join(python) {
+    return joinProgram(python, this.#blocks, this.#isOn);
+  }
+
+  /** Take a program that is shown: return its Python, and show its blocks if it is of blocks. */
+  take(text) {
+    const { python, blocks, isOfBlocks } = splitProgram(text);
+    this.#blocks = blocks;
+    this.#set(isOfBlocks);
+    if (isOfBlocks) this.#shown = this.#show(blocks);
+    return python;
+  }
+
+  /** Mark the blocks of lines that ran. */
+  markRan(lines) {
+    if (this.#isOn) this.#workspace?.markRan(lines.map((line) => this.#blockOfLine[line - 1]).filter(Boolean));
+  }
+
+  /** Mark the block of a line with a mistake; null removes the mark. */
+  markMistake(line) {
+    if (this.#isOn) this.#workspace?.markMistake(line === null ? "" : (this.#blockOfLine[line - 1] ?? ""));
+  }
+
+  /** Put the focus onto the block of a line. Returns false if there is none. */
+  goTo(line) {
+    const block = this.#isOn ? this.#blockOfLine[line - 1] : "";
+    if (block) this.#workspace.goTo(block);
+    return Boolean(block);
+  }
+
+  /** A run or a test begins. */
+  begin() {
+    if (this.#isOn) this.#steps?.begin();
+  }
+
+  /** Look at a decision of a run: {percept, action}. */
+  note(detail) {
+    if (this.#isOn) this.#steps?.note(detail);
+  }
+
+  /** Look at the starts of a test. */
+  tested(rows) {
+    if (this.#isOn) this.#steps?.tested(rows);
+  }
+
+  // -- the switch --------------------------------------------------------------------------------
+
+  async #toBlocks() {
+    const modules = await this.#load();
+    if (modules === null || this.#part === null) return;
+    const blocks = this.#blocks ?? modules.FIRST_BLOCKS;
+    const { text } = modules.pythonOf(blocks, this.#agent);
+    this.#tab.replace(joinProgram(text, blocks, true));
+    this.#panel.notice("Your Python is kept under Earlier runs.");
+    await this.#shown;
+    this.#workspace?.focus();
+  }
+
+  #toPython() {
+    this.#set(false);
+    this.#tab.changed();
+    this.#tab.editor.focus();
+  }
+
+  #set(isOn) {
+    this.#isOn = isOn;
+    this.#tab.editor.isReadOnly = isOn;
+    this.#draw();
+    this.onSwitch(isOn);
+  }
+
+  #draw() {
+    this.#frame.hidden = this.#help.hidden = this.steps.hidden = !this.#isOn;
+    this.#leave.hidden = !this.#isOn;
+    this.#open.hidden = this.#isOn;
+    setText(this.#open.querySelector("span"), this.#blocks === null ? "Blocks" : "Back to your blocks");
+    this.#say("");
+  }
+
+  #say(text) {
+    setText(this.#words, text);
+    this.#words.hidden = !text;
+    this.element.hidden = !text && !this.#isOn;
+  }
+
+  // -- the blocks --------------------------------------------------------------------------------
+
+  async #show(blocks) {
+    const modules = await this.#load();
+    if (modules === null || !this.#isOn || blocks !== this.#blocks) return;
+    this.#workspace ??= this.#makeWorkspace(modules);
+    this.#workspace.resize();
+    try {
+      this.#workspace.load(blocks);
+      this.#write();
+    } catch {
+      this.#set(false); // the text of a program may come from anybody
+      this.#say(DAMAGED);
+    }
+  }
+
+  #makeWorkspace({ BlocksWorkspace }) {
+    const ask = (question, start) => this.#ask(question, start);
+    const made = new BlocksWorkspace(this.#frame, { label: "Program of blocks", agent: this.#agent, ask });
+    made.onChange = () => {
+      this.#blocks = made.blocks;
+      this.#write();
+      this.#tab.changed();
+    };
+    return made;
+  }
+
+  /** Show the Python of the blocks. */
+  #write() {
+    const { text, blocks } = this.#loaded.pythonOf(this.#workspace.state, this.#agent);
+    this.#blockOfLine = blocks;
+    this.#tab.editor.text = text;
+  }
+
+  async #load() {
+    if (this.#loaded !== null) return this.#loaded;
+    this.#say("Loading the blocks …");
+    try {
+      const names = ["agent", "python", "workspace", "steps"];
+      const modules = await retried(() => Promise.all(names.map((name) => import(`./${name}.js`))));
+      this.#loaded = Object.assign({}, ...modules);
+    } catch {
+      this.#say(FAILED);
+      return null;
+    }
+    this.#steps = new this.#loaded.BlockSteps(this.#panel);
+    this.steps.append(this.#steps.element);
+    if (this.#part !== null) {
+      this.#agent = this.#loaded.agentBlocks(this.#part);
+      this.#steps.setAgent(this.#part);
+    }
+    this.#draw();
+    return this.#loaded;
+  }
+
+  /** Ask the person for a name; null if there is no answer. */
+  #ask(question, start) {
+    return new Promise((resolve) => {
+      const input = element("input", { type: "text", value: start, maxLength: 40, id: freeId() });
+      const label = element("label", { htmlFor: input.id, textContent: question });
+      const form = element("form", { method: "dialog", className: "ai4u-blocks-name" }, label, input, button("OK", () => form.requestSubmit(), { kind: "main" }));
+      let answer = null;
+      form.addEventListener("submit", () => (answer = input.value.trim() || null));
+      const { dialog } = this.#panel.dialog("Memory", form);
+      dialog.addEventListener("close", () => resolve(answer));
+      input.select();
+    });
+  }
+
+  /** Ctrl+Enter runs, as in the editor of Python. */
+  #onKey(event) {
+    if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.#tab.run(event.shiftKey ? "step" : "run");
+  }
+}

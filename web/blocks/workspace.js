@@ -1,0 +1,200 @@
+/** The editor of blocks: Blockly with an agent's own blocks. Loaded when a person chooses blocks. */
+
+import { blocksTheme } from "./theme.js";
+import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
+import { Blockly } from "../vendor/blockly.js?v=e631db10";
+
+/** Where a block stands if nobody has moved it (pixels of the workspace). */
+const FIRST_PLACE = { x: 16, y: 16 };
+/** No address, so that Blockly asks for none of its pictures and sounds; nothing that is used here needs one. */
+const NO_MEDIA = "data:,";
+/** Blocks are shown larger where a finger has to hit them. */
+const [SCALE, TOUCH_SCALE] = [0.9, 1];
+
+/** Blocks of a person who has none yet. */
+export const FIRST_BLOCKS = { blocks: { languageVersion: 0, blocks: [{ type: "on_decision", ...FIRST_PLACE, deletable: false }] } };
+
+export class BlocksWorkspace {
+  /** Called after each change by the person. */
+  onChange = () => {};
+  #workspace;
+  #kept = "";
+  #ran = [];
+  #mistake = "";
+
+  /**
+   * @param {HTMLElement} parent element that gets the editor
+   * @param options.label accessible name
+   * @param options.agent as agentBlocks() returns it
+   * @param options.ask returns what the person answers to a question, or null
+   */
+  constructor(parent, { label, agent, ask }) {
+    define(agent);
+    Blockly.dialog.setPrompt(async (question, start, answer) => answer(await ask(question, start)));
+    const scale = matchMedia("(pointer: coarse)").matches ? TOUCH_SCALE : SCALE;
+    this.#workspace = Blockly.inject(parent, {
+      toolbox: toolbox(agent),
+      theme: blocksTheme(Blockly),
+      renderer: "thrasos",
+      media: NO_MEDIA,
+      sounds: false,
+      trashcan: false,
+      comments: false,
+      collapse: false,
+      maxInstances: { on_decision: 1, on_begin: 1 },
+      move: { scrollbars: true, drag: true, wheel: true },
+      zoom: { startScale: scale, minScale: 0.5, maxScale: 2, pinch: true },
+    });
+    // lists and fields hover over the page, outside of the panel
+    for (const each of [Blockly.WidgetDiv.getDiv(), Blockly.DropDownDiv.getContentDiv().parentElement]) {
+      each.dataset.ai4uKeys = "";
+      each.addEventListener("keydown", (event) => event.stopPropagation());
+    }
+    const memory = () => memoryBlocks(this.#workspace);
+    this.#workspace.registerToolboxCategoryCallback("AI4U_MEMORY", memory);
+    this.#workspace.registerButtonCallback("AI4U_NEW_VARIABLE", () => Blockly.Variables.createVariableButtonHandler(this.#workspace));
+    this.#workspace.addChangeListener(Blockly.Events.disableOrphans);
+    this.#workspace.addChangeListener((event) => this.#onEvent(event));
+    parent.querySelector("svg.blocklySvg, .blocklySvg")?.setAttribute("aria-label", label);
+    new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
+    keepFocus(parent);
+    // the panel scrolls, which Blockly does not notice
+    addEventListener("scroll", ({ target }) => target.contains?.(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
+  }
+
+  /** The blocks with their ids, as blocks/python.js reads them. */
+  get state() {
+    return Blockly.serialization.workspaces.save(this.#workspace);
+  }
+
+  /** The blocks as they are kept: without ids, which differ from one start to the next. */
+  get blocks() {
+    return withoutIds(this.state);
+  }
+
+  /** Show other blocks; it does not count as a change by the person. */
+  load(blocks) {
+    for (const type of typesIn(blocks)) if (!Blockly.Blocks[type]) define(null, type, blocks);
+    Blockly.hideChaff();
+    Blockly.serialization.workspaces.load(blocks, this.#workspace);
+    if (!this.#workspace.getBlocksByType("on_decision").length) this.#addMain();
+    this.#kept = JSON.stringify(this.blocks);
+    this.#ran = [];
+    this.#mistake = "";
+  }
+
+  /** Offer another agent's blocks. */
+  setAgent(agent) {
+    define(agent);
+    this.#workspace.updateToolbox(toolbox(agent));
+  }
+
+  /** Mark the blocks that ran in the latest decision, and no others. */
+  markRan(ids) {
+    const wanted = new Set(ids);
+    for (const id of this.#ran) if (!wanted.has(id)) this.#toggle(id, "ai4u-blocks-ran", false);
+    for (const id of wanted) this.#toggle(id, "ai4u-blocks-ran", true);
+    this.#ran = [...wanted];
+  }
+
+  /** Mark the block of a mistake, and show it; empty removes the mark. */
+  markMistake(id) {
+    this.#toggle(this.#mistake, "ai4u-blocks-mistake", false);
+    this.#mistake = id;
+    this.#toggle(id, "ai4u-blocks-mistake", true);
+    if (id) this.#workspace.centerOnBlock(id);
+  }
+
+  /** Put the focus onto a block. */
+  goTo(id) {
+    const block = this.#workspace.getBlockById(id);
+    if (block) Blockly.getFocusManager().focusNode(block);
+  }
+
+  /** Put the focus onto the block under which the decisions stand. */
+  focus() {
+    const [main] = this.#workspace.getBlocksByType("on_decision");
+    Blockly.getFocusManager().focusNode(main);
+  }
+
+  resize() {
+    Blockly.svgResize(this.#workspace);
+  }
+
+  #toggle(id, name, isOn) {
+    this.#workspace.getBlockById(id)?.getSvgRoot().classList.toggle(name, isOn);
+  }
+
+  #addMain() {
+    const block = this.#workspace.newBlock("on_decision");
+    block.setDeletable(false);
+    block.initSvg();
+    block.render();
+    block.moveBy(FIRST_PLACE.x, FIRST_PLACE.y);
+  }
+
+  #onEvent(event) {
+    if (event.isUiEvent) return;
+    const kept = JSON.stringify(this.blocks);
+    if (kept === this.#kept || this.#workspace.isDragging()) return;
+    this.#kept = kept;
+    this.onChange();
+  }
+}
+
+/** Give the focus back to what Blockly moves: a frame after a highlight it puts blocks in another order. */
+function keepFocus(parent) {
+  let latest = null;
+  parent.addEventListener("focusin", ({ target }) => (latest = target));
+  new MutationObserver((changes) => {
+    if (document.activeElement !== document.body || !latest?.isConnected) return;
+    const moved = changes.flatMap(({ removedNodes }) => [...removedNodes]);
+    if (moved.some((each) => each.contains(latest))) latest.focus();
+  }).observe(parent, { childList: true, subtree: true });
+}
+
+/** Define an agent's blocks, or a block that it does not have, with its fields as they are. */
+function define(agent, type = "", blocks = null) {
+  const made = agent === null ? [strangeBlock(type, blocks)] : definitions(agent);
+  if (agent !== null) for (const each of Object.keys(Blockly.Blocks)) delete Blockly.Blocks[each]; // another agent's
+  Blockly.common.defineBlocksWithJsonArray(made);
+}
+
+/** Return a block of another agent: it shows its name, and keeps its values. */
+function strangeBlock(type, blocks) {
+  const { fields = {} } = blocksIn(blocks).find((each) => each.type === type);
+  const words = Object.keys(fields).map((name, index) => ({ type: "field_label_serializable", name, text: String(index) }));
+  const marks = words.map((_, index) => ` %${index + 1}`).join("");
+  const isAction = type.startsWith("act:") || type === "rest";
+  const isHat = type.startsWith("on_");
+  const inputs = isAction && type !== "rest" ? [{ type: "input_value", name: "VALUE" }] : [];
+  const shape = isHat ? { nextStatement: null } : isAction ? { previousStatement: null, nextStatement: null } : { output: null };
+  const message0 = `(not of this robot) ${type.replace(/^\w+:/, "").replaceAll("%", "%%")}${marks}${inputs.length ? ` %${words.length + 1}` : ""}`;
+  return { type, message0, args0: [...words, ...inputs], ...shape, style: isHat ? "events" : isAction ? "actions" : "senses" };
+}
+
+function typesIn(blocks) {
+  return new Set(blocksIn(blocks).map(({ type }) => type));
+}
+
+/** Return all blocks of a state, inner ones, too. */
+function blocksIn(state) {
+  const found = [];
+  const visit = (block) => {
+    if (!block) return;
+    found.push(block);
+    for (const { block: inner, shadow } of Object.values(block.inputs ?? {})) [inner, shadow].forEach(visit);
+    visit(block.next?.block);
+  };
+  (state.blocks?.blocks ?? []).forEach(visit);
+  return found;
+}
+
+function withoutIds(state) {
+  const copy = structuredClone(state);
+  for (const block of blocksIn(copy)) {
+    delete block.id;
+    if ("x" in block) [block.x, block.y] = [Math.round(block.x), Math.round(block.y)];
+  }
+  return copy;
+}

@@ -1,0 +1,94 @@
+/** The page on which a student joins a class. */
+
+import { element } from "../../shared/dom.js";
+
+const find = (selector) => document.querySelector(selector);
+const code = find("#code");
+const join = find("#join");
+const problem = find("#problem");
+
+/** True if a seat of another device is to be used here, too. */
+let isMoving = false;
+
+const given = new URLSearchParams(location.search).get("code");
+if (given) code.value = given; // else what was typed already stays
+find("#move").addEventListener("click", () => moveHere(!isMoving));
+find("#others").addEventListener("click", showNames);
+find("form").addEventListener("submit", (event) => {
+  event.preventDefault();
+  sendRequest();
+});
+showNames();
+if (given) join.focus();
+
+/** Ask for the code that another device shows, in place of the class's code and a name. */
+function moveHere(isMove) {
+  isMoving = isMove;
+  find("#code-label").textContent = isMove ? "Code on your other device" : "Code on the board";
+  find("#choice").hidden = isMove;
+  find("#move-note").hidden = !isMove;
+  find("#move").textContent = isMove ? "Join with the code on the board" : "Continue from another device";
+  join.textContent = isMove ? "Continue" : "Join";
+  problem.textContent = "";
+  code.value = isMove ? "" : (given ?? "");
+  code.focus();
+}
+
+async function showNames() {
+  try {
+    const { names } = await (await fetch("./api/names", { cache: "no-store" })).json();
+    find("#names").replaceChildren(...names.map(nameChoice));
+  } catch {
+    problem.textContent = "The class can't be reached. Is this device in the right network?";
+  }
+}
+
+function nameChoice(name, index) {
+  return element(
+    "label",
+    {},
+    element("input", { type: "radio", name: "name", value: name, checked: index === 0 }),
+    element("span", { textContent: name }),
+  );
+}
+
+async function sendRequest() {
+  join.disabled = true;
+  problem.textContent = "";
+  const name = isMoving ? "" : (find("#names input:checked")?.value ?? "");
+  try {
+    const answer = await fetch("./api/join", {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ code: code.value, name, request: requestId() }),
+    });
+    const told = await answer.json();
+    if (answer.ok) {
+      location.assign(told.room);
+      return;
+    }
+    problem.textContent = told.problem;
+    if (answer.status === 409) await showNames();
+  } catch {
+    problem.textContent = "The class can't be reached. Is this device in the right network?";
+  }
+  join.disabled = false;
+}
+
+/** Return an id that stays the same if the request is repeated: the answer may have got lost. */
+function requestId() {
+  const key = "ai4u-join-request";
+  try {
+    const known = sessionStorage.getItem(key) ?? randomId();
+    sessionStorage.setItem(key, known);
+    return known;
+  } catch {
+    return randomId(); // storage is blocked here
+  }
+}
+
+/** crypto.randomUUID() is missing on pages that come by http. */
+function randomId() {
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return Array.from(bytes, (each) => each.toString(16).padStart(2, "0")).join("");
+}

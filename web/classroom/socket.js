@@ -1,0 +1,33 @@
+/** The WebSocket of the teacher's page and of the projector page: the class's state, drawings and poses. */
+
+import { JsonSocket } from "../shared/socket.js";
+
+const LOST = "The class can't be reached. Is its program still running? This page tries again by itself.";
+
+/**
+ * Open the socket, and open it again whenever it is lost.
+ * @param {string} path relative to the page
+ * @param receive functions by the type of a message: class, drawing, poses
+ * @param {(problem: string) => void} say shows a sentence, or "" when all is well again
+ */
+export function openClassSocket(path, receive, say) {
+  const socket = new JsonSocket(path);
+  socket.onopen = () => say("");
+  socket.onmessage = (message) => receive[message.type]?.(message);
+  socket.onclose = async (refusal) => {
+    say(refusal || LOST);
+    if (await isTokenAsked()) location.reload();
+  };
+  addEventListener("offline", () => say(LOST)); // long before the socket notices
+  addEventListener("online", () => socket.isOpen && say(""));
+  socket.open();
+}
+
+/** Return true if the class is there but asks for its token again. A script isn't told why a handshake failed. */
+async function isTokenAsked() {
+  try {
+    return (await fetch(location.href, { method: "HEAD", cache: "no-store" })).status === 401;
+  } catch {
+    return false;
+  }
+}

@@ -1,0 +1,91 @@
+/** The dialog with which a student hands in a network for a tournament of the class. */
+
+import { element, keyed, setText } from "../../shared/dom.js";
+import { field, select, showForm } from "../../shared/form_dialog.js";
+import { tell } from "../../shared/question.js";
+
+const ADDRESS = "../../api/network";
+/** Interval at which the class is asked for the verdict on a network (ms). */
+const POLL_MS = 2000;
+const UNREACHABLE = "The class can't be reached. Try again in a moment.";
+const ALL_PARTS = "All of my robots";
+
+export async function showHandIn() {
+  let facts;
+  try {
+    facts = await ask();
+  } catch (error) {
+    await tell("Nothing can be handed in", error.message);
+    return;
+  }
+  const first = facts.scene || facts.scenes.find(({ name }) => name === "sumo")?.name;
+  const scene = select(facts.scenes.map(({ name, title }) => [name, title]), first);
+  const part = element("select");
+  const partField = field("It drives", part, "Robots without a network of yours are driven by the scene’s own player.");
+  const file = element("input", { type: "file", accept: ".onnx" });
+  const list = element("ul", { className: "ai4u-handed-in", "aria-label": "Handed in", "aria-live": "polite" });
+  let timer = 0;
+
+  function showParts() {
+    const parts = facts.scenes.find(({ name }) => name === scene.value)?.parts ?? [];
+    part.replaceChildren(...["", ...parts].map((value) => element("option", { value, textContent: value || ALL_PARTS })));
+    partField.hidden = parts.length === 0;
+  }
+
+  function show(answer) {
+    facts = answer;
+    const titles = Object.fromEntries(facts.scenes.map(({ name, title }) => [name, title]));
+    keyed(list, facts.networks, ({ key }) => key, makeNetwork, (item, network) => updateNetwork(item, network, titles));
+    clearTimeout(timer);
+    if (list.isConnected && facts.networks.some(({ verdict }) => verdict === "open")) timer = setTimeout(refresh, POLL_MS);
+  }
+
+  async function refresh() {
+    if (!list.isConnected) return;
+    try {
+      show(await ask());
+    } catch {
+      timer = setTimeout(refresh, POLL_MS); // it may come back
+    }
+  }
+
+  scene.addEventListener("change", showParts);
+  showParts();
+  const text = "For a tournament: your teacher lets the networks of the class play each other. The latest one counts.";
+  const content = [field("Scene", scene), partField, field("Network (.onnx)", file, `At most ${Math.round(facts.max_bytes / 2 ** 20)} MB.`), list];
+  const shown = showForm({ title: "Hand in a network", text, content, yes: "Hand in", no: "Close" }, async () => {
+    const [chosen] = file.files;
+    if (!chosen) throw new Error("Choose the .onnx file of your network first.");
+    if (chosen.size > facts.max_bytes) throw new Error(`This file is too large: a network may have at most ${Math.round(facts.max_bytes / 2 ** 20)} MB.`);
+    show(await ask({ scene: scene.value, part: part.value, file: chosen.name }, chosen));
+    return false; // the dialog stays, and tells the verdict
+  });
+  show(facts);
+  await shown;
+  clearTimeout(timer);
+}
+
+/** Ask the class what was handed in; with a file, hand it in first. Rejects with a sentence. */
+async function ask(place = null, body = null) {
+  let answer;
+  try {
+    const options = body && { method: "PUT", headers: { "Content-Type": "application/octet-stream" }, body };
+    answer = await fetch(place ? `${ADDRESS}?${new URLSearchParams(place)}` : ADDRESS, { cache: "no-store", ...options });
+  } catch {
+    throw new Error(UNREACHABLE);
+  }
+  const found = await answer.json().catch(() => ({}));
+  if (!answer.ok) throw new Error(found.problem ?? `The class answered with status ${answer.status}.`);
+  return found;
+}
+
+function makeNetwork() {
+  return element("li", {}, element("strong"), " ", element("span"));
+}
+
+function updateNetwork(item, { scene, part, file, verdict, reason }, titles) {
+  const words = { open: "is being checked…", right: "can play ✓", refused: `was not taken: ${reason}` };
+  item.dataset.verdict = verdict;
+  setText(item.querySelector("strong"), [titles[scene] ?? scene, part].filter(Boolean).join(", "));
+  setText(item.querySelector("span"), `${file} ${words[verdict]}`);
+}

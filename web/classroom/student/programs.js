@@ -1,0 +1,245 @@
+/**
+ * The class's copy of a student's programs: saved while they write, and read where they go on.
+ *
+ * Only a page of a class does this; elsewhere nothing is sent. The program that was saved last counts. The class numbers
+ * all saves, and a device says which one it has seen last: clocks differ and may be set. A program that does not count
+ * is kept among the earlier runs.
+ */
+
+import { element, setText } from "../../shared/dom.js";
+import { recall, remember } from "../../shared/storage.js";
+
+/** Pause in typing after which a program is saved (ms). */
+const SAVE_DELAY_MS = 2000;
+/** Delays before the class is asked again if it can't be reached (ms); the last one is used again. */
+const RETRY_DELAYS_MS = [3000, 10_000, 30_000];
+/** Largest body that a page which is closed can still send (characters, all of them maybe of three bytes). */
+const MAX_LAST_CHARS = 20_000;
+const MAX_SCENE_NAME_CHARS = 200;
+const ADDRESS = "../../api/program";
+const NEWER = "The class has a newer program of yours, from another device. It is among the earlier runs.";
+const UNREACHABLE = "The class can't be reached. Your program is kept in this browser, and saved there later.";
+
+/** Return the id of the room in the page's address; "" for a page without a class. */
+export function roomOfPage() {
+  return /\/r\/([\w-]+)\//.exec(location.pathname)?.[1] ?? "";
+}
+
+export class ClassPrograms {
+  /** Where the present program is kept, in words. */
+  element = element("p", { className: "ai4u-soft", role: "status", hidden: true });
+  #tab;
+  #isInClass = roomOfPage() !== "";
+  #place = null;
+  /** The person has changed or run the program since it was opened. */
+  #isTouched = false;
+  /** Programs to save, by place: {place, source}. */
+  #waiting = new Map();
+  /** Text that the class has, by place. */
+  #saved = new Map();
+  #isSaving = false;
+  #failures = 0;
+  #saveTimer = 0;
+  #readTimer = 0;
+
+  /**
+   * @param tab.source() returns the program that the person has here; null for none
+   * @param tab.take(source) replaces the program, and keeps the one before
+   * @param tab.keep(source) keeps another program
+   */
+  constructor(tab) {
+    this.#tab = tab;
+    if (!this.#isInClass) return;
+    addEventListener("pagehide", () => this.#saveLast());
+    addEventListener("visibilitychange", () => document.hidden && this.#save());
+  }
+
+  /** Read the class's copy of the program of an agent in a scene. */
+  open(scene, agent) {
+    if (!this.#isInClass) return;
+    this.#place = { scene: (scene || "scene").slice(0, MAX_SCENE_NAME_CHARS), agent };
+    this.#isTouched = false;
+    this.#say("");
+    this.#save();
+    this.#read(this.#place);
+  }
+
+  /** Save a program that was changed, after a pause. */
+  changed(source) {
+    if (!this.#isInClass || this.#place === null) return;
+    this.#isTouched = true;
+    this.#queue(source, SAVE_DELAY_MS);
+  }
+
+  /** Save a program that runs, at once. */
+  ran(source) {
+    if (!this.#isInClass || this.#place === null) return;
+    this.#isTouched = true;
+    this.#queue(source, 0);
+  }
+
+  // -- reading -----------------------------------------------------------------------------------
+
+  async #read(place) {
+    clearTimeout(this.#readTimer);
+    const { status, found } = await get(place);
+    if (place !== this.#place) return;
+    if (status === 403) {
+      this.#isInClass = false; // a teacher who looks in
+    } else if (status !== 200) {
+      this.#say(UNREACHABLE);
+      this.#readTimer = setTimeout(() => this.#read(place), this.#retryDelay());
+    } else {
+      this.#failures = 0;
+      this.#compare(place, found);
+    }
+  }
+
+  #compare(place, { source, version, is_of_device: isOfDevice }) {
+    const own = this.#tab.source();
+    if (source === null) {
+      if (own !== null) this.#queue(own, 0);
+      return;
+    }
+    const isSeen = isOfDevice || version === versionOf(place);
+    remember(versionKey(place), version);
+    this.#saved.set(keyOf(place), source);
+    if (source === own) {
+      this.#say("Kept in the class.");
+    } else if (!this.#isTouched && (own === null || !isSeen)) {
+      this.#tab.take(source);
+      this.#say("This is your program from the class.");
+    } else {
+      this.#tab.keep(source);
+      if (own !== null) this.#queue(own, 0);
+    }
+  }
+
+  // -- saving ------------------------------------------------------------------------------------
+
+  #queue(source, delay) {
+    const place = this.#place;
+    if (this.#saved.get(keyOf(place)) === source) {
+      this.#waiting.delete(keyOf(place));
+      return;
+    }
+    this.#waiting.set(keyOf(place), { place, source });
+    this.#saveIn(delay);
+  }
+
+  #saveIn(delay) {
+    clearTimeout(this.#saveTimer);
+    this.#saveTimer = setTimeout(() => this.#save(), delay);
+  }
+
+  async #save() {
+    if (this.#isSaving) return;
+    this.#isSaving = true;
+    clearTimeout(this.#saveTimer);
+    const waiting = [...this.#waiting];
+    let isReached = true;
+    for (const [key, program] of waiting) {
+      isReached = this.#note(key, program, await put(program));
+      if (!isReached) break;
+    }
+    this.#isSaving = false;
+    if (!this.#isInClass) this.#waiting.clear();
+    else if (this.#waiting.size) this.#saveIn(isReached ? SAVE_DELAY_MS : this.#retryDelay());
+  }
+
+  /** Note the class's answer; return true if the program need not be sent again. */
+  #note(key, program, { status, problem, version }) {
+    const isShown = program.place === this.#place;
+    if (status === 403) {
+      this.#isInClass = false; // a teacher who looks in, or a student who was sent out
+      return true;
+    }
+    if (status === 0 || status === 429 || status >= 500) {
+      this.#say(problem || UNREACHABLE);
+      return false;
+    }
+    this.#failures = 0;
+    if (this.#waiting.get(key) === program) this.#waiting.delete(key);
+    if (status === 200) {
+      this.#saved.set(key, program.source);
+      remember(versionKey(program.place), version);
+    }
+    if (status === 409 && isShown) this.#keepNewer(program.place);
+    if (isShown) this.#say(status === 200 ? "Kept in the class." : status === 409 ? NEWER : problem);
+    return true;
+  }
+
+  /** Keep the program that another device has saved; what the person changes from now on replaces it in the class. */
+  async #keepNewer(place) {
+    const { status, found } = await get(place);
+    if (status !== 200 || found.source === null || place !== this.#place) return;
+    this.#tab.keep(found.source);
+    remember(versionKey(place), found.version);
+  }
+
+  /** Save while the page is closed. */
+  #saveLast() {
+    for (const program of this.#waiting.values()) put(program, { keepalive: program.source.length <= MAX_LAST_CHARS });
+  }
+
+  #retryDelay() {
+    this.#failures += 1;
+    return RETRY_DELAYS_MS[Math.min(this.#failures, RETRY_DELAYS_MS.length) - 1];
+  }
+
+  #say(text) {
+    setText(this.element, text);
+    this.element.hidden = !text;
+  }
+}
+
+/** Return the class's answer: {status, found}; status 0 if it can't be reached. */
+async function get({ scene, agent }) {
+  try {
+    const query = new URLSearchParams({ scene, agent, device: deviceId() });
+    const answer = await fetch(`${ADDRESS}?${query}`, { cache: "no-store" });
+    return { status: answer.status, found: answer.ok ? await answer.json() : null };
+  } catch {
+    return { status: 0, found: null };
+  }
+}
+
+/** Send a program; return {status, problem, version}; status 0 if the class can't be reached. */
+async function put({ place, source }, options = {}) {
+  try {
+    const answer = await fetch(ADDRESS, {
+      method: "PUT",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ ...place, source, base: versionOf(place), device: deviceId() }),
+      ...options,
+    });
+    const { problem = "", version = 0 } = await answer.json().catch(() => ({}));
+    return { status: answer.status, problem, version };
+  } catch {
+    return { status: 0, problem: "", version: 0 };
+  }
+}
+
+function keyOf({ scene, agent }) {
+  return JSON.stringify([scene, agent]);
+}
+
+/** Return the latest version of a place's program that this browser has seen; 0 for none. */
+function versionOf(place) {
+  const version = recall(versionKey(place), 0);
+  return Number.isSafeInteger(version) && version > 0 ? version : 0;
+}
+
+function versionKey({ scene, agent }) {
+  return `code-version-${roomOfPage()}/${scene}-${agent}`;
+}
+
+/** Return the random id of this browser in the room, by which the class knows its own saves again. */
+function deviceId() {
+  const key = `code-device-${roomOfPage()}`;
+  const known = recall(key, "");
+  if (typeof known === "string" && /^[\w-]{1,64}$/.test(known)) return known;
+  const made = [...crypto.getRandomValues(new Uint8Array(12))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+  remember(key, made);
+  return made;
+}

@@ -1,0 +1,38 @@
+/** Commands of the teacher's page. */
+
+import { tell } from "../../shared/question.js";
+
+const UNREACHABLE = "The class can't be reached. Is its program still running?";
+
+/**
+ * Send a command.
+ * @param {{do: string}} command with its arguments
+ * @returns {Promise<object>} the answer
+ * @throws {Error} with a sentence for the teacher if it can't be done
+ */
+export async function command(command) {
+  let answer;
+  try {
+    answer = await fetch("./teacher/command", {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify(command),
+    });
+  } catch {
+    throw new Error(UNREACHABLE);
+  }
+  if (answer.ok) return answer.json();
+  const { problem } = await answer.json().catch(() => ({}));
+  throw new Error(problem ?? `The class answered with status ${answer.status}.`);
+}
+
+/** Send a command, and tell the teacher in a dialog if it can't be done. Return true if it was done. */
+export async function commandOrTell(wanted) {
+  try {
+    await command(wanted);
+    return true;
+  } catch (error) {
+    await tell("That can't be done", error.message);
+    return false;
+  }
+}

@@ -1,0 +1,72 @@
+/** The head of the teacher's page: how to join, small while a class runs, large while it gathers. */
+
+import { commandOrTell } from "./command.js";
+import { element, keyed, setText } from "../../shared/dom.js";
+import { showMoveCode } from "./move_code_dialog.js";
+import { ask } from "../../shared/question.js";
+
+/** Words by a seat's state; "in" needs none. */
+const STATES = { left: "left", kicked: "sent out; may join again", banned: "may not come back" };
+const find = (selector) => document.querySelector(selector);
+
+export class JoinHeader {
+  #isOpen = true;
+  /** True or false once the teacher has chosen a size; until then it is large while nobody is here. */
+  #isLarge = null;
+  #hasPeople = false;
+
+  constructor() {
+    find("#new-code").addEventListener("click", async () => {
+      const text = "Students who are here stay. Whoever comes later needs the new code.";
+      if (await ask({ title: "A new code?", text, yes: "New code" })) await commandOrTell({ do: "new code" });
+    });
+    find("#open").addEventListener("click", () => commandOrTell({ do: this.#isOpen ? "close" : "open" }));
+    find("#large").addEventListener("click", () => {
+      this.#isLarge = !this.#isShownLarge;
+      this.#resize();
+    });
+  }
+
+  show(state) {
+    const here = state.seats.filter((seat) => seat.state === "in");
+    this.#isOpen = state.open;
+    this.#hasPeople = here.length > 0;
+    setText(find("#address"), state.address);
+    setText(find("#code"), state.code);
+    // at a JupyterHub students sign in, and need no code
+    find("#code").parentElement.hidden = find("#new-code").hidden = !state.code;
+    if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
+    find("#qr").hidden = false;
+    find("#open").setAttribute("aria-pressed", String(!state.open));
+    setText(find("#count"), here.length ? `(${here.length})` : "");
+    showGone(state.seats.filter((seat) => seat.state !== "in"), Boolean(state.code));
+    this.#resize();
+  }
+
+  get #isShownLarge() {
+    return this.#isLarge ?? !this.#hasPeople;
+  }
+
+  #resize() {
+    const header = find("#join-view");
+    find("#large").setAttribute("aria-pressed", String(this.#isShownLarge));
+    header.toggleAttribute("data-large", this.#isShownLarge);
+  }
+}
+
+/** Show who was here, with a way back where seats have codes. */
+function showGone(seats, hasCodes) {
+  const gone = find("#gone");
+  gone.hidden = seats.length === 0;
+  setText(gone.querySelector("summary"), `No longer here (${seats.length})`);
+  const make = (seat) => {
+    const code = element("button", { type: "button", className: "ai4u-plain", textContent: "Code…", hidden: !hasCodes });
+    code.setAttribute("aria-label", `Code for ${seat.name}`);
+    code.addEventListener("click", () => showMoveCode(seat));
+    return element("li", {}, element("span", { className: "ai4u-name" }), " ", element("span", { className: "ai4u-facts" }), " ", code);
+  };
+  keyed(gone.querySelector("ul"), seats, (seat) => seat.number, make, (item, seat) => {
+    setText(item.firstElementChild, seat.name);
+    setText(item.querySelector(".ai4u-facts"), STATES[seat.state] ?? seat.state);
+  });
+}

@@ -1,0 +1,69 @@
+/** The board of misconceptions: which mistake of which exercise was made how often, and what to say about it. */
+
+import { element } from "../../shared/dom.js";
+import { counted } from "../room_words.js";
+
+export class Misconceptions {
+  #place;
+  #realNames;
+  #told = "";
+
+  constructor(place, realNames) {
+    this.#place = place;
+    this.#realNames = realNames;
+  }
+
+  show({ seats, misconceptions = [] }) {
+    const named = misconceptions.map((each) => ({ ...each, names: namesOf(each.seats, seats, this.#realNames) }));
+    const told = JSON.stringify(named);
+    if (told === this.#told) return;
+    this.#told = told;
+    const exercises = grouped(named);
+    const most = (group) => Math.max(...group.map((each) => each.count));
+    const groups = [...exercises].sort(([, a], [, b]) => most(b) - most(a));
+    const empty = "No mistakes yet. When a check of an exercise finds a known mistake, it is counted here.";
+    this.#place.replaceChildren(
+      ...(groups.length ? groups.map(section) : [element("p", { className: "ai4u-empty", textContent: empty })]),
+    );
+  }
+}
+
+function grouped(items) {
+  const groups = new Map();
+  for (const each of items) groups.set(each.exercise, [...(groups.get(each.exercise) ?? []), each]);
+  return groups;
+}
+
+function namesOf(numbers, seats, realNames) {
+  return numbers
+    .map((number) => seats.find((seat) => seat.number === number))
+    .filter(Boolean)
+    .map((seat) => (realNames.of(seat) ? `${seat.name} (${realNames.of(seat)})` : seat.name));
+}
+
+function section([exercise, group]) {
+  const cards = [...group].sort((a, b) => b.count - a.count).map(mistakeCard);
+  return element(
+    "section",
+    { className: "ai4u-mistakes" },
+    element("h2", { textContent: `Exercise ${exercise}` }),
+    ...cards,
+  );
+}
+
+/** Return a card with a mistake: how often it was made, what it is, what to say, and by whom. */
+export function mistakeCard({ count, names, sentence, guide, diagnosis = "", examples = [] }) {
+  return element(
+    "article",
+    {},
+    element("p", { className: "ai4u-count" }, element("strong", { textContent: count }), element("span", { textContent: count === 1 ? "time" : "times" })),
+    element(
+      "div",
+      {},
+      element("p", { className: "ai4u-sentence", textContent: sentence || diagnosis }),
+      ...examples.map((text) => element("p", { textContent: `“${text}”` })),
+      guide && element("p", { className: "ai4u-guide" }, element("strong", { textContent: "Say: " }), guide),
+      element("p", { className: "ai4u-facts", textContent: `${counted(names.length, "student")}: ${names.join(", ")}` }),
+    ),
+  );
+}

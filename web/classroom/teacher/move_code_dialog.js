@@ -1,0 +1,14 @@
+/** The dialog with the code for a seat whose browser has lost it, or that was sent out. */
+
+import { command } from "./command.js";
+import { ask, tell } from "../../shared/question.js";
+
+export async function showMoveCode(seat) {
+  try {
+    const { code, minutes } = await command({ do: "move code", seat: seat.number });
+    const text = `Typed in on the join page within ${minutes} minutes, once, it gives ${seat.name} this seat and its work on another device.`;
+    await ask({ title: `Code for ${seat.name}: ${code}`, text, yes: "Close", no: "" });
+  } catch (error) {
+    await tell("That can't be done", error.message);
+  }
+}

@@ -1,0 +1,27 @@
+/** The dialog for real names, which stay in this browser. */
+
+import { element, setText } from "../../shared/dom.js";
+import { field, showForm } from "../../shared/form_dialog.js";
+import { counted } from "../room_words.js";
+
+export function showNames(realNames) {
+  const file = element("input", { type: "file", accept: ".csv,.tsv,.txt" });
+  const loaded = element("p", { role: "status" });
+  const forget = element("button", { type: "button", className: "ai4u-plain", textContent: "Forget all real names" });
+  const update = () => {
+    setText(loaded, realNames.count ? `${counted(realNames.count, "real name")} in this browser.` : "No real names yet.");
+    forget.hidden = realNames.count === 0;
+  };
+  forget.addEventListener("click", () => {
+    realNames.forget();
+    update();
+  });
+  update();
+  const hint = "A line for each student: seat’s name or number, comma, real name. A spreadsheet saves it as CSV.";
+  const content = [field("Table (CSV)", file, hint), loaded, forget];
+  const text = "Real names are shown beside the seats on this page only. They stay in this browser and are not sent, neither to students nor to the class’s program.";
+  return showForm({ title: "Real names", text, content, yes: "Load", no: "Close" }, async () => {
+    if (!file.files[0]) throw new Error("Choose a file first.");
+    realNames.load(await file.files[0].text());
+  });
+}

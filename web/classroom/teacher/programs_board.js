@@ -1,0 +1,133 @@
+/** The board of programs: the mistakes that stopped them, and the beginning of each student's program. */
+
+import { splitProgram } from "../../blocks/text.js";
+import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { mistakeCard } from "./misconceptions.js";
+import { programFacts, programsOf } from "./room_programs.js";
+
+const EMPTY = "No programs yet. When students write programs in the tab Code, each of them appears here.";
+/** Time until the programs are read again while they are shown (ms). */
+const REFRESH_MS = 4000;
+/** Signs and words of how a program runs; a sign differs in shape. */
+const RUNS = {
+  running: { sign: "▶", text: "runs" },
+  mistake: { sign: "!", text: "stopped by a mistake" },
+};
+
+export class ProgramsBoard {
+  #place;
+  #realNames;
+  #onOpen;
+  #state = null;
+  #programs = [];
+  #toldMistakes = "";
+  #timer = 0;
+  #problem = element("p", { className: "ai4u-problem", role: "alert" });
+  #mistakes = element("section", { className: "ai4u-mistakes" });
+  #empty = element("p", { className: "ai4u-empty", textContent: EMPTY });
+  #list = element("ul", { className: "ai4u-glances", ariaLabel: "Programs" });
+
+  /**
+   * @param place the panel of the tab
+   * @param realNames see classroom/teacher/real_names.js
+   * @param onOpen called with the number of the seat whose program is chosen
+   */
+  constructor(place, realNames, onOpen) {
+    [this.#place, this.#realNames, this.#onOpen] = [place, realNames, onOpen];
+    place.append(this.#problem, this.#mistakes, this.#empty, this.#list);
+  }
+
+  /** Show the class's state; while the tab is shown, programs are read again and again. */
+  show(state) {
+    this.#state = state;
+    this.#drawMistakes();
+    if (this.#place.hidden) {
+      clearTimeout(this.#timer);
+      this.#timer = 0;
+      return;
+    }
+    this.#draw();
+    if (!this.#timer) this.#read();
+  }
+
+  async #read() {
+    this.#timer = setTimeout(() => this.#read(), REFRESH_MS);
+    try {
+      this.#programs = (await programsOf("")).programs;
+      setText(this.#problem, "");
+    } catch (error) {
+      setText(this.#problem, error.message);
+    }
+    this.#draw();
+  }
+
+  #drawMistakes() {
+    const { seats, program_mistakes: mistakes = [] } = this.#state;
+    const names = (numbers) => numbers.map((number) => this.#nameOf(seats.find((seat) => seat.number === number))).filter(Boolean);
+    const named = mistakes.map((each) => ({ ...each, names: names(each.seats) }));
+    const told = JSON.stringify(named);
+    if (told === this.#toldMistakes) return;
+    this.#toldMistakes = told;
+    const title = element("h2", { textContent: "Mistakes that stopped programs" });
+    const cards = named.map(({ title: sentence, ...each }) => mistakeCard({ sentence, ...each }));
+    this.#mistakes.replaceChildren(...(cards.length ? [title, ...cards] : []));
+  }
+
+  /** Draw the programs that a mistake has stopped first. */
+  #draw() {
+    const { seats, runs = {} } = this.#state;
+    const here = new Map(seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat]));
+    const isStopped = ({ seat }) => runs[seat]?.state === "mistake";
+    const shown = this.#programs.filter(({ seat }) => here.has(seat)).sort((a, b) => isStopped(b) - isStopped(a));
+    this.#empty.hidden = shown.length > 0;
+    keyed(
+      this.#list,
+      shown,
+      ({ seat }) => seat,
+      ({ seat }) => this.#makeGlance(seat),
+      (item, program) => this.#update(item.firstChild, program, here.get(program.seat), runs[program.seat]),
+    );
+  }
+
+  #makeGlance(seat) {
+    const head = element("span", { className: "ai4u-glance-head" }, element("strong"), element("span", { className: "ai4u-facts" }));
+    const parts = [head, element("span", { className: "ai4u-glance-run" }), element("span", { className: "ai4u-glance-code" })];
+    return element("li", {}, element("button", { type: "button", className: "ai4u-glance", on: { click: () => this.#onOpen(seat) } }, ...parts));
+  }
+
+  #update(glance, program, seat, run) {
+    const { python, isOfBlocks } = splitProgram(program.source);
+    const { sign, text } = RUNS[run?.state] ?? { sign: "", text: "" };
+    const isMistake = run?.state === "mistake";
+    const line = isMistake && run.line ? `line ${run.line}: ` : "";
+    const [head, state, code] = glance.children;
+    setText(head.firstChild, this.#nameOf(seat));
+    setText(head.lastChild, [programFacts(program, this.#state), isOfBlocks && "made of blocks"].filter(Boolean).join(" · "));
+    setText(state, sign && `${sign} ${isMistake ? `${line}${run.text}` : text}`);
+    setAttributes(glance, { "data-run": run?.state ?? "" });
+    drawCode(code, python, isMistake ? run.line : 0);
+  }
+
+  #nameOf(seat) {
+    if (!seat) return "";
+    const real = this.#realNames.of(seat);
+    return real ? `${seat.name} (${real})` : seat.name;
+  }
+}
+
+/** Show a program with its line numbers; the line with the mistake is marked. */
+function drawCode(place, python, mistake) {
+  const told = `${mistake} ${python}`;
+  if (place.dataset.told === told) return;
+  place.dataset.told = told;
+  const lines = python.replace(/\n+$/, "").split("\n");
+  place.replaceChildren(
+    ...lines.map((text, index) => {
+      const made = element("span", { textContent: text || " " });
+      if (index + 1 === mistake) made.dataset.mistake = "";
+      return made;
+    }),
+  );
+  const marked = place.querySelector("[data-mistake]");
+  place.scrollTop = marked ? marked.offsetTop - place.offsetTop - place.clientHeight / 2 : 0;
+}

@@ -1,0 +1,127 @@
+/** The dialog of one room: how it goes, and what the teacher can do about it. */
+
+import { showAssign } from "./assign_dialog.js";
+import { command, commandOrTell } from "./command.js";
+import { element } from "../../shared/dom.js";
+import { choices, chosenIn, closeDialogOf, showForm } from "../../shared/form_dialog.js";
+import { showMoveCode } from "./move_code_dialog.js";
+import { ask, tell } from "../../shared/question.js";
+import { showPrograms } from "./room_programs.js";
+import { clock, counted, roomName, seatsOf, statusOf } from "../room_words.js";
+
+export function showRoom(room, state, realNames) {
+  const seats = seatsOf(room, state);
+  const isLocal = room.kind !== "remote";
+  const act = (text, wanted) =>
+    action(text, async (button) => {
+      closeDialogOf(button);
+      await commandOrTell(wanted);
+    });
+  const assign = action("Assign a scene…", (button) => {
+    closeDialogOf(button);
+    showAssign(state, room.id);
+  });
+  const code = action("Code", (button) => {
+    closeDialogOf(button);
+    showPrograms(room, state);
+  });
+  const lookIn = element("a", { className: "ai4u-button", href: room.look_in, target: "_blank", rel: "noopener", textContent: "Look in" });
+  const actions = element(
+    "div",
+    { className: "ai4u-actions" },
+    room.look_in && lookIn,
+    isLocal && code,
+    act("Show to all", { do: "show", kind: "room", room: room.id }),
+    assign,
+    isLocal && room.is_running && act("Put to sleep", { do: "sleep", room: room.id }),
+  );
+  const content = [
+    facts(room),
+    room.error && element("pre", { className: "ai4u-error", tabIndex: 0, "aria-label": "Error", textContent: room.error }),
+    actions,
+    element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames, Boolean(state.code)))),
+  ];
+  return showForm({ title: roomName(room, state), content: content.filter(Boolean), no: "Close" });
+}
+
+function facts(room) {
+  const { text } = statusOf(room);
+  const first = [text, room.status === "driving" && clock(room.seconds), room.why].filter(Boolean).join(" · ");
+  const counts = `${counted(room.episodes, "drive")}, ${counted(room.falls, "fall")}${room.is_solved ? ", solved" : ", not solved yet"}`;
+  return element(
+    "dl",
+    { className: "ai4u-facts-list" },
+    ...pair("Now", first),
+    ...pair("Scene", room.scene),
+    ...pair("Driven by", room.driver || "nobody"),
+    ...pair("So far", counts),
+  );
+}
+
+function pair(name, value) {
+  return [element("dt", { textContent: name }), element("dd", { textContent: value })];
+}
+
+function person(seat, realNames, hasCodes) {
+  const dot = element("span", { className: "ai4u-dot" });
+  dot.style.background = seat.colour;
+  const rename = action("Rename…", (button) => {
+    closeDialogOf(button);
+    showRename(seat);
+  });
+  const kick = action("Send out…", async (button) => {
+    closeDialogOf(button);
+    const text = "The page closes. With the class’s code this student can join again, and finds all work there.";
+    if (await ask({ title: `Send ${seat.name} out?`, text, yes: "Send out" })) await commandOrTell({ do: "kick", seat: seat.number });
+  });
+  const ban = action("Ban…", async (button) => {
+    closeDialogOf(button);
+    await showBan(seat, hasCodes);
+  });
+  const move = action("Code…", async (button) => {
+    closeDialogOf(button);
+    await showMoveCode(seat);
+  });
+  move.hidden = !hasCodes;
+  const actions = [[rename, "Rename"], [move, "Code for"], [kick, "Send out"], [ban, "Ban"]];
+  for (const [each, verb] of actions) each.setAttribute("aria-label", `${verb} ${seat.name}`);
+  const real = realNames.of(seat);
+  return element(
+    "li",
+    {},
+    dot,
+    element("span", { className: "ai4u-name", textContent: seat.name }),
+    element("span", { className: "ai4u-facts", textContent: [real, seat.is_here ? "" : "page closed"].filter(Boolean).join(" · ") }),
+    element("span", { className: "ai4u-actions" }, rename, move, kick, ban),
+  );
+}
+
+/** Who is banned may join again with the code in another browser, unless the code changes. */
+async function showBan(seat, hasCodes) {
+  const options = { new: "Set a new code. Whoever knows the old one can’t join again.", keep: "Keep the code" };
+  const group = choices("Code of the class", "ban-code", options, "new");
+  const text = "This seat can’t be used again. Its work stays.";
+  await showForm({ title: `Ban ${seat.name}?`, text, content: hasCodes ? [group] : [], yes: "Ban", isDanger: true }, () =>
+    command({ do: "ban", seat: seat.number, new_code: hasCodes && chosenIn(group) === "new" }),
+  );
+}
+
+/** Names are those of the list only: so nobody's real name gets to the class. */
+async function showRename(seat) {
+  try {
+    const { names } = await (await fetch("./api/names", { cache: "no-store" })).json();
+    const group = choices("New name", "new-name", Object.fromEntries(names.map((name) => [name, name])), names[0]);
+    const text = "Names come from a list. For a real name, use “Real names…”: it stays in this browser.";
+    await showForm({ title: `Rename ${seat.name}`, text, content: [group], yes: "Rename" }, () =>
+      command({ do: "rename", seat: seat.number, name: chosenIn(group) }),
+    );
+  } catch {
+    await tell("That can't be done", "The class can't be reached. Is its program still running?");
+  }
+}
+
+function action(text, onClick) {
+  const made = element("button", { type: "button", className: "ai4u-plain", textContent: text });
+  made.addEventListener("click", () => onClick(made));
+  return made;
+}

@@ -1,0 +1,82 @@
+/** The programs of a room's students, for the teacher to read. */
+
+import { splitProgram } from "../../blocks/text.js";
+import { element } from "../../shared/dom.js";
+import { showForm } from "../../shared/form_dialog.js";
+import { roomName } from "../room_words.js";
+
+const UNREACHABLE = "The class can't be reached. Is its program still running?";
+const ELSEWHERE = "In this class, students' programs stay on their own machines.";
+/** Id of the agent of a scene that has one only. */
+const ONLY_AGENT = "0";
+/** Units of an age, the largest first: [seconds, word]. */
+const UNITS = [[86400, "day"], [3600, "hour"], [60, "minute"]];
+
+/** Show the latest program of each seat of a room, as text that can't be changed. */
+export function showPrograms(room, state) {
+  const list = element("div", { className: "ai4u-programs" });
+  const problem = element("p", { className: "ai4u-problem", role: "alert" });
+  const refresh = element("button", { type: "button", className: "ai4u-plain", textContent: "Refresh" });
+
+  async function load() {
+    refresh.disabled = true;
+    try {
+      const { programs } = await programsOf(room.id);
+      list.replaceChildren(...programs.map((program) => programElement(program, state)));
+      if (programs.length === 0) list.replaceChildren(element("p", { textContent: "Nobody is in this room." }));
+      problem.textContent = "";
+    } catch (error) {
+      problem.textContent = error.message;
+    }
+    refresh.disabled = false;
+  }
+
+  refresh.addEventListener("click", load);
+  const text = "The program that each student changed last. All programs are in the export.";
+  const content = [element("div", { className: "ai4u-actions" }, refresh), problem, list];
+  const shown = showForm({ title: `Code: ${roomName(room, state)}`, text, content, no: "Close" });
+  list.closest("dialog").classList.add("ai4u-wide");
+  load();
+  return shown;
+}
+
+/** Return the latest programs of a room's seats; of all seats their beginning if `room` is empty. */
+export async function programsOf(room) {
+  let answer;
+  try {
+    answer = await fetch(`./teacher/programs?room=${encodeURIComponent(room)}`, { cache: "no-store" });
+  } catch {
+    throw new Error(UNREACHABLE);
+  }
+  if (answer.status === 404 && !room) throw new Error(ELSEWHERE);
+  const found = await answer.json().catch(() => ({}));
+  if (!answer.ok) throw new Error(found.problem ?? `The class answered with status ${answer.status}.`);
+  return found;
+}
+
+/** Return where a program is for, and when it was changed. */
+export function programFacts({ scene, agent, age }, { scenes = [] }) {
+  const title = scenes.find(({ name }) => name === scene)?.title ?? scene;
+  return [title, agent !== ONLY_AGENT && `robot ${agent}`, ago(age)].filter(Boolean).join(" · ");
+}
+
+function programElement(program, state) {
+  const { name, source } = program;
+  const isAny = source !== null;
+  const facts = isAny ? programFacts(program, state) : "no program yet";
+  const run = state.runs?.[program.seat];
+  const mistake = isAny && run?.state === "mistake" && `Stopped: ${run.line ? `line ${run.line}: ` : ""}${run.text}`;
+  const head = element("h3", {}, name, " ", element("small", { className: "ai4u-facts", textContent: facts }));
+  const { python = "", isOfBlocks } = isAny ? splitProgram(source) : {};
+  if (isOfBlocks) head.lastChild.append(" · made of blocks");
+  const text = isAny && element("pre", { tabIndex: 0, "aria-label": `Program of ${name}`, textContent: python });
+  return element("section", {}, head, mistake && element("p", { className: "ai4u-problem", textContent: mistake }), text);
+}
+
+/** Return an age in words. */
+export function ago(seconds) {
+  const [unit, word] = UNITS.find(([length]) => seconds >= length) ?? [];
+  if (!unit) return "changed just now";
+  const count = Math.floor(seconds / unit);
+  return `changed ${count} ${word}${count === 1 ? "" : "s"} ago`;
+}

@@ -1,0 +1,63 @@
+/** Where a scene for the class comes from: the library, a student's room, or a file of the teacher. */
+
+import { choices, chosenIn, field, select } from "../../shared/form_dialog.js";
+import { element } from "../../shared/dom.js";
+import { roomName } from "../room_words.js";
+import { scenePicture } from "../../scenes/picture.js";
+
+/** Largest scene file; as MAX_SCENE_CHARS of the class link. */
+const MAX_SCENE_CHARS = 200_000;
+
+/**
+ * Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`.
+ *
+ * @param withLessons true if a lesson of the course may be chosen too
+ */
+export function sceneChoice(state, { withLessons = false } = {}) {
+  const scenes = state.scenes.map(({ name, title }) => [name, title]);
+  const rooms = state.rooms.map((room) => [room.id, `${roomName(room, state)}: ${room.scene}`]);
+  const lessons = withLessons ? state.lessons.map(({ number, title }) => [number, `${number} ${title}`]) : [];
+  const sources = { library: "From the library", lesson: "A lesson", room: "A student’s present scene", file: "My own file" };
+  if (!withLessons) delete sources.lesson;
+  if (rooms.length === 0) delete sources.room;
+  const source = choices("Scene", "scene-source", sources, "library");
+  const inLibrary = select(scenes);
+  const ofLesson = select(lessons);
+  const ofRoom = select(rooms);
+  const file = element("input", { type: "file", accept: ".yaml,.yml" });
+  const fields = {
+    library: field("Which scene", inLibrary),
+    lesson: field("Which lesson", ofLesson, "Worlds open the scene that it begins with. Notebooks show its title and keep their world."),
+    room: field("Whose", ofRoom),
+    file: field("Scene file (YAML)", file),
+  };
+  const place = element("div");
+  const update = () => {
+    const from = chosenIn(source);
+    for (const [name, each] of Object.entries(fields)) each.hidden = name !== from;
+    const lesson = state.lessons.find(({ number }) => number === ofLesson.value);
+    const chosen = { library: inLibrary.value, lesson: lesson?.scene }[from];
+    const shown = state.scenes.filter(({ name }) => name === chosen);
+    place.replaceChildren(...shown.map(({ picture, title }) => scenePicture(picture, title)));
+  };
+  for (const each of [source, inLibrary, ofLesson]) each.addEventListener("change", update);
+  update();
+
+  async function value() {
+    const from = chosenIn(source);
+    if (from === "library") return inLibrary.value;
+    if (from === "lesson") return { lesson: ofLesson.value };
+    if (from === "room") return { room: ofRoom.value };
+    if (!file.files[0]) throw new Error("Choose a scene file first.");
+    const yaml = await file.files[0].text();
+    if (yaml.length > MAX_SCENE_CHARS) throw new Error(`This file has ${yaml.length} characters; a scene has at most ${MAX_SCENE_CHARS}.`);
+    return { yaml };
+  }
+  return { nodes: [source, ...Object.values(fields), place], value };
+}
+
+/** Return {node, value}: a field for a seed, and a function that returns it, or null if it is left empty. */
+export function seedField(hint) {
+  const input = element("input", { type: "number", min: 0, max: 2 ** 32 - 1, step: 1 });
+  return { node: field("Seed (optional)", input, hint), value: () => (input.value === "" ? null : Number(input.value)) };
+}

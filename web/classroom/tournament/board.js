@@ -1,0 +1,170 @@
+/** The tournament on the teacher's page: who handed in what, its start and end, and its results. */
+
+import { commandOrTell } from "../teacher/command.js";
+import { element } from "../../shared/dom.js";
+import { counted } from "../room_words.js";
+import { showBegin, showStart } from "./dialogs.js";
+import { contestLine, dot, standingsTable } from "./tables.js";
+
+const HOW =
+  "No tournament yet. Choose its scene; then students hand in networks that they have trained: with “Hand in” above their world, or with submit(…) in a notebook. Here you see who did, and start the games.";
+const VERDICTS = {
+  open: { sign: "…", text: "is being checked" },
+  right: { sign: "✓", text: "can play" },
+  refused: { sign: "×", text: "refused" },
+};
+const PHASES = { open: "Students hand in networks.", running: "The games are played.", over: "All games were played.", cancelled: "It was cancelled.", failed: "It was interrupted." };
+
+export class TournamentBoard {
+  #realNames;
+  #state = null;
+  #parts;
+
+  constructor(place, realNames) {
+    this.#realNames = realNames;
+    const part = (tag, properties) => ({ element: element(tag, properties), told: "" });
+    this.#parts = {
+      head: part("div", { className: "ai4u-tournament-head" }),
+      problem: part("p", { className: "ai4u-tournament-problem", role: "alert" }),
+      course: part("p", { role: "status" }),
+      results: part("div", { className: "ai4u-results" }),
+      networks: part("div", {}),
+    };
+    place.append(...Object.values(this.#parts).map((each) => each.element));
+  }
+
+  show(state) {
+    this.#state = state;
+    const { tournament, handed_in: handedIn, seats } = state;
+    const results = tournament?.results ?? null;
+    // a part is told all that the tournament is, except for results, which are large
+    const about = { ...tournament, results: null };
+    this.#draw("head", [about], () => this.#head());
+    this.#draw("problem", [handedIn?.missing, tournament?.problem], () => [[handedIn?.missing, tournament?.problem].filter(Boolean).join(" ")]);
+    this.#draw("course", [about, results?.games, results?.total], () => [tournament ? courseOf(tournament) : ""]);
+    const students = seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat.name, this.#realNames.of(seat)]);
+    this.#draw("networks", [tournament?.scene, handedIn?.networks, students], () => this.#networks());
+    this.#draw("results", [results, students], () => (results ? this.#results(results) : []));
+  }
+
+  /** Draw a part anew if what it tells has changed; the focus stays where it was, or in the part. */
+  #draw(name, facts, make) {
+    const part = this.#parts[name];
+    const told = JSON.stringify(facts);
+    if (part.told === told) return;
+    part.told = told;
+    const focused = part.element.contains(document.activeElement) ? document.activeElement.textContent : null;
+    part.element.replaceChildren(...make());
+    if (focused === null) return;
+    const controls = [...part.element.querySelectorAll("button, a")];
+    (controls.find(({ textContent }) => textContent === focused) ?? controls[0])?.focus();
+  }
+
+  #head() {
+    const { tournament } = this.#state;
+    const begin = button(tournament ? "Another tournament…" : "Tournament…", () => showBegin(this.#state), !tournament);
+    if (!tournament) return [element("p", { className: "ai4u-empty", textContent: HOW }), element("p", { className: "ai4u-begin" }, begin)];
+    const { phase, title } = tournament;
+    const actions = {
+      open: [button("Start…", () => showStart(this.#state), true), begin, send("Close", "close tournament")],
+      running: [send("Cancel", "cancel tournament")],
+    }[phase] ?? [button("Start again…", () => showStart(this.#state), phase !== "over"), begin, send("Close", "close tournament")];
+    const project = button("Show on the projector", () => commandOrTell({ do: "show", kind: "tournament" }));
+    const report = phase === "over" && element("a", { className: "ai4u-plain", href: "./teacher/tournament", target: "_blank", rel: "noopener", textContent: "Report" });
+    return [element("h2", { textContent: `Tournament: ${title}` }), element("div", { className: "ai4u-actions" }, ...actions, project, report)];
+  }
+
+  #networks() {
+    const { tournament, handed_in: handedIn, seats, scenes } = this.#state;
+    const all = handedIn?.networks ?? [];
+    if (!tournament) {
+      const titles = new Map(scenes.map(({ name, title }) => [name, title]));
+      const names = [...new Set(all.map(({ scene }) => scene))];
+      const words = names.map((name) => `${titles.get(name) ?? name}: ${counted(all.filter(({ scene }) => scene === name).length, "network")}`);
+      return words.length ? [element("p", { className: "ai4u-facts ai4u-begin", textContent: `Handed in already: ${words.join(", ")}.` })] : [];
+    }
+    const own = all.filter(({ scene }) => scene === tournament.scene);
+    const students = seats.filter((seat) => seat.state === "in");
+    const rows = students.flatMap((seat) => own.filter((each) => each.seat === seat.number).map((network) => this.#row(seat, network)));
+    const without = students.filter((seat) => !own.some((each) => each.seat === seat.number));
+    const names = without.map((seat) => this.#nameOf(seat)).join(", ");
+    const rest = element("p", { className: "ai4u-facts", textContent: without.length ? `Nothing yet from ${counted(without.length, "student")}: ${names}` : "" });
+    if (rows.length === 0) return [rest];
+    const heads = ["Student", "Network", "Check"].map((text) => element("th", { scope: "col", textContent: text }));
+    const caption = element("caption", { textContent: "Handed in" });
+    return [element("table", { className: "ai4u-networks" }, caption, element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...rows)), rest];
+  }
+
+  #row(seat, { part, file, verdict, reason }) {
+    const { sign, text } = VERDICTS[verdict];
+    const words = reason ? `${text}: ${reason}` : text;
+    return element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, dot(seat), this.#nameOf(seat)),
+      element("td", { textContent: part ? `${file} (${part})` : file }),
+      element("td", { dataset: { verdict } }, element("span", { "aria-hidden": "true", textContent: `${sign} ` }), words),
+    );
+  }
+
+  #results(results) {
+    const nameOf = (row) => this.#nameOf(this.#state.seats.find(({ number }) => number === row.seat) ?? row);
+    const latest = results.latest.map((contest) =>
+      element("li", {}, contestLine(contest), contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }), ...watched(contest, results).map(watch)),
+    );
+    const best = results.best.map((game) => element("li", {}, game.who.map(({ name }) => name).join(" – "), " ", watch(game), project(game)));
+    const refused = results.refused.map(({ name, reason }) => element("li", { textContent: `${name}: ${reason}` }));
+    return [
+      scrolled("Standings", standingsTable(results, { nameOf })),
+      listed("Played last", latest),
+      listed("Best games to watch", best),
+      listed("Taken out: they could not play against themselves", refused),
+    ].filter(Boolean);
+  }
+
+  #nameOf(seat) {
+    const real = seat.number ? this.#realNames.of(seat) : "";
+    return real ? `${seat.name} (${real})` : seat.name;
+  }
+}
+
+function courseOf({ phase, results, players }) {
+  const games = results ? ` ${results.games} of ${counted(results.total, "game")}.` : "";
+  return PHASES[phase] + (phase === "open" ? ` ${counted(players, "player")} can play.` : games);
+}
+
+/** Return the games of a contest that are offered to watch: both of a match, and the best drive of a race. */
+function watched({ entries, games }, { is_race: isRace }) {
+  return isRace ? games.filter(({ who }) => who[0].seat === entries[0].seat).slice(0, 1) : games;
+}
+
+/** Return a link to the recording of a game. */
+function watch({ number, who, points }) {
+  if (!number) return "";
+  const text = `Watch game ${number}`;
+  const label = `${text}: ${who.map(({ name }, index) => `${name} ${points[index].toFixed(1).replace("-", "−")}`).join(", ")}`;
+  return element("a", { className: "ai4u-watch", href: `./teacher/tournament/${number}`, target: "_blank", rel: "noopener", title: label, "aria-label": label, textContent: text });
+}
+
+/** Return a button that shows the recording of a game to all. */
+function project({ number }) {
+  const shown = button("To the projector", () => commandOrTell({ do: "show", kind: "game", game: number }));
+  shown.ariaLabel = `Game ${number} to the projector`;
+  return shown;
+}
+
+function listed(title, items) {
+  return items.length > 0 && element("section", {}, element("h3", { textContent: title }), element("ol", { className: "ai4u-contests" }, ...items));
+}
+
+function scrolled(label, table) {
+  return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": label }, table);
+}
+
+function button(text, onClick, isMain = false) {
+  return element("button", { type: "button", className: isMain ? "ai4u-button" : "ai4u-plain", textContent: text, on: { click: onClick } });
+}
+
+function send(text, wanted) {
+  return button(text, () => commandOrTell({ do: wanted }));
+}

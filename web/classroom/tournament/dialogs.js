@@ -1,0 +1,64 @@
+/** The dialogs that begin a tournament, and start its games. */
+
+import { command } from "../teacher/command.js";
+import { element, setText } from "../../shared/dom.js";
+import { choice, choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
+import { counted } from "../room_words.js";
+import { scenePicture } from "../../scenes/picture.js";
+
+const SEEDS = [1, 2, 3, 5, 10];
+const DEFAULT_SEED = "2";
+const SYSTEMS = { "round-robin": "All play all", swiss: "Neighbours in the standings (Swiss system): fewer games" };
+
+/** Ask for the scene of a tournament. */
+export function showBegin(state) {
+  const scenes = [...state.scenes].sort((a, b) => Number(b.is_duel) - Number(a.is_duel));
+  const scene = select(scenes.map(({ name, title, is_duel: isDuel }) => [name, `${title} (${isDuel ? "a duel" : "a race"})`]), "sumo");
+  const hint = "In a duel two networks play against each other. In a race each drives alone on the same starts.";
+  const place = element("div");
+  const update = () => {
+    const { picture, title } = scenes.find(({ name }) => name === scene.value) ?? {};
+    place.replaceChildren(...(picture ? [scenePicture(picture, title)] : []));
+  };
+  scene.addEventListener("change", update);
+  update();
+  const text = "Students hand in networks for this scene: with “Hand in” above their world, or with submit(…) in a notebook. Then you start the games.";
+  return showForm({ title: "Tournament", text, content: [field("Scene", scene, hint), place], yes: "Collect networks" }, () =>
+    command({ do: "tournament", scene: scene.value }),
+  );
+}
+
+/** Ask how a tournament is to be played, and start it. */
+export function showStart(state) {
+  const { players, scene } = state.tournament;
+  const isDuel = state.scenes.find(({ name }) => name === scene)?.is_duel ?? true;
+  const seeds = select(SEEDS.map((count) => [String(count), String(count)]), DEFAULT_SEED);
+  const system = choices("Who plays whom", "system", SYSTEMS, "round-robin");
+  const own = element("input", { type: "checkbox", checked: players < 2 });
+  const games = element("p", { role: "status" });
+  const update = () => {
+    const entries = players + Number(own.checked);
+    const count = gameCount(entries, Number(seeds.value), isDuel ? chosenIn(system) : "race");
+    setText(games, `${counted(entries, "player")}: ${counted(count, "game")}.`);
+  };
+  const content = [
+    isDuel && system,
+    field(isDuel ? "Matches of each pair" : "Races", seeds, isDuel ? "A match is two games from the same start, in which they change sides." : "Each from another start."),
+    choice("The scene’s own player takes part, too", own),
+    games,
+  ].filter(Boolean);
+  for (const each of content) each.addEventListener("change", update);
+  update();
+  const text = "Only networks that have passed their check take part. Games that were played before with the same networks are not played again.";
+  return showForm({ title: "Start the tournament", text, content, yes: "Start" }, () =>
+    command({ do: "start tournament", seeds: Number(seeds.value), system: isDuel ? chosenIn(system) : "round-robin", own_player: own.checked }),
+  );
+}
+
+/** Return the number of games; as Plan.games_for of the package. */
+function gameCount(entries, seeds, system) {
+  if (system === "race") return entries * seeds;
+  if (system === "round-robin") return entries * (entries - 1) * seeds;
+  const rounds = Math.ceil(Math.log2(Math.max(2, entries))) + 1;
+  return Math.floor(entries / 2) * rounds * 2 * seeds;
+}

@@ -1,0 +1,57 @@
+/** The wall's filter, order and size of cards, which this browser remembers. */
+
+import { element, setText } from "../../shared/dom.js";
+import { recall, remember } from "../../shared/storage.js";
+import { FILTERS } from "./order.js";
+
+const STORAGE_KEY = "wall";
+/** Widths of cards (px) at the two ends of the slider. Below its first step, all cards fit into the window. */
+const MIN_WIDTH_PX = 112;
+const MAX_WIDTH_PX = 640;
+
+export class WallControls {
+  #wall;
+  #buttons = new Map();
+
+  /** @param {HTMLElement} place has elements for filters, order and size */
+  constructor(place, wall) {
+    this.#wall = wall;
+    const { by, size } = { by: "help", size: 0, ...recall(STORAGE_KEY, {}) };
+    for (const [filter, { text }] of Object.entries(FILTERS)) {
+      const button = element("button", { type: "button", className: "ai4u-chip" }, element("span", { textContent: text }), element("small"));
+      button.addEventListener("click", () => this.#filter(filter));
+      this.#buttons.set(filter, button);
+    }
+    place.querySelector("#filters").append(...this.#buttons.values());
+    const sort = place.querySelector("#sort");
+    const slider = place.querySelector("#size");
+    sort.value = by === "name" ? "name" : "help";
+    slider.value = size;
+    const look = () => {
+      const width = widthOf(slider.valueAsNumber);
+      slider.setAttribute("aria-valuetext", width ? `cards ${Math.round(width)} pixels wide` : "all cards fit");
+      wall.look({ by: sort.value, width });
+    };
+    sort.addEventListener("change", look);
+    slider.addEventListener("input", look);
+    for (const each of [sort, slider]) {
+      each.addEventListener("change", () => remember(STORAGE_KEY, { by: sort.value, size: slider.valueAsNumber }));
+    }
+    look();
+    this.#filter("all");
+  }
+
+  /** Bring the filters' counts up to date. */
+  update() {
+    for (const [filter, button] of this.#buttons) setText(button.querySelector("small"), String(this.#wall.count(filter)));
+  }
+
+  #filter(chosen) {
+    for (const [filter, button] of this.#buttons) button.setAttribute("aria-pressed", String(filter === chosen));
+    this.#wall.look({ filter: chosen });
+  }
+}
+
+function widthOf(size) {
+  return size === 0 ? 0 : MIN_WIDTH_PX * (MAX_WIDTH_PX / MIN_WIDTH_PX) ** (size / 100);
+}

@@ -1,0 +1,92 @@
+/** A room's card on the wall: who is in it, how it goes, and an empty area that the wall's canvas shows through. */
+
+import { element, setAttributes, setText } from "../../shared/dom.js";
+import { needsHelp, roomName, seatsOf, statusOf } from "../room_words.js";
+
+const MAX_DOTS = 8;
+const MAX_COLOUR_DOTS = 3;
+
+/** Return a card; `onOpen`, if given, is called with the room's id when a person chooses it. */
+export function roomCard(room, onOpen) {
+  const parts = [
+    element(
+      "span",
+      { className: "ai4u-room-head" },
+      element("span", { className: "ai4u-room-dots" }),
+      element("span", { className: "ai4u-room-name" }),
+      element("span", { className: "ai4u-room-real" }),
+      element("span", { className: "ai4u-room-status" }, element("span"), element("span")),
+    ),
+    element("span", { className: "ai4u-room-picture" }, element("span", { className: "ai4u-room-why" })),
+    element(
+      "span",
+      { className: "ai4u-room-foot" },
+      element("span", { className: "ai4u-room-scene" }),
+      element("span", { className: "ai4u-room-progress" }),
+    ),
+  ];
+  if (!onOpen) return element("li", {}, element("div", { className: "ai4u-room" }, ...parts));
+  const open = element("button", { type: "button", className: "ai4u-room" }, ...parts);
+  open.addEventListener("click", () => onOpen(room.id));
+  return element("li", {}, open);
+}
+
+/** Bring a card up to date. */
+export function updateCard(card, room, state, realNames) {
+  const box = card.firstElementChild;
+  const part = (name) => box.querySelector(`.ai4u-room-${name}`);
+  const seats = seatsOf(room, state);
+  const status = statusOf(room);
+  const name = roomName(room, state);
+  const real = seats.map((seat) => realNames.of(seat)).filter(Boolean).join(", ");
+  const why = (needsHelp(room) || room.status === "error") && room.why ? room.why : "";
+  showColours(part("dots"), seats);
+  setText(part("name"), name);
+  setText(part("real"), real);
+  setText(part("status").firstElementChild, status.sign);
+  setText(part("status").lastElementChild, status.text);
+  setText(part("why"), why);
+  setText(part("scene"), room.scene);
+  const dots = progressOf(seats, state);
+  showProgress(part("progress"), dots);
+  setAttributes(box, { "data-status": room.status, "data-help": needsHelp(room), "data-solved": room.is_solved });
+  if (box.localName !== "button") return;
+  const solved = dots.filter((each) => each.state === "solved").length;
+  const progress = dots.length ? `${solved} of ${dots.length} exercises of lesson ${dots[0].lesson} solved` : "";
+  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && "solved before", why, room.scene, progress];
+  setAttributes(box, { "aria-label": told.filter(Boolean).join(", ") });
+}
+
+function showColours(place, seats) {
+  const colours = seats.slice(0, MAX_COLOUR_DOTS).map((seat) => seat.colour);
+  if (place.dataset.colours === colours.join()) return;
+  place.dataset.colours = colours.join();
+  place.replaceChildren(
+    ...colours.map((colour) => {
+      const dot = element("span");
+      dot.style.background = colour;
+      return dot;
+    }),
+  );
+}
+
+/** Return the exercises of the last lesson that somebody of these seats has begun: {lesson, id, state}. */
+function progressOf(seats, state) {
+  const found = {};
+  for (const seat of seats) {
+    for (const [id, { state: reached }] of Object.entries(state.progress?.[seat.number] ?? {})) {
+      if (found[id] !== "solved") found[id] = reached;
+    }
+  }
+  const lesson = (state.exercises ?? []).findLast((each) => each.ids.some((id) => id in found));
+  return (lesson?.ids ?? []).map((id) => ({ lesson: lesson.lesson, id, state: found[id] ?? "" }));
+}
+
+function showProgress(place, dots) {
+  const told = dots.map((each) => each.state || "none").join(" ");
+  if (place.dataset.told === told) return;
+  place.dataset.told = told;
+  place.replaceChildren(
+    ...dots.slice(0, MAX_DOTS).map((each) => element("span", { dataset: { state: each.state || "none" } })),
+  );
+}

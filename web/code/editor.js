@@ -1,0 +1,209 @@
+/** The editor of a program: CodeMirror with our marks and colors. Loaded when the tab "Code" is opened. */
+
+import {
+  autocompletion,
+  bracketMatching,
+  closeBrackets,
+  closeBracketsKeymap,
+  completionKeymap,
+  Decoration,
+  defaultKeymap,
+  EditorState,
+  EditorView,
+  highlightActiveLine,
+  history,
+  historyKeymap,
+  indentOnInput,
+  indentUnit,
+  indentWithTab,
+  keymap,
+  lineNumbers,
+  python,
+  StateEffect,
+  StateField,
+  syntaxHighlighting,
+  tagHighlighter,
+  tags,
+} from "../vendor/codemirror.js?v=b595b00f";
+
+/** Classes of what is written, which styles/panel/code.css gives the panel's colors. */
+const COLORS = tagHighlighter([
+  { tag: [tags.keyword, tags.operatorKeyword, tags.bool, tags.null, tags.self], class: "ai4u-code-keyword" },
+  { tag: [tags.string, tags.special(tags.string)], class: "ai4u-code-string" },
+  { tag: tags.number, class: "ai4u-code-number" },
+  { tag: tags.comment, class: "ai4u-code-comment" },
+  { tag: [tags.definition(tags.function(tags.variableName)), tags.definition(tags.className)], class: "ai4u-code-name" },
+]);
+/** A place where the name of a reading or an actuator is typed, up to the cursor. */
+const PERCEPT_KEY = /\bpercept\[\s*["'][^"']*$/;
+const ACTION_NAME = /\breturn\s*\{\s*(?:.*,\s*)?["'][^"']*$/;
+
+/** How much further than its first row a line's other rows are indented (characters). */
+const HANG_CHARS = 2;
+
+const setMistake = StateEffect.define();
+const setRan = StateEffect.define();
+const setReadOnly = StateEffect.define();
+const mistakes = lineMarks(setMistake, Decoration.line({ class: "ai4u-code-mistake-line" }));
+const ran = lineMarks(setRan, Decoration.line({ class: "ai4u-code-ran-line" }));
+
+const readOnly = StateField.define({
+  create: () => false,
+  update: (value, { effects }) => effects.findLast((each) => each.is(setReadOnly))?.value ?? value,
+  provide: (field) => [EditorState.readOnly.from(field), EditorView.editable.from(field, (value) => !value)],
+});
+
+const hanging = StateField.define({
+  create: ({ doc }) => hangingIndents(doc),
+  update: (marks, { docChanged, state }) => (docChanged ? hangingIndents(state.doc) : marks),
+  provide: (field) => EditorView.decorations.from(field),
+});
+
+export class CodeEditor {
+  /** Called with the text after each change by the person. */
+  onChange = (_text) => {};
+  #view;
+  #names = { readings: [], outputs: [] };
+  #isSetting = false;
+
+  /**
+   * @param {HTMLElement} parent element that gets the editor
+   * @param options.label accessible name
+   * @param options.describedBy id of the element that tells how to use it
+   * @param options.keys [{key, run}, ...] in CodeMirror's words; they come before the editor's own
+   */
+  constructor(parent, { label, describedBy = "", keys = [] }) {
+    const attributes = { "aria-label": label, "aria-describedby": describedBy, spellcheck: "false", autocapitalize: "off", tabindex: "0" };
+    const extensions = [
+      keymap.of(keys),
+      lineNumbers(),
+      history(),
+      indentOnInput(),
+      indentUnit.of("    "),
+      EditorState.tabSize.of(4),
+      bracketMatching(),
+      closeBrackets(),
+      highlightActiveLine(),
+      autocompletion({ override: [(context) => this.#complete(context)], icons: false }),
+      keymap.of([...closeBracketsKeymap, ...completionKeymap, ...defaultKeymap, ...historyKeymap, indentWithTab]),
+      python(),
+      syntaxHighlighting(COLORS),
+      EditorView.lineWrapping,
+      readOnly,
+      EditorView.contentAttributes.of(attributes),
+      EditorView.contentAttributes.compute([readOnly], (state) => ({ "aria-readonly": String(state.field(readOnly)) })),
+      EditorView.updateListener.of((update) => this.#onUpdate(update)),
+      mistakes,
+      ran,
+      hanging,
+    ];
+    this.#view = new EditorView({ parent, extensions });
+    this.#keepKeys();
+  }
+
+  get text() {
+    return this.#view.state.doc.toString();
+  }
+
+  /** Replace the text, which the person can undo; it does not count as a change by them. */
+  set text(text) {
+    if (text === this.text) return;
+    this.#isSetting = true;
+    this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text }, selection: { anchor: 0 } });
+    this.#isSetting = false;
+  }
+
+  /** True if the person can read and copy the text, but not change it. */
+  set isReadOnly(value) {
+    this.#view.dispatch({ effects: setReadOnly.of(value) });
+  }
+
+  focus() {
+    this.#view.focus();
+  }
+
+  /** Offer these names in `percept["..."]` and in `return {"..."}`. */
+  setNames({ readings, outputs }) {
+    this.#names = { readings, outputs };
+  }
+
+  /** Mark the line of a mistake, and scroll to it; null removes the mark. */
+  markMistake(line) {
+    const effects = [setMistake.of(this.#lines([line]))];
+    if (effects[0].value.length) effects.push(EditorView.scrollIntoView(effects[0].value[0], { y: "center" }));
+    this.#view.dispatch({ effects });
+  }
+
+  /** Mark the lines that ran in the latest decision. */
+  markRan(lines) {
+    this.#view.dispatch({ effects: setRan.of(this.#lines(lines)) });
+  }
+
+  /** Put the cursor into a line, and the focus into the editor. */
+  goTo(line) {
+    const [at] = this.#lines([line]);
+    if (at !== undefined) this.#view.dispatch({ selection: { anchor: at }, scrollIntoView: true });
+    this.#view.focus();
+  }
+
+  /** Insert a text in place of the selection. */
+  insert(text) {
+    if (this.#view.state.readOnly) return;
+    this.#view.dispatch(this.#view.state.replaceSelection(text));
+    this.#view.focus();
+  }
+
+  /** Keep keys from the panel, which ends the editing of a field at Enter; Escape ends it if it closes no list of names. */
+  #keepKeys() {
+    const { dom } = this.#view;
+    let hasList = false;
+    dom.addEventListener("keydown", () => (hasList = dom.querySelector(".cm-tooltip-autocomplete") !== null), { capture: true });
+    dom.addEventListener("keydown", (event) => (event.key !== "Escape" || hasList) && event.stopPropagation());
+  }
+
+  /** Return where lines begin, in order, each once; numbers that no line has are left out. */
+  #lines(numbers) {
+    const { doc } = this.#view.state;
+    const found = new Set(numbers.filter((number) => number >= 1 && number <= doc.lines));
+    return [...found].sort((a, b) => a - b).map((number) => doc.line(number).from);
+  }
+
+  #onUpdate(update) {
+    if (!update.docChanged || this.#isSetting) return;
+    this.onChange(this.text);
+  }
+
+  #complete(context) {
+    for (const [pattern, names] of [[PERCEPT_KEY, this.#names.readings], [ACTION_NAME, this.#names.outputs]]) {
+      const before = context.matchBefore(pattern);
+      if (before === null || !names.length) continue;
+      const typed = /[^"']*$/.exec(before.text)[0];
+      return { from: context.pos - typed.length, options: names.map((label) => ({ label })), validFor: /^[^"']*$/ };
+    }
+    return null;
+  }
+}
+
+/** Return a field that marks the lines of the latest effect; the marks move with the text. */
+function lineMarks(effect, mark) {
+  return StateField.define({
+    create: () => Decoration.none,
+    update: (marks, transaction) => {
+      const latest = transaction.effects.findLast((each) => each.is(effect));
+      if (latest) return Decoration.set(latest.value.map((from) => mark.range(from)));
+      return marks.map(transaction.changes);
+    },
+    provide: (field) => EditorView.decorations.from(field),
+  });
+}
+
+/** Return marks by which the rows of a long line stay to the right of its beginning. */
+function hangingIndents(doc) {
+  const marks = [];
+  for (let number = 1; number <= doc.lines; number += 1) {
+    const { from, text } = doc.line(number);
+    const chars = text.search(/\S|$/) + HANG_CHARS;
+    marks.push(Decoration.line({ attributes: { style: `--hang: ${chars}ch` } }).range(from));
+  }
+  return Decoration.set(marks);
+}

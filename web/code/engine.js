@@ -1,0 +1,249 @@
+/** Python in the browser: starts the worker of a student's program, and ends it if it does not answer. */
+
+import { codeLimits } from "./limits.js";
+
+/** Time until the spare worker is started, which would slow down a program's first decisions. */
+const SPARE_DELAY_MS = 3000;
+const WASM = "../vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
+const LIBRARY = "../vendor/pyodide/python_stdlib.zip?v=aabcb2cf";
+const PROGRAM = "../../program.zip";
+const ENDLESS = "The program did not come back from this line, so it was ended. Is something in it endless or huge?";
+const NOT_LOADED = "The program is not running. Press Run.";
+const UNAVAILABLE = "Python could not be loaded. Is the world still running? Reload the page.";
+
+/** Numbers that JSON does not have, as host.py reads them. */
+const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan"]]);
+
+/** Files that all workers share; the compiled module, too, so that only the first worker waits for it. */
+let parts = null;
+
+/** An answer in the form of host.py for what happens outside of it. */
+function problem(kind, text, line = 0) {
+  return { ok: false, kind, text, line, printed: "", lines: [], variables: {} };
+}
+
+/** Return JSON for host.py. */
+function json(value) {
+  return JSON.stringify(value, (_, each) => (Object.is(each, -0) ? "-0" : (NUMBER_WORDS.get(each) ?? each)));
+}
+
+/**
+ * Methods may be called one after another or all at once; each waits for the one before.
+ *
+ * Each program has a worker of its own, which ends with it: so none of its timers, tasks, files or changed modules is left
+ * for the next one.
+ */
+export class CodeEngine {
+  /** The worker that has the program, or will have the next one. */
+  #runtime = null;
+  /** A worker that is ready for when the other one is ended. */
+  #spare = null;
+  /** Counts ends of programs: what was asked before is not done later. */
+  #ends = 0;
+  /** The end of the latest call. */
+  #last = Promise.resolve();
+  /** Until the spare worker is started. */
+  #timer;
+  #isLoaded = false;
+
+  /** Load Python ahead of the first program. Rejects with a sentence if it can't be loaded. */
+  async warm() {
+    this.#runtime ??= new Runtime();
+    try {
+      await this.#runtime.ready;
+    } catch (error) {
+      this.end();
+      throw error;
+    }
+  }
+
+  /**
+   * Load a program.
+   *
+   * @param {string} source
+   * @param {object} room
+   * @param {Object<string, [number[], number[]]>} room.outputs lowest and highest values by actuator
+   * @param {{key: string, dtype: string}[]} room.readings those of RemoteClient.welcome
+   * @param {number} spareDelay time until the worker of the program after it is started (ms)
+   * @returns {Promise<{ok: boolean, text?: string, line?: number, kind?: string}>}
+   */
+  load(source, room, spareDelay = SPARE_DELAY_MS) {
+    const ends = this.#ends;
+    return this.#queue(() => this.#load(source, room, spareDelay, () => ends !== this.#ends));
+  }
+
+  async #load(source, { outputs, readings }, spareDelay, isOver) {
+    this.#isLoaded = false;
+    if (this.#runtime?.isUsed) this.#replace();
+    try {
+      await this.warm();
+    } catch (error) {
+      return problem("unavailable", error.message);
+    }
+    if (isOver()) return problem("ended", NOT_LOADED);
+    this.#runtime.isUsed = true;
+    const dtypes = Object.fromEntries(readings.map(({ key, dtype }) => [key, dtype]));
+    const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: codeLimits.programS }));
+    this.#isLoaded = answer.ok;
+    clearTimeout(this.#timer);
+    if (answer.ok && !isOver()) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), spareDelay);
+    return answer;
+  }
+
+  /** End the program at once, with all that it left behind; Python is loaded for the next one. */
+  finish() {
+    this.#ends += 1;
+    clearTimeout(this.#timer);
+    if (this.#runtime?.isUsed) this.#replace();
+  }
+
+  /** Tell the program that an episode begins. */
+  begin() {
+    return this.#callLoaded("begin", "");
+  }
+
+  /**
+   * Let the program decide.
+   *
+   * @param {Object<string, any>} percept readings by key
+   * @param {number} number of the decision, which stands beside what the program prints
+   */
+  decide(percept, number) {
+    return this.#callLoaded("decide", json({ percept, decision: number }));
+  }
+
+  /** End all workers. */
+  end() {
+    this.#ends += 1;
+    clearTimeout(this.#timer);
+    this.#runtime?.end();
+    this.#spare?.end();
+    this.#runtime = this.#spare = null;
+    this.#isLoaded = false;
+  }
+
+  #callLoaded(method, text) {
+    return this.#queue(() => (this.#isLoaded ? this.#call(method, text) : problem("not_loaded", NOT_LOADED)));
+  }
+
+  /** Start a call when the one before is over: that may have to end the worker. */
+  #queue(call) {
+    const answer = this.#last.then(call);
+    this.#last = answer.catch(() => {}); // the caller is told
+    return answer;
+  }
+
+  async #call(method, text) {
+    const runtime = this.#runtime;
+    if (runtime === null) return problem("ended", NOT_LOADED); // while Python was loaded
+    const answer = await runtime.call(method, text);
+    if (runtime.isStuck && this.#runtime === runtime) this.#replace();
+    return answer;
+  }
+
+  /** End the program's worker, and take another one. */
+  #replace() {
+    this.#runtime.end();
+    [this.#runtime, this.#spare] = [this.#spare ?? new Runtime(), null];
+    this.#isLoaded = false;
+  }
+}
+
+const ENDED_ANSWER = JSON.stringify(problem("ended", NOT_LOADED));
+
+/** One worker. */
+class Runtime {
+  #worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+  #isEnded = false;
+  #lastId = 0;
+  /** Functions that take an answer's text, by the id of the call. */
+  #waiting = new Map();
+  /** The line of the program that ran last, as far as it was reported. */
+  #line = 0;
+  /** Called when the worker begins with a call. */
+  #onbegun = () => {};
+  /** True if the worker can't be called any more. */
+  isStuck = false;
+  /** True if it has got a program. */
+  isUsed = false;
+
+  constructor() {
+    this.#worker.onmessage = ({ data: { id, text, line, isBegun } }) => {
+      if (line) this.#line = line;
+      if (isBegun) this.#onbegun();
+      if (line || isBegun) return;
+      const answer = this.#waiting.get(id);
+      this.#waiting.delete(id);
+      answer?.(text);
+    };
+    this.ready = this.#start();
+    this.ready.catch(() => {}); // whoever waits for it is told
+  }
+
+  /** Call a function of host.py; give up after a while. */
+  async call(method, text) {
+    this.#line = 0;
+    let timer;
+    const late = new Promise((resolve) => {
+      timer = setTimeout(resolve, codeLimits.beginMs, "");
+      this.#onbegun = () => {
+        clearTimeout(timer);
+        timer = setTimeout(resolve, codeLimits.callMs, "");
+      };
+    });
+    const answer = await Promise.race([this.#ask({ method, text }), late]);
+    clearTimeout(timer);
+    const found = answer ? JSON.parse(answer) : problem("endless", ENDLESS, this.#line);
+    this.isStuck ||= !answer || found.kind === "broken";
+    return found;
+  }
+
+  end() {
+    this.#isEnded = true;
+    this.#worker.terminate();
+    for (const answer of this.#waiting.values()) answer(ENDED_ANSWER);
+    this.#waiting.clear();
+  }
+
+  async #start() {
+    const failed = new Promise((_, reject) => {
+      this.#worker.onerror = () => reject(new Error(UNAVAILABLE));
+    });
+    failed.catch(() => {}); // it may fail while the files are fetched
+    parts ??= fetchParts();
+    const given = await parts.catch((error) => {
+      parts = null; // the next worker tries again
+      throw error;
+    });
+    const answer = JSON.parse(await Promise.race([this.#ask({ method: "start", parts: given }), failed]));
+    if (answer.ok === false) throw new Error(answer.text);
+  }
+
+  #ask(message) {
+    if (this.#isEnded) return Promise.resolve(ENDED_ANSWER);
+    const id = (this.#lastId += 1);
+    return new Promise((resolve) => {
+      this.#waiting.set(id, resolve);
+      this.#worker.postMessage({ id, ...message });
+    });
+  }
+}
+
+async function fetchParts() {
+  try {
+    const [wasm, library, program] = await Promise.all([
+      WebAssembly.compileStreaming(fetched(WASM)),
+      fetched(LIBRARY).then((answer) => answer.arrayBuffer()),
+      fetched(PROGRAM).then((answer) => answer.arrayBuffer()),
+    ]);
+    return { wasm, library: new Uint8Array(library), program: new Uint8Array(program) };
+  } catch {
+    throw new Error(UNAVAILABLE);
+  }
+}
+
+async function fetched(path) {
+  const answer = await fetch(new URL(path, import.meta.url));
+  if (!answer.ok) throw new Error(UNAVAILABLE);
+  return answer;
+}

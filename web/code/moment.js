@@ -1,0 +1,53 @@
+/** The moment of the past that the world shows, beside the program: what it did there, and steps from there. */
+
+import { button, element, setText } from "../shared/dom.js";
+
+export class CodeMoment {
+  #panel;
+  #playing = null;
+  #text = element("p", { role: "status" });
+  #printed = element("pre");
+  #back;
+  #forward;
+  #live;
+  element;
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#back = button("", () => this.#step(-1), { icon: "back", label: "Decision before" });
+    this.#forward = button("", () => this.#step(1), { icon: "forward", label: "Next decision" });
+    this.#live = button("Back to live", () => panel.send("back_to_live"), { icon: "live" });
+    const tools = element("div", { className: "ai4u-tools" }, this.#back, this.#forward, this.#live);
+    this.element = element("div", { className: "ai4u-code-moment", hidden: true }, this.#text, this.#printed, tools);
+  }
+
+  /**
+   * Show a moment.
+   * @param playing as of the part "past"; null in the present
+   * @param told as CodeTimeline.at() returns it
+   * @param isSame true if the program in the editor is the one that ran
+   */
+  update(playing, told, isSame) {
+    this.#playing = playing;
+    this.element.hidden = playing === null;
+    if (playing === null) return;
+    setText(this.#text, momentWords(playing, told, isSame));
+    setText(this.#printed, told?.printed ?? "");
+    this.#printed.hidden = !told?.printed;
+    this.#back.disabled = playing.step <= 0;
+    this.#forward.disabled = playing.step >= playing.steps;
+  }
+
+  #step(by) {
+    const { step, steps } = this.#playing;
+    this.#panel.send("step", { step: Math.min(Math.max(step + by, 0), steps) }, { quiet: true });
+  }
+}
+
+function momentWords({ step, steps }, told, isSame) {
+  if (step >= steps) return `The end of the episode, after ${steps} decisions.`;
+  const where = `Decision ${step + 1} of ${steps}`;
+  if (told === null) return `${where}: your program did not make it, or it was too long ago.`;
+  if (!isSame) return `${where}. Your program has changed since, so its lines are not marked.`;
+  return `${where}: the lines that ran are marked.`;
+}

@@ -1,0 +1,274 @@
+/** A run of the person's program: it senses, decides and acts until the episode is over, a mistake, or Stop. */
+
+/** Interval at which a world that waits between two steps is asked to wait longer (ms). */
+const WAIT_MS = 400;
+const NO_STEPS =
+  "Step would make the other robots of this world wait, too. Whoever runs the world may allow it (ai4u-edu play --lockstep); Run works anyway.";
+/** Thrown where a run goes on after it was stopped. */
+export const STOPPED = Symbol("stopped");
+
+/** A sentence about a program that can't go on, with the line or null. */
+export class ProgramMistake extends Error {
+  constructor({ text, line = 0, kind = "" }) {
+    super(text);
+    Object.assign(this, { line: line || null, kind }); // 0 is no line
+  }
+}
+
+/**
+ * Events: "change" (phase, decision), "decision" (what it told, with percept, action, episode, number and source), "printed", and "end", whose detail is
+ * {reason: "over" | "stopped" | "mistake" | "lost", text, line, kind, percept}.
+ */
+export class CodeRun extends EventTarget {
+  /** "off", "loading" (Python), "joining" (the world gives the agent), "running", or "stepping". */
+  phase = "off";
+  /** Number of the latest decision in its episode; 0 before the first one of a run. */
+  decision = 0;
+  /** Name of the reward's term that is paid at the goal; empty if there is none. */
+  success = "";
+  /** Id of the agent that the latest run drove. */
+  agent = "";
+  #parts;
+  #engine = null;
+  #isWarm = false;
+  #client = null;
+  /** The end of the latest connection, or of its attempt. */
+  #ended = Promise.resolve();
+  #ticket = 0;
+  #source = null;
+  /** The percept that the next step decides about. */
+  #pending = null;
+  #timer = 0;
+
+  /**
+   * @param parts.makeEngine returns a CodeEngine
+   * @param parts.connect as RemoteClient.connect
+   * @param parts.prepare called before each start; lets a paused world run
+   * @param parts.beginAgain begins another episode while nobody drives; returns false if it can't
+   */
+  constructor(parts = {}) {
+    super();
+    this.#parts = { makeEngine, connect, prepare: async () => {}, beginAgain: async () => false, ...parts };
+  }
+
+  get isOn() {
+    return this.phase !== "off";
+  }
+
+  /** Load Python in advance; the promise rejects if that fails. */
+  async warm() {
+    this.#engine ??= Promise.resolve(this.#parts.makeEngine());
+    const engine = await this.#engine.catch((error) => {
+      this.#engine = null; // the next one tries again
+      throw error;
+    });
+    await engine.warm();
+    this.#isWarm = true;
+    return engine;
+  }
+
+  /**
+   * Drive an agent with a program, at the world's own pace. An episode with the same start begins, but after steps of
+   * the same program it goes on.
+   * @param {number} [from.seed] begins an episode with it instead
+   * @param {boolean} [from.isHere] drives from where the agent stands instead
+   */
+  async run(source, agent, { seed = null, isHere = false } = {}) {
+    await this.#guarded(async (ticket) => {
+      const isNext = this.phase === "stepping" && source === this.#source;
+      const isFresh = seed === null && !isHere && !isNext;
+      let percept = await this.#start(source, agent, "realtime", ticket, { seed, isFresh });
+      this.#set("running");
+      for (;;) percept = await this.#decide(percept, ticket);
+    });
+  }
+
+  /** Make one decision, and have the world wait before the next one. */
+  async step(source, agent) {
+    const isNext = this.phase === "stepping" && source === this.#source;
+    if (isNext && this.#pending === null) return; // the decision before is not over yet
+    await this.#guarded(async (ticket) => {
+      const percept = isNext ? this.#pending : await this.#start(source, agent, "lockstep", ticket);
+      this.#pending = null;
+      clearInterval(this.#timer);
+      const client = this.#client;
+      this.#pending = await this.#decide(percept, ticket);
+      this.#set("stepping");
+      // else the world would go on without an answer
+      this.#timer = setInterval(() => client.wait().catch(() => {}), WAIT_MS); // the next step tells of an error
+    });
+  }
+
+  /** Give the agent back; a text tells why, if it was not the person who wanted it. */
+  stop(text = "") {
+    if (this.isOn) this.#end({ reason: text ? "lost" : "stopped", text });
+  }
+
+  /** Call a function with a ticket, and end the run if it throws. */
+  async #guarded(work) {
+    const ticket = ++this.#ticket;
+    try {
+      await work(ticket);
+    } catch (error) {
+      if (error === STOPPED || ticket !== this.#ticket) return;
+      const reason = error instanceof ProgramMistake ? "mistake" : "lost";
+      const text = error.code === "lockstep_refused" ? NO_STEPS : error.message;
+      this.#end({ reason, text, line: error.line ?? null, kind: error.kind ?? "" });
+    }
+  }
+
+  /** Connect, load the program, and return the first percept. */
+  async #start(source, agent, mode, ticket, { seed = null, isFresh = false } = {}) {
+    // from Step to Run and back, the same program goes on with what it remembers
+    const goesOn = seed === null && !isFresh && this.isOn && this.#client !== null && source === this.#source;
+    this.#leave();
+    if (!goesOn) this.#endProgram();
+    this.#source = null;
+    if (!this.#isWarm) this.#set("loading");
+    const engine = await valid(this.warm(), () => this.#isStale(ticket));
+    this.#set("joining");
+    if (isFresh) await this.#until(this.#parts.beginAgain(), ticket);
+    let percept = await this.#join(agent, mode, ticket);
+    if (isOver(percept) && seed === null) percept = await this.#beginAgain(agent, mode, ticket);
+    if (!goesOn) {
+      this.decision = 0;
+      this.#checked(await this.#until(engine.load(source, programFacts(this.#client.welcome)), ticket));
+      if (seed !== null) percept = await this.#resetTo(seed, ticket);
+      this.#checked(await this.#until(engine.begin(), ticket));
+    }
+    this.#source = source;
+    return percept;
+  }
+
+  async #join(agent, mode, ticket) {
+    this.agent = agent;
+    await this.#until(this.#parts.prepare(), ticket);
+    const client = await this.#connect(agent, mode, ticket);
+    this.#client = client;
+    this.success = client.welcome.success ?? "";
+    return this.#until(client.sense(), ticket);
+  }
+
+  /** Connect when the connection before has ended: the world gives an agent to one at a time. */
+  #connect(agent, mode, ticket) {
+    const connected = this.#ended.then(async () => {
+      if (this.#isStale(ticket)) throw STOPPED;
+      const client = await this.#parts.connect({ agent, mode });
+      if (!this.#isStale(ticket)) return client;
+      await client.close();
+      throw STOPPED;
+    });
+    this.#ended = connected.then(() => {}, () => {}); // the caller is told
+    return connected;
+  }
+
+  async #beginAgain(agent, mode, ticket) {
+    this.#leave();
+    await this.#until(this.#parts.beginAgain(), ticket);
+    const percept = await this.#join(agent, mode, ticket);
+    if (!isOver(percept)) return percept;
+    await this.#until(this.#client.reset(), ticket);
+    return this.#until(this.#client.sense(), ticket);
+  }
+
+  async #resetTo(seed, ticket) {
+    await this.#until(this.#client.reset(seed), ticket);
+    return this.#until(this.#client.sense(), ticket);
+  }
+
+  /** Make one decision, and return the next percept; the end of the episode ends the run. */
+  async #decide(percept, ticket) {
+    const engine = await this.#engine;
+    const number = percept.step + 1;
+    const answer = await this.#until(engine.decide(percept.values, number), ticket);
+    this.decision = number;
+    const did = { percept: percept.values, action: answer.values ?? null };
+    this.#emit("decision", { ...toldBy(answer), ...did, episode: percept.episode, number, source: this.#source });
+    this.#checked(answer, number);
+    await this.#until(this.#client.act(answer.values), ticket);
+    const next = await this.#until(this.#client.sense(), ticket);
+    if (isOver(next)) {
+      this.#end({ reason: "over", percept: next });
+      throw STOPPED;
+    }
+    if (next.episode !== percept.episode) this.#checked(await this.#until(engine.begin(), ticket));
+    return next;
+  }
+
+  /** Tell what an answer of the engine printed; throw if it tells of a mistake. */
+  #checked(answer, number = 0) {
+    if (answer.printed) this.#emit("printed", { number, text: answer.printed });
+    if (!answer.ok) throw new ProgramMistake(answer);
+  }
+
+  #until(promise, ticket) {
+    return valid(promise, () => this.#isStale(ticket));
+  }
+
+  #isStale(ticket) {
+    return ticket !== this.#ticket;
+  }
+
+  #end(detail) {
+    this.#ticket += 1;
+    this.#leave();
+    this.#endProgram();
+    this.#source = null;
+    this.#set("off");
+    this.#emit("end", { text: "", line: null, percept: null, ...detail });
+  }
+
+  /** End the program with all that it left running; Python is loaded again for the next one. */
+  #endProgram() {
+    if (!this.#isWarm) return;
+    this.#isWarm = false;
+    this.#engine.then((engine) => engine.finish());
+    this.warm().catch(() => {}); // the next run tells of it
+  }
+
+  #leave() {
+    clearInterval(this.#timer);
+    this.#pending = null;
+    const closed = Promise.resolve(this.#client?.close()).catch(() => {}); // it is gone already
+    this.#ended = this.#ended.then(() => closed);
+    this.#client = null;
+  }
+
+  #set(phase) {
+    this.phase = phase;
+    this.#emit("change");
+  }
+
+  #emit(type, detail = null) {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+}
+
+async function makeEngine() {
+  return new (await import("./engine.js")).CodeEngine();
+}
+
+export async function connect(options) {
+  return (await import("../remote/client.js")).RemoteClient.connect(options);
+}
+
+/** Return what a promise gives, unless the run was stopped meanwhile. */
+export async function valid(promise, isStale) {
+  const value = await promise;
+  if (isStale()) throw STOPPED;
+  return value;
+}
+
+export function isOver({ terminated, truncated }) {
+  return terminated || truncated;
+}
+
+/** Return what an answer of the engine tells of a decision, for CodeTimeline. */
+export function toldBy({ lines = [], variables = {}, printed = "" }) {
+  return { lines, variables, printed };
+}
+
+/** Return what CodeEngine.load takes, from the world's welcome. */
+export function programFacts({ readings, outputs }) {
+  return { readings, outputs: Object.fromEntries(outputs.map(({ name, low, high }) => [name, [low, high]])) };
+}

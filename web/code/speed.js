@@ -1,0 +1,55 @@
+/** The world's speed during a test, and how it comes back to what it was. */
+
+import { codeLimits } from "./limits.js";
+
+export class WorldSpeed {
+  #panel;
+  /** The speed to come back to; null while the world has it. */
+  #before = null;
+  #isFast = false;
+
+  constructor(panel) {
+    this.#panel = panel;
+    panel.addEventListener("part:run", ({ detail }) => {
+      if (!this.#isFast && detail.speed === this.#before) this.#before = null;
+    });
+    panel.addEventListener("connected", () => this.#sendBefore()); // it may have got lost
+  }
+
+  /** Let the world run as fast as it goes. */
+  async max() {
+    this.#before ??= this.#panel.part("run")?.speed ?? 1;
+    this.#isFast = true;
+    await this.#panel.send("speed", { speed: "max" }, { quiet: true });
+  }
+
+  /** Let the world run as before; nothing happens if it does. */
+  async restore() {
+    if (!this.#isFast) return;
+    this.#isFast = false;
+    await this.#sendBefore();
+  }
+
+  async #sendBefore() {
+    if (this.#isFast || this.#before === null) return;
+    await this.#panel.send("speed", { speed: this.#before }, { quiet: true });
+  }
+}
+
+/** Return the panel's word for the end of an episode: "fell", "lost" or "over". */
+export function outcomeOf(panel, { step }, seed) {
+  return new Promise((resolve) => {
+    const end = (word) => {
+      clearTimeout(timer);
+      panel.removeEventListener("part:run", check);
+      resolve(word);
+    };
+    const check = () => {
+      const { result, decision, seed: present } = panel.part("run") ?? {};
+      if (result && decision === step && present === String(seed)) end(result);
+    };
+    const timer = setTimeout(end, codeLimits.outcomeMs, "over");
+    panel.addEventListener("part:run", check);
+    check();
+  });
+}

@@ -1,0 +1,366 @@
+/** The tab "Code": a program in Python drives the shown agent. */
+
+import { BlocksMode } from "../blocks/mode.js";
+import { CodeConsole } from "./console.js";
+import { CodeEditor } from "./editor.js";
+import { NameList, VariableList } from "./facts.js";
+import { CodeMoment } from "./moment.js";
+import { ProgramSection } from "./program.js";
+import { CodeRun } from "./run.js";
+import { CodeStars } from "./stars.js";
+import { outcomeOf, WorldSpeed } from "./speed.js";
+import { namesOf, startProgram } from "./start.js";
+import { CodeTest } from "./test.js";
+import { CodeTimeline } from "./timeline.js";
+import { TestTable, testWords } from "./test_table.js";
+import { runWords } from "./words.js";
+import { button, element, setAttributes, setText } from "../shared/dom.js";
+import { freeId } from "../panel/widgets/parts.js";
+import { retried } from "../shared/retry.js";
+import { ProgramReports } from "../classroom/student/program_reports.js";
+
+const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
+const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
+
+export class CodeTab {
+  #panel;
+  #run;
+  #test;
+  /** What ran last: the run or the test. */
+  #active;
+  #editor;
+  #blocks;
+  #program;
+  #reports;
+  #console = new CodeConsole();
+  #variables = new VariableList();
+  #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", { seed: this.#test.failure }));
+  #nameList = new NameList((code) => this.#editor.insert(code));
+  #key = null;
+  #agent = null;
+  /** How the latest run ended; null before the first one. */
+  #end = null;
+  /** Python: "loading", "ready", or a sentence about what went wrong. */
+  #python = "loading";
+  /** The latest decision. */
+  #latest = null;
+  #timeline = new CodeTimeline();
+  #moment;
+  /** Names that the program reads and writes, and the same as text. */
+  #names = { readings: [], outputs: [] };
+  #namesText = "";
+  #isDue = false;
+  /** True while the world shows a moment of the past. */
+  #isBack = false;
+  /** True if the person drove at the latest event about it. */
+  #wasPerson = false;
+
+  #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
+  #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
+  #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
+  #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
+  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as it goes" });
+  #state = element("p", { role: "status" });
+  #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
+  #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
+  #mistakeText = element("p");
+  #goTo = button("Go to the line", () => this.#blocks.goTo(this.#end.line) || this.#editor.goTo(this.#end.line), {});
+  #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
+
+  /** @param parts of CodeRun and CodeTest */
+  constructor(root, panel, parts = {}) {
+    this.#panel = panel;
+    this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
+    this.#test = new CodeTest({
+      warm: () => this.#run.warm(),
+      speed: new WorldSpeed(panel),
+      prepare: () => this.#wake(),
+      outcome: (percept, seed) => outcomeOf(panel, percept, seed),
+      ...parts,
+    });
+    this.#reports = new ProgramReports(this.#run, this.#test);
+    const stars = new CodeStars(panel, this.#run, this.#test);
+    this.#stateRow.append(stars.row.element);
+    this.#active = this.#run;
+    this.#moment = new CodeMoment(panel);
+    const help = element("p", { className: "ai4u-soft", id: freeId() });
+    help.textContent = `${COMMAND_KEY}+Enter runs the program. Tab indents; Escape, then Tab leaves the editor.`;
+    const frame = element("div", { className: "ai4u-code-editor" });
+    const keys = [
+      { key: "Ctrl-Enter", mac: "Cmd-Enter", run: () => this.#go("run") },
+      { key: "Ctrl-Shift-Enter", mac: "Cmd-Shift-Enter", run: () => this.#go("step") },
+    ];
+    this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
+    this.#editor.onChange = () => this.#onChange();
+    this.#blocks = new BlocksMode(panel, {
+      editor: this.#editor,
+      changed: () => this.#onChange(),
+      replace: (text) => this.#program.replace(text),
+      run: (way) => this.#go(way),
+    });
+    this.#program = new ProgramSection(panel, {
+      text: () => this.#blocks.join(this.#editor.text),
+      show: (text) => this.#showProgram(text),
+      isBusy: () => this.#run.isOn,
+    });
+    const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#here, this.#step, this.#tryOut, this.#stop);
+    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
+    root.classList.add("ai4u-code");
+    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
+    const head = element("div", { className: "ai4u-code-head" }, buttons, way);
+    const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
+    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
+    root.append(head, ...both, ...sections);
+    this.#listen();
+    this.#drawState();
+    this.#warm();
+  }
+
+  /** @param agent as "agent" in the protocol */
+  update(agent) {
+    const python = this.#panel.part("python");
+    if (python?.agent !== agent.id) return; // it comes next
+    this.#agent = agent;
+    const names = namesOf(agent.sensors, python.actuators);
+    const text = JSON.stringify(names);
+    this.#blocks.setAgent(python);
+    if (text !== this.#namesText) this.#setNames(names, text);
+    this.#open();
+  }
+
+  #setNames(names, text) {
+    this.#namesText = text;
+    this.#names = names;
+    this.#nameList.update(names);
+    this.#editor.setNames({
+      readings: names.readings.map(({ key }) => key),
+      outputs: names.outputs.map(({ name }) => name),
+    });
+  }
+
+  #listen() {
+    for (const each of [this.#run, this.#test]) {
+      each.addEventListener("decision", ({ detail }) => {
+        this.#timeline.add(detail.episode, detail.number, detail.source, detail);
+        this.#panel.program = { agent: each.agent, episode: detail.episode, isTest: each === this.#test };
+      });
+      each.addEventListener("change", () => {
+        this.#panel.hasProgram = this.#active.isOn && this.#active.phase !== "loading";
+        this.#drawSoon();
+      });
+    }
+    this.#test.addEventListener("end", ({ detail }) => {
+      this.#onEnd({ ...detail, summary: testWords(this.#test) });
+      if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
+    });
+    this.#panel.addEventListener("driver", () => {
+      if (this.#isPerson && !this.#wasPerson) {
+        this.#test.stop("You drive, so the test was ended.");
+        this.#reports.end();
+      }
+      this.#wasPerson = this.#isPerson;
+    });
+    this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
+    this.#run.addEventListener("decision", ({ detail }) => {
+      this.#latest = detail;
+      this.#blocks.note(detail);
+      this.#drawSoon();
+    });
+    this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
+    this.#panel.addEventListener("agent", () => (this.#agent = null));
+    this.#panel.addEventListener("part:python", () => {
+      const agent = this.#panel.part("agent");
+      if (agent !== null) this.update(agent);
+    });
+    for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
+    addEventListener("pagehide", () => this.#stopAll());
+    document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
+  }
+
+  // -- the program -------------------------------------------------------------------------------
+
+  /** Show the program of the present agent and scene. */
+  #open() {
+    const scene = this.#panel.part("scene")?.scene ?? "scene";
+    const key = `${scene}-${this.#agent.id}`;
+    if (key === this.#key) return;
+    this.#run.stop();
+    this.#test.clear();
+    this.#reports.end();
+    this.#key = key;
+    this.#timeline.clear();
+    this.#console.clear();
+    this.#program.open(scene, this.#agent.id, startProgram(this.#names));
+  }
+
+  #showProgram(text) {
+    this.#editor.text = this.#blocks.take(text);
+    this.#forget();
+  }
+
+  #onChange() {
+    this.#program.changed(this.#blocks.join(this.#editor.text));
+    this.#markRan([]);
+  }
+
+  // -- runs --------------------------------------------------------------------------------------
+
+  /** Begin to run, or make a step. Returns true: the key is used. */
+  #go(way, from = {}) {
+    if (this.#agent === null) return true;
+    this.#test.stop();
+    this.#active = this.#run;
+    const source = this.#editor.text;
+    if (this.#run.phase === "off" || way === "run") this.#console.clear();
+    this.#noteStart(source);
+    this.#run[way](source, this.#agent.id, from);
+    return true;
+  }
+
+  #runTest() {
+    if (this.#agent === null) return;
+    this.#stopAll();
+    this.#panel.driving?.letGo(); // else whoever drove just before would go on
+    this.#active = this.#test;
+    this.#console.clear();
+    this.#noteStart(this.#editor.text);
+    this.#test.run(this.#editor.text, this.#agent.id);
+  }
+
+  /** Begin an episode with a seed, for the person to watch. */
+  #begin(seed) {
+    this.#stopAll();
+    this.#panel.send("seed", { seed: String(seed) });
+  }
+
+  #stopAll(text = "") {
+    this.#run.stop(text);
+    this.#test.stop(text);
+  }
+
+  /** Keep a program that runs, and forget how the one before ended. */
+  #noteStart(source) {
+    this.#forget();
+    this.#blocks.begin();
+    this.#program.ran(this.#blocks.join(source));
+  }
+
+  /** Forget how the run before ended. */
+  #forget() {
+    this.#end = this.#latest = null;
+    this.#mistakeText.textContent = "";
+    this.#goTo.remove();
+    this.#markMistake(null);
+    this.#markRan([]);
+    this.#variables.update({});
+    this.#drawSoon();
+  }
+
+  #onEnd(end) {
+    this.#end = end;
+    setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
+    if (end.line !== null) {
+      this.#mistake.append(this.#goTo);
+      this.#markMistake(end.line);
+    }
+    if (end.reason === "mistake") this.#hold();
+    this.#drawSoon();
+  }
+
+  /** Let the world wait while the person looks for a mistake, unless that disturbs another person. */
+  #hold() {
+    if (this.#isAlone) this.#panel.send("pause", {}, { quiet: true });
+  }
+
+  async #warm() {
+    try {
+      await retried(() => this.#run.warm());
+      this.#python = "ready";
+    } catch (error) {
+      this.#python = error.message;
+    }
+    this.#drawState();
+  }
+
+  /** True while the person drives in the program's place. */
+  get #isPerson() {
+    return Boolean(this.#panel.driver?.hello?.instead);
+  }
+
+  /** True unless another person drives in this world, too. */
+  get #isAlone() {
+    const agents = this.#panel.part("scene")?.agents ?? [];
+    return !agents.some(({ id, is_person: isPerson }) => isPerson && id !== this.#agent.id);
+  }
+
+  /** Let a paused world run. */
+  async #wake() {
+    if (this.#panel.part("run")?.is_paused) await this.#panel.send("resume", {}, { quiet: true });
+  }
+
+  /** Begin an episode with the same start, unless that disturbs another person. */
+  async #tryAgain() {
+    if (!this.#isAlone) return false;
+    return (await this.#panel.send("try_again", {}, { quiet: true })).ok;
+  }
+
+  // -- drawing -----------------------------------------------------------------------------------
+
+  /** Draw once in a frame, however many decisions there are. */
+  #drawSoon() {
+    if (this.#isDue) return;
+    this.#isDue = true;
+    requestAnimationFrame(() => {
+      this.#isDue = false;
+      this.#drawState();
+      this.#drawDecision();
+    });
+  }
+
+  /** Show what the program did at the latest decision, or at the one to which the person went back. */
+  #drawDecision() {
+    const past = this.#panel.part("past");
+    const playing = past?.is_showing ? past.playing : null;
+    const isBack = this.#isBack;
+    this.#isBack = playing !== null;
+    if (playing === null) {
+      this.#moment.update(null);
+      if (this.#latest !== null) this.#drawTold(this.#latest, this.#latest.source === this.#editor.text);
+      else if (isBack) this.#drawTold(null, false);
+      return;
+    }
+    const told = this.#timeline.at(playing.world_episode, playing.step + 1);
+    const isSame = told?.source === this.#editor.text;
+    this.#moment.update(playing, told, isSame);
+    this.#drawTold(told, isSame);
+  }
+
+  #drawTold(told, isSame) {
+    this.#markRan(isSame ? told.lines : []);
+    this.#variables.update(told?.variables ?? {});
+  }
+
+  #markRan(lines) {
+    this.#editor.markRan(lines);
+    this.#blocks.markRan(lines);
+  }
+
+  #markMistake(line) {
+    this.#editor.markMistake(line);
+    this.#blocks.markMistake(line);
+  }
+
+  #drawState() {
+    const { phase, decision, success, start, isOn } = this.#active;
+    const isPaused = Boolean(this.#panel.part("run")?.is_paused);
+    const shown = { phase, decision, success, start, isPerson: this.#isPerson, isPaused, python: this.#python, end: this.#end };
+    const { kind, text, count } = runWords(shown);
+    setText(this.#state, text);
+    setAttributes(this.#state, { title: text }); // it may be cut
+    setText(this.#count, count);
+    setAttributes(this.#stateRow, { "data-kind": kind });
+    this.#stop.disabled = !isOn;
+    this.#testTable.update(this.#test);
+    this.#mistake.hidden = !this.#mistakeText.textContent;
+  }
+}

@@ -1,0 +1,159 @@
+/** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
+
+import { element } from "../shared/dom.js";
+import { capitalized } from "./driver_status.js";
+import { openNextScene } from "../scenes/next_scene.js";
+import { timeText } from "./results.js";
+
+/** Kinds of banners whose text is a whole sentence and is not printed bold. */
+const NOT_BOLD_KINDS = ["error", "task"];
+/** Texts by the outcome that the server sends: said to the driver, and said of another agent by its name. */
+const OUTCOME_TEXTS = {
+  goal: ["Reached the goal", "reached the goal"],
+  won: ["You win", "wins"],
+  lost: ["You lost.", "lost."],
+  fell: ["Fell.", "fell."],
+  time: ["Time is up."],
+  over: ["Episode over."],
+};
+const WINS = ["goal", "won"];
+/** Commands by the text of their button. */
+const COMMANDS = {
+  "Play again": "try_again",
+  "Try again": "try_again",
+  "New start": "new_start",
+  Reset: "reset",
+  Resume: "resume",
+  "Back to live": "resume",
+};
+const LOST = "No connection to this world. It goes on here by itself as soon as there is one again.";
+/** How long the error of a failed request stays (ms). */
+const REQUEST_ERROR_MS = 8000;
+/** Terms smaller than this round to 0.00 and are left out of the details. */
+const MIN_TERM = 0.005;
+
+export class Banners {
+  #sendCommand;
+  #statusRegion = element("div", { className: "ai4u-banners", role: "status" });
+  #alertRegion = element("div", { className: "ai4u-banners", role: "alert" });
+  /** The banner that is shown, as JSON: an unchanged one is not read out again. */
+  #shown = "";
+  #connectionError = "";
+  #requestError = "";
+  #timer = 0;
+  #lastDraw = [null, {}];
+
+  /** @param {(name: string) => void} sendCommand called with the name of a command */
+  constructor(sendCommand) {
+    this.#sendCommand = sendCommand;
+    document.body.append(this.#statusRegion, this.#alertRegion);
+  }
+
+  /** Set the reason why the server refuses this page, which only reloading can mend; empty clears it. */
+  setConnectionError(reason) {
+    this.#connectionError = reason;
+  }
+
+  /** Show for some seconds that a request failed. */
+  showRequestError(text) {
+    this.#requestError = text;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      this.#requestError = "";
+      this.draw(...this.#lastDraw);
+    }, REQUEST_ERROR_MS);
+  }
+
+  /**
+   * @param state the server's last state message; null while disconnected
+   * @param page.restart the label of the restart key
+   * @param page.name the agent's name, if this page can't drive it
+   * @param page.isNew true until the person has pressed a key: then the goal is shown
+   * @param page.result of the episode that a person has just won: see page/results.js; else null
+   * @param page.isLost true once the connection has been gone for some seconds
+   * @param page.held the text for a world that a teacher holds; empty for none
+   * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't
+   */
+  draw(state, page) {
+    this.#lastDraw = [state, page];
+    if (state?.title) document.title = state.title;
+    const banner = this.#banner(state, page);
+    const key = JSON.stringify(banner);
+    if (key === this.#shown) return;
+    this.#shown = key;
+    const regions = [this.#statusRegion, this.#alertRegion];
+    const [used, unused] = banner?.kind === "error" ? regions.reverse() : regions;
+    unused.replaceChildren();
+    used.replaceChildren(...(banner ? [this.#element(banner)] : []));
+  }
+
+  #banner(state, page) {
+    if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
+    if (page.isLost) return { kind: "error", text: LOST };
+    if (state?.error) return { kind: "error", text: state.error, buttons: ["Reset"] };
+    if (this.#requestError) return { kind: "error", text: this.#requestError };
+    if (page.held) return { kind: "paused", text: page.held };
+    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to live"] };
+    if (state?.outcome) return outcomeBanner(state, page);
+    if (state?.paused) return { kind: "paused", text: "Paused", buttons: ["Resume"] };
+    if (state?.waiting === "key") return startBanner(state, page);
+    if (state?.goal && page.isNew && !page.name) return { kind: "task", text: state.goal };
+    return null;
+  }
+
+  #element({ kind, text, amount, hint, details, buttons = [] }) {
+    const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
+    const words = element("p", {}, element(tag, { textContent: text }));
+    if (amount) words.append(" ", element("span", { className: "ai4u-amount", textContent: amount }));
+    if (hint) words.append(element("span", { className: "ai4u-hint", textContent: hint }));
+    if (details) words.append(element("small", { textContent: details }));
+    const made = element("div", { className: "ai4u-banner" }, words);
+    made.dataset.kind = kind;
+    for (const name of buttons) {
+      const button = element("button", { type: "button", className: "ai4u-button", textContent: name });
+      button.addEventListener("click", () => this.#carryOut(name));
+      made.append(button);
+    }
+    return made;
+  }
+
+  #carryOut(name) {
+    if (name === "Reload") location.reload();
+    else if (name === "Next scene") openNextScene();
+    else this.#sendCommand(COMMANDS[name]);
+  }
+}
+
+function outcomeText(state, { name, result }) {
+  const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
+  const text = name && theirs ? `${name} ${theirs}` : mine;
+  if (!WINS.includes(state.outcome)) return text;
+  return result ? text + timeText(result) : `${text}!`;
+}
+
+function startBanner({ goal }, { isNew, name, howToStart }) {
+  const start = howToStart ? `${capitalized(howToStart)} to start` : "Waits until a player presses a key";
+  const isGoalShown = isNew && goal && !name;
+  return isGoalShown ? { kind: "task", text: goal, details: start } : { kind: "start", text: start };
+}
+
+function outcomeBanner(state, page) {
+  const { outcome, reward, terms } = state;
+  const isWin = WINS.includes(outcome);
+  const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= MIN_TERM);
+  return {
+    kind: isWin ? "goal" : "over",
+    text: outcomeText(state, page),
+    amount: signed(reward),
+    hint: page.restart && ` – press ${page.restart} to ${isWin ? "play" : "try"} again`,
+    details: parts.length > 1 ? parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ") : "",
+    buttons: isWin ? ["Play again", "New start", "Next scene"] : ["Try again", "New start"],
+  };
+}
+
+function signed(value) {
+  if (value === null) return "";
+  const size = Math.abs(value);
+  const digits = size.toLocaleString(undefined, { maximumFractionDigits: size < 10 ? 2 : size < 100 ? 1 : 0 });
+  return (value < 0 ? "−" : "+") + digits;
+}

@@ -1,0 +1,64 @@
+/** The line that says who drives the agent, with buttons to take over and to let go. */
+
+import { element } from "../shared/dom.js";
+
+export class DriverStatus {
+  #dot = element("span", { className: "ai4u-dot", ariaHidden: "true" });
+  #text = element("span");
+  #hint = element("span", { className: "ai4u-hint" });
+  #take = element("button", { type: "button", className: "ai4u-button", textContent: "Take over" });
+  #letGo = element("button", { type: "button", className: "ai4u-button", textContent: "Let go" });
+
+  /**
+   * @param {HTMLElement} row parent element
+   * @param {() => void} take called when the person takes over
+   * @param {() => void} letGo called when the person hands control back
+   */
+  constructor(row, take, letGo) {
+    this.#take.addEventListener("click", take);
+    this.#letGo.addEventListener("click", letGo);
+    const status = element("span", { role: "status" }, this.#text, this.#hint);
+    row.append(element("div", { className: "ai4u-driver" }, this.#dot, status, this.#take, this.#letGo));
+  }
+
+  /**
+   * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
+   * @param {boolean} shown.isPaused true while the world is paused
+   * @param {boolean} shown.isWaiting true while the world waits for a key
+   * @param {boolean} shown.isHeld true while a teacher holds the world
+   * @param {boolean} shown.isReached false while the keyboard goes elsewhere, such as into a text field
+   */
+  draw({ connected, hello, control, howToDrive, isPaused, isWaiting, isHeld, isReached }) {
+    const [kind, who] = status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached });
+    // whoever drives, no key and no stick moves anything now
+    const isStill = connected && isPaused && !isHeld;
+    this.#dot.dataset.kind = kind;
+    setText(this.#text, isStill ? "Paused" : who);
+    setText(this.#hint, kind === "auto" && !isStill ? ` – ${howToDrive} to take over` : "");
+    this.#take.hidden = kind !== "other" && kind !== "auto";
+    this.#letGo.hidden = kind !== "mine" || !(hello.instead || control.pages > 1);
+    this.#letGo.title = hello.instead && `${hello.instead} goes on then`;
+  }
+}
+
+function setText(target, text) {
+  if (target.textContent !== text) target.textContent = text; // screen readers announce every assignment
+}
+
+/** Return a text with a capital first letter. */
+export function capitalized(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+function status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached }) {
+  if (!connected) return ["lost", "Connecting …"];
+  if (isHeld) return ["none", "The world stands still"];
+  if (Object.keys(hello.keys).length === 0) return ["none", `${hello.others || hello.brain} drives`];
+  const isMine = control.driver === hello.you;
+  if (hello.others) return ["auto", `${hello.others} drives`];
+  if (!isReached && (isMine || control.driver === null)) return [isMine ? "mine" : "free", "Click the picture to drive"];
+  if (isWaiting && (isMine || control.driver === null)) return [isMine ? "mine" : "free", `${capitalized(howToDrive)} to start`];
+  if (control.driver === null) return ["free", `${capitalized(howToDrive)} to drive`];
+  if (!isMine) return ["other", `${control.name || "Another page"} drives`];
+  return ["mine", "You drive"];
+}

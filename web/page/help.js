@@ -1,0 +1,184 @@
+/** The help dialog ("?"): the scene's goal, the parts of the page, and the keys, which can be changed. */
+
+import { element } from "../shared/dom.js";
+import { isDrawnBySoftware } from "./graphics.js";
+import { isTextInput } from "./keys.js";
+import { label } from "./labels.js";
+import { isToneOn, setTone } from "../shared/tone.js";
+import { copyLink } from "../scenes/share.js";
+
+const PAGE_PARTS = {
+  "The picture": "The world from above. Scroll or pinch to zoom; click Arena to see everything again.",
+  "The panel": "Time and speed, and what the agent senses, does and is rewarded for. On small screens it is folded at the bottom.",
+  "The line beside the keys":
+    "Shows who is driving. If a network or script drives, press a drive key to take over; Let go hands it back.",
+};
+const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to jump forward, Start to restart.";
+
+const START_TEXT = "To restart is to try the same start again. N draws a new start, unless N drives.";
+const GRAPHICS_TEXT =
+  "Drawn without a graphics card, so the picture may be slow. If there is one, turn hardware acceleration on in the browser.";
+
+export class Help {
+  #keys;
+  #keymap;
+  #changed;
+  #dialog = element("dialog", { className: "ai4u-help" });
+  #goal = element("p", { className: "ai4u-goal" });
+  #list = element("div", { className: "ai4u-bindings" });
+  #status = element("p", { className: "ai4u-status", role: "status" });
+  #graphics = element("p", { hidden: true, textContent: GRAPHICS_TEXT });
+  #reset = element("button", { type: "button", className: "ai4u-plain", textContent: "Reset keys" });
+  #tone = element("input", { type: "checkbox" });
+  #actionToRebind = null;
+
+  /**
+   * @param {HTMLElement} row parent of the "?" button
+   * @param {import("./keys.js").HeldKeys} keys
+   * @param {import("./keymap.js").KeyMap} keymap
+   * @param {() => void} changed called when a key was rebound
+   */
+  constructor(row, keys, keymap, changed) {
+    this.#keys = keys;
+    this.#keymap = keymap;
+    this.#changed = changed;
+    const button = element("button", {
+      type: "button",
+      className: "ai4u-round-button",
+      textContent: "?",
+      ariaLabel: "Help",
+      title: "Help (?)",
+    });
+    button.addEventListener("click", () => this.open());
+    row.prepend(button); // the line beside it changes its length
+    this.#build();
+    // asked at each key: a dialog's close event comes too late
+    keys.isSuspended = () => document.querySelector("dialog:modal") !== null;
+    document.body.append(this.#dialog);
+    addEventListener("keydown", (event) => this.#openOnQuestionMark(event), { capture: true });
+  }
+
+  /** @param {string} goal of the scene */
+  setGoal(goal) {
+    if (this.#goal.textContent !== goal) this.#goal.textContent = goal;
+  }
+
+  open() {
+    if (this.#dialog.open) return;
+    this.#keys.releaseAll();
+    this.#status.textContent = "";
+    this.#graphics.hidden = !isDrawnBySoftware();
+    this.#tone.checked = isToneOn();
+    this.#listKeys();
+    this.#dialog.showModal(); // traps the focus, and restores it on closing
+  }
+
+  /** Redraw the list of keys after the agent or its keys have changed. */
+  refresh() {
+    if (this.#dialog.open) this.#listKeys();
+  }
+
+  #build() {
+    const title = element("h2", { id: "ai4u-help", textContent: "Help" });
+    const close = element("button", {
+      type: "button",
+      className: "ai4u-round-button",
+      textContent: "✕",
+      ariaLabel: "Close",
+    });
+    close.addEventListener("click", () => this.#dialog.close());
+    this.#reset.addEventListener("click", () => {
+      this.#keymap.reset();
+      this.#setStatus("Keys reset to the defaults.");
+    });
+    const share = element("button", { type: "button", className: "ai4u-plain", textContent: "Copy link" });
+    const shared = element("p", { className: "ai4u-shared", role: "status" });
+    share.addEventListener("click", async () => (shared.textContent = await copyLink()));
+    const descriptions = Object.entries(PAGE_PARTS).flatMap(([name, text]) => [
+      element("dt", { textContent: name }),
+      element("dd", { textContent: text }),
+    ]);
+    this.#dialog.setAttribute("aria-labelledby", title.id);
+    this.#dialog.append(
+      element("header", {}, title, close),
+      element("h3", { textContent: "The goal" }),
+      this.#goal,
+      element("h3", { textContent: "Share this scene" }),
+      element("p", { textContent: "The link holds the whole scene and its seed. Nothing is uploaded." }),
+      share,
+      element("a", { href: "./start", className: "ai4u-plain", textContent: "All scenes and lessons" }),
+      shared,
+      element("h3", { textContent: "Keys" }),
+      element("p", { textContent: "To change one, click it and press another key." }),
+      this.#list,
+      this.#status,
+      this.#reset,
+      element("p", { textContent: START_TEXT }),
+      element("p", { textContent: GAMEPAD_TEXT }),
+      element("h3", { textContent: "On this page" }),
+      element("dl", {}, ...descriptions),
+      element("label", {}, this.#tone, " Play a short tone when you reach the goal"),
+      this.#graphics,
+    );
+    this.#tone.addEventListener("change", () => setTone(this.#tone.checked));
+    this.#dialog.addEventListener("keydown", (event) => this.#rebind(event), { capture: true });
+    // else viser moves its camera
+    this.#dialog.addEventListener("keydown", (event) => event.stopPropagation());
+    this.#dialog.addEventListener("click", (event) => event.target === this.#dialog && this.#dialog.close());
+    this.#dialog.addEventListener("close", () => (this.#actionToRebind = null));
+  }
+
+  #listKeys() {
+    this.#reset.hidden = !this.#keymap.isChanged;
+    const focused = document.activeElement?.dataset?.action;
+    const rows = Object.entries(this.#keymap.keys).map(([action, codes]) => {
+      const isRebinding = this.#actionToRebind === action;
+      const printed = codes.map(label).join(" or ") || "no key";
+      const name = this.#keymap.name(action);
+      const button = element("button", {
+        type: "button",
+        className: "ai4u-binding",
+        textContent: isRebinding ? "Press a key …" : printed,
+        ariaLabel: isRebinding ? `${name}: press a key` : `${name}: ${printed}. Change`,
+        ariaPressed: String(isRebinding),
+      });
+      button.dataset.action = action;
+      button.addEventListener("click", () => this.#startRebinding(isRebinding ? null : action));
+      return element("div", {}, element("span", { textContent: name }), button);
+    });
+    this.#list.replaceChildren(...rows);
+    if (focused) this.#list.querySelector(`[data-action="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  #startRebinding(action) {
+    this.#actionToRebind = action;
+    this.#status.textContent = "";
+    this.#listKeys();
+  }
+
+  /** Take the key pressed after a click on an action as its new key. */
+  #rebind(event) {
+    const action = this.#actionToRebind;
+    if (action === null || event.code === "Tab" || event.isComposing) return;
+    event.preventDefault(); // Escape would close the dialog, Space and Enter press the button
+    event.stopPropagation();
+    if (event.repeat || ["Control", "Alt", "Meta"].includes(event.key)) return;
+    this.#actionToRebind = null;
+    this.#setStatus(event.code === "Escape" ? "" : this.#keymap.change(action, event.code));
+  }
+
+  #setStatus(text) {
+    this.#status.textContent = text;
+    this.#changed();
+    this.#listKeys();
+  }
+
+  #openOnQuestionMark(event) {
+    // the character, not the key's position: its position depends on the keyboard layout
+    const isQuestionMark = event.key === "?" && !event.ctrlKey && !event.metaKey && !event.altKey;
+    if (!isQuestionMark || event.repeat || isTextInput(event.target)) return;
+    event.stopPropagation();
+    event.preventDefault();
+    if (!this.#dialog.open) this.open();
+  }
+}

@@ -1,0 +1,217 @@
+/** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
+
+import "../panel/shortcuts.js"; // the first one: its listener comes before the one that drives
+import { Banners } from "./banners.js";
+import { ClassBar } from "../classroom/student/bar.js";
+import { noteHandout } from "../classroom/student/handout.js";
+import { showLeft } from "../classroom/student/overlay.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { element } from "../shared/dom.js";
+import { dpadActions } from "./dpad.js";
+import { DriverStatus } from "./driver_status.js";
+import { keysReachPage, watchFocus } from "./focus.js";
+import { Gamepads } from "./gamepad.js";
+import { Help } from "./help.js";
+import { KeyMap, RESERVED_CODE } from "./keymap.js";
+import { HeldKeys } from "./keys.js";
+import { Keycaps } from "./keycaps.js";
+import { label, loadLayout } from "./labels.js";
+import { trackCanvasEdges } from "./canvas_edges.js";
+import { watchSharedScene } from "../scenes/share.js";
+import { KEYS, PROGRAM, Results } from "./results.js";
+import { JsonSocket } from "../shared/socket.js";
+import { playTone } from "../shared/tone.js";
+
+/** Code of the key for a new start, unless the agent or the person uses it for something else. */
+const NEW_START_CODE = "KeyN";
+/** Time without a connection (ms) after which the page says so; another world takes less. */
+const LOST_MS = 3000;
+/** What a world waits for while a teacher holds it. */
+const HELD = "teacher";
+
+const HAS_PANEL = "ai4uPanel" in document.documentElement.dataset;
+
+const query = new URLSearchParams(location.search);
+const agent = query.get("agent");
+
+let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick: false, others: "", instead: "" };
+let control = { driver: null, pages: 1 };
+let state = null;
+let connected = false;
+/** True once the connection has been gone for {@link LOST_MS}. */
+let isLost = false;
+let lostTimer = 0;
+let hasActed = false;
+
+// A cookie, because viser's WebSocket address lacks the query. Set again on focus, when viser reconnects:
+// another page may have changed it.
+const setAgentCookie = () => (document.cookie = `ai4u_edu_agent=${encodeURIComponent(agent ?? "")}; SameSite=Strict`);
+setAgentCookie();
+addEventListener("focus", setAgentCookie);
+
+const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
+const keymap = new KeyMap();
+const keys = new HeldKeys(() => {
+  if (!isHeld()) socket.send({ type: "keys", held: keys.held, stick: keys.stick });
+  draw();
+});
+const row = element("div", { className: "ai4u-row" });
+const dock = element("section", { className: "ai4u-dock", ariaLabel: "Drive" });
+document.body.append(dock);
+const keycaps = new Keycaps(dock, keys, keymap);
+dock.append(row);
+const take = () => socket.send({ type: "take" });
+const letGo = () => {
+  keys.releaseAll();
+  socket.send({ type: "let_go" });
+};
+const driverStatus = new DriverStatus(row, take, letGo);
+/** The bar of a class; null where there is none. */
+let classBar = null;
+/** The panel; null where the server has none. */
+let panel = null;
+const gamepads = new Gamepads(keys);
+const help = new Help(row, keys, keymap, arrange);
+const results = new Results(playTone);
+const banners = new Banners((name) => socket.send({ type: "command", name }));
+
+keys.onpress = () => (hasActed = true);
+keys.onotherpress = ({ code, key }) => {
+  const isForHelp = key === "?" || key === "Shift";
+  if (!canDrive() || RESERVED_CODE.test(code) || isForHelp) return false;
+  if (code === NEW_START_CODE) socket.send({ type: "command", name: "new_start" });
+  else if (state?.waiting && !hello.others) socket.send({ type: "start" });
+  else return false;
+  hasActed = true;
+  return true;
+};
+watchFocus(draw);
+
+socket.onopen = () => {
+  connected = true;
+  clearTimeout(lostTimer);
+  lostTimer = 0;
+  isLost = false;
+  draw();
+};
+socket.onclose = (reason) => {
+  connected = false;
+  state = null;
+  keys.releaseAll();
+  lostTimer ||= setTimeout(() => {
+    isLost = true;
+    draw();
+  }, LOST_MS);
+  if (reason && roomOfPage()) showLeft(reason);
+  else banners.setConnectionError(reason);
+  draw();
+};
+socket.onworldreplaced = () => {
+  if (panel) panel.program = null;
+  hasActed = false;
+  socket.path = `ws/input?after_another&agent=${encodeURIComponent(hello.agent ?? "")}`;
+};
+socket.onmessage = (message) => {
+  switch (message.type) {
+    case "hello":
+      hello = message;
+      arrange();
+      break;
+    case "seat":
+      if (control.driver === hello.you && message.driver !== hello.you) keys.releaseAll();
+      control = message;
+      break;
+    case "state":
+      if ((message.paused && !state?.paused) || (message.waiting === HELD && !isHeld())) keys.releaseAll();
+      state = message;
+      break;
+    case "class":
+      classBar ??= new ClassBar(draw);
+      classBar.show(message);
+      noteHandout(message.program);
+      break;
+    case "error":
+      banners.showRequestError(message.text);
+      break;
+  }
+  draw();
+};
+
+/** Apply the agent's key bindings to the keyboard, the screen's keys, gamepads and the help. */
+function arrange() {
+  keymap.arrange(hello.keys, hello.captions);
+  keys.bind(keymap.sentCodes);
+  keycaps.arrange(hello.keys, hello.stick);
+  gamepads.bind(hello.keys, hello.stick);
+  help.refresh();
+  draw();
+}
+
+function draw() {
+  const isMine = control.driver === hello.you;
+  const { held } = keys;
+  keycaps.draw(!isHeld() && (isMine || held.length) ? held : (state?.held ?? []));
+  const isWaiting = state?.waiting === "key";
+  const isReached = dock.hasAttribute("data-touch") || keysReachPage();
+  const named = { ...control, name: classBar?.nameOf(control.seat) };
+  const status = { connected, hello: panel?.named(hello) ?? hello, control: named, howToDrive: howToDrive(), isPaused: Boolean(state?.paused), isWaiting, isHeld: isHeld(), isReached };
+  driverStatus.draw(status);
+  panel?.drawDriver(status);
+  help.setGoal(state?.goal || "This scene has none: look around.");
+  const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
+  const scene = panel?.part("scene");
+  const task = HAS_PANEL && !scene ? "" : scene?.key || state?.title;
+  const result = results.of(connected ? state : null, task, task ? driverOfEpisode(isDriven) : "");
+  const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : "";
+  panel?.drawBest(driver && results.best(task, driver), driver === PROGRAM);
+  banners.draw(connected ? state : null, {
+    restart: label(keymap.keys.restart?.[0] ?? ""),
+    name: isDriven ? "" : hello.name,
+    isNew: !hasActed,
+    isLost,
+    result,
+    howToStart: canDrive() ? howToDrive() : "",
+    held: isHeld() ? (classBar?.heldText ?? "Your teacher has stopped this world") : "",
+  });
+}
+
+/** Return who drives the present episode, for its time; empty for networks, scripts and tests. */
+function driverOfEpisode(isDriven) {
+  const { agent, episode, isTest } = panel?.program ?? {};
+  const isPrograms = agent === hello.agent && episode === state?.agent_episode;
+  if (isPrograms) return isTest ? "" : PROGRAM;
+  return isDriven ? KEYS : "";
+}
+
+/** Return true while a teacher holds the world, or a race counts down. */
+function isHeld() {
+  return state?.waiting === HELD;
+}
+
+/** Return true if this page's keys drive its agent, or would if pressed. */
+function canDrive() {
+  return !isHeld() && Object.keys(hello.keys).length > 0 && (control.driver === null || control.driver === hello.you);
+}
+
+/** Return what a person does to start driving, in words. */
+function howToDrive() {
+  if (dock.hasAttribute("data-touch")) return hello.stick ? "push the stick" : "tap a key";
+  if (!hello.others) return "press a key";
+  const first = [...dpadActions(hello.keys).values(), ...Object.keys(hello.keys)][0];
+  return `press ${label(keymap.keys[first]?.[0] ?? "")}`;
+}
+
+// a notebook keeps its frame hidden until this message
+if (window.parent !== window) window.parent.postMessage("ai4u-edu", "*");
+
+draw();
+loadLayout().then(arrange);
+socket.open();
+trackCanvasEdges();
+watchSharedScene();
+if (HAS_PANEL) {
+  const { startPanel } = await import("../panel/panel.js");
+  panel = startPanel({ agent, take, letGo }, dock);
+  panel.addEventListener("part:scene", draw);
+  draw();
+}

@@ -1,0 +1,38 @@
+/**
+ * The page's random id. The panel's socket and viser's both carry it, so that the server knows which picture
+ * belongs to which panel.
+ *
+ * The page has a panel where the server says so (data-panel).
+ * A classic script, not a module, because it must run before viser starts: viser's client connects to the
+ * address in the query parameter "websocket", which is there until it has connected.
+ */
+(() => {
+  const PARAMETER = "websocket";
+  const CHECK_PERIOD_MS = 1000;
+  /** Checks after which the parameter stays where it is. */
+  const MAX_CHECKS = 30;
+  const url = new URL(location.href);
+  // viser writes the address anew, without what stands after its "#"; scenes/share.js looks here first
+  document.documentElement.dataset.ai4uFragment = url.hash;
+  if (!("panel" in document.currentScript.dataset)) return;
+
+  // crypto.randomUUID is missing on pages without HTTPS
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  const id = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+  window.ai4uPageId = id;
+  document.documentElement.dataset.ai4uPanel = "open"; // styles/panel/layout.css makes room for it
+  url.searchParams.set(PARAMETER, `${location.origin.replace(/^http/, "ws")}${location.pathname}?page=${id}`);
+  history.replaceState(history.state, "", url);
+
+  // viser's canvas is there after viser has read the parameter, and viser may write it again
+  let checks = 0;
+  const timer = setInterval(() => {
+    const now = new URL(location.href);
+    if (now.searchParams.has(PARAMETER) && document.querySelector("canvas")) {
+      now.searchParams.delete(PARAMETER);
+      history.replaceState(history.state, "", now);
+    }
+    checks += 1;
+    if (checks === MAX_CHECKS) clearInterval(timer);
+  }, CHECK_PERIOD_MS);
+})();

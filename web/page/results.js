@@ -1,0 +1,76 @@
+/** A person's results: the time of an episode that reached the goal, and the best times in this browser. */
+
+import { recall, remember } from "../shared/storage.js";
+
+const WINS = ["goal", "won"];
+/** Drivers whose times are kept apart. */
+export const KEYS = "keys";
+export const PROGRAM = "program";
+/** Kinds of a time, compared with the best one before. */
+export const FIRST = "first";
+export const BEST = "best";
+export const SLOWER = "slower";
+
+export class Results {
+  #episode = "";
+  #result = null;
+  #onwin;
+
+  /** @param {() => void} onwin called once for each episode that a person won */
+  constructor(onwin) {
+    this.#onwin = onwin;
+  }
+
+  /**
+   * Return the result of the episode that has just ended, or null.
+   *
+   * @param state the server's last state message; null while disconnected
+   * @param {string} task what is driven, such as the scene's name
+   * @param {string} by KEYS or PROGRAM for who drives; empty for others, whose results are not kept
+   * @returns {?{seconds: number, best: number, kind: string, by: string}}
+   */
+  of(state, task, by) {
+    if (!state?.outcome || state.past) {
+      if (state && !state.past) this.#episode = "";
+      return null;
+    }
+    const episode = `${state.title} ${state.episode}`;
+    if (episode !== this.#episode) {
+      this.#episode = episode;
+      this.#result = by && WINS.includes(state.outcome) ? this.#record(state.seconds, task, by) : null;
+    }
+    return this.#result;
+  }
+
+  /** Return the best time (s) of a driver; null if there is none. */
+  best(task, by) {
+    return timesOf(task)[by] ?? null;
+  }
+
+  #record(seconds, task, by) {
+    const times = timesOf(task);
+    const before = times[by];
+    const isBetter = before === undefined || seconds < before;
+    if (isBetter) remember("best-times", { ...recall("best-times", {}), [task]: { ...times, [by]: seconds } });
+    this.#onwin();
+    const kind = before === undefined ? FIRST : isBetter ? BEST : SLOWER;
+    return { seconds, best: isBetter ? seconds : before, kind, by };
+  }
+}
+
+/** Return the best times for a task by driver. Earlier versions kept one number, of whoever drove. */
+function timesOf(task) {
+  const times = recall("best-times", {})[task];
+  return typeof times === "object" ? times : {};
+}
+
+/** Return a result as the end of a sentence: " in 2.3 s, your best". */
+export function timeText({ seconds, best, kind, by }) {
+  const [time, whose] = [` in ${format(seconds)} s`, by === PROGRAM ? "your program's best" : "your best"];
+  if (kind === BEST) return `${time}, ${whose}`;
+  return kind === SLOWER ? `${time} (${whose}: ${format(best)} s)` : time;
+}
+
+function format(seconds) {
+  return seconds.toLocaleString(undefined, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+}

@@ -1,0 +1,45 @@
+/** The gallery of blocks that can be added, grouped by the question that each answers. */
+
+import { element } from "../../shared/dom.js";
+import { tile, tiles } from "../widgets/parts.js";
+import { picture } from "./pictures.js";
+
+/**
+ * Open the gallery.
+ * @param panel the panel
+ * @param options.title of the dialog, such as "Add a sensor"
+ * @param options.kind "sensors", "actuators", "rewards" or "brains"
+ * @param options.parent path of the list that gets the block; left out for the agent's own
+ */
+export async function openGallery(panel, { title, kind, parent = [kind] }) {
+  const content = element("div", { className: "ai4u-gallery" }, element("p", { textContent: "Loading …" }));
+  const dialog = panel.dialog(title, content);
+  const answer = await panel.send("gallery", { kind }, { quiet: true });
+  if (!answer.ok) {
+    content.replaceChildren(element("p", { className: "ai4u-problem", role: "alert", textContent: answer.text }));
+    return;
+  }
+  const add = async (type) => {
+    dialog.close();
+    const added = await panel.send("add_block", { class: type, parent });
+    if (added.ok && added.path) panel.show({ block: added.path });
+  };
+  content.replaceChildren(...groups(answer.items, add));
+  content.querySelector("button")?.focus();
+}
+
+function groups(items, add) {
+  const byQuestion = new Map();
+  for (const item of items) byQuestion.set(item.question, [...(byQuestion.get(item.question) ?? []), item]);
+  return [...byQuestion].flatMap(([question, group]) => [
+    element("h3", { textContent: question }),
+    tiles(...group.map((item) => blockTile(item, () => add(item.class)))),
+  ]);
+}
+
+function blockTile(item, onClick) {
+  const made = tile({ title: item.title, text: item.summary, reason: item.reason }, onClick);
+  made.prepend(picture(item.picture));
+  made.append(element("code", { className: "ai4u-details-only", textContent: item.class }));
+  return made;
+}

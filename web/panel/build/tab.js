@@ -1,0 +1,94 @@
+/** The tab "Build": the blocks of the shown agent, its driver and its settings. */
+
+import { button, element } from "../../shared/dom.js";
+import { updateCards } from "./block_card.js";
+import { Form } from "../widgets/form.js";
+import { openGallery } from "./gallery.js";
+import { choice, section } from "../widgets/parts.js";
+
+const KINDS = {
+  sensors: { title: "Sensors", one: "Sensor", add: "Add a sensor", none: "It notices nothing yet." },
+  actuators: { title: "Actuators", one: "Actuator", add: "Add an actuator", none: "It can't do anything yet." },
+  rewards: { title: "Rewards", one: "Reward", add: "Add a reward", none: "It gets no reward yet." },
+  brains: { title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
+};
+/** How long after a change the drivers are listed again (ms). */
+const DRIVERS_DELAY_MS = 300;
+
+export class BuildTab {
+  #panel;
+  #driver;
+  #drivers = [];
+  #driversKey = "";
+  #shownDriver = "";
+  #timer = 0;
+  #lists = new Map();
+  #settings;
+
+  constructor(root, panel) {
+    this.#panel = panel;
+    this.#driver = choice("Driven by", (name) => this.#setDriver(name));
+    root.append(this.#driver.element);
+    for (const [kind, words] of Object.entries(KINDS)) {
+      const cards = element("div", { className: "ai4u-card-list" });
+      const none = element("p", { className: "ai4u-hint-text", textContent: words.none });
+      const add = button(words.one, () => this.#openGallery(kind), { icon: "add", label: words.add, kind: "quiet" });
+      const { detailsOnly = false } = words;
+      root.append(section(`build-${kind}`, words.title, { detailsOnly }, cards, none, add));
+      this.#lists.set(kind, { cards, none });
+    }
+    this.#settings = new Form({
+      onChange: (values) => panel.send("change_agent", { values }),
+    });
+    root.append(section("build-settings", "Agent's settings", { isOpen: false }, this.#settings.element));
+  }
+
+  /** @param part as "blocks" in the protocol */
+  update(part) {
+    this.#followDrivers(part);
+    for (const [kind, { cards, none }] of this.#lists) {
+      const blocks = part.kinds?.[kind] ?? [];
+      updateCards(this.#panel, cards, blocks, part.form);
+      none.hidden = blocks.length > 0;
+    }
+    this.#settings.update(part.settings ?? []);
+  }
+
+  /** Ask for the drivers again if others may be able to drive now: each is tried, which takes a while. */
+  #followDrivers({ agent, driver, kinds }) {
+    this.#showDrivers(driver);
+    const classes = (blocks) => blocks.map((block) => [block.class, block.is_on, classes(block.children ?? [])]);
+    const key = JSON.stringify([agent, driver, Object.values(kinds ?? {}).map(classes)]);
+    if (key === this.#driversKey) return;
+    this.#driversKey = key;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#fetchDrivers(), DRIVERS_DELAY_MS);
+  }
+
+  async #fetchDrivers() {
+    const answer = await this.#panel.send("drivers", {}, { quiet: true });
+    if (!answer.ok) return;
+    this.#drivers = answer.items;
+    this.#showDrivers(this.#shownDriver);
+  }
+
+  #showDrivers(driver) {
+    const options = this.#drivers.map(({ name, title, reason = "" }) => ({ value: name, text: title, reason }));
+    if (!this.#drivers.some(({ name }) => name === driver)) {
+      const text = this.#drivers.length ? "Somebody else" : "…";
+      options.unshift({ value: driver ?? "", text, reason: "" });
+    }
+    this.#shownDriver = driver ?? "";
+    this.#driver.set(options, this.#shownDriver);
+  }
+
+  async #setDriver(name) {
+    const before = this.#shownDriver;
+    const answer = await this.#panel.send("driver", { name });
+    if (!answer.ok) this.#showDrivers(before);
+  }
+
+  #openGallery(kind) {
+    openGallery(this.#panel, { title: KINDS[kind].add, kind });
+  }
+}

@@ -1,0 +1,21 @@
+/** Python code that drives the shown agent from a notebook or a script, with a button to copy it. */
+
+import { button, element, setText } from "../../shared/dom.js";
+import { copyText } from "../run.js";
+
+export class PythonLines {
+  #code = element("code");
+  element;
+
+  constructor(panel) {
+    const copy = button("Copy", () => copyText(panel, this.#code.textContent, "Copied. Paste it into a notebook or a script."), {
+      icon: "copy",
+    });
+    this.element = element("div", { className: "ai4u-python" }, element("pre", { tabIndex: 0 }, this.#code), copy);
+  }
+
+  /** @param {string[] | string} lines */
+  update(lines) {
+    setText(this.#code, Array.isArray(lines) ? lines.join("\n") : lines);
+  }
+}

@@ -1,0 +1,66 @@
+/** The rewards of an agent: each term's last and summed reward, and the curve of the episode. */
+
+import { element, keyed, setText } from "../../shared/dom.js";
+import { Curve } from "../widgets/curve.js";
+import { number } from "../../shared/numbers.js";
+
+
+export class RewardTable {
+  #help = element("p", { className: "ai4u-soft" });
+  #rows = element("tbody");
+  #total = element("tr", {}, element("th", { scope: "row", textContent: "Sum" }), element("td"), element("td"));
+  #latest = element("ol", { className: "ai4u-soft ai4u-details-only", ariaLabel: "Latest rewards" });
+  #curve = new Curve("The score during the episode");
+  element;
+
+  constructor() {
+    const heads = ["Reward", "Last decision", "Episode"].map((text) => element("th", { scope: "col", textContent: text }));
+    const table = element(
+      "table",
+      { className: "ai4u-table" },
+      element("thead", {}, element("tr", {}, ...heads)),
+      this.#rows,
+      element("tfoot", {}, this.#total),
+    );
+    this.#curve.element.classList.add("ai4u-details-only");
+    this.element = element("div", {}, this.#help, table, this.#latest, this.#curve.element);
+  }
+
+  setHelp(text) {
+    setText(this.#help, text);
+    this.#help.hidden = !text;
+  }
+
+  /**
+   * @param terms [{term, decision, episode}]
+   * @param latest [{decision, terms: [{term, amount}]}] decisions that had a reward, newest first
+   */
+  update(terms, latest) {
+    keyed(this.#rows, terms, ({ term }) => term, makeRow, (row, { term, decision, episode }) => {
+      fill(row, term, decision, episode);
+    });
+    const sum = (name) => terms.reduce((total, each) => total + (each[name] ?? 0), 0);
+    fill(this.#total, "Sum", sum("decision"), sum("episode"));
+    this.#total.hidden = terms.length < 2;
+    keyed(this.#latest, latest, ({ decision }) => decision, () => element("li"), (item, { decision, terms: its }) => {
+      const amounts = its.map(({ term, amount }) => `${term} ${number(amount)}`);
+      setText(item, `Decision ${decision}: ${amounts.join(", ")}`);
+    });
+  }
+
+  /** @param points [decision, its reward, the sum so far] of each decision, oldest first */
+  drawCurve(points) {
+    this.#curve.update(points.map(([, , sum]) => sum));
+  }
+}
+
+function makeRow() {
+  return element("tr", {}, element("th", { scope: "row" }), element("td"), element("td"));
+}
+
+function fill(row, name, decision, episode) {
+  const [head, last, all] = row.children;
+  setText(head, name);
+  setText(last, number(decision));
+  setText(all, number(episode));
+}

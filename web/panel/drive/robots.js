@@ -1,0 +1,54 @@
+/** All robots of the world, and the script that drives one of them. */
+
+import { element, keyed, setText } from "../../shared/dom.js";
+import { number } from "../../shared/numbers.js";
+
+const HEADS = ["Robot", "Decisions", "Score", "State"];
+/** Names of a script's counts. */
+const COUNTS = {
+  decisions: "actions carried out",
+  missing: "decisions without an action in time",
+  ignored: "messages that were no answer",
+  refused: "actions that could not be carried out",
+  clipped: "numbers out of range, cut",
+  warnings: "replies without effect, or with parts that had none",
+};
+
+/** A table of the robots, with what each of them has done in its episode. */
+export class RobotTable {
+  #rows = element("tbody");
+  element = element(
+    "table",
+    { className: "ai4u-table" },
+    element("thead", {}, element("tr", {}, ...HEADS.map((text) => element("th", { scope: "col", textContent: text })))),
+    this.#rows,
+  );
+
+  /** @param robots [{id, title, colour, decision, score, state}] */
+  update(robots) {
+    keyed(this.#rows, robots, ({ id }) => id, makeRow, (row, { title, colour, decision, score, state }) => {
+      const [head, ...cells] = row.children;
+      head.firstChild.style.background = colour;
+      setText(head.lastChild, title);
+      [String(decision), number(score), state].forEach((text, index) => setText(cells[index], text));
+    });
+  }
+}
+
+function makeRow() {
+  const head = element("th", { scope: "row" }, element("i", { ariaHidden: "true" }), element("span"));
+  return element("tr", {}, head, ...HEADS.slice(1).map(() => element("td")));
+}
+
+/** Return the state of a script in words: {state, reason, warning, counts}, or null if there is no script. */
+export function scriptWords(script) {
+  if (!script) return "";
+  const counts = Object.entries(script.counts).map(([name, count]) => `${count} ${COUNTS[name] ?? name}`);
+  return [`Script: ${script.state}`, script.reason, ...counts].filter(Boolean).join(" · ");
+}
+
+/** Return what a script sends that has no effect, or why it is lost: also said to who has no interest in its counts. */
+export function scriptWarning(script) {
+  if (!script) return "";
+  return script.warning || (script.state === "lost" ? script.reason : "");
+}

@@ -1,0 +1,192 @@
+/** The Drive tab: who drives, what the agent senses, what it does and what it gets for it. */
+
+import { DriverStatus } from "../../page/driver_status.js";
+import { button, element, keyed, setText } from "../../shared/dom.js";
+import { Bars } from "../widgets/bars.js";
+import { Elsewhere } from "../why/elsewhere.js";
+import { Maps } from "../why/maps.js";
+import { number } from "../../shared/numbers.js";
+import { choice, section } from "../widgets/parts.js";
+import { PythonLines } from "./python.js";
+import { RewardTable } from "./rewards.js";
+import { RobotTable, scriptWarning, scriptWords } from "./robots.js";
+import { SensorView } from "./sensor.js";
+import { Training } from "./training.js";
+import { Why } from "../why/why.js";
+
+export class DriveTab {
+  #panel;
+  #agents;
+  #driver;
+  #driverRow = element("div", { className: "ai4u-driver-row" });
+  #brain = element("p", { className: "ai4u-soft ai4u-details-only" });
+  #script = element("p", { className: "ai4u-soft ai4u-details-only" });
+  #scriptWarning = element("p", { className: "ai4u-problem", role: "alert" });
+  #robots = new RobotTable();
+  #state = element("p", { className: "ai4u-agent-state" });
+  #driveThis = button("Drive this one", () => this.#driveShown());
+  #needs = new Bars();
+  #sensors = element("div", { className: "ai4u-sensors" });
+  #legend = element("ul", { className: "ai4u-legend", ariaLabel: "Colours" });
+  #action = new Bars();
+  #phases = element("p", { className: "ai4u-soft" });
+  #rewards = new RewardTable();
+  #training = new Training();
+  #python;
+  #why;
+  #maps;
+  #elsewhere;
+  #latest = null;
+  #howTo = element("p");
+  #sections;
+  #root;
+
+  constructor(root, panel) {
+    this.#root = root;
+    this.#panel = panel;
+    this.#python = new PythonLines(panel);
+    this.#maps = new Maps(panel);
+    this.#elsewhere = new Elsewhere(panel);
+    this.#why = new Why(panel, () => this.#latest && this.#drawSensors(this.#latest));
+    this.#agents = choice("Robot", (agent) => panel.show({ agent }));
+    this.#agents.element.hidden = true;
+    this.#driver = new DriverStatus(this.#driverRow, () => panel.driving.take(), () => panel.driving.letGo());
+    // the dock says the same to screen readers
+    this.#driverRow.querySelector("[role=status]").removeAttribute("role");
+    this.#sections = {
+      python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
+      training: section("training", "Training", {}, this.#training.element),
+      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#scriptWarning, this.#brain, this.#script, this.#howTo),
+      robots: section("robots", "All robots", { isOpen: false, detailsOnly: true }, this.#robots.element),
+      needs: section("needs", "Needs", {}, this.#needs.element),
+      sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
+      why: section("why", "Because of what", {}, this.#why.element),
+      maps: section("maps", "What it would do elsewhere", {}, this.#maps.element, this.#elsewhere.element),
+      rewards: section("rewards", "Rewards", {}, this.#rewards.element),
+      action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
+    };
+    const { training, driver, robots, needs, why, maps, sensors, rewards, action, python } = this.#sections;
+    root.append(this.#agents.element, training, driver, needs, why, maps, sensors, rewards, action, robots, python);
+    panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
+    panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
+    panel.addEventListener("agent", () => this.#drawShown());
+    panel.addEventListener("part:curve", ({ detail }) => this.#rewards.drawCurve(detail.points));
+    panel.addEventListener("part:python", ({ detail }) => this.#drawPython(detail));
+    panel.addEventListener("part:training", ({ detail }) => this.#drawTraining(detail));
+    this.#sections.python.hidden = true;
+    this.#sections.training.hidden = true;
+    if (panel.part("training")) this.#drawTraining(panel.part("training"));
+    if (panel.part("python")) this.#drawPython(panel.part("python"));
+    if (panel.part("curve")) this.#rewards.drawCurve(panel.part("curve").points);
+    if (panel.part("scene")) this.#drawScene(panel.part("scene"));
+    if (panel.driver) this.#drawDriver(panel.driver);
+  }
+
+  update(agent) {
+    setText(this.#brain, agent.brain ? `Brain: ${agent.brain}` : "");
+    const state = [agent.problem, agent.state, agent.clipped ? `${agent.clipped} numbers out of range, cut` : ""];
+    setText(this.#state, state.filter(Boolean).join(" · "));
+    this.#needs.update((agent.needs ?? []).map(needRow));
+    this.#sections.needs.hidden = !agent.needs?.length;
+    this.#latest = agent;
+    this.#drawSensors(agent);
+    this.#sections.sensors.hidden = agent.sensors.length === 0;
+    this.#action.update((agent.action ?? []).map(actionRow));
+    setText(this.#phases, phaseWords(agent.phases));
+    this.#rewards.update(agent.rewards ?? [], agent.paid ?? []);
+    setText(this.#script, scriptWords(agent.script));
+    setText(this.#scriptWarning, scriptWarning(agent.script));
+    this.#robots.update(agent.others ?? []);
+    this.#sections.robots.hidden = !agent.others?.length;
+  }
+
+  #drawSensors(agent) {
+    keyed(
+      this.#sensors,
+      agent.sensors,
+      ({ key, class: type }) => `${key} ${type}`,
+      (sensor) => new SensorView(this.#panel, sensor).element,
+      (made, sensor) => made.view.update(sensor, this.#why.of(agent.id, sensor.key)),
+    );
+  }
+
+  #drawTraining(training) {
+    this.#sections.training.hidden = false;
+    this.#training.update(training);
+  }
+
+  #drawPython({ lines, is_first: isWanted = false }) {
+    const { python: part } = this.#sections;
+    part.hidden = !lines;
+    if (!lines) return;
+    this.#python.update(lines);
+    // who asked for it has a script in mind: then it is the first thing, in Simple too
+    const isFirst = isWanted || new URLSearchParams(location.search).has("python");
+    part.classList.toggle("ai4u-details-only", !isFirst);
+    const isAtTop = this.#root.firstElementChild === part;
+    if (isFirst && !isAtTop) {
+      this.#root.prepend(part);
+      part.open = true;
+    } else if (!isFirst && isAtTop) this.#root.append(part);
+  }
+
+  #drawScene(scene) {
+    const agents = scene.agents.map(({ id, title, driver }) => ({ value: id, text: driver ? `${title} · ${driver}` : title }));
+    this.#agents.element.hidden = agents.length < 2;
+    this.#agents.set(agents, this.#panel.shown.agent);
+    setText(this.#howTo, scene.controls ?? "");
+    this.#howTo.hidden = !scene.controls;
+    this.#rewards.setHelp(scene.rewards ?? "");
+    const isPerson = Boolean(scene.agents.find(({ id }) => id === this.#panel.shown.agent)?.is_person);
+    this.#sections.why.hidden = this.#sections.maps.hidden = isPerson; // only who decides by the percept can be asked
+    keyed(
+      this.#legend,
+      scene.legend ?? [],
+      ({ name }) => name,
+      () => element("li", {}, element("i", { ariaHidden: "true" }), element("span")),
+      (item, { name, colour }) => {
+        item.firstChild.style.background = colour;
+        setText(item.lastChild, name);
+      },
+    );
+  }
+
+  #drawDriver(status) {
+    const isDriven = status.hello.agent === this.#panel.shown.agent || !status.hello.agent;
+    this.#driverRow.hidden = !isDriven;
+    this.#driveThis.hidden = isDriven;
+    this.#driver.draw(status);
+  }
+
+  /** Follow the page to another agent: one that was chosen here or clicked in the picture. */
+  #drawShown() {
+    if (this.#panel.part("scene")) this.#drawScene(this.#panel.part("scene"));
+    if (this.#panel.driver) this.#drawDriver(this.#panel.driver);
+  }
+
+  /** Load the page for the shown agent: the keys of one page belong to one agent. */
+  #driveShown() {
+    const query = new URLSearchParams(location.search);
+    query.set("agent", this.#panel.shown.agent);
+    query.delete("websocket");
+    location.search = query;
+  }
+}
+
+function needRow({ name, level, low, high, comfort, state }) {
+  const text = `${Math.round((100 * (level - low)) / (high - low || 1))} %${state ? ` – too ${state}` : ""}`;
+  return { name, value: level, low, high, good: comfort, text };
+}
+
+function actionRow({ actuator, title, name, value, low, high, has_effect: hasEffect = true }) {
+  const words = (name || title || actuator).replaceAll("_", " ");
+  return { name: hasEffect ? words : `${words} (no effect)`, value, low, high };
+}
+
+function phaseWords(phases) {
+  if (!phases) return "";
+  const { all_ticks: ticks, tick, now, seconds } = phases;
+  const length = `A decision lasts ${ticks} ${ticks === 1 ? "tick" : "ticks"} (${number(seconds)} s)`;
+  const words = { sense: "it senses", act: `it acts, tick ${tick} of ${ticks}`, reward: "it gets its reward" };
+  return `${length}: sense, decide, act, reward.${now ? ` Now ${words[now] ?? now}.` : ""}`;
+}

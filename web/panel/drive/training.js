@@ -1,0 +1,27 @@
+/** The progress of a training whose policy drives: decisions so far, and the learning curve. */
+
+import { element, setText } from "../../shared/dom.js";
+import { Curve } from "../widgets/curve.js";
+import { number } from "../../shared/numbers.js";
+
+export class Training {
+  #text = element("p", { role: "status" });
+  #bar = element("progress", { max: 1, ariaLabel: "Training" });
+  #curve = new Curve("Mean reward of an episode during the training");
+  #last = element("p", { className: "ai4u-soft" });
+  element = element("div", {}, this.#text, this.#bar, this.#curve.element, this.#last);
+
+  /** @param training {text, is_over, share, points: [decisions, reward, success or null][]} */
+  update({ text, is_over: isOver, share, points }) {
+    setText(this.#text, text);
+    this.#bar.value = share;
+    this.#bar.hidden = isOver;
+    this.#curve.update(points.map(([, reward]) => reward));
+    const [, reward, success] = points.at(-1) ?? [0, null, null];
+    const parts = [
+      reward === null ? "" : `Mean reward ${number(reward)}`,
+      success === null ? "" : `reaches the goal in ${Math.round(100 * success)}% of episodes`,
+    ];
+    setText(this.#last, parts.filter(Boolean).join(", "));
+  }
+}

@@ -1,0 +1,115 @@
+/**
+ * Where the panel stands: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
+ *
+ * It sets data-ai4u-layout (side, below, sheet) and data-ai4u-panel (open, folded) of the document's root, and
+ * the CSS variables --ai4u-panel-size and --ai4u-dock-height; styles/panel/panel.css does the rest.
+ */
+
+import { element, setAttributes } from "../shared/dom.js";
+import { recall, remember } from "../shared/storage.js";
+
+const PHONE = matchMedia("(max-width: 576px)");
+/** A phone on its side: the panel stands beside the canvas, but folded at first. */
+const LOW = matchMedia("(max-height: 500px)");
+const UPRIGHT = matchMedia("(orientation: portrait) and (max-width: 1000px)");
+/** Smallest, largest and usual size: width beside the canvas (px), height below it (share of the window, %). */
+const SIZES = { side: [280, 560, 340], below: [25, 70, 42] };
+/** What an arrow key on the handle adds. */
+const STEPS = { side: 20, below: 5 };
+
+export class Layout {
+  #root = document.documentElement;
+  #onFold;
+  #kind = "side";
+  handle = element("div", { className: "ai4u-resize", tabIndex: 0 });
+
+  /** @param onFold called with true when the panel is folded, and with false when it is opened */
+  constructor(onFold) {
+    this.#onFold = onFold;
+    setAttributes(this.handle, { role: "separator", "aria-label": "Size of the panel" });
+    this.handle.addEventListener("pointerdown", (event) => this.#startDrag(event));
+    this.handle.addEventListener("pointermove", (event) => this.#drag(event));
+    this.handle.addEventListener("keydown", (event) => this.#onKey(event));
+    this.handle.addEventListener("dblclick", () => this.#resize(SIZES[this.#kind]?.[2]));
+    for (const query of [PHONE, LOW, UPRIGHT]) query.addEventListener("change", () => this.arrange());
+  }
+
+  get isFolded() {
+    return this.#root.dataset.ai4uPanel === "folded";
+  }
+
+  fold(isFolded) {
+    remember(this.#foldKey, isFolded);
+    this.#showFold(isFolded);
+  }
+
+  /** Choose the place that fits the window. */
+  arrange() {
+    this.#kind = PHONE.matches ? "sheet" : UPRIGHT.matches ? "below" : "side";
+    this.#root.dataset.ai4uLayout = this.#kind;
+    this.handle.hidden = this.#kind === "sheet";
+    this.#showSize(recall(`panel-size-${this.#kind}`, SIZES[this.#kind]?.[2]));
+    this.#showFold(recall(this.#foldKey, this.#isSmall));
+  }
+
+  /** Keep the height of the keys on the screen, above which a sheet stands. */
+  observeDock(dock) {
+    const update = () => this.#root.style.setProperty("--ai4u-dock-height", `${dock.offsetHeight}px`);
+    new ResizeObserver(update).observe(dock);
+  }
+
+  get #isSmall() {
+    return PHONE.matches || LOW.matches;
+  }
+
+  get #foldKey() {
+    return this.#isSmall ? "panel-folded-small" : "panel-folded";
+  }
+
+  #showFold(isFolded) {
+    this.#root.dataset.ai4uPanel = isFolded ? "folded" : "open";
+    this.#onFold(isFolded);
+  }
+
+  #showSize(size) {
+    if (size === undefined) return;
+    const [min, max] = SIZES[this.#kind];
+    const unit = this.#kind === "side" ? "px" : "dvh";
+    this.#root.style.setProperty("--ai4u-panel-size", `${size}${unit}`);
+    setAttributes(this.handle, {
+      "aria-orientation": this.#kind === "side" ? "vertical" : "horizontal",
+      "aria-valuemin": min,
+      "aria-valuemax": max,
+      "aria-valuenow": Math.round(size),
+    });
+  }
+
+  #resize(size) {
+    if (!(this.#kind in SIZES)) return;
+    const [min, max] = SIZES[this.#kind];
+    const within = Math.max(min, Math.min(max, size));
+    this.#showSize(within);
+    remember(`panel-size-${this.#kind}`, within);
+  }
+
+  #startDrag(event) {
+    if (event.button !== 0) return;
+    event.preventDefault(); // else the drag selects text
+    this.handle.setPointerCapture(event.pointerId);
+  }
+
+  #drag(event) {
+    if (!this.handle.hasPointerCapture(event.pointerId)) return;
+    if (this.#kind === "side") this.#resize(innerWidth - event.clientX);
+    else this.#resize((100 * (innerHeight - event.clientY)) / innerHeight);
+  }
+
+  #onKey(event) {
+    const bigger = this.#kind === "side" ? "ArrowLeft" : "ArrowUp";
+    const smaller = this.#kind === "side" ? "ArrowRight" : "ArrowDown";
+    if (event.key !== bigger && event.key !== smaller) return;
+    event.preventDefault();
+    const step = STEPS[this.#kind] * (event.key === bigger ? 1 : -1);
+    this.#resize(Number(this.handle.getAttribute("aria-valuenow")) + step);
+  }
+}

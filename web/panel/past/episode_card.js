@@ -1,0 +1,96 @@
+/** A finished episode as a card: a click chooses and shows it. */
+
+import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { Card } from "../widgets/card.js";
+import { fact } from "../widgets/parts.js";
+
+/** How long "Copied" stands on a button (ms). */
+const COPIED_MS = 1500;
+
+export class EpisodeCard {
+  #panel;
+  #episode = null;
+  #card;
+  #facts = { driver: fact("Driver"), steps: fact("Steps"), seed: fact("Seed") };
+  #copy = button("Copy", () => this.#copySeed(), { icon: "copy", kind: "quiet", label: "Copy the seed" });
+  #downloads = element("div", { className: "ai4u-tools", role: "group", ariaLabel: "Download" });
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#card = new Card({ onToggle: (isOpen) => this.#choose(isOpen) });
+    const { driver, steps, seed } = this.#facts;
+    seed.element.append(this.#copy);
+    const list = element("dl", { className: "ai4u-episode-facts" }, driver.element, steps.element, seed.element);
+    this.#card.body.append(list, this.#downloads);
+  }
+
+  get element() {
+    return this.#card.element;
+  }
+
+  /** @param downloads of the chosen episode: [{format, url}] */
+  update(episode, isOpen, downloads = []) {
+    this.#episode = episode;
+    const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;
+    const reads = [resultOf(episode), `reward ${shortNumber(reward)}`, `${seconds.toFixed(1)} s`].filter(Boolean);
+    this.#card.update({
+      icon: episode.is_person ? "person" : "network",
+      title: `Episode ${number} · ${scene}`,
+      reads: reads.join(" · "),
+      isOpen,
+      mark: isBest ? "★ best" : "",
+    });
+    setAttributes(this.#card.element, { "aria-current": isOpen ? "true" : null });
+    const label = `${isPinned ? "Unpin" : "Pin"} episode ${number}`;
+    this.#card.actions([{ icon: "pin", label, onClick: () => panelPin(this.#panel, number, !isPinned) }]);
+    setAttributes(this.#card.element, { "data-pinned": Boolean(isPinned) });
+    if (!isOpen) return;
+    this.#facts.driver.set(episode.driver);
+    this.#facts.steps.set(String(decisions));
+    setText(this.#facts.seed.element.querySelector("dd"), String(episode.seed));
+    this.#showDownloads(downloads);
+  }
+
+  async #choose(isOpen) {
+    const { number } = this.#episode;
+    this.#panel.show({ episode: isOpen ? number : null });
+    if (!isOpen) return;
+    const answer = await this.#panel.send("episode", { number }, { quiet: true });
+    if (answer.ok) this.#panel.send("step", { step: 0 }, { quiet: true });
+    else this.#panel.notice(answer.text, "error");
+  }
+
+  #showDownloads(downloads) {
+    keyed(
+      this.#downloads,
+      downloads,
+      ({ url }) => url,
+      ({ title, url }) => element("a", { className: "ai4u-link", href: url, download: "", textContent: title }),
+    );
+    this.#downloads.hidden = downloads.length === 0;
+  }
+
+  async #copySeed() {
+    try {
+      await navigator.clipboard.writeText(String(this.#episode.seed));
+      setText(this.#copy.querySelector("span"), "Copied");
+      setTimeout(() => setText(this.#copy.querySelector("span"), "Copy"), COPIED_MS);
+    } catch {
+      // not allowed in this frame: the seed can be selected and copied by hand
+      getSelection()?.selectAllChildren(this.#facts.seed.element.querySelector("dd"));
+    }
+  }
+}
+
+function panelPin(panel, number, on) {
+  panel.send("pin", { number, on }, { quiet: true });
+}
+
+function resultOf({ result }) {
+  return result === null ? "" : result ? "goal reached" : "goal missed";
+}
+
+/** Return a number with at most two decimals. */
+export function shortNumber(value) {
+  return String(Math.round(Number(value ?? 0) * 100) / 100);
+}

@@ -1,0 +1,64 @@
+/** What the chosen episode was rewarded for: each term over time, and the decisions that paid most. */
+
+import { button, element } from "../../shared/dom.js";
+import { Curve } from "../widgets/curve.js";
+import { section } from "../widgets/parts.js";
+
+export class PaidTerms {
+  #panel;
+  /** Number of the chosen episode; null if there is none. */
+  #number = null;
+  #asked = 0;
+  #terms = element("div");
+  #hint = element("p", { className: "ai4u-soft", textContent: "Each line is the sum so far, from the first decision to the last one." });
+  #moments = element("ol", { className: "ai4u-paid-moments", ariaLabel: "Decisions that paid most" });
+  #none = element("p", { className: "ai4u-hint-text", textContent: "Nothing was paid in this episode." });
+  element;
+
+  constructor(panel) {
+    this.#panel = panel;
+    const body = element("div", { className: "ai4u-maps" }, this.#none, this.#terms, this.#hint, this.#moments);
+    this.element = section("paid", "What paid in this episode", { isOpen: false }, body);
+    this.element.hidden = true;
+    this.element.addEventListener("toggle", () => this.#ask());
+  }
+
+  /** @param chosen number of the chosen episode; null if there is none */
+  update(chosen) {
+    const isOther = chosen !== this.#number;
+    this.#number = chosen;
+    this.element.hidden = chosen === null;
+    if (isOther) this.#ask();
+  }
+
+  async #ask() {
+    const asked = (this.#asked += 1);
+    if (!this.element.open || this.#number === null) return;
+    const answer = await this.#panel.send("paid", {}, { quiet: true });
+    if (answer.ok && asked === this.#asked) this.#show(answer);
+  }
+
+  #show({ terms, moments }) {
+    this.#none.hidden = terms.length > 0;
+    this.#hint.hidden = !terms.length;
+    this.#terms.replaceChildren(...terms.map(termElement));
+    this.#moments.replaceChildren(...moments.map((moment) => element("li", {}, this.#momentButton(moment))));
+  }
+
+  #momentButton({ step, terms }) {
+    const amounts = terms.map(({ term, amount }) => `${term} ${paid(amount)}`).join(", ");
+    return button(`Step ${step + 1}: ${amounts}`, () => this.#panel.send("step", { step }, { quiet: true }), { icon: "forward" });
+  }
+}
+
+/** Return an amount, also a small one, with three digits that matter. */
+function paid(amount) {
+  return String(Number(amount.toPrecision(3))).replace("-", "−");
+}
+
+function termElement({ term, total, curve }) {
+  const line = new Curve(`The sum of ${term} during the episode`);
+  line.update(curve);
+  const head = element("p", {}, element("b", { textContent: term }), ` ${paid(total)}`);
+  return element("div", {}, head, line.element);
+}

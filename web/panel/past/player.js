@@ -1,0 +1,90 @@
+/** The player of an episode: one number for the moment that is shown, and what can be done from there. */
+
+import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { segments } from "../widgets/parts.js";
+
+const SPEEDS = [0.25, 0.5, 1, 2, 4];
+
+export class Player {
+  #panel;
+  #playing = null;
+  #isShowing = false;
+  #title = element("strong");
+  #moment = element("output", { className: "ai4u-moment" });
+  #slider = element("input", { type: "range", min: 0, step: 1, ariaLabel: "Step" });
+  #play;
+  #back;
+  #forward;
+  #speeds;
+  #live;
+  #proceed;
+  #race;
+  #noGhost;
+  #note = element("p", { className: "ai4u-hint-text", role: "status" });
+  element;
+
+  constructor(panel) {
+    this.#panel = panel;
+    const send = (command, args = {}) => panel.send(command, args, { quiet: true });
+    const goToSlider = () => send("step", { step: Number(this.#slider.value) });
+    this.#slider.addEventListener("input", goToSlider);
+    // a click where the slider stands already changes nothing, and yet the person wants to see it
+    this.#slider.addEventListener("click", () => this.#isShowing || goToSlider());
+    this.#back = button("", () => this.#step(-1), { icon: "back", label: "Step back" });
+    this.#play = button("Play", () => send(this.#playing?.is_playing ? "stop" : "play"), { icon: "play", kind: "main" });
+    this.#forward = button("", () => this.#step(1), { icon: "forward", label: "Step forward" });
+    this.#speeds = segments(
+      "Speed",
+      SPEEDS.map((speed) => ({ value: String(speed), text: `${speed}x`, title: `Speed ${speed}` })),
+      (speed) => send("play_speed", { speed: Number(speed) }),
+    );
+    this.#live = button("Back to live", () => panel.send("back_to_live"), { icon: "live", kind: "main" });
+    this.#proceed = button("Continue here", () => panel.send("continue"), { icon: "proceed" });
+    this.#race = button("Race against it", () => panel.send("race"), { icon: "race" });
+    this.#noGhost = button("Remove ghost", () => panel.send("remove_ghost"), { icon: "remove" });
+    this.element = element(
+      "div",
+      { className: "ai4u-player", role: "group", ariaLabel: "Player" },
+      element("div", { className: "ai4u-player-head" }, this.#title, this.#moment),
+      this.#slider,
+      element("div", { className: "ai4u-tools" }, this.#back, this.#play, this.#forward, this.#speeds.element),
+      element("div", { className: "ai4u-tools" }, this.#live, this.#proceed, this.#race, this.#noGhost),
+      this.#note,
+    );
+  }
+
+  update({ playing = null, is_showing: isShowing = false, ghost = "", problem = "" }) {
+    this.#playing = playing;
+    this.#isShowing = isShowing;
+    this.element.hidden = !playing && !ghost && !problem;
+    this.#noGhost.hidden = !ghost;
+    setText(this.#note, [problem, ghost].filter(Boolean).join(" "));
+    const parts = [this.#title, this.#moment, this.#slider, this.#back, this.#play, this.#forward, this.#proceed, this.#race];
+    for (const each of [...parts, this.#speeds.element]) each.hidden = !playing;
+    // in its place from the start: else it would push the others away when a step is shown
+    this.#live.hidden = !playing && !isShowing;
+    this.#live.disabled = !isShowing;
+    if (playing) this.#show(playing);
+  }
+
+  #show({ number, scene, is_here: isHere, step, steps, is_playing: isPlaying, speed }) {
+    // as in the banner over the picture: steps count from 1, and the end comes after the last one
+    const text = step < steps ? `Step ${step + 1} of ${steps}` : `The end, after ${steps} steps`;
+    setText(this.#title, number ? `Showing episode ${number}${isHere ? "" : ` · ${scene}`}` : "Current episode");
+    setText(this.#moment, text);
+    setAttributes(this.#slider, { max: steps, "aria-valuetext": text });
+    if (document.activeElement !== this.#slider || isPlaying) this.#slider.value = String(step);
+    this.#back.disabled = step <= 0;
+    this.#forward.disabled = step >= steps;
+    setText(this.#play.querySelector("span"), isPlaying ? "Stop" : "Play");
+    setAttributes(this.#play, { "data-playing": Boolean(isPlaying) });
+    this.#speeds.set(String(speed));
+    this.#race.hidden = !number;
+  }
+
+  #step(by) {
+    const { step, steps } = this.#playing;
+    const wanted = Math.min(Math.max(step + by, 0), steps);
+    this.#panel.send("step", { step: wanted }, { quiet: true });
+  }
+}

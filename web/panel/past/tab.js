@@ -1,0 +1,108 @@
+/** The tab "Past": finished episodes, and the player of the chosen one. */
+
+import { button, element, keyed } from "../../shared/dom.js";
+import { Comparison } from "./compare.js";
+import { EpisodeCard } from "./episode_card.js";
+import { PaidTerms } from "./paid.js";
+import { section } from "../widgets/parts.js";
+import { Player } from "./player.js";
+import { fileButton } from "../world/scene_files.js";
+
+/** Number that stands for the episode that is still running. */
+const RUNNING_EPISODE = 0;
+/** Largest recording that is sent (bytes). */
+const MAX_RECORDING_BYTES = 20_000_000;
+
+export class PastTab {
+  #panel;
+  #player;
+  #comparison;
+  #paid;
+  #cards = new Map();
+  #groups;
+  /** True until the running episode's frames are there, which are shown then. */
+  #wantsRunning = false;
+  #none = element("p", { className: "ai4u-hint-text", textContent: "Finished episodes appear here." });
+
+  constructor(root, panel) {
+    this.#panel = panel;
+    this.#player = new Player(panel);
+    this.#comparison = new Comparison(panel);
+    this.#paid = new PaidTerms(panel);
+    const current = button("Current episode", () => this.#showRunning(), { icon: "clock" });
+    const open = fileButton("Open a recording", ".episode", (file) => this.#open(file));
+    this.#groups = [
+      group("past-pinned", "Pinned", (episode) => episode.is_pinned),
+      group("past-person", "Your drives", (episode) => isRecordedHere(episode) && episode.is_person),
+      group("past-program", "Networks and programs", (episode) => isRecordedHere(episode) && !episode.is_person),
+      group("past-files", "Opened recordings", (episode) => !episode.is_pinned && episode.source),
+      group("past-others", "In other scenes", isOfOtherScene, { isOpen: false }),
+    ];
+    const tools = element("div", { className: "ai4u-tools" }, current, open);
+    root.append(this.#player.element, this.#paid.element, this.#comparison.element, tools, this.#none, ...this.#groups.map((each) => each.element));
+  }
+
+  /** @param part as "past" in the protocol */
+  update(part) {
+    this.#player.update(part);
+    this.#paid.update(part.playing?.number ?? null);
+    this.#comparison.update(part.playing?.is_here ? part.playing.number : null);
+    if (this.#wantsRunning && part.playing?.number === RUNNING_EPISODE) {
+      this.#wantsRunning = false;
+      this.#panel.send("step", { step: part.playing.step }, { quiet: true });
+    }
+    const episodes = [...(part.episodes ?? [])].sort((a, b) => b.number - a.number);
+    const numbers = new Set(episodes.map(({ number }) => number));
+    for (const number of [...this.#cards.keys()]) if (!numbers.has(number)) this.#cards.delete(number);
+    this.#none.hidden = episodes.length > 0;
+    for (const { element: details, list, isIn } of this.#groups) {
+      const inside = episodes.filter(isIn);
+      details.hidden = inside.length === 0;
+      keyed(
+        list,
+        inside,
+        ({ number }) => number,
+        ({ number }) => this.#card(number).element,
+        (_, episode) => this.#update(episode, part),
+      );
+    }
+  }
+
+  #card(number) {
+    if (!this.#cards.has(number)) this.#cards.set(number, new EpisodeCard(this.#panel));
+    return this.#cards.get(number);
+  }
+
+  #update(episode, part) {
+    const chosen = this.#panel.shown.episode ?? part.playing?.number ?? null;
+    this.#card(episode.number).update(episode, chosen === episode.number, part.downloads);
+  }
+
+  #showRunning() {
+    this.#panel.show({ episode: null });
+    this.#wantsRunning = true;
+    this.#panel.send("episode", { number: RUNNING_EPISODE }, { quiet: true });
+  }
+
+  async #open(file) {
+    if (file.size > MAX_RECORDING_BYTES) {
+      this.#panel.notice(`${file.name}: expected a recording (.episode), got ${file.size} bytes.`, "error");
+      return;
+    }
+    const answer = await this.#panel.sendFile("open_recording", file);
+    if (answer.ok && answer.number) this.#panel.show({ episode: answer.number });
+  }
+}
+
+function group(key, title, isIn, options = {}) {
+  const list = element("div", { className: "ai4u-card-list" });
+  return { element: section(key, title, options, list), list, isIn };
+}
+
+function isRecordedHere({ is_pinned: isPinned, is_here: isHere, source }) {
+  return !isPinned && isHere && !source;
+}
+
+function isOfOtherScene({ is_pinned: isPinned, is_here: isHere, source }) {
+  return !isPinned && !isHere && !source;
+}

@@ -1,0 +1,172 @@
+/** The run of the world: goal, time, score, stages, and the buttons to pause and start again. */
+
+import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
+import { fact, freeId, toggle } from "./widgets/parts.js";
+import { number, seconds } from "../shared/numbers.js";
+
+/** Most characters of a goal, as a scene's file takes. */
+const MAX_GOAL_CHARS = 2000;
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, "max"];
+
+export class RunControls {
+  #panel;
+  #isPaused = false;
+  #goalText = element("span");
+  #goal = element("p", { className: "ai4u-goal-text" }, this.#goalText);
+  #facts = { time: fact("Time"), score: fact("Score"), best: fact("Best") };
+  #stages = element("ol", { className: "ai4u-stages", ariaLabel: "Stages" });
+  /** For screen readers: the banner over the picture says it, too, and a line that comes would move the buttons. */
+  #result = element("p", { className: "ai4u-hidden-text", role: "status" });
+  #problem = element("p", { className: "ai4u-run-problem", role: "alert" });
+  #status = element("p", { className: "ai4u-soft ai4u-details-only ai4u-run-status" });
+  #change = button("", () => this.#changeGoal(), { icon: "text", label: "Change the goal", kind: "quiet" });
+  #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }), { kind: "main" });
+  #speed = element("select", { id: freeId() });
+  #seed = element("input", { type: "text", inputMode: "numeric", id: freeId(), autocomplete: "off" });
+  #lock;
+  element;
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#goal.append(this.#change);
+    this.#goalText.addEventListener("click", () => this.#change.hidden || this.#changeGoal());
+    this.drawBest(null);
+    const quietly = (command) => panel.send(command, {}, { quiet: true });
+    const again = button("Try again", () => quietly("try_again"), { title: "Begin an episode with the same start" });
+    const fresh = button("New start", () => quietly("new_start"), { title: "Begin an episode with a new start" });
+    const facts = element("dl", { className: "ai4u-facts" }, ...Object.values(this.#facts).map((each) => each.element));
+    this.element = element(
+      "section",
+      { className: "ai4u-run", ariaLabel: "Run" },
+      this.#goal,
+      facts,
+      element("div", { className: "ai4u-buttons" }, this.#pause, again, fresh),
+      this.#stages,
+      this.#details(),
+      this.#status,
+      this.#result,
+      this.#problem,
+    );
+    panel.addEventListener("part:run", ({ detail }) => this.#draw(detail));
+    panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
+  }
+
+  #details() {
+    const panel = this.#panel;
+    const tick = button("Tick", () => panel.send("tick", {}, { quiet: true }), { title: "Pause, and run one tick of the physics" });
+    const decision = button("Decision", () => panel.send("decision", {}, { quiet: true }), { title: "Pause, and run to the agent's next decision" });
+    const options = SPEEDS.map((speed) => element("option", { value: speed, textContent: speed === "max" ? "maximum" : `${speed}x` }));
+    this.#speed.append(...options);
+    this.#speed.addEventListener("change", () => {
+      panel.send("speed", { speed: this.#speed.value === "max" ? "max" : Number(this.#speed.value) }, { quiet: true });
+    });
+    this.#seed.addEventListener("change", () => this.#setSeed());
+    this.#lock = toggle("Lock", (on) => panel.send("lock_seed", { on }), { title: "Begin each episode with this seed" });
+    const copy = button("", () => this.#copySeed(), { icon: "copy", label: "Copy the seed", kind: "quiet" });
+    return element(
+      "div",
+      { className: "ai4u-run-details ai4u-details-only" },
+      tick,
+      decision,
+      element("div", { className: "ai4u-inline" }, element("label", { htmlFor: this.#speed.id, textContent: "Speed" }), this.#speed),
+      element(
+        "div",
+        { className: "ai4u-inline ai4u-seed" },
+        element("label", { htmlFor: this.#seed.id, textContent: "Seed" }),
+        this.#seed,
+        this.#lock.element,
+        copy,
+      ),
+    );
+  }
+
+  /** Show the best time (s) of whoever drives, the person or the program; nothing for null or "". */
+  drawBest(time, isPrograms) {
+    const { best } = this.#facts;
+    best.element.hidden = typeof time !== "number";
+    if (best.element.hidden) return;
+    setText(best.element.firstChild, isPrograms ? "Best (code)" : "Best");
+    best.set(seconds(time));
+  }
+
+  #draw(run) {
+    this.#isPaused = run.is_paused;
+    setText(this.#pause.querySelector("span"), run.is_paused ? "Resume" : "Pause");
+    this.#facts.time.set(seconds(run.time_s));
+    this.#facts.score.set(number(run.score));
+    setText(this.#result, run.result ? (run.result_text ?? run.result) : "");
+    setAttributes(this.#result, { "data-result": run.result || null });
+    setText(this.#problem, run.error || "");
+    const place = `Episode ${run.episode}, decision ${run.decision}`;
+    setText(this.#status, [place, run.status, run.slow, run.stall].filter(Boolean).join(" · "));
+    this.#drawStages(run.stages);
+    const speed = String(run.speed);
+    if (![...this.#speed.options].some(({ value }) => value === speed)) {
+      this.#speed.append(element("option", { value: speed, textContent: `${speed}x` }));
+    }
+    if (document.activeElement !== this.#speed) this.#speed.value = speed;
+    if (document.activeElement !== this.#seed) this.#seed.value = run.seed;
+    this.#lock.set(run.is_seed_locked);
+  }
+
+  #drawScene(scene) {
+    setText(this.#goalText, scene.goal);
+    this.#change.hidden = !scene.can_edit_goal;
+    this.#goal.hidden = !scene.goal && !scene.can_edit_goal;
+    if (scene.stages?.length) this.#drawStages(scene.stages);
+  }
+
+  /** @param stages [{title, is_done, is_now}] or texts */
+  #drawStages(stages) {
+    if (!stages) return;
+    this.#stages.hidden = stages.length === 0;
+    keyed(
+      this.#stages,
+      stages.map((each, index) => ({ index, ...(typeof each === "string" ? { title: each } : each) })),
+      ({ index }) => index,
+      () => element("li"),
+      (item, { title, is_done: isDone, is_now: isNow }) => {
+        setText(item, title);
+        setAttributes(item, { "data-done": Boolean(isDone), "aria-current": isNow ? "step" : null });
+      },
+    );
+  }
+
+  /** Ask the person for another goal, in words. */
+  #changeGoal() {
+    const text = element("textarea", { rows: 3, maxLength: MAX_GOAL_CHARS, id: freeId(), value: this.#goalText.textContent });
+    const problem = element("p", { className: "ai4u-problem", role: "alert" });
+    const save = async () => {
+      const answer = await this.#panel.send("change_settings", { values: { goal: text.value.trim() } });
+      if (answer.ok) return close();
+      setText(problem, answer.problems.map((each) => each.text).join(" ") || answer.text);
+    };
+    const label = element("label", { htmlFor: text.id, textContent: "What is to be done, in a sentence" });
+    const { close } = this.#panel.dialog("Goal", label, text, problem, button("Save", save, { kind: "main" }));
+    text.focus();
+  }
+
+  async #setSeed() {
+    const seed = this.#seed.value.trim();
+    if (seed === this.#panel.part("run")?.seed) return;
+    if (!/^\d{1,40}$/.test(seed)) {
+      this.#panel.notice(`Seed: expected a whole number such as 42, got "${seed.slice(0, 40)}".`, "error");
+      return;
+    }
+    await this.#panel.send("seed", { seed });
+  }
+
+  async #copySeed() {
+    await copyText(this.#panel, this.#seed.value, "Seed copied.");
+  }
+}
+
+/** Copy a text, and say so; where the browser forbids it, say what to do. */
+export async function copyText(panel, text, done) {
+  try {
+    await navigator.clipboard.writeText(text);
+    panel.notice(done);
+  } catch {
+    panel.notice("The browser doesn't let this page copy. Select the text and press Ctrl+C.", "error");
+  }
+}

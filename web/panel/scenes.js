@@ -1,0 +1,82 @@
+/** The scene's title, as a button that opens the scene picker. */
+
+import { syncStars } from "../classroom/student/stars.js";
+import { button, element, setAttributes, setText } from "../shared/dom.js";
+import { icon } from "../shared/icons.js";
+import { freeId, tile, tiles } from "./widgets/parts.js";
+import { ask } from "../shared/question.js";
+import { unsavedSentence } from "../scenes/api.js";
+import { scenePicture } from "../scenes/picture.js";
+import { starRow, starsOf } from "../scenes/stars.js";
+
+const [MINE, OTHERS] = ["My scenes", "More scenes"];
+/** Headings in their order: the scenes' levels, and those without one. */
+const GROUPS = [MINE, "Easy", "Medium", "Hard", OTHERS];
+
+export class ScenePicker {
+  #panel;
+  #title = element("span", { textContent: "…" });
+  element;
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.element = button("", () => this.open(), { kind: "quiet" });
+    this.element.classList.add("ai4u-scene-button");
+    this.element.append(this.#title, icon("down", 14));
+    setAttributes(this.element, { "aria-haspopup": "dialog" });
+    panel.addEventListener("part:scene", ({ detail }) => {
+      setText(this.#title, detail.title || document.title);
+      this.element.disabled = !detail.can_edit;
+      setAttributes(this.element, { title: detail.can_edit ? `${detail.title}: choose another scene` : detail.title });
+    });
+  }
+
+  /** Show all scenes as cards. */
+  async open() {
+    const window_ = this.#panel.dialog("Choose a scene", element("p", { textContent: "Loading …" }));
+    const [answer] = await Promise.all([this.#panel.send("scenes", {}, { quiet: true }), syncStars()]);
+    if (!answer.ok) {
+      window_.body.replaceChildren(element("p", { role: "alert", textContent: answer.text }));
+      return;
+    }
+    const groups = new Map(GROUPS.map((title) => [title, []]));
+    for (const scene of answer.items) groups.get(groupOf(scene)).push(scene);
+    const filled = [...groups].filter(([, scenes]) => scenes.length);
+    const sections = filled.map(([title, scenes]) =>
+      element(
+        "section",
+        { ariaLabel: title },
+        element("h3", { textContent: title }),
+        tiles(...scenes.map((scene) => this.#tile(scene, window_.close))),
+      ),
+    );
+    window_.body.replaceChildren(...sections);
+  }
+
+  #tile(scene, close) {
+    const { title, goal, minutes, picture } = scene;
+    const note = minutes ? `about ${minutes} min` : "";
+    const made = tile({ title, text: goal, note }, async () => {
+      close();
+      await this.#load(scene);
+    });
+    if (scene.stars) made.append(starRow(starsOf(scene.name), scene.stars).element);
+    for (const each of made.children) each.id = freeId();
+    const [name, ...facts] = [...made.children].map(({ id }) => id);
+    // so that the name does not begin with the text of the picture
+    setAttributes(made, { "aria-labelledby": name, "aria-describedby": facts.join(" ") || null });
+    made.prepend(scenePicture(picture, title));
+    return made;
+  }
+
+  async #load({ name, title, is_saved: isSaved = false }) {
+    const text = await unsavedSentence();
+    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    await this.#panel.send("open_scene", { name, is_saved: isSaved });
+  }
+}
+
+function groupOf({ level = "", is_saved: isSaved }) {
+  const title = level.slice(0, 1).toUpperCase() + level.slice(1);
+  return isSaved ? MINE : GROUPS.includes(title) ? title : OTHERS;
+}

@@ -1,0 +1,77 @@
+/** Shortcuts for changing the world: undo and redo anywhere; delete, copy and nudge for the chosen thing. */
+
+import { isTextInput } from "../page/keys.js";
+
+/** How far an arrow key moves a thing if there is no grid, or while Alt is held (m). */
+const FREE_STEP_M = 0.05;
+/** How far an arrow key rotates a thing while Shift is held (degrees). */
+const TURN_STEP_DEG = 15;
+const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+let panel = null;
+
+/** Let the shortcuts work on a panel. */
+export function installShortcuts(itsPanel) {
+  panel = itsPanel;
+}
+
+// When this module is loaded, because it has to come before the listener that drives (page/keys.js): arrow keys
+// may drive, too.
+addEventListener(
+  "keydown",
+  (event) => {
+    if (panel === null || isTextInput(event.target) || event.isComposing) return;
+    if (document.querySelector("dialog[open]")) return;
+    const body = (panel.shown.tabs.includes("world") ? panel.shown.body : null) ?? null;
+    const run = commandOf(event, body);
+    if (run === null) return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    run();
+  },
+  { capture: true },
+);
+
+/** Return what a key does as a function; null if it does nothing here. */
+function commandOf(event, body) {
+  const { key, code } = event;
+  if (event.ctrlKey || event.metaKey) {
+    const letter = key.toLowerCase();
+    if (letter === "z") return () => panel.send(event.shiftKey ? "redo" : "undo");
+    if (letter === "y") return () => panel.send("redo");
+    if (letter === "d" && body !== null) return () => copy(body);
+    return null;
+  }
+  if (body === null) return null;
+  if (key === "Delete" || key === "Backspace") return () => remove(body);
+  if (key === "Escape" && !panel.part("world")?.is_dragging) return () => choose(null);
+  if (code in DIRECTIONS && panel.part("world")?.is_move_mode && !usesArrows(event.target)) return () => nudge(body, event);
+  return null;
+}
+
+function usesArrows(target) {
+  return target instanceof Element && target.matches("[role=tab], [role=slider], input, select");
+}
+
+async function copy(body) {
+  const answer = await panel.send("duplicate_body", { name: body });
+  if (answer.ok && answer.body) choose(answer.body);
+}
+
+async function remove(body) {
+  const answer = await panel.send("remove_body", { name: body });
+  if (answer.ok && panel.shown.body === body) choose(null);
+}
+
+function nudge(body, { code, shiftKey, altKey }) {
+  const [right, up] = DIRECTIONS[code];
+  const step = (!altKey && panel.part("world")?.snap) || FREE_STEP_M;
+  const turn = shiftKey ? -right * TURN_STEP_DEG : 0;
+  const [dx, dy] = shiftKey ? [0, 0] : [right * step, up * step];
+  panel.send("nudge", { name: body, dx, dy, turn_deg: turn }, { quiet: true });
+}
+
+function choose(body) {
+  panel.show({ body });
+  panel.send("select", { body }, { quiet: true });
+}

@@ -1,0 +1,90 @@
+/** The panel's tabs: a tablist with arrow keys, and a panel for each. */
+
+import { element, setAttributes } from "../shared/dom.js";
+import { recall, remember } from "../shared/storage.js";
+
+/** A phone, upright or on its side: what stands above the tabs fills the panel. */
+const SMALL = matchMedia("(max-width: 576px), (max-height: 500px)");
+
+export class Tabs {
+  #tabs = new Map();
+  #list = element("div", { className: "ai4u-tabs", role: "tablist", ariaLabel: "Panel" });
+  #panels = element("div", { className: "ai4u-tabpanels" });
+  #onOpen;
+  #open = null;
+  /** The tab that the person chose, which may be hidden just now. */
+  #wanted;
+
+  /**
+   * @param tabs [[name, title], ...]
+   * @param onOpen called with the name of a tab and its panel when it is opened
+   */
+  constructor(tabs, onOpen) {
+    this.#onOpen = onOpen;
+    for (const [name, title] of tabs) this.#add(name, title);
+    this.#list.addEventListener("keydown", (event) => this.#onKey(event));
+    this.#wanted = recall("panel-tab", tabs[0][0]);
+  }
+
+  get elements() {
+    return [this.#list, this.#panels];
+  }
+
+  /** Name of the open tab; null before `start`. */
+  get open() {
+    return this.#open;
+  }
+
+  start() {
+    this.choose(this.#tabs.has(this.#wanted) ? this.#wanted : this.#visible[0]);
+  }
+
+  /** Hide or show a tab; if the open one is hidden, the first one opens. */
+  setVisible(name, isVisible) {
+    this.#tabs.get(name).tab.hidden = !isVisible;
+    if (this.#open === null) return;
+    const next = this.#visible.includes(this.#wanted) ? this.#wanted : this.#visible[0];
+    if (next !== this.#open) this.choose(next, { isWanted: false });
+  }
+
+  choose(name, { isWanted = true } = {}) {
+    if (isWanted) remember("panel-tab", (this.#wanted = name));
+    if (name === this.#open) return;
+    this.#open = name;
+    for (const [each, { tab, panel }] of this.#tabs) {
+      setAttributes(tab, { "aria-selected": each === name ? "true" : "false", tabindex: each === name ? 0 : -1 });
+      panel.hidden = each !== name;
+    }
+    this.#onOpen(name, this.#tabs.get(name).panel);
+  }
+
+  get #visible() {
+    return [...this.#tabs].filter(([, { tab }]) => !tab.hidden).map(([name]) => name);
+  }
+
+  #add(name, title) {
+    const ids = { tab: `ai4u-tab-${name}`, panel: `ai4u-tabpanel-${name}` };
+    const tab = element("button", { type: "button", role: "tab", id: ids.tab, textContent: title });
+    const panel = element("div", { className: "ai4u-tabpanel", role: "tabpanel", id: ids.panel, hidden: true });
+    setAttributes(tab, { "aria-controls": ids.panel });
+    setAttributes(panel, { "aria-labelledby": ids.tab });
+    tab.addEventListener("click", () => {
+      this.choose(name);
+      if (SMALL.matches) this.#list.scrollIntoView(); // else only a line or two of it would be seen
+    });
+    this.#tabs.set(name, { tab, panel });
+    this.#list.append(tab);
+    this.#panels.append(panel);
+  }
+
+  #onKey(event) {
+    const names = this.#visible;
+    const here = names.indexOf(this.#open);
+    const moves = { ArrowRight: here + 1, ArrowLeft: here - 1, Home: 0, End: names.length - 1 };
+    if (!(event.key in moves)) return;
+    event.preventDefault();
+    const name = names[(moves[event.key] + names.length) % names.length];
+    this.choose(name);
+    this.#tabs.get(name).tab.focus();
+  }
+}

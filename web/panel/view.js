@@ -1,0 +1,39 @@
+/** The picture of the world: where its camera is, the trail, and the dark colours. */
+
+import { element } from "../shared/dom.js";
+import { segments, toggle } from "./widgets/parts.js";
+
+const CAMERAS = [
+  { value: "arena", text: "Arena", title: "See everything from above" },
+  { value: "follow", text: "Follow", title: "Stay above the robot" },
+  { value: "turn", text: "Turn with robot", title: "Stay above the robot and turn with it" },
+  { value: "eyes", text: "Robot's view", title: "See what the robot would see" },
+];
+
+const LESS_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
+
+export class ViewControls {
+  element;
+
+  /** @param {HTMLElement} history the buttons to undo and redo */
+  constructor(panel, history) {
+    const cameras = segments("Camera", CAMERAS, (mode) => panel.send("camera", { mode }, { quiet: true }));
+    cameras.element.classList.add("ai4u-cameras");
+    const trail = toggle("Trail", (on) => panel.send("trail", { on }, { quiet: true }), { title: "Draw the robot's way" });
+    panel.addEventListener("part:view", ({ detail }) => {
+      cameras.set(detail.camera);
+      trail.set(detail.has_trail);
+    });
+    const root = document.documentElement;
+    const dark = toggle("Dark", (on) => {
+      dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // page/dark.js keeps the choice
+      panel.send("dark", { on }, { quiet: true });
+    });
+    const sendMotion = () => panel.send("reduce_motion", { on: LESS_MOTION.matches }, { quiet: true });
+    LESS_MOTION.addEventListener("change", sendMotion);
+    panel.addEventListener("connected", () => LESS_MOTION.matches && sendMotion());
+    dark.set(root.dataset.ai4uScheme === "dark");
+    const switches = element("div", { className: "ai4u-inline" }, trail.element, dark.element, history);
+    this.element = element("section", { className: "ai4u-view", ariaLabel: "Picture" }, cameras.element, switches);
+  }
+}

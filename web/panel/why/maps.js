@@ -1,0 +1,158 @@
+/** Maps over the floor: arrows for what the agent would do at each place, colours for what it is worth. */
+
+import { button, element, setText } from "../../shared/dom.js";
+import { number, seconds } from "../../shared/numbers.js";
+import { choice, toggle } from "../widgets/parts.js";
+
+const AS_NOW = "";
+const TURNS = [
+  { text: "turns left", kind: "left" },
+  { text: "goes straight", kind: "straight" },
+  { text: "turns right", kind: "right" },
+];
+
+export class Maps {
+  #panel;
+  #facing = AS_NOW;
+  #isOn = { field: false, values: false };
+  #switches = {
+    field: toggle("Arrows: what it would do there", (isOn) => this.#turn("field", isOn)),
+    values: toggle("Colours: what each place is worth", (isOn) => this.#turn("values", isOn)),
+  };
+  #faced = choice("It would look", (name) => this.#face(name));
+  #problem = element("p", { className: "ai4u-map-problem", hidden: true });
+  #field = new Progress("Arrows", () => this.#cancel("field"));
+  #values = new Progress("Values", () => this.#cancel("values"));
+  #turns = element("ul", { className: "ai4u-map-turns", ariaLabel: "Arrows" }, ...TURNS.map(turnItem));
+  #low = element("span");
+  #high = element("span");
+  #ramp = element("i", { ariaHidden: "true" });
+  #scale = element("p", { className: "ai4u-map-scale" }, this.#low, this.#ramp, this.#high);
+  #worth = element("p", { className: "ai4u-soft" });
+  #moment = element("p", { className: "ai4u-soft" });
+  #result = element(
+    "div",
+    { className: "ai4u-maps", hidden: true },
+    this.#faced.element,
+    this.#problem,
+    this.#field.element,
+    this.#turns,
+    this.#values.element,
+    this.#scale,
+    this.#worth,
+    this.#moment,
+  );
+  element = element("div", {}, this.#switches.field.element, this.#switches.values.element, this.#result);
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#clear();
+    panel.addEventListener("part:maps", ({ detail }) => this.#draw(detail));
+    panel.addEventListener("agent", () => this.#clear());
+    // a new connection has a new page on the server, which shows nothing yet
+    panel.addEventListener("connected", () => this.#isAnyOn && this.#send());
+  }
+
+  get #isAnyOn() {
+    return this.#isOn.field || this.#isOn.values;
+  }
+
+  #turn(kind, isOn) {
+    this.#isOn[kind] = isOn;
+    this.#clear();
+    this.#send();
+  }
+
+  #cancel(kind) {
+    this.#switches[kind].set(false);
+    this.#switches[kind].element.focus();
+    this.#turn(kind, false);
+  }
+
+  #face(name) {
+    this.#facing = name;
+    this.#clear();
+    this.#send();
+  }
+
+  async #send() {
+    const answer = await this.#panel.send("maps", { ...this.#isOn, facing: this.#facing }, { quiet: true });
+    if (answer.ok) return;
+    this.#isOn = { field: false, values: false };
+    for (const each of Object.values(this.#switches)) each.set(false);
+    this.#clear();
+  }
+
+  /** Show nothing until something is known. */
+  #clear() {
+    this.#result.hidden = !this.#isAnyOn;
+    this.#problem.hidden = true;
+    this.#drawField(null);
+    this.#drawValues(null);
+    setText(this.#moment, "");
+  }
+
+  #draw(part) {
+    if (!this.#isAnyOn || part.agent !== this.#panel.shown.agent) return;
+    this.#problem.hidden = !part.problem;
+    setText(this.#problem, part.problem);
+    // what was chosen stays in the list, also where the next scene has no such thing
+    const names = [...new Set([...part.faced, this.#facing])].filter((name) => name !== AS_NOW);
+    const options = [{ value: AS_NOW, text: "as it looks now" }, ...names.map((value) => ({ value, text: `to: ${value}` }))];
+    this.#faced.element.hidden = names.length === 0;
+    this.#faced.set(options, this.#facing);
+    this.#drawField(part.field);
+    this.#drawValues(part.values);
+    const shown = [part.field, part.values].find((each) => each);
+    setText(this.#moment, shown ? momentWords(shown.seconds) : "");
+  }
+
+  #drawField(field) {
+    const isOn = this.#isOn.field && this.#problem.hidden;
+    this.#field.draw(isOn, field);
+    this.#turns.hidden = !isOn || !field;
+  }
+
+  #drawValues(values) {
+    const isOn = this.#isOn.values && this.#problem.hidden;
+    this.#values.draw(isOn, values);
+    const hasScale = isOn && typeof values?.low === "number";
+    this.#scale.hidden = this.#worth.hidden = !hasScale;
+    if (!hasScale) return;
+    setText(this.#low, number(values.low));
+    setText(this.#high, number(values.high));
+    this.#ramp.style.background = `linear-gradient(to right, ${values.colours.join(", ")})`;
+    setText(this.#worth, `Worth is ${values.words}.`);
+  }
+}
+
+/** The progress of a map, with a button to cancel it; nothing once it is complete. */
+class Progress {
+  #bar;
+  #words = element("span");
+  element;
+
+  constructor(name, onCancel) {
+    this.#bar = element("progress", { ariaLabel: name });
+    const cancel = button("Cancel", onCancel, { kind: "quiet", label: `Cancel: ${name.toLowerCase()}` });
+    this.element = element("div", { className: "ai4u-map-progress", hidden: true }, this.#bar, this.#words, cancel);
+  }
+
+  draw(isOn, told) {
+    this.element.hidden = !isOn || (told && told.done >= told.count);
+    if (this.element.hidden) return;
+    if (told) {
+      this.#bar.max = told.count;
+      this.#bar.value = told.done;
+    } else this.#bar.removeAttribute("value");
+    setText(this.#words, told ? `${told.done} of ${told.count} places` : "It begins");
+  }
+}
+
+function turnItem({ text, kind }) {
+  return element("li", { dataset: { turn: kind } }, element("i", { ariaHidden: "true" }), text);
+}
+
+function momentWords(time) {
+  return `At each place it is put at rest, as if its episode began there; all else stands as it stood at ${seconds(time)}.`;
+}

@@ -1,0 +1,132 @@
+/** "Because of what": how far each slot of the percept moves the action, and the method's limits. */
+
+import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { toggle } from "../widgets/parts.js";
+import { WhatIf } from "./what_if.js";
+
+/** A sentence that changes five times a second can't be read. */
+const SENTENCE_MS = 1000;
+/** A largest share below this fills no bar: else noise would look like a reason. */
+const MIN_SCALE = 0.2;
+
+export class Why {
+  #panel;
+  #onChange;
+  #part = null;
+  #saidAt = -SENTENCE_MS;
+  #later = 0;
+  #switch = toggle("Show because of what", (isOn) => this.#toggle(isOn));
+  #sentence = element("p", { className: "ai4u-why-sentence" });
+  #list = element("ul", { className: "ai4u-why-list", ariaLabel: "Slots that move the action most" });
+  #also = element("p", { className: "ai4u-soft", hidden: true });
+  #limits = element("p", { className: "ai4u-soft" });
+  #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#also, this.#limits);
+  #whatIf;
+  element = element("div", {}, this.#switch.element, this.#result);
+
+  /** @param onChange called when there is another explanation, or none any more */
+  constructor(panel, onChange) {
+    this.#panel = panel;
+    this.#onChange = onChange;
+    this.#whatIf = new WhatIf(panel);
+    this.#result.append(this.#whatIf.element);
+    panel.addEventListener("part:why", ({ detail }) => this.#draw(detail));
+    // a new connection has a new page on the server, which shows nothing yet
+    panel.addEventListener("connected", () => this.isOn && this.#send());
+  }
+
+  get isOn() {
+    return this.#switch.element.getAttribute("aria-checked") === "true";
+  }
+
+  /** Return the slots of a sensor, with `scale`: the share that fills a bar; null if none are shown. */
+  of(agent, key) {
+    const part = this.#part;
+    if (!this.isOn || !part || part.agent !== agent || part.problem) return null;
+    const slots = part.slots.filter((slot) => slot.key === key);
+    const scale = Math.max(MIN_SCALE, ...part.slots.map(({ share }) => share));
+    return slots.length === 0 ? null : { slots, scale };
+  }
+
+  #toggle(isOn) {
+    this.#result.hidden = true;
+    this.#part = null;
+    this.#saidAt = -SENTENCE_MS;
+    clearTimeout(this.#later);
+    this.#whatIf.update(false);
+    this.#send(isOn);
+    this.#onChange();
+  }
+
+  async #send(isOn = this.isOn) {
+    const answer = await this.#panel.send("why", { on: isOn }, { quiet: true });
+    if (!answer.ok) this.#switch.set(false);
+  }
+
+  #say() {
+    if (!this.#part) return;
+    this.#saidAt = performance.now();
+    setText(this.#sentence, this.#part.problem || this.#part.sentence);
+  }
+
+  #draw(part) {
+    if (!this.isOn || part.agent !== this.#panel.shown.agent) return;
+    if (this.#part?.agent !== part.agent || this.#part?.problem !== part.problem) this.#saidAt = -SENTENCE_MS;
+    this.#part = part;
+    this.#result.hidden = false;
+    clearTimeout(this.#later);
+    // the last one has to be said too: in a paused world no other one follows
+    this.#later = setTimeout(() => this.#say(), Math.max(0, this.#saidAt + SENTENCE_MS - performance.now()));
+    const scale = Math.max(MIN_SCALE, ...part.top.map(({ share }) => share));
+    this.#list.hidden = part.top.length === 0;
+    keyed(this.#list, part.top, ({ name }) => name, makeSlot, (item, slot) => drawSlot(item, slot, part.components, scale));
+    this.#whatIf.update(!part.problem);
+    this.#limits.hidden = Boolean(part.problem);
+    setText(this.#also, part.also ?? "");
+    this.#also.hidden = !part.also;
+    setText(this.#limits, [`Compared with ${part.baseline}.`, part.explained, part.limits].filter(Boolean).join(" "));
+    this.#onChange();
+  }
+}
+
+function makeSlot() {
+  return element(
+    "li",
+    {},
+    element("span"),
+    element("div", { className: "ai4u-why-bar", ariaHidden: "true" }, element("i")),
+    element("b"),
+  );
+}
+
+function drawSlot(item, { name, sees, share, shares }, components, scale) {
+  const [label, bar, words] = item.children;
+  const seen = !sees ? "" : ` – ${sees === "nothing" || sees === "something" ? sees : `the ${sees}`}`;
+  setText(label, `${name}${seen}`);
+  bar.firstChild.style.width = `${(100 * Math.min(1, share / scale)).toFixed(1)}%`;
+  const largest = shares.findIndex((each) => Math.abs(each) === share);
+  setText(words, `${components[largest] ?? "action"} ${percent(shares[largest] ?? 0)}`);
+  setAttributes(item, { title: components.map((each, index) => `${each} ${percent(shares[index] ?? 0)}`).join(", ") });
+}
+
+function percent(share) {
+  return `${share < 0 ? "−" : "+"}${Math.round(100 * Math.abs(share))} %`;
+}
+
+/** Cells side by side, or in rows, that are the darker the more a ray matters. */
+export function drawWeights(parent, why, columns) {
+  const slots = why?.slots ?? [];
+  parent.hidden = slots.length === 0;
+  if (parent.hidden) return;
+  parent.style.gridTemplateColumns = `repeat(${columns || slots.length}, 1fr)`;
+  keyed(
+    parent,
+    slots.map((slot, index) => ({ ...slot, index })),
+    ({ index }) => index,
+    () => element("i"),
+    (cell, { name, share }) => {
+      setAttributes(cell, { title: `${name}: moves the action by ${Math.round(100 * share)} %` });
+      cell.style.setProperty("--why", (100 * Math.min(1, share / why.scale)).toFixed(0) + "%");
+    },
+  );
+}

@@ -1,0 +1,72 @@
+/** A card that folds out: a block, a body or an episode, with small buttons for what can be done with it. */
+
+import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { icon } from "../../shared/icons.js";
+import { freeId } from "./parts.js";
+
+export class Card {
+  #onToggle;
+  #icon = element("span", { className: "ai4u-card-icon" });
+  #title = element("strong");
+  #type = element("code", { className: "ai4u-details-only" });
+  #reads = element("span", { className: "ai4u-card-reads" });
+  #mark = element("span", { className: "ai4u-card-mark" });
+  #head;
+  #actions = element("div", { className: "ai4u-card-actions" });
+  #iconName = null;
+  /** What the card holds when it is open. */
+  body = element("div", { className: "ai4u-card-body", id: freeId(), hidden: true });
+  element = element("article", { className: "ai4u-card" });
+
+  /** @param options.onToggle called with true when the person opens it, and with false when they close it */
+  constructor({ onToggle = () => {} } = {}) {
+    this.#onToggle = onToggle;
+    const words = element("span", { className: "ai4u-card-words" }, this.#title, this.#type, this.#reads);
+    this.#head = element(
+      "button",
+      { type: "button", className: "ai4u-card-head" },
+      this.#icon,
+      words,
+      this.#mark,
+      icon("down", 14),
+    );
+    setAttributes(this.#head, { "aria-expanded": "false", "aria-controls": this.body.id });
+    this.#head.addEventListener("click", () => this.#onToggle(this.body.hidden));
+    const row = element("div", { className: "ai4u-card-row" }, this.#head, this.#actions);
+    this.element.append(row, this.body);
+  }
+
+  /**
+   * @param state.type the class's name, shown in Details
+   * @param state.reads what it reads or does just now, short
+   * @param state.mark a short remark such as "off" or "best"
+   */
+  update({ icon: name = "own", title, type = "", reads = "", isOn = true, isOpen = false, mark = "" }) {
+    if (name !== this.#iconName) this.#icon.replaceChildren(icon((this.#iconName = name)));
+    setText(this.#title, title);
+    setText(this.#type, type);
+    setText(this.#reads, reads);
+    setText(this.#mark, mark || (isOn ? "" : "off"));
+    setAttributes(this.element, { "data-off": !isOn, "data-open": isOpen });
+    setAttributes(this.#head, { "aria-expanded": isOpen ? "true" : "false" });
+    this.body.hidden = !isOpen;
+  }
+
+  /** @param list [{icon, label, isEnabled = true, isDanger = false, onClick}] */
+  actions(list) {
+    keyed(
+      this.#actions,
+      list,
+      (action) => action.label,
+      (action) => {
+        const { icon: name, label, isDanger = false } = action;
+        const made = button("", () => made.onact(), { icon: name, label, kind: isDanger ? "danger" : "quiet" });
+        return made;
+      },
+      (made, { onClick, isEnabled = true }) => {
+        made.onact = onClick;
+        if (made.disabled === isEnabled) made.disabled = !isEnabled;
+      },
+    );
+  }
+}

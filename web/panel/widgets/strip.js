@@ -1,0 +1,43 @@
+/** Many numbers side by side as a strip of bars, drawn on a canvas; its older readings above, smaller. */
+
+import { element, setText } from "../../shared/dom.js";
+
+const HEIGHT = 40;
+const OLDER_HEIGHT = 14;
+/** Width of the drawing in CSS pixels; the page stretches it. */
+const WIDTH = 280;
+
+export function makeStrip() {
+  return element("figure", {}, element("div"), element("figcaption"));
+}
+
+/** @param strip {caption, zeros, shares, colours, older}: positions in the ranges, 0 to 1, left to right */
+export function drawStrip(figure, { caption, zeros, shares, colours, older = [] }) {
+  const accent = getComputedStyle(document.querySelector(".ai4u-panel")).getPropertyValue("--accent");
+  const key = JSON.stringify([shares, colours, older, accent]);
+  const [drawings, words] = figure.children;
+  setText(words, caption);
+  if (figure.drawn === key) return;
+  figure.drawn = key;
+  while (drawings.children.length > older.length + 1) drawings.lastChild.remove();
+  while (drawings.children.length <= older.length) drawings.append(element("canvas", { ariaHidden: "true" }));
+  for (const [index, each] of older.entries()) draw(drawings.children[index], each, zeros, null, accent, OLDER_HEIGHT);
+  draw(drawings.lastChild, shares, zeros, colours, accent, HEIGHT);
+}
+
+function draw(canvas, shares, zeros, colours, accent, height) {
+  const scale = devicePixelRatio;
+  canvas.width = WIDTH * scale; // assigning also clears it
+  canvas.height = height * scale;
+  canvas.style.height = `${height}px`;
+  const context = canvas.getContext("2d");
+  context.scale(scale, scale);
+  const width = WIDTH / shares.length;
+  const gap = width > 3 ? 1 : 0;
+  for (const [index, share] of shares.entries()) {
+    context.fillStyle = colours?.[index] ?? accent;
+    const [from, to] = [zeros[index], share].sort((one, other) => one - other);
+    const size = Math.max((to - from) * height, colours ? 3 : 1); // a thin line shows the colour of what is at zero
+    context.fillRect(index * width, Math.min(height - to * height, height - size), width - gap, size);
+  }
+}

@@ -1,0 +1,62 @@
+/** A thing of the world as a card: its form when it is chosen, copy and delete. */
+
+import { button, element } from "../../shared/dom.js";
+import { Card } from "../widgets/card.js";
+import { Form } from "../widgets/form.js";
+
+const KIND_ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
+const SHAPE_ICONS = { circle: "ball", segment: "wall", capsule: "wall", ring: "target" };
+
+export class BodyCard {
+  #panel;
+  #name = "";
+  #card;
+  #form;
+  #delete;
+  #copy;
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
+    this.#form = new Form({ onChange: (values) => panel.send("change_body", { name: this.#name, values }) });
+    this.#copy = button("Duplicate", () => this.#do("duplicate_body"), { icon: "copy", kind: "quiet" });
+    this.#delete = button("Delete", () => this.#do("remove_body"), { icon: "trash", kind: "danger" });
+    const tools = element("div", { className: "ai4u-tools" }, this.#copy, this.#delete);
+    this.#card.body.append(this.#form.element, tools);
+  }
+
+  get element() {
+    return this.#card.element;
+  }
+
+  update(body, form) {
+    const { name, kind, shape, x, y, is_random: isRandom } = body;
+    this.#name = name;
+    const isOpen = this.#panel.shown.body === name;
+    const place = isRandom ? "random place" : `${metres(x)}, ${metres(y)}`;
+    const reads = kind === "body" ? place : `${kind}, ${place}`;
+    const icon = KIND_ICONS[kind] ?? SHAPE_ICONS[shape] ?? "box";
+    this.#card.update({ icon, title: name, type: shape, reads, isOpen });
+    const isMine = isOpen && form?.name === name;
+    this.#form.element.hidden = !isMine;
+    if (isMine) this.#form.update(form.fields);
+    for (const [made, verb] of [[this.#copy, "Duplicate"], [this.#delete, "Delete"]]) made.title = `${verb} ${name}`;
+  }
+
+  async #do(command) {
+    const answer = await this.#panel.send(command, { name: this.#name });
+    if (!answer.ok) return;
+    if (command === "remove_body" && this.#panel.shown.body === this.#name) choose(this.#panel, null);
+    if (answer.body) choose(this.#panel, answer.body);
+  }
+}
+
+/** Choose a thing: its form opens, and the picture marks it. */
+export function choose(panel, name) {
+  panel.show({ body: name });
+  panel.send("select", { body: name }, { quiet: true });
+}
+
+function metres(value) {
+  return `${Number(value ?? 0).toFixed(1)} m`;
+}

@@ -1,0 +1,127 @@
+/** Buttons to save, download and open a scene, and the offer of an unsaved one. */
+
+import { button, element, setText } from "../../shared/dom.js";
+import { freeId } from "../widgets/parts.js";
+import { section } from "../widgets/parts.js";
+import { copyLink, isThisComputer } from "../../scenes/share.js";
+
+/** Largest file that is read here; the server has limits of its own (bytes). */
+const MAX_SCENE_BYTES = 4_000_000;
+
+export class SceneFiles {
+  #panel;
+  #when = element("p");
+  #save = button("Save", () => this.#openSaving(), { icon: "save" });
+  #unsaved;
+  #kept = element("p");
+  element = element("div");
+  /** What is left after a restart, in words. */
+  kept = section("world-kept", "What is kept after a restart?", { isOpen: false }, this.#kept);
+
+  constructor(panel) {
+    this.#panel = panel;
+    this.#unsaved = element(
+      "div",
+      { className: "ai4u-offer", role: "status", hidden: true },
+      this.#when,
+      button("Restore", () => panel.send("restore"), { kind: "main" }),
+      button("Discard", () => panel.send("discard"), {}),
+    );
+    const tools = element(
+      "div",
+      { className: "ai4u-tools" },
+      this.#save,
+      button("Download", () => this.#download(), { icon: "download" }),
+      button("Copy link", () => this.#copyLink(), {
+        icon: "copy",
+        title: "Copy a link that holds this scene",
+      }),
+      fileButton("Open a file", ".yaml,.yml,text/yaml", (file) => this.#load(file)),
+    );
+    this.element.append(this.#unsaved, tools);
+  }
+
+  update({ unsaved, can_save: canSave = true, is_autosaved: isAutosaved = false }) {
+    setText(this.#kept, keptWords(canSave, isAutosaved));
+    this.#save.hidden = !canSave;
+    this.#unsaved.hidden = !unsaved;
+    if (unsaved) setText(this.#when, `You have an unsaved scene from ${unsaved.when}.`);
+  }
+
+  #openSaving() {
+    const input = element("input", { type: "text", id: freeId(), autocomplete: "off", required: true });
+    input.value = this.#panel.part("scene")?.title ?? "";
+    const problem = element("p", { className: "ai4u-problem", role: "alert" });
+    const save = button("Save", () => {}, { kind: "main", type: "submit" });
+    const label = element("label", { htmlFor: input.id, textContent: "Name" });
+    const field = element("div", { className: "ai4u-field" }, label, input);
+    const form = element("form", { className: "ai4u-save", method: "dialog" }, field, problem, save);
+    const dialog = this.#panel.dialog("Save the scene", form);
+    let replaces = "";
+    form.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      const name = input.value.trim();
+      const answer = await this.#panel.send("save_scene", { name, over: replaces === name }, { quiet: true });
+      if (answer.ok) {
+        dialog.close();
+        this.#panel.notice(answer.text);
+        return;
+      }
+      const isTaken = answer.code === "exists";
+      replaces = isTaken ? name : "";
+      setText(save.querySelector("span"), isTaken ? "Replace it" : "Save");
+      setText(problem, answer.text);
+    });
+    input.select();
+    input.focus();
+  }
+
+  async #copyLink() {
+    const text = await copyLink();
+    const offer = { text: "Download the file", icon: "download", run: () => this.#download() };
+    this.#panel.notice(text, "info", isThisComputer() ? offer : null);
+  }
+
+  async #download() {
+    const answer = await this.#panel.send("download", {});
+    if (answer.ok) saveFile(answer.file, answer.content);
+  }
+
+  async #load(file) {
+    if (file.size > MAX_SCENE_BYTES) {
+      this.#panel.notice(`${file.name}: expected a scene file (YAML), got ${file.size} bytes.`, "error");
+      return;
+    }
+    this.#panel.show({ body: null, block: null });
+    await this.#panel.sendFile("load_text", file);
+  }
+}
+
+/** Return what is left of a scene and of a person's work when the world is started again. */
+function keptWords(canSave, isAutosaved) {
+  const scenes = [
+    canSave ? "Scenes that you save are under “Choose a scene”, in My scenes." : "Nothing can be saved here: download what you want to keep.",
+    isAutosaved ? "Changes that you did not save are offered to you at the top of this tab." : "Changes that you did not save are lost.",
+    "Your programs, stars and best times stay in this browser.",
+    "Episodes in Past and the steps of Undo are gone: download the episodes that you want to keep.",
+  ];
+  return scenes.join(" ");
+}
+
+/** Return a button that asks for a file. */
+export function fileButton(text, accept, onFile) {
+  const input = element("input", { type: "file", accept, hidden: true, tabIndex: -1 });
+  input.addEventListener("change", () => {
+    const [file] = input.files;
+    input.value = ""; // so that the same file can be chosen again
+    if (file) onFile(file);
+  });
+  const made = button(text, () => input.click(), { icon: "open" });
+  return element("span", { className: "ai4u-file" }, made, input);
+}
+
+function saveFile(name, text) {
+  const url = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
+  element("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

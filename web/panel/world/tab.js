@@ -1,0 +1,103 @@
+/** The tab "World": the things in it, the scene's settings and files. */
+
+import { button, element, keyed, setText } from "../../shared/dom.js";
+import { BodyCard, choose } from "./body_card.js";
+import { Form } from "../widgets/form.js";
+import { section, toggle } from "../widgets/parts.js";
+import { SceneFiles } from "./scene_files.js";
+
+const DEFAULT_SNAP_M = 0.5;
+const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
+const HINT_ON =
+  "Drag things to move them (Esc cancels). Click one to get handles that rotate and resize it. Arrow keys nudge it.";
+
+export class WorldTab {
+  #panel;
+  #cards = new Map();
+  #list = element("div", { className: "ai4u-card-list" });
+  #moves;
+  #snaps;
+  #hint = element("p", { className: "ai4u-hint-text" });
+  #settings;
+  #files;
+  #add = element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add" });
+  #isMoving = false;
+
+  constructor(root, panel) {
+    this.#panel = panel;
+    this.#files = new SceneFiles(panel);
+    this.#moves = toggle("Move things", (isOn) => this.#setMoving(isOn));
+    this.#snaps = toggle("Snap to grid", (isOn) => this.#setSnap(isOn ? DEFAULT_SNAP_M : 0), {
+      title: "Hold Alt to move freely",
+    });
+    this.#setSnap(DEFAULT_SNAP_M);
+    this.#settings = new Form({ onChange: (values) => panel.send("change_settings", { values }) });
+    root.append(
+      this.#files.element,
+      section(
+        "world-things",
+        "Things",
+        {},
+        element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
+        element("h4", { textContent: "Add" }),
+        this.#add,
+        this.#hint, // below the buttons, which its other texts would move
+        this.#list,
+      ),
+      section("world-settings", "Scene's settings", { isOpen: false }, this.#settings.element),
+      this.#files.kept,
+    );
+    panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));
+  }
+
+  /** @param part as "world" in the protocol */
+  update(part) {
+    this.#isMoving = Boolean(part.is_move_mode);
+    this.#moves.set(this.#isMoving);
+    this.#snaps.set(part.snap > 0);
+    keyed(
+      this.#add,
+      part.templates ?? [],
+      ({ name }) => name,
+      ({ name, title, icon }) => button(title, () => this.#addThing(name), { icon }),
+    );
+    setText(this.#hint, this.#isMoving ? HINT_ON : HINT_OFF);
+    this.#files.update(part);
+    const bodies = part.bodies ?? [];
+    const names = new Set(bodies.map(({ name }) => name));
+    for (const name of [...this.#cards.keys()]) if (!names.has(name)) this.#cards.delete(name);
+    keyed(
+      this.#list,
+      bodies,
+      ({ name }) => name,
+      ({ name }) => {
+        this.#cards.set(name, new BodyCard(this.#panel));
+        return this.#cards.get(name).element;
+      },
+      (_, body) => this.#cards.get(body.name).update(body, part.form),
+    );
+    this.#settings.update(part.settings ?? []);
+  }
+
+  #setMoving(on) {
+    this.#panel.send("move_mode", { on }, { quiet: true });
+  }
+
+  #setSnap(distance) {
+    this.#panel.send("snap", { distance }, { quiet: true });
+  }
+
+  async #addThing(template) {
+    const answer = await this.#panel.send("add_body", { template });
+    if (!answer.ok || !answer.body) return;
+    choose(this.#panel, answer.body);
+    if (!this.#isMoving) this.#setMoving(true); // most new things are moved next
+  }
+
+  #showSelected(name) {
+    this.#panel.show({ body: name });
+    const part = this.#panel.part("world"); // the form comes later
+    if (part) this.update(part);
+    this.#cards.get(name)?.element.scrollIntoView({ block: "nearest" });
+  }
+}

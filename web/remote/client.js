@@ -1,0 +1,201 @@
+/** An agent of the page's own world, driven from the page over the protocol for scripts. */
+
+import { ConnectionLostError, Dialogue, RemoteError } from "./dialogue.js";
+import { SUBPROTOCOL } from "./messages.js";
+
+const PATH = "../../ws/remote";
+const SECRET_BYTES = 16;
+
+export { RemoteError };
+
+/**
+ * A session with a world. Methods may be called one after another or all at once; each waits for the one before.
+ * They reject with a RemoteError, whose message is a sentence for a person.
+ */
+export class RemoteClient {
+  #dialogue;
+  #connection = new Connection();
+  /** The end of the method that was called last. */
+  #last = Promise.resolve();
+
+  constructor(options) {
+    const bytes = crypto.getRandomValues(new Uint8Array(SECRET_BYTES));
+    const secret = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+    this.#dialogue = new Dialogue({ ...options, secret });
+  }
+
+  /**
+   * Connect to the page's world, and get an agent.
+   *
+   * @param {object} [options]
+   * @param {string} [options.agent] its id; may be left out where there is only one
+   * @param {"realtime"|"lockstep"} [options.mode] in lockstep, the world waits for each action
+   * @param {""|"hold"|"coast"|"stop"} [options.onMissing] in place of an action that is late; empty: as the world has it
+   * @returns {Promise<RemoteClient>}
+   */
+  static async connect({ agent = "", mode = "realtime", onMissing = "" } = {}) {
+    const client = new RemoteClient({ agent, mode, onMissing });
+    await client.#run(client.#dialogue.begin());
+    return client;
+  }
+
+  /** The world's description of the agent; see `welcome` and READING, OUTPUT in remote/messages.js. */
+  get welcome() {
+    return this.#dialogue.welcome;
+  }
+
+  /** Lowest and highest values by actuator, as CodeEngine.load takes them. */
+  get outputs() {
+    return Object.fromEntries(this.welcome.outputs.map(({ name, low, high }) => [name, [low, high]]));
+  }
+
+  /**
+   * Return the current percept; after an action, wait until its decision is over.
+   *
+   * @returns {Promise<{values: object, episode: number, step: number, seq: number, tick: number, reward: number,
+   *   terms: object, terminated: boolean, truncated: boolean, paused: boolean, stopped: boolean}>}
+   */
+  sense() {
+    return this.#run(this.#dialogue.sense());
+  }
+
+  /**
+   * Answer the latest percept; sense() waits for the result.
+   *
+   * @param {Object<string, number[]>} values by actuator; those that are left out do nothing
+   */
+  act(values) {
+    return this.#run(this.#dialogue.act(values));
+  }
+
+  /**
+   * Begin an episode, and return its first percept.
+   *
+   * @param {number} [seed] resets the whole world; left out, the agent alone if there are others
+   */
+  reset(seed) {
+    return this.#run(this.#dialogue.reset(seed));
+  }
+
+  /** Ask a world in lockstep for more time to decide. */
+  wait() {
+    return this.#run(this.#dialogue.wait());
+  }
+
+  /** Give the agent back to the brain that it had before; what waits is rejected. It may be called twice. */
+  async close(reason = "the page has stopped its program") {
+    this.#connection.interrupt(new RemoteError("The connection was closed.", "closed"));
+    await this.#run(this.#dialogue.end(reason));
+  }
+
+  /** Carry out a dialogue's steps, after those of the method before, and return the result. */
+  #run(flow) {
+    const result = this.#last.then(() => this.#carryOut(flow));
+    this.#last = result.catch(() => {}); // the caller is told
+    return result;
+  }
+
+  async #carryOut(flow) {
+    let step = flow.next();
+    while (!step.done) {
+      let result;
+      try {
+        result = await this.#connection.carryOut(step.value);
+      } catch (error) {
+        step = flow.throw(error);
+        continue;
+      }
+      step = flow.next(result);
+    }
+    return step.value;
+  }
+}
+
+/** A WebSocket to the world that carries out the steps of a dialogue. */
+class Connection {
+  #socket = null;
+  /** Frames that came and were not asked for yet. */
+  #frames = [];
+  /** The reason why the socket closed. */
+  #lost = new ConnectionLostError("there is no connection");
+  #interruption = null;
+  /** Called when anything has happened. */
+  #wake = () => {};
+
+  async carryOut({ open, send, receive, pause, close }) {
+    if (send) return this.#send(send);
+    if (close) return this.#close();
+    if (open) return this.#open(open);
+    if (receive) return this.#receive(receive);
+    await this.#happened(() => false, pause);
+    return undefined;
+  }
+
+  /** Reject the step that waits, and all that would wait later. */
+  interrupt(error) {
+    this.#interruption = error;
+    this.#wake();
+  }
+
+  async #open(timeout) {
+    this.#close();
+    const url = new URL(PATH, import.meta.url);
+    url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
+    const socket = (this.#socket = new WebSocket(url, SUBPROTOCOL));
+    socket.binaryType = "arraybuffer";
+    [this.#frames, this.#lost] = [[], null];
+    socket.onopen = () => this.#wake();
+    socket.onmessage = ({ data }) => {
+      this.#frames.push(new Uint8Array(data));
+      this.#wake();
+    };
+    socket.onclose = ({ code, reason }) => {
+      if (this.#socket !== socket) return;
+      this.#lost = new ConnectionLostError(reason || "no answer", code);
+      this.#wake();
+    };
+    await this.#happened(() => socket.readyState === WebSocket.OPEN || this.#lost, timeout);
+    if (this.#lost) throw this.#lost;
+    if (socket.readyState !== WebSocket.OPEN) throw new ConnectionLostError("no answer");
+  }
+
+  #send(frame) {
+    if (this.#socket?.readyState !== WebSocket.OPEN) {
+      throw this.#lost ?? new ConnectionLostError("the connection is closing");
+    }
+    this.#socket.send(frame);
+  }
+
+  async #receive(timeout) {
+    await this.#happened(() => this.#frames.length || this.#lost, timeout);
+    if (this.#frames.length) return this.#frames.shift();
+    if (this.#lost) throw this.#lost;
+    return null;
+  }
+
+  #close() {
+    this.#socket?.close();
+    this.#socket = null;
+    this.#lost ??= new ConnectionLostError("there is no connection");
+  }
+
+  /** Wait until something has happened, or for a time; reject if interrupted. */
+  #happened(has, timeout) {
+    return new Promise((resolve, reject) => {
+      let timer;
+      const check = () => {
+        if (!this.#interruption && !has()) return;
+        clearTimeout(timer);
+        this.#wake = () => {};
+        if (this.#interruption) reject(this.#interruption);
+        else resolve();
+      };
+      this.#wake = check;
+      timer = setTimeout(() => {
+        this.#wake = () => {};
+        resolve();
+      }, timeout);
+      check();
+    });
+  }
+}

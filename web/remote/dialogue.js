@@ -1,0 +1,251 @@
+/**
+ * A page's side of the dialogue with a world, without input and output: as ai4u_edu/remote/dialogue.py.
+ *
+ * Its methods are generators. They yield steps ({open: ms}, {send: frame}, {receive: ms}, {pause: ms}, {close: true});
+ * a connection carries them out and sends back the result. If no answer arrives in time, the dialogue repeats its
+ * last frame; if the connection is lost, it reconnects, as long as the world keeps the agent for it.
+ */
+
+import { codeLimits } from "../code/limits.js";
+import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./messages.js";
+
+/** Time after which a frame is repeated for the first time; it doubles with each repetition. */
+const FIRST_TIMEOUT_MS = 200;
+const MAX_TIMEOUT_MS = 1000;
+/** Timeout of one attempt to connect, hello and welcome included. */
+const ATTEMPT_TIMEOUT_MS = 3000;
+const FIRST_BACKOFF_MS = 20;
+const MAX_BACKOFF_MS = 500;
+/** Time that opening a connection gets even if the deadline is nearer. */
+const MIN_OPEN_TIMEOUT_MS = 100;
+/** Close code of a server in front of the world that refuses. */
+const CLOSE_REFUSED = 1008;
+
+/** An error of the dialogue; `code` is a problem's of the protocol, "lost", "refused" or "closed". */
+export class RemoteError extends Error {
+  constructor(text, code) {
+    super(text);
+    this.name = "RemoteError";
+    this.code = code;
+  }
+}
+
+/** There is no connection, or it was lost; only connections throw it. */
+export class ConnectionLostError extends Error {
+  constructor(reason, closeCode = 0) {
+    super(reason);
+    this.closeCode = closeCode;
+  }
+}
+
+export class Dialogue {
+  /** The world's description of the agent. */
+  welcome = null;
+  /** The latest percept; null before the first. */
+  percept = null;
+
+  #agent;
+  #mode;
+  #onMissing;
+  #secret;
+  /** The frame that is repeated if no answer arrives. */
+  #lastFrame = null;
+  #lastHello = null;
+  /** The latest percept has an answer. */
+  #isAnswered = true;
+  /** Number of the percept whose answer the world may still refuse. */
+  #refusableSeq = -1;
+  /** The error that ended the session; every method throws it from then on. */
+  #ended = null;
+
+  constructor({ agent, mode, onMissing, secret }) {
+    [this.#agent, this.#mode, this.#onMissing, this.#secret] = [agent, mode, onMissing, secret];
+  }
+
+  /** Connect, and get the agent. */
+  *begin() {
+    const lost = yield* this.#connect(performance.now() + codeLimits.connectMs);
+    if (lost === null) return;
+    yield { close: true };
+    throw new RemoteError(`The world does not answer (${lost.message}). Is it still running?`, "lost");
+  }
+
+  /** Return the percept that has no answer yet, as soon as it is there. */
+  *sense() {
+    this.#checkOpen();
+    let timeout = FIRST_TIMEOUT_MS;
+    while (this.percept === null || this.#isAnswered) {
+      this.#checkOpen();
+      try {
+        const frame = yield { receive: timeout };
+        if (frame === null) {
+          timeout = Math.min(2 * timeout, MAX_TIMEOUT_MS);
+          yield { send: this.#lastFrame };
+        } else {
+          this.#handle(frame);
+        }
+      } catch (lost) {
+        yield* this.#reconnect(lost);
+        timeout = FIRST_TIMEOUT_MS;
+      }
+    }
+    return this.percept;
+  }
+
+  /** Answer the latest percept with an action; if it has an answer, wait for the next one. */
+  *act(values) {
+    const percept = yield* this.sense();
+    if (percept.terminated || percept.truncated) {
+      throw new RemoteError("The episode is over; reset begins another.", "episode_over");
+    }
+    yield* this.#answer(actionFrame(percept, values), percept.seq);
+  }
+
+  /** Begin an episode, and return its first percept. */
+  *reset(seed = null) {
+    const { episode, seq } = yield* this.sense();
+    let next = seq;
+    do {
+      yield* this.#answer(frameOf("reset", next, seed), next); // again if an error had stopped the world
+      next = (yield* this.sense()).seq;
+    } while (this.percept.episode === episode);
+    return this.percept;
+  }
+
+  /** Ask a world in lockstep for more time, if the latest percept has no answer yet. */
+  *wait() {
+    if (this.percept === null || this.#isAnswered) return;
+    try {
+      yield { send: frameOf("order", this.percept.seq, "wait") };
+    } catch (lost) {
+      yield* this.#reconnect(lost);
+    }
+  }
+
+  /** Say goodbye, which gives the agent back, and close the connection. */
+  *end(reason) {
+    if (this.#ended !== null) return;
+    this.#ended = new RemoteError("The connection was closed.", "closed");
+    try {
+      yield { send: frameOf("bye", reason) };
+    } catch {
+      // it was lost already
+    }
+    yield { close: true };
+  }
+
+  /** Connect, with a growing pause between two attempts; return null on success, else the last error. */
+  *#connect(deadline) {
+    const isFirst = this.welcome === null;
+    let backoff = FIRST_BACKOFF_MS;
+    let lost = new ConnectionLostError("no answer");
+    while (performance.now() < deadline) {
+      try {
+        yield* this.#attempt(Math.min(deadline, performance.now() + ATTEMPT_TIMEOUT_MS));
+        if (this.#isAnswered && !isFirst) yield { send: this.#lastFrame };
+        return null;
+      } catch (failed) {
+        this.#throwUnlessLost(failed);
+        lost = failed;
+      }
+      yield { pause: backoff };
+      backoff = Math.min(2 * backoff, MAX_BACKOFF_MS);
+    }
+    return lost;
+  }
+
+  /** Open a connection, and send the hello until there is a welcome. */
+  *#attempt(deadline) {
+    yield { open: Math.max(deadline - performance.now(), MIN_OPEN_TIMEOUT_MS) };
+    const session = this.welcome?.session ?? "";
+    const hello = ["hello", VERSION, this.#agent, "", this.#mode, [], session, this.#secret];
+    const frame = frameOf(...hello, ...(this.#onMissing ? [this.#onMissing] : []));
+    let timeout = FIRST_TIMEOUT_MS;
+    while (performance.now() < deadline) {
+      yield { send: frame };
+      if (this.#lastFrame === this.#lastHello) this.#lastFrame = frame; // there was no percept to answer yet
+      this.#lastHello = frame;
+      const repeatAt = performance.now() + timeout;
+      timeout = Math.min(2 * timeout, MAX_TIMEOUT_MS);
+      for (let left = repeatAt - performance.now(); left > 0; left = repeatAt - performance.now()) {
+        const heard = yield { receive: left };
+        if (heard !== null && this.#handleWelcome(heard)) return;
+      }
+    }
+    throw new ConnectionLostError("no answer");
+  }
+
+  /** Resume the session over a new connection, within the world's grace time. */
+  *#reconnect(lost) {
+    this.#throwUnlessLost(lost);
+    this.#checkOpen();
+    const { grace } = this.welcome;
+    const final = yield* this.#connect(performance.now() + 1000 * grace);
+    if (final === null) return;
+    this.#ended = new RemoteError(`The connection to the world is lost (${final.message}). Press Run again.`, "lost");
+    yield { close: true };
+    throw this.#ended;
+  }
+
+  *#answer(frame, seq) {
+    [this.#lastFrame, this.#isAnswered, this.#refusableSeq] = [frame, true, seq];
+    try {
+      yield { send: frame };
+    } catch (lost) {
+      yield* this.#reconnect(lost);
+    }
+  }
+
+  /** Handle a frame that may be the welcome; return true if it is. */
+  #handleWelcome(frame) {
+    const message = messageIn(frame);
+    if (message.type === "problem") this.#end(new RemoteError(message.text, message.code));
+    if (message.type !== "welcome") return false;
+    this.welcome = message;
+    return true;
+  }
+
+  /** Handle a frame of the session; old percepts and repeated problems are ignored. */
+  #handle(frame) {
+    const message = messageIn(frame);
+    const latest = this.percept?.seq ?? 0;
+    if (message.type === "percept" && message.seq > latest) {
+      const { type, data, texts, ...rest } = message;
+      this.percept = { values: valuesOf(this.welcome.readings, message), ...rest };
+      this.#isAnswered = false;
+    } else if (message.type === "bye") {
+      this.#end(new RemoteError(`The world has ended the session: ${message.reason}`, "ended"));
+    } else if (message.type === "problem") {
+      this.#handleProblem(message, latest);
+    }
+  }
+
+  #handleProblem({ code, text, seq }, latest) {
+    const error = new RemoteError(text, code);
+    if ([...PROBLEMS.values()].includes(code)) this.#end(error);
+    if (seq === 0) {
+      this.#isAnswered = this.percept === null; // the last frame was no answer
+      throw error;
+    }
+    if (seq !== this.#refusableSeq) return;
+    this.#refusableSeq = -1; // the problem may be sent twice
+    this.#isAnswered &&= seq !== latest;
+    throw error;
+  }
+
+  #checkOpen() {
+    if (this.#ended !== null) throw this.#ended;
+  }
+
+  /** Throw what is no lost connection, or one that the world closed on purpose. */
+  #throwUnlessLost(lost) {
+    if (!(lost instanceof ConnectionLostError)) throw lost;
+    const code = PROBLEMS.get(lost.closeCode) ?? (lost.closeCode === CLOSE_REFUSED && "refused");
+    if (code) this.#end(new RemoteError(lost.message, code)); // the frame that said why may have been lost
+  }
+
+  #end(error) {
+    this.#ended = error;
+    throw error;
+  }
+}

@@ -1,0 +1,21 @@
+/** Pictures of scenes from above, and what stands where there is none. */
+
+import { element } from "../shared/dom.js";
+import { icon } from "../shared/icons.js";
+
+/**
+ * Return a frame with a scene's picture, which is loaded when it comes into view. If the picture is
+ * missing or can't be loaded, the frame has an icon.
+ * @param address of the picture; empty if there is none
+ */
+export function scenePicture(address, title) {
+  const frame = element("span", { className: "ai4u-scene-picture" });
+  const showNone = () => frame.replaceChildren(icon("picture", 40));
+  if (address) {
+    // `loading` comes first: some browsers load as soon as there is an address
+    const image = element("img", { loading: "lazy", alt: `${title} from above`, width: 400, height: 300, src: address });
+    image.addEventListener("error", showNone);
+    frame.append(image);
+  } else showNone();
+  return frame;
+}

@@ -1,0 +1,63 @@
+/** A program that came with a link to a scene: kept until the person takes it or does not want it. */
+
+import { splitProgram } from "../blocks/text.js";
+import { roomOfPage } from "../classroom/student/programs.js";
+import { button, element, setText } from "../shared/dom.js";
+import { forget, recall, remember } from "../shared/storage.js";
+
+/** Students of a class may use one device in turn. */
+const KEY = `shared-program-${roomOfPage()}`;
+
+/** Tells with the event "change" that a program has come or is gone. */
+export const sharedPrograms = new EventTarget();
+
+/** Keep a program for the tab "Code": {scene, agent, source}. */
+export function keepShared(program) {
+  remember(KEY, program);
+  sharedPrograms.dispatchEvent(new Event("change"));
+}
+
+/** Return the program for an agent in a scene; null if there is none. */
+export function sharedFor(scene, agent) {
+  const found = recall(KEY, null);
+  const isFor = found !== null && found.scene === scene && found.agent === agent && typeof found.source === "string";
+  return isFor ? found.source : null;
+}
+
+export function forgetShared() {
+  forget(KEY);
+  sharedPrograms.dispatchEvent(new Event("change"));
+}
+
+/** The offer of such a program: its text to read, a button that takes it, and one that does not. */
+export class SharedOffer {
+  #words = element("p");
+  #text = element("pre", { tabIndex: 0, ariaLabel: "The shared program" });
+  #source = null;
+  element = element("div", { className: "ai4u-code-shared", role: "group", ariaLabel: "A shared program", hidden: true });
+
+  /** @param onTake called with the program that the person takes */
+  constructor(onTake) {
+    const take = button("Take it", () => this.#end(onTake), { kind: "main" });
+    const refuse = button("No, thanks", () => this.#end(() => {}), {});
+    const details = element("details", {}, element("summary", { textContent: "Read it" }), this.#text);
+    this.element.append(this.#words, details, element("div", { className: "ai4u-inline" }, take, refuse));
+  }
+
+  /** Show the offer of a program; null hides it. */
+  update(source) {
+    this.#source = source;
+    this.element.hidden = source === null;
+    if (source === null) return;
+    const { python } = splitProgram(source);
+    const lines = python.trim().split("\n").length;
+    setText(this.#words, `The link brought a program of ${lines} ${lines === 1 ? "line" : "lines"}. Yours stays among the earlier runs if you take it.`);
+    setText(this.#text, python);
+  }
+
+  #end(then) {
+    const source = this.#source;
+    forgetShared();
+    then(source);
+  }
+}

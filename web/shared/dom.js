@@ -1,0 +1,81 @@
+/** Helpers for building and updating elements. Text becomes text nodes, never HTML. */
+
+import { icon as iconNamed } from "./icons.js";
+
+/**
+ * Create an element.
+ * @param properties properties, or attributes where there is no such property; `dataset` and `on` (event
+ *   handlers) are objects
+ * @param children nodes or strings; null and false are left out
+ */
+export function element(tag, properties = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name === "dataset") Object.assign(made.dataset, value);
+    else if (name === "on") for (const [type, f] of Object.entries(value)) made.addEventListener(type, f);
+    else if (name in made) made[name] = value;
+    else made.setAttribute(name, value);
+  }
+  made.append(...children.filter((child) => child !== null && child !== undefined && child !== false));
+  return made;
+}
+
+/** Set an element's text if it differs: screen readers announce every assignment. */
+export function setText(target, text) {
+  if (target.textContent !== text) target.textContent = text;
+}
+
+/** Set attributes that differ. null and false remove one, true sets it to "". */
+export function setAttributes(target, attributes) {
+  for (const [name, value] of Object.entries(attributes)) {
+    const wanted = value === true ? "" : value === false || value === null || value === undefined ? null : String(value);
+    if (target.getAttribute(name) === wanted) continue;
+    if (wanted === null) target.removeAttribute(name);
+    else target.setAttribute(name, wanted);
+  }
+}
+
+/**
+ * Create a button.
+ * @param {string} text may be empty if there are an icon and a label
+ * @param options.kind "", "main", "quiet" or "danger"
+ * @param options.label accessible name and tooltip, for a button without text
+ */
+export function button(text, onClick, { icon = "", label = "", kind = "", ...properties } = {}) {
+  const made = element(
+    "button",
+    { type: "button", className: "ai4u-panel-button", ...properties },
+    icon && iconNamed(icon),
+    text && element("span", { textContent: text }),
+  );
+  if (kind) made.dataset.kind = kind;
+  if (label) setAttributes(made, { "aria-label": label, title: label });
+  if (icon && !text) made.toggleAttribute("data-icon-only", true);
+  made.addEventListener("click", onClick);
+  return made;
+}
+
+/**
+ * Make an element's children match a list without creating those again that stay: focus, typed text and open
+ * sections survive.
+ * @param keyOf returns an item's key, unique in the list
+ * @param make returns the element of a new item
+ * @param update brings an element up to date with its item
+ */
+export function keyed(parent, items, keyOf, make, update = () => {}) {
+  const before = new Map([...parent.children].map((child) => [child.dataset.key, child]));
+  let next = parent.firstElementChild;
+  for (const item of items) {
+    const key = String(keyOf(item));
+    let child = before.get(key);
+    before.delete(key);
+    if (child === undefined) {
+      child = make(item);
+      child.dataset.key = key;
+    }
+    update(child, item);
+    if (child === next) next = next.nextElementSibling;
+    else parent.insertBefore(child, next); // moving the others instead would lose their focus
+  }
+  for (const child of before.values()) child.remove();
+}
