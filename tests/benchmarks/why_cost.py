@@ -14,13 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from ai4u_edu import Scene, trained_brain
-from ai4u_edu.explain.live import INTEREST_S, LiveExplainer
-from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
-from ai4u_edu.page.viewer.replay.replay_player import ReplayPlayer
-from ai4u_edu.page.viewer.scene_source import SceneSource
+from ai4u_edu.explain.live import INTEREST_S
+from ai4u_edu.explain.live_maps import MapChoice
+from ai4u_edu.explain_page import page_option
 from ai4u_edu.runtime.process_tuning import tuned_process
+from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.world_thread import WorldThread
 
 PAIRS = 5
 SECONDS = 6.0
@@ -29,7 +28,7 @@ ASKS_PER_S = 8.0
 """Rate at which a page's panel asks."""
 
 _late_s: list[float] = []
-_tick = WorldThread._tick
+_tick = Runner._tick
 
 
 class Half(NamedTuple):
@@ -48,7 +47,7 @@ def main() -> None:
     parser.add_argument("--pairs", type=int, default=PAIRS)
     parser.add_argument("--maps", action="store_true")
     options = parser.parse_args()
-    WorldThread._tick = _timed_tick  # type: ignore[method-assign]  # to measure
+    Runner._tick = _timed_tick  # type: ignore[method-assign]  # to measure
     with tuned_process():
         for scene in options.scenes:
             pairs = _pairs(scene, options.pairs, has_maps=options.maps)
@@ -65,25 +64,20 @@ def _pairs(scene: str, count: int, *, has_maps: bool) -> list[tuple[Half, Half]]
     agent = sim.agents[0]
     agent.use_brain(trained_brain(f"zoo:{scene}"))
     runner = Runner(sim, seed=1)
-    explainer = LiveExplainer(lambda: runner.latest, lambda _agent: agent.brain)
-    scene_source = SceneSource(runner, ReplayPlayer(runner))
-    maps = LiveMaps(
-        lambda: runner.latest, explainer, scene_source, next_tick_at=lambda: runner.next_tick_at
-    )
+    option = page_option(runner, ReplayPlayer(runner))
     requests = MapChoice(has_field=True, has_values=True).requests(agent.id) if has_maps else ()
 
     def ask() -> None:
-        explainer.why(agent.id)
+        option.explainer.why(agent.id)
         for request in requests:
-            maps.ask(request)
+            option.maps.ask(request)
 
     runner.start()
     try:
         _half(runner, None)  # warms up
         return [(_half(runner, None), _half(runner, ask)) for _ in range(count)]
     finally:
-        explainer.stop()
-        maps.stop()
+        option.stop()
         runner.stop()
 
 
@@ -100,7 +94,7 @@ def _half(runner: Runner, ask: Callable[[], object] | None) -> Half:
     return Half(1000 * float(np.percentile(_late_s, 99)), 100 * share)
 
 
-def _timed_tick(self: WorldThread, *, whole_decision: bool = False) -> None:
+def _timed_tick(self: Runner, *, whole_decision: bool = False) -> None:
     _late_s.append(self._clock() - self._schedule.due)
     _tick(self, whole_decision=whole_decision)
 

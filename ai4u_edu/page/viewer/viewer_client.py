@@ -2,16 +2,15 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future
-from typing import Protocol
+from typing import Literal, Protocol
 from urllib.parse import unquote
 
 from viser import ClientHandle
 
-from ai4u_edu.explain.elsewhere import Elsewhere, Pose
-from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
-from ai4u_edu.page.viewer.scene.view import View
+from ai4u_edu.page.viewer.scene.framing import ground_at_center
+from ai4u_edu.page.viewer.scene.view import Mode, View
 from ai4u_edu.recording.snapshot import Snapshot, StaticScene
 
 AGENT_HEADER = "X-AI4U-Edu-Agent"
@@ -33,8 +32,8 @@ class PagePanel(Protocol):
     def on_dropped(self, change: "Future[ChangeResult]") -> None:
         """Report the result of a move with the mouse."""
 
-    def on_stand_in(self, pose: Pose) -> None:
-        """Note that somebody put the agent's stand-in somewhere."""
+    def send(self, message: Mapping[str, object]) -> None:
+        """Send the page a message."""
 
 
 class ViewerClient:
@@ -69,12 +68,8 @@ class ViewerClient:
         """True if its user may drag things."""
         self.is_motion_reduced = False
         """True if its user prefers pictures without motion that nothing in the world makes."""
-        self.is_why_shown = False
-        """True if rays are coloured by how much they matter to the agent's action."""
-        self.maps = MapChoice()
-        """Maps over the floor that are drawn."""
-        self.elsewhere: Elsewhere | None = None
-        """Another place at which the agent is tried; None if it is at none."""
+        self.choices: dict[str, object] = {}
+        """What its user has chosen to see of options, by option; its panel has the same."""
         self.snap_m = 0.0
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)
@@ -90,6 +85,20 @@ class ViewerClient:
         """Show the first of these agents, unless the one that is shown is among them."""
         if self.agent not in ids:
             self.agent = ids[0]
+
+    @property
+    def camera(self) -> Literal["arena", "follow", "turn", "eyes"]:
+        """Position of its camera."""
+        return self.view.mode.value
+
+    def choose_camera(self, mode: str) -> None:
+        """Put its camera somewhere, also if it was there before and was moved since."""
+        self.view.choose(Mode(mode))
+
+    @property
+    def ground_center(self) -> tuple[float, float]:
+        """Point (x, y) of the ground in the middle of its picture (m)."""
+        return ground_at_center(self.client.camera.position, self.client.camera.look_at)
 
     def shows_sensor(self, key: str, *, is_default: bool) -> bool:
         """Return True if a sensor of the agent is shown in the scene.

@@ -21,7 +21,6 @@ from ai4u_edu import (
 )
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.pointers import RING_RADIUS, pointer
-from ai4u_edu.page.viewer.scene.sense_overlay import is_drawable
 from ai4u_edu.recording.snapshot.block_info import SensorInfo
 from ai4u_edu.runtime.runner import Runner
 from tests.page.viewer.pages import Page, page, publish, shown
@@ -60,7 +59,7 @@ def senses(runner: Runner) -> dict[str, SensorInfo]:
 
 def test_only_sensors_with_something_to_show_have_a_button(runner: Runner) -> None:
     agent = runner.latest.agents[0]
-    seen = {key for key, sense in senses(runner).items() if is_drawable(sense, agent)}
+    seen = {key for key, sense in senses(runner).items() if agent.is_drawable(sense)}
     assert seen == {"fan", "bearing", "group_touch", "position", "map"}
 
 

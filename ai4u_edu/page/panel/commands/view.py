@@ -2,13 +2,11 @@
 
 from collections.abc import Mapping
 
-from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.messages import play as m
 from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
-from ai4u_edu.page.viewer.scene.view import Mode
 
 
 async def _agent(page: Page, command: m.ShowAgent) -> Answer:
@@ -18,22 +16,12 @@ async def _agent(page: Page, command: m.ShowAgent) -> Answer:
 
 
 async def _camera(page: Page, command: m.Camera) -> Answer:
-    page.view.choose_camera(Mode[command.mode.upper()])
+    page.view.choose_camera(command.mode)
     return Answer()
 
 
 async def _sensor(page: Page, command: m.ShowSensor) -> Answer:
     page.view.show_sensor(command.key, command.on)
-    return Answer()
-
-
-async def _why(page: Page, command: m.ShowWhy) -> Answer:
-    page.view.show_why(command.on)
-    return Answer()
-
-
-async def _maps(page: Page, command: m.ShowMaps) -> Answer:
-    page.view.show_maps(MapChoice(command.field, command.values, command.facing))
     return Answer()
 
 
@@ -56,8 +44,6 @@ HANDLERS: Mapping[type[Command], Handler] = {
     m.ShowAgent: _agent,
     m.Camera: _camera,
     m.ShowSensor: _sensor,
-    m.ShowWhy: _why,
-    m.ShowMaps: _maps,
     m.ShowTrail: _trail,
     m.Dark: _dark,
     m.ReduceMotion: _reduce_motion,

@@ -9,13 +9,11 @@ from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
 from ai4u_edu.page.panel.parts.blocks import blocks_part
-from ai4u_edu.page.panel.parts.maps import maps_part
 from ai4u_edu.page.panel.parts.past import past_part
 from ai4u_edu.page.panel.parts.run import run_part
 from ai4u_edu.page.panel.parts.scene import scene_part
 from ai4u_edu.page.panel.parts.training import training_part
 from ai4u_edu.page.panel.parts.view import view_part
-from ai4u_edu.page.panel.parts.why import why_part
 from ai4u_edu.page.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
@@ -37,7 +35,7 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
     if "agent" in view.show.tabs:
         yield from _agent_parts(context, view)
     if "past" in view.show.tabs and context.runner.recorder is not None:
-        player, ghosts = context.viewer.player, context.viewer.ghosts
+        player, ghosts = context.player, context.ghosts
         past_key = "past", player.step, player.is_playing, player.number, ghosts.name
         yield "past", cache.of_snapshot(snapshot, past_key, lambda: past_part(context, snapshot))
     if context.editor is not None:
@@ -66,17 +64,6 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     )
     if view.is_curve_due():
         yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
-    if view.is_why_shown:
-        why = context.viewer.explainer.why(agent.id)
-        if why is not None:
-            yield "why", cache.of_snapshot(snapshot, ("why", why), lambda: why_part(why))
-    if requests := view.maps.requests(agent.id):
-        maps = [context.viewer.maps.ask(each) for each in requests]
-        maps_key = "maps", agent.id, view.maps, *maps
-        yield (
-            "maps",
-            cache.of_snapshot(snapshot, maps_key, lambda: maps_part(snapshot, agent, maps)),
-        )
     address = view.address
     yield (
         "python",

@@ -15,8 +15,7 @@ from ai4u_edu.page.server.scripts.report import Report
 from ai4u_edu.page.server.scripts.session import Session
 from ai4u_edu.page.server.scripts.settings import Rules
 from ai4u_edu.page.server.scripts.welcome import ObservationSubset, output_of
-from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.world_thread import WORLD_REPLACED
+from ai4u_edu.runtime.runner import WORLD_REPLACED, Runner
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 

@@ -1,7 +1,7 @@
 """The static ground: the void, floors with their edges and shadows, areas."""
 
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
-from ai4u_edu.page.viewer.scene.arena import arena_size, floor_under, lowest_floor, region_outlines
+from ai4u_edu.page.viewer.scene.arena import arena_size, region_outlines
 from ai4u_edu.page.viewer.scene.geometry import (
     Array,
     Mesh,
@@ -67,8 +67,8 @@ class Ground:
             for floor in static_scene.floors:
                 _floor(drawer, layers, floor, arena_size(static_scene))
             for area in static_scene.areas:
-                top = floor_under(static_scene, *area.position)
-                _area(drawer, layers, area, lowest_floor(static_scene) if top is None else top)
+                top = static_scene.floor_under(*area.position)
+                _area(drawer, layers, area, static_scene.lowest_floor if top is None else top)
             drawer.finish()
         self._built_for = wanted
 

@@ -7,8 +7,8 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap
-from ai4u_edu.page.viewer.scene.arena import floor_under, lowest_floor
-from ai4u_edu.page.viewer.scene.field_arrows import FieldArrows
+from ai4u_edu.explain_page.choice import choice_of
+from ai4u_edu.explain_page.field_arrows import FieldArrows
 from ai4u_edu.page.viewer.scene.geometry import Array, cap
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours
@@ -46,7 +46,7 @@ class PolicyMaps:
             del self.pages[gone]
         for number in self._turns.due(self._viewer_clients.keys()):
             client = self._viewer_clients[number]
-            requests = client.maps.requests(client.agent)
+            requests = choice_of(client).maps.requests(client.agent)
             if number not in self.pages and not requests:
                 continue
             if number not in self.pages:
@@ -97,8 +97,8 @@ class PageMaps:
     def _grounds(self, told: LiveMap | None) -> Array:
         """Return the heights of the floor at a map's places, (n,)."""
         places = () if told is None else told.poses
-        lowest = lowest_floor(self._static_scene)
-        tops = (floor_under(self._static_scene, x, y) for x, y, _ in places)
+        lowest = self._static_scene.lowest_floor
+        tops = (self._static_scene.floor_under(x, y) for x, y, _ in places)
         return np.array([lowest if top is None else top for top in tops])
 
 

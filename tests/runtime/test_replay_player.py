@@ -7,10 +7,10 @@ from threading import Event, Semaphore
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.page.viewer.replay import replay_player
-from ai4u_edu.page.viewer.replay.replay_player import RUNNING_EPISODE, ReplayPlayer
 from ai4u_edu.recording import Archive, Recorder
 from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.runtime import replay_player
+from ai4u_edu.runtime.replay_player import RUNNING_EPISODE, ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from tests.waiting import LIMIT_S, until
 
