@@ -23,8 +23,8 @@ import grimp
 
 ROOT = Path(__file__).resolve().parent.parent
 LIMITS = Path(__file__).with_suffix(".json")
-LEFT_OUT = {"__main__", "errors", "cycle", "runner", "bootstrap", "registration"}
-"""Modules beside the packages: entry points and aliases."""
+LEFT_OUT = {"__main__", "bootstrap", "registration"}
+"""Modules beside the packages: entry points."""
 STARTS = {
     "SceneEnv": "ai4u_edu.learn.envs.scene_env",
     "play": "ai4u_edu.cli.play",

@@ -16,7 +16,7 @@ from ai4u_edu.page.panel.messages.base import MAX_NAME_CHARS
 from ai4u_edu.page.panel.socket import MAX_PENDING_COMMANDS as MAX_PENDING
 from ai4u_edu.page.panel.upload import MAX_PART_BYTES
 from ai4u_edu.page.server import page_receiver
-from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_FILE_BYTES
 from tests.attacks.arguments import EXPLAIN_COMMANDS, NAMES, OWN_COMMANDS
 from tests.attacks.test_odd_input_messages import ODD
 from tests.page.panel.rooms import PanelPage, PanelRoom, panel_room

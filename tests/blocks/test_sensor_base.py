@@ -19,9 +19,9 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.rebind import sense_again
 from ai4u_edu.base.errors import BlockError
-from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.ai4u import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
-from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.check.rollout import RandomDrive
 from tests.builders import small_sim
 
 
@@ -209,33 +209,6 @@ def test_both_paths_into_memory_give_the_same_bits(
     direct = percepts(name)
     monkeypatch.setattr(Sensor, "_read_direct", Sensor._read_filtered)
     assert percepts(name) == direct
-
-
-def test_a_sensor_may_still_define_the_old_name_of_is_sentinel() -> None:
-    with pytest.warns(DeprecationWarning, match=r"Old.says_nothing is now Old.is_sentinel"):
-
-        class Old(Constant):
-            """Reads a sentinel."""
-
-            def read(self, body: Any, view: Any) -> float:
-                return 0.5
-
-            def says_nothing(self, reading: Any) -> bool:
-                return bool(reading[0] == 0.5)
-
-    assert readings(Old(normalized=True), 1) == [[0.5], [0.5]]
-    with pytest.warns(DeprecationWarning, match="Sensor.says_nothing is now Sensor.is_sentinel"):
-        assert not Constant().says_nothing([5.0])
-
-    with pytest.warns(DeprecationWarning, match="is_sentinel"):
-
-        class Older(Old):
-            """Asks its base by the old name."""
-
-            def says_nothing(self, reading: Any) -> bool:
-                return super().says_nothing(reading)
-
-    assert Older().is_sentinel([0.5])
 
 
 # -- choices and texts -----------------------------------------------------------------------------

@@ -1,7 +1,6 @@
 """Base class of sensors: key, space, and the path from a raw reading to the percept."""
 
 import math
-import warnings
 from collections import deque
 from collections.abc import Callable
 from operator import truediv
@@ -17,13 +16,12 @@ from ai4u_edu.base.errors import BlockError, ReadingError, suggest
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.blocks.percept import DTYPES, TEXTS
-from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
 from ai4u_edu.world import BodyView, WorldView
 
 Array = npt.NDArray[Any]
 
-SPACES = (
+_SPACES = (
     spaces.Box,
     spaces.Discrete,
     spaces.MultiBinary,
@@ -33,10 +31,13 @@ SPACES = (
 """Spaces that a reading may have, besides a Tuple or a Sequence of Text."""
 KINDS = (*DTYPES, *TEXTS)
 """AI4U's types of readings."""
-ARRAY_KINDS = {"sfloat": "sfloatarray", "sint": "sintarray", "sbool": "sintarray"}
+_ARRAY_KINDS = {"sfloat": "sfloatarray", "sint": "sintarray", "sbool": "sintarray"}
 """Types of several readings of a type of one number."""
 NEUTRAL = {"stacked_observations": 1, "normalized": False, "noise": 0, "delay": 0, "dropout": 0}
 """Values with which these attributes of a sensor change nothing."""
+
+_MAX_KEPT_NUMBERS = 2**23
+"""Maximum count of numbers that a sensor may keep, over all readings for stack and delay."""
 
 
 class Sensor(Block):
@@ -102,13 +103,6 @@ class Sensor(Block):
     def __post_init__(self) -> None:
         self.perception_key = self.perception_key or default_name(type(self), "Sensor")
 
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "says_nothing" in vars(cls) and "is_sentinel" not in vars(cls):
-            text = f"{cls.__name__}.says_nothing is now {cls.__name__}.is_sentinel"
-            warnings.warn(text, DeprecationWarning, stacklevel=2)
-            setattr(cls, "is_sentinel", vars(cls)["says_nothing"])  # noqa: B010 - mypy: a method
-
     def fixed_at_setup(self) -> dict[str, object]:
         """Return what decides on the reading's place and on its path to the percept."""
         return {
@@ -156,17 +150,6 @@ class Sensor(Block):
         """Return True for a raw reading that means "nothing there" and is not normalised."""
         return False
 
-    def says_nothing(self, reading: Any) -> bool:
-        """Return :meth:`is_sentinel`; deprecated name, kept for one release."""
-        warnings.warn(
-            "Sensor.says_nothing is now Sensor.is_sentinel", DeprecationWarning, stacklevel=2
-        )
-        for cls in type(self).__mro__:
-            found = vars(cls).get("is_sentinel")
-            if found is not None and found is not vars(cls).get("says_nothing"):
-                return bool(found(self, reading))
-        return False
-
     def slots(self) -> tuple[str, ...]:
         """Return display names of the numbers of one reading; empty if they have none."""
         return ()
@@ -192,7 +175,7 @@ class Sensor(Block):
         self._check_attributes(kind)
         if self._is_normalized() and kind in DTYPES and DTYPES[kind] is not np.float32:
             kind = "sfloatarray" if self.space().shape else "sfloat"
-        return ARRAY_KINDS.get(kind, kind) if self.stacked_observations > 1 else kind
+        return _ARRAY_KINDS.get(kind, kind) if self.stacked_observations > 1 else kind
 
     def _declared_kind(self) -> str:
         """Return AI4U's type of one reading as it is."""
@@ -416,4 +399,20 @@ def _can_be_read(space: object) -> bool:
         return all(isinstance(each, spaces.Text) for each in space.spaces)
     if isinstance(space, spaces.Sequence):
         return isinstance(space.feature_space, spaces.Text)
-    return isinstance(space, SPACES)
+    return isinstance(space, _SPACES)
+
+
+def check_memory(sensor: Sensor, shape: tuple[int, ...]) -> None:
+    """Raise a BlockError if a sensor's readings would need too much memory.
+
+    Args:
+        sensor: the sensor.
+        shape: shape of one reading.
+    """
+    size, kept = math.prod(shape), sensor.stacked_observations + sensor.delay
+    if size * kept > _MAX_KEPT_NUMBERS:
+        raise BlockError(
+            f"{type(sensor).__name__} {sensor.perception_key!r}: expected at most "
+            f"{_MAX_KEPT_NUMBERS} numbers in the readings that it keeps, got {kept} of {size}; "
+            "choose a lower resolution, or less of stacked_observations and delay"
+        )

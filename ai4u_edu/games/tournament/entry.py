@@ -13,7 +13,7 @@ from ai4u_edu.blocks import Block, Controller
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES, ZOO_PREFIX, find_network
 from ai4u_edu.games.tournament.sides import Sides
-from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_FILE_BYTES
 from ai4u_edu.scenes.serialization import is_serializable
 
 MAX_NAME_CHARS = 40

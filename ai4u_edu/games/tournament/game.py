@@ -17,7 +17,7 @@ from ai4u_edu.games.tournament.limits import CpuMeter, OverTimeError, memory_lim
 from ai4u_edu.games.tournament.match_brain import MatchBrain, reason_of
 from ai4u_edu.games.tournament.sides import Sides, sides_of
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.recording.file import encode
+from ai4u_edu.recording.episode import encode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_data import scene_from
 

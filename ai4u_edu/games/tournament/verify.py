@@ -18,7 +18,7 @@ from ai4u_edu.games.tournament.limits import is_over_time
 from ai4u_edu.games.tournament.plan import Plan
 from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, Tournament, files_of, play_all, sums_of
 from ai4u_edu.recording import Episode, Replay
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 
 RESULT = ("points", "goal", "ticks", "forfeit", "reason")
 MAX_VALUE_CHARS = 120

@@ -15,7 +15,7 @@ from ai4u_edu.games.tournament.entry import parse_entry, with_names
 from ai4u_edu.games.tournament.game import game
 from ai4u_edu.games.tournament.sides import sides_of
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from tests.games.tournament.bad_networks import BAD, INPUTS
 from tests.learn.training.networks import network
 from tests.waiting import LIMIT_S

@@ -8,7 +8,7 @@ import pytest
 from ai4u_edu import BasicAgent, Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.keyboard import Stick
 from ai4u_edu.page.server.bindings import has_stick
 from ai4u_edu.page.server.human_override import HumanOverride
 from ai4u_edu.page.server.key_labels import key_labels, usable_keys

@@ -17,7 +17,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.page.server import Rules, ServerThread, exports, past, room_app
 from ai4u_edu.page.server.past import WRITERS
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.runtime.runner import Runner
 from tests.page.server import http_client
 from tests.page.server.rooms import NOWHERE, PATIENT, raw_request
