@@ -19,7 +19,7 @@ from ai4u_edu.cli.sweep import INTERRUPTED
 if TYPE_CHECKING:
     from ai4u_edu.games.jobs import Outcome
     from ai4u_edu.games.tournament.plan import Plan
-    from ai4u_edu.games.tournament.run import Tournament
+    from ai4u_edu.games.tournament.tournament import Tournament
 
 MAX_SEEDS = 1000
 VERIFY = "verify"

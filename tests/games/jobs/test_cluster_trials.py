@@ -14,8 +14,9 @@ from ai4u_edu import Scene
 from ai4u_edu.games.jobs import Engine, engine
 from ai4u_edu.games.tournament.entry import Entry, parse_entry
 from ai4u_edu.games.tournament.plan import Plan as TournamentPlan
-from ai4u_edu.games.tournament.run import Tournament, run_tournament, write_results
+from ai4u_edu.games.tournament.run import run_tournament, write_results
 from ai4u_edu.games.tournament.sides import sides_of
+from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.learn.training.sweep.plan import Plan
 from ai4u_edu.learn.training.sweep.result import csv_text
 from ai4u_edu.learn.training.sweep.run import Sweep, run_sweep

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu.games.jobs.inline import InlineEngine
+from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.plan import Plan
 from ai4u_edu.games.tournament.verify import verify
@@ -65,7 +65,7 @@ def test_a_tournament_goes_on_after_each_kill_and_is_whole(tmp_path: Path, kills
         _, told = process.communicate()
     assert process.returncode == 0, told
     count = 6 * max(2, kills // 5)
-    assert verify(tmp_path, InlineEngine()) == (count, [])
+    assert verify(tmp_path, engine("inline")) == (count, [])
 
 
 def _wait_for_a_game(journal: Path, process: "subprocess.Popen[str]") -> None:
