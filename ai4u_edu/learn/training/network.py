@@ -1,6 +1,6 @@
 """A Stable-Baselines3 model as one torch module from readings to an action. Loads torch."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.algorithms import CLASSES
 
 
-class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
+class PolicyModule(nn.Module):  # type: ignore[misc]  # seen without its types
     """Torch module of a model's deterministic policy: readings in, an action out.
 
     Scaling of the readings, the choice and the scaling to the actuator's range all happen inside.
@@ -161,8 +161,3 @@ def _kind_of(model: BaseAlgorithm) -> str:
         if isinstance(model, cls):
             return kind
     raise SetupError(f"expected a model of SAC, PPO or DQN, got {type(model).__name__}")
-
-
-def example(inputs: Mapping[str, tuple[tuple[int, ...], np.dtype[Any]]]) -> tuple[Tensor, ...]:
-    """Return two rows of zeros for each input, by shape and type."""
-    return tuple(torch.from_numpy(np.zeros((2, *shape), dtype)) for shape, dtype in inputs.values())
