@@ -11,7 +11,6 @@ from typing import Any
 
 from ai4u_edu.base.atomic_write import partial_file, write_atomically
 from ai4u_edu.base.file_lock import FileLock, LockedError
-from ai4u_edu.lessons.moved_exercises import moved
 from ai4u_edu.lessons.prediction_values import Prediction, Value, read_predictions
 
 FILE = "progress.json"
@@ -180,7 +179,7 @@ def read_entries(text: str) -> dict[str, Entry]:
     except (TypeError, KeyError, AttributeError, RecursionError) as error:
         raise ValueError(str(error)) from error
     if version == 1:
-        return {moved(name): _moved_entry(each) for name, each in entries.items()}
+        return {_moved(name): _moved_entry(each) for name, each in entries.items()}
     if version != VERSION:
         raise ValueError(f"version {version!r}, expected {VERSION}")
     return entries
@@ -188,8 +187,20 @@ def read_entries(text: str) -> dict[str, Entry]:
 
 def _moved_entry(entry: Entry) -> Entry:
     """Return an entry of version 1 with the new ids of its diagnoses."""
-    counts = {moved(name): count for name, count in entry.diagnoses.items()}
-    return replace(entry, diagnosis=moved(entry.diagnosis), diagnoses=counts)
+    counts = {_moved(name): count for name, count in entry.diagnoses.items()}
+    return replace(entry, diagnosis=_moved(entry.diagnosis), diagnoses=counts)
+
+
+def _moved(name: str) -> str:
+    """Return the new id of an exercise, or of one of its diagnoses.
+
+    >>> [_moved(each) for each in ("03.2", "12.3/late", "00.1", "any/no-return", "")]
+    ['04.2', '17.4/late', '00.1', 'any/no-return', '']
+    """
+    exercise, slash, diagnosis = name.partition("/")
+    lesson, dot, number = exercise.partition(".")
+    new = _MOVED_EXERCISES.get(exercise, f"{_MOVED_LESSONS.get(lesson, lesson)}{dot}{number}")
+    return f"{new}{slash}{diagnosis}"
 
 
 def _entry(plain: object) -> Entry:
@@ -207,3 +218,24 @@ def _entry(plain: object) -> Entry:
 
 
 _KINDS: dict[str, type] = {each.name: type(getattr(Entry(), each.name)) for each in fields(Entry)}
+
+_MOVED_LESSONS = {
+    "01": "02",
+    "02": "03",
+    "03": "04",
+    "04": "05",
+    "05": "06",
+    "06": "08",
+    "07": "09",
+    "08": "15",
+    "09": "10",
+    "10": "11",
+    "11": "12",
+    "12": "16",
+    "13": "18",
+    "14": "19",
+    "15": "20",
+}
+"""New numbers of the lessons of the first course, whose progress files have version 1."""
+_MOVED_EXERCISES = {"05.3": "07.1", "11.4": "13.3", "12.3": "17.4"}
+"""Exercises that went to another lesson than the others of theirs."""
