@@ -13,7 +13,7 @@ from ai4u_edu.lessons.course import is_ticket, lesson, lessons
 from ai4u_edu.lessons.diagnoses import COMMON, UNKNOWN, diagnosis_id
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
 from ai4u_edu.lessons.notebook_output import card, cells_so_far, put
-from ai4u_edu.lessons.progress_file import Entry, ProgressFile
+from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 from ai4u_edu.lessons.student_errors import Mistake, line_of, mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 
@@ -32,7 +32,7 @@ UNFINISHED = "There is still `...` where your answer should be: run its cell onc
 
 
 @dataclass(frozen=True)
-class Verdict:
+class CheckResult:
     """Result of a check."""
 
     passed: bool
@@ -42,23 +42,23 @@ class Verdict:
     picture: bytes = b""
 
 
-def judge(exercise: Exercise, *things: Any) -> Verdict:
+def judge(exercise: Exercise, *things: Any) -> CheckResult:
     """Run a student's work; return their exception as a sentence."""
     if not things or any(unfinished(thing) for thing in things):
-        return Verdict(False, UNFINISHED, "unfinished")
+        return CheckResult(False, UNFINISHED, "unfinished")
     if any(thing is None for thing in things):
-        return Verdict(False, NONE_GIVEN, "no-return")
+        return CheckResult(False, NONE_GIVEN, "no-return")
     with TimeLimit(exercise.call_limit_s, exercise.total_limit_s) as limit:
         try:
             found = exercise.judge(*things)
         except NotYet as reason:
-            return Verdict(False, reason.text, reason.hint or UNKNOWN, reason.picture)
+            return CheckResult(False, reason.text, reason.hint or UNKNOWN, reason.picture)
         except TimeLimitError:
-            return Verdict(False, limit.text, limit.diagnosis)
+            return CheckResult(False, limit.text, limit.diagnosis)
         except (Exception, SystemExit) as error:
             return _failed(exercise, things, error)
     done = Done(found) if isinstance(found, str) else found
-    return Verdict(True, done.text, picture=done.picture)
+    return CheckResult(True, done.text, picture=done.picture)
 
 
 def check(exercise_id: str, *things: Any) -> None:
@@ -115,7 +115,7 @@ def hint(exercise_id: str) -> None:
         SetupError: there is no such exercise.
     """
     exercise = find(exercise_id)
-    diagnosis = ProgressFile().entries().get(exercise_id, Entry()).diagnosis
+    diagnosis = ProgressFile().entries().get(exercise_id, ExerciseProgress()).diagnosis
     report_event(exercise_id, "hint", diagnosis)
     pointed = diagnosis.rpartition("/")[2]
     names = _hints_in_order(exercise, pointed)
@@ -163,7 +163,7 @@ def progress() -> None:
     entries = progress.entries()
     rows, words, passed, total = [], [], 0, 0
     for each in lessons():
-        marks = [entries.get(name, Entry()).passed for name in each.exercises]
+        marks = [entries.get(name, ExerciseProgress()).passed for name in each.exercises]
         passed, total = passed + sum(marks), total + len(marks)
         named = list(zip(each.exercises, marks, strict=True))
         signs = "   ".join(f"{name} {YES if mark else NO}" for name, mark in named)
@@ -173,7 +173,7 @@ def progress() -> None:
     put(card("blue", "Progress.", words), _words("Progress.", words))
 
 
-def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -> Verdict:
+def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -> CheckResult:
     """Return the verdict on an exception: the student's mistake, or a fault of the check."""
     mistake = mistake_in(error)
     if mistake is None:
@@ -182,10 +182,10 @@ def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -
             f"The check itself has a fault: it could not try out {shown} ({type(error).__name__}: "
             f"{error}). Please tell your teacher."
         )
-        return Verdict(False, text, UNKNOWN)
+        return CheckResult(False, text, UNKNOWN)
     if mistake.function:
-        return Verdict(False, _parameters_of(exercise, mistake), mistake.name)
-    return Verdict(False, mistake.text, mistake.name)
+        return CheckResult(False, _parameters_of(exercise, mistake), mistake.name)
+    return CheckResult(False, mistake.text, mistake.name)
 
 
 def _parameters_of(exercise: Exercise, mistake: Mistake) -> str:

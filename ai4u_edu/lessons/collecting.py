@@ -16,7 +16,7 @@ from ai4u_edu.lessons.course import Lesson, exercise_ids, is_ticket, lessons
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import Exercise, find
 from ai4u_edu.lessons.notebook_output import marked
-from ai4u_edu.lessons.progress_file import FILE, Entry, read_entries
+from ai4u_edu.lessons.progress_file import FILE, ExerciseProgress, read_entries
 
 MAX_FILE_BYTES = 5_000_000
 """Limit of a progress file that is read."""
@@ -52,7 +52,7 @@ class ClassProgress:
         problems: sentences on files that could not be read.
     """
 
-    students: Mapping[str, Mapping[str, Entry]]
+    students: Mapping[str, Mapping[str, ExerciseProgress]]
     problems: list[str]
 
     def write(self, folder: Path) -> list[Path]:
@@ -103,7 +103,7 @@ def collect(folder: Path) -> ClassProgress:
     """
     if not folder.is_dir():
         raise SetupError(f"expected a folder with the files of a class, found none at {folder}")
-    students: dict[str, Mapping[str, Entry]] = {}
+    students: dict[str, Mapping[str, ExerciseProgress]] = {}
     problems = []
     for path in sorted(folder.rglob("*.json")):
         place = path.relative_to(folder)
@@ -122,7 +122,7 @@ def collect(folder: Path) -> ClassProgress:
     return ClassProgress(students, problems)
 
 
-def _entries(path: Path) -> Mapping[str, Entry]:
+def _entries(path: Path) -> Mapping[str, ExerciseProgress]:
     if path.stat().st_size > MAX_FILE_BYTES:
         raise ValueError(f"expected at most {MAX_FILE_BYTES} bytes")
     return read_entries(path.read_text(encoding="utf-8"))
@@ -139,7 +139,7 @@ def _rows(collected: ClassProgress) -> Iterator[tuple[object, ...]]:
                 yield (student, each, find(each).title, passed, *rest)
 
 
-def _entries_of(collected: ClassProgress, exercise: str) -> list[Entry]:
+def _entries_of(collected: ClassProgress, exercise: str) -> list[ExerciseProgress]:
     return [one[exercise] for one in collected.students.values() if exercise in one]
 
 
@@ -189,7 +189,7 @@ def _students(collected: ClassProgress, course: list[Lesson]) -> str:
     )
 
 
-def _cell(exercise: str, entry: Entry | None, kind: str) -> str:
+def _cell(exercise: str, entry: ExerciseProgress | None, kind: str) -> str:
     if entry is None:
         return f'<td class="{kind}"></td>' if kind else "<td></td>"
     word = "solved" if entry.passed else "not yet"

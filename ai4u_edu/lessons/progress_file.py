@@ -24,7 +24,7 @@ LOCK_POLL_S = 0.002
 
 
 @dataclass
-class Entry:
+class ExerciseProgress:
     """Progress in one exercise."""
 
     passed: bool = False
@@ -55,7 +55,7 @@ class ProgressFile:
         self.trouble = ""
         """What was wrong with the file, in a sentence; empty if nothing was."""
 
-    def entries(self) -> dict[str, Entry]:
+    def entries(self) -> dict[str, ExerciseProgress]:
         """Return the entries by exercise id; a damaged file is renamed, and a new one begins."""
         return self._read()[0]
 
@@ -79,7 +79,7 @@ class ProgressFile:
             self._write(entries, predictions)
         return known
 
-    def _read(self) -> tuple[dict[str, Entry], dict[str, Prediction]]:
+    def _read(self) -> tuple[dict[str, ExerciseProgress], dict[str, Prediction]]:
         try:
             text = self.path.read_text(encoding="utf-8")
             return read_entries(text), read_predictions(json.loads(text).get("predictions"))
@@ -107,7 +107,7 @@ class ProgressFile:
         self, exercise: str, passed: bool, text: str, diagnosis: str, picture: bytes, code: str
     ) -> None:
         entries, predictions = self._read()
-        entry = entries.setdefault(exercise, Entry())
+        entry = entries.setdefault(exercise, ExerciseProgress())
         if not entry.passed:
             entry.tries += 1
             entry.passed = passed
@@ -127,7 +127,9 @@ class ProgressFile:
         """Return the path of the last check's picture, if there is one."""
         return self.folder / FOLDER / f"{exercise}.picture"
 
-    def _write(self, entries: dict[str, Entry], predictions: dict[str, Prediction]) -> None:
+    def _write(
+        self, entries: dict[str, ExerciseProgress], predictions: dict[str, Prediction]
+    ) -> None:
         plain: dict[str, Any] = {
             "version": VERSION,
             "exercises": {name: asdict(entries[name]) for name in sorted(entries)},
@@ -166,7 +168,7 @@ class ProgressFile:
         self.trouble += f"; it was put aside as {aside.name}, and a new one is begun"
 
 
-def read_entries(text: str) -> dict[str, Entry]:
+def read_entries(text: str) -> dict[str, ExerciseProgress]:
     """Return the entries of a progress file by exercise id.
 
     Raises:
@@ -185,7 +187,7 @@ def read_entries(text: str) -> dict[str, Entry]:
     return entries
 
 
-def _moved_entry(entry: Entry) -> Entry:
+def _moved_entry(entry: ExerciseProgress) -> ExerciseProgress:
     """Return an entry of version 1 with the new ids of its diagnoses."""
     counts = {_moved(name): count for name, count in entry.diagnoses.items()}
     return replace(entry, diagnosis=_moved(entry.diagnosis), diagnoses=counts)
@@ -203,11 +205,11 @@ def _moved(name: str) -> str:
     return f"{new}{slash}{diagnosis}"
 
 
-def _entry(plain: object) -> Entry:
+def _entry(plain: object) -> ExerciseProgress:
     if not isinstance(plain, dict):
         raise TypeError(f"expected an entry, got {plain!r}")
     plain = {name: each for name, each in plain.items() if name != "hint"}  # of older versions
-    entry = Entry(**plain)
+    entry = ExerciseProgress(**plain)
     for name, kind in _KINDS.items():
         if type(getattr(entry, name)) is not kind:
             raise TypeError(f"{name}: expected {kind.__name__}, got {getattr(entry, name)!r}")
@@ -217,7 +219,9 @@ def _entry(plain: object) -> Entry:
     return entry
 
 
-_KINDS: dict[str, type] = {each.name: type(getattr(Entry(), each.name)) for each in fields(Entry)}
+_KINDS: dict[str, type] = {
+    each.name: type(getattr(ExerciseProgress(), each.name)) for each in fields(ExerciseProgress)
+}
 
 _MOVED_LESSONS = {
     "01": "02",

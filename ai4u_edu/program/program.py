@@ -9,7 +9,7 @@ from ai4u_edu.program import standins
 from ai4u_edu.program.action import Outputs, checked_action
 from ai4u_edu.program.endless import loop_around, why_endless
 from ai4u_edu.program.mistakes import ProgramError, mistake_in
-from ai4u_edu.program.output import Output
+from ai4u_edu.program.output import PrintedOutput
 from ai4u_edu.program.portable import obstacle_in_tree
 from ai4u_edu.program.reading import plain_sum, readings_of
 from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, ReportLine, Trace
@@ -53,7 +53,7 @@ class Program:
         file: str,
         *,
         outputs: Outputs | None,
-        output: Output | None,
+        output: PrintedOutput | None,
         trace: Trace,
     ) -> None:
         self.trace = trace
@@ -75,7 +75,7 @@ class Program:
         entry: str = "",
         outputs: Outputs | None = None,
         *,
-        output: Output | None = None,
+        output: PrintedOutput | None = None,
         limit_s: float = DECISION_LIMIT_S,
         keeps_lines: bool = True,
         report_line: ReportLine | None = None,

@@ -19,9 +19,9 @@ from ai4u_edu.remote.steps import (
     Flow,
     Note,
     Open,
-    Pause,
     Receive,
     Send,
+    Sleep,
     Step,
 )
 
@@ -61,7 +61,7 @@ class AsyncConnection:
                 await self._open(timeout)
             case Close():
                 await self._close()
-            case Pause(seconds):
+            case Sleep(seconds):
                 await asyncio.sleep(seconds)
             case Note(text):
                 log_note(text)

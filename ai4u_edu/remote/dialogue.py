@@ -25,9 +25,9 @@ from ai4u_edu.remote.steps import (
     Flow,
     Note,
     Open,
-    Pause,
     Receive,
     Send,
+    Sleep,
 )
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
@@ -286,7 +286,7 @@ class Dialogue:
                     missing = "no world answers yet" if is_first else "the connection is lost"
                     why = f"{missing} ({noted})"
                 yield Note(f"{why}; trying again for up to {left:.0f} s")
-            yield Pause(min(backoff, left))
+            yield Sleep(min(backoff, left))
             backoff = min(2 * backoff, MAX_BACKOFF_S)
             attempt_until = min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S)
 

@@ -4,7 +4,7 @@ from types import TracebackType
 from typing import Protocol, Self
 
 from ai4u_edu.base.errors import SetupError, suggest
-from ai4u_edu.games.jobs.call import Answer, call
+from ai4u_edu.games.jobs.call import JobAnswer, call
 from ai4u_edu.games.jobs.job import Job
 
 NAMES = ("inline", "processes", "ray")
@@ -20,7 +20,7 @@ class Engine(Protocol):
         """Begin a job; called while fewer than :attr:`width` jobs run."""
         ...
 
-    def wait(self) -> tuple[Job, Answer]:
+    def wait(self) -> tuple[Job, JobAnswer]:
         """Return a job that has ended, and its answer; called while a job runs."""
         ...
 
@@ -79,7 +79,7 @@ class _InlineEngine:
     def start(self, job: Job) -> None:
         self._job = job
 
-    def wait(self) -> tuple[Job, Answer]:
+    def wait(self) -> tuple[Job, JobAnswer]:
         if self._job is None:
             raise RuntimeError("no job runs")
         job, self._job = self._job, None

@@ -19,7 +19,7 @@ import psutil
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.process_family import kill_descendants
-from ai4u_edu.games.jobs.call import Answer, call, use_one_thread
+from ai4u_edu.games.jobs.call import JobAnswer, call, use_one_thread
 from ai4u_edu.games.jobs.job import Job
 
 JOBS_PER_CORE = 2
@@ -80,7 +80,7 @@ class RayEngine:
         with suppress(OSError):  # Ray's process has ended; the answer tells
             self._pipe.send(job)
 
-    def wait(self) -> tuple[Job, Answer]:
+    def wait(self) -> tuple[Job, JobAnswer]:
         """See :class:`ai4u_edu.games.jobs.Engine`.
 
         Raises:
@@ -91,7 +91,7 @@ class RayEngine:
             key, answer = self._pipe.recv()
         except (EOFError, OSError):
             raise self._ended() from None
-        return self._running.pop(key), Answer(*answer)
+        return self._running.pop(key), JobAnswer(*answer)
 
     def close(self) -> None:
         """See :class:`ai4u_edu.games.jobs.Engine`."""
@@ -166,7 +166,7 @@ def _drive(pipe: Connection, address: str) -> None:
 
     The first message that it sends is the number of the cluster's cores and an empty text, or 0 and
     why there is no cluster. An answer is a job's key and its
-    :class:`~ai4u_edu.games.jobs.call.Answer`.
+    :class:`~ai4u_edu.games.jobs.call.JobAnswer`.
 
     Args:
         pipe: to the process of the engine.
@@ -225,12 +225,12 @@ def _serve(ray: Any, pipe: Connection, running: dict[Any, Job]) -> None:
         pipe.send((running.pop(ready[0]).key, _answer(ray, ready[0])))
 
 
-def _answer(ray: Any, done: Any) -> Answer:
+def _answer(ray: Any, done: Any) -> JobAnswer:
     try:
-        return Answer(*ray.get(done))
+        return JobAnswer(*ray.get(done))
     except ray.exceptions.RayError as error:  # its process or its machine died
         first, *_ = str(error).strip().splitlines() or [""]
-        return Answer(error=f"{type(error).__name__}: {first}")
+        return JobAnswer(error=f"{type(error).__name__}: {first}")
 
 
 def _call(job: Job) -> tuple[Any, ...]:

@@ -24,7 +24,7 @@ from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.base.process_priority import lower_priority
 from ai4u_edu.games.jobs.processes import ProcessEngine
 from ai4u_edu.games.tournament.contest import ContestResult
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import run_tournament, write_results
 from ai4u_edu.games.tournament.standings import Standing
 from ai4u_edu.games.tournament.tournament import Tournament
@@ -61,7 +61,9 @@ def main() -> None:
     try:
         with ProcessEngine(_width()) as engine:
             journal = work[0] if work else None
-            done = run_tournament(Plan.load(folder), folder, engine, journal=journal, show=show)
+            done = run_tournament(
+                TournamentPlan.load(folder), folder, engine, journal=journal, show=show
+            )
         write_results(done)
     except (AI4UError, OSError) as error:
         tell(problem=str(error))

@@ -21,12 +21,12 @@ from typing import Any
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.games.jobs import Engine, Job, Journal, Outcome, run_jobs
+from ai4u_edu.games.jobs import Engine, Job, JobOutcome, Journal, run_jobs
 from ai4u_edu.games.jobs.journal import FILE as JOURNAL
 from ai4u_edu.games.tournament.contest import Contest, ContestResult, game_job
 from ai4u_edu.games.tournament.game import result_fault
 from ai4u_edu.games.tournament.page import page_of
-from ai4u_edu.games.tournament.plan import CHECK_SEED, Plan
+from ai4u_edu.games.tournament.plan import CHECK_SEED, TournamentPlan
 from ai4u_edu.games.tournament.plan import FILE as PLAN
 from ai4u_edu.games.tournament.standings import Standing
 from ai4u_edu.games.tournament.tournament import Tournament
@@ -38,17 +38,17 @@ PAGE = "index.html"
 SUMS = "SHA256SUMS"
 """Hashes of all other files of the folder, as ``sha256sum --check`` reads them."""
 MAX_FILE_PART_BYTES = 100
-Play = Callable[[Sequence[Job]], Iterator[Outcome]]
+Play = Callable[[Sequence[Job]], Iterator[JobOutcome]]
 """Runs jobs, and yields their outcomes as they end."""
 
 
 def run_tournament(
-    plan: Plan,
+    plan: TournamentPlan,
     folder: Path,
     engine: Engine,
     *,
     journal: Path | None = None,
-    tell: Callable[[Outcome], object] = lambda _outcome: None,
+    tell: Callable[[JobOutcome], object] = lambda _outcome: None,
     show: Callable[[Tournament], object] = lambda _done: None,
 ) -> Tournament:
     """Play the games of a plan that have not been played; Ctrl-C keeps those that are finished.
@@ -67,7 +67,7 @@ def run_tournament(
     done, sides = Tournament(plan, folder), len(plan.sides.names)
     with Journal(folder if journal is None else journal) as kept:
 
-        def play(jobs: Sequence[Job]) -> Iterator[Outcome]:
+        def play(jobs: Sequence[Job]) -> Iterator[JobOutcome]:
             for outcome in run_jobs(jobs, engine, journal=kept):
                 fault = "" if outcome.error else result_fault(outcome.result, sides)
                 if fault:
@@ -181,7 +181,7 @@ def _play_round(
     take: Callable[[int | None], object],
 ) -> None:
     """Play contests, by their place in the schedule, and take each as soon as its games ended."""
-    outcomes: dict[str, Outcome] = {}
+    outcomes: dict[str, JobOutcome] = {}
     jobs = {place: contest.jobs(done.plan.scene) for place, contest in waiting.items()}
     places: dict[str, list[int]] = {}
     for place, games in jobs.items():
@@ -196,7 +196,7 @@ def _play_round(
                 take(place)
 
 
-def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[Outcome]) -> None:
+def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[JobOutcome]) -> None:
     """Add a contest's result."""
     error = next((each.error for each in ended if each.error), "")
     if error:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from ai4u_edu.games.tournament.contest import ContestResult
 from ai4u_edu.games.tournament.entry import Entry
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.standings import Standing, standings
 
 
@@ -27,7 +27,7 @@ class BestGame(NamedTuple):
 class Tournament:
     """Results of a tournament so far."""
 
-    plan: Plan
+    plan: TournamentPlan
     folder: Path
     refused: dict[str, str] = field(default_factory=dict)
     """Reasons for which entries take no part, by name."""

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 
-class EpisodeResult(NamedTuple):
+class EpisodeStats(NamedTuple):
     """Result of one episode."""
 
     seed: int

@@ -10,7 +10,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback
 
 from ai4u_edu.learn.envs import SceneEnv
-from ai4u_edu.learn.training.episode import EpisodeResult
+from ai4u_edu.learn.training.episode import EpisodeStats
 from ai4u_edu.learn.training.run import Check, Run
 from ai4u_edu.learn.training.settings import Settings
 from ai4u_edu.learn.training.worlds import ABOVE
@@ -106,7 +106,7 @@ def _trials(
     envs: Sequence[SceneEnv],
     seeds: Iterable[int],
     table: npt.NDArray[np.float32] | None = None,
-) -> list[EpisodeResult]:
+) -> list[EpisodeStats]:
     """Run one episode in each world at the same time, with deterministic actions.
 
     Args:
@@ -118,7 +118,7 @@ def _trials(
     seeds = list(seeds)
     observations = [env.reset(seed=seed)[0] for env, seed in zip(envs, seeds, strict=True)]
     rewards, lengths = np.zeros(len(seeds)), np.zeros(len(seeds), int)
-    done: dict[int, EpisodeResult] = {}
+    done: dict[int, EpisodeStats] = {}
     under_way = list(range(len(seeds)))
     while under_way:
         seen = _stacked([observations[index] for index in under_way])
@@ -130,7 +130,7 @@ def _trials(
             lengths[index] += 1
             if over or cut:
                 won = bool(info["success"])
-                done[index] = EpisodeResult(
+                done[index] = EpisodeStats(
                     seeds[index], won, float(rewards[index]), int(lengths[index]), over
                 )
         under_way = [index for index in under_way if index not in done]

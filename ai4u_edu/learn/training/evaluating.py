@@ -10,7 +10,7 @@ from rich.table import Table
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.learn.training.episode import EpisodeResult, wilson
+from ai4u_edu.learn.training.episode import EpisodeStats, wilson
 from ai4u_edu.learn.training.policies import Entrant, expect_here
 from ai4u_edu.scenes import Scene
 
@@ -26,7 +26,7 @@ class Evaluation:
     scene: str
     has_goal: bool
     """True if the scene defines a success."""
-    episodes: tuple[EpisodeResult, ...]
+    episodes: tuple[EpisodeStats, ...]
 
     @property
     def successes(self) -> int:
@@ -143,18 +143,18 @@ def evaluate(
     return Evaluation(who.name, scene.description.name, goal is not None, tuple(episodes))
 
 
-def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> EpisodeResult:
+def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> EpisodeStats:
     sim.reset(seed)
     reward, length, episode = 0.0, 0, sim.episode
     while not agent.done and length < DEFAULT_MAX_DECISIONS:
         sim.step(agent)
         if sim.episode != episode or agent.stopped or agent.paused:
-            return EpisodeResult(seed, False, reward, length, False)  # it gave up
+            return EpisodeStats(seed, False, reward, length, False)  # it gave up
         reward += agent.reward
         length += 1
     paid = agent.ledger.episode_terms
     won = bool(goal and paid.get(goal, 0.0) > 0)
-    return EpisodeResult(seed, won, reward, length, agent.terminated)
+    return EpisodeStats(seed, won, reward, length, agent.terminated)
 
 
 def _spread(numbers: Sequence[float]) -> dict[str, float]:

@@ -124,7 +124,7 @@ class PolicyModule(nn.Module):  # type: ignore[misc]  # seen without its types
         return best if self.table is None else self.table[best]
 
 
-class _Seen(NamedTuple):
+class _ReadingForm(NamedTuple):
     """Form of one reading as a network's input."""
 
     choices: int
@@ -133,19 +133,19 @@ class _Seen(NamedTuple):
     shape: tuple[int, ...]
 
 
-def _spaces_of(space: spaces.Space[Any]) -> dict[str, _Seen]:
+def _spaces_of(space: spaces.Space[Any]) -> dict[str, _ReadingForm]:
     """Return the space of each reading; empty where they all come in one array."""
     if not isinstance(space, spaces.Dict):
         return {}
     return {key: _seen_of(each) for key, each in space.spaces.items()}
 
 
-def _seen_of(space: spaces.Space[Any]) -> _Seen:
+def _seen_of(space: spaces.Space[Any]) -> _ReadingForm:
     choices = int(space.n) if isinstance(space, spaces.Discrete) else 0
-    return _Seen(choices, is_image_space(space), space.shape or ())
+    return _ReadingForm(choices, is_image_space(space), space.shape or ())
 
 
-def _as_seen(reading: Tensor, seen: _Seen) -> Tensor:
+def _as_seen(reading: Tensor, seen: _ReadingForm) -> Tensor:
     """Preprocess a reading as Stable-Baselines3 does."""
     if seen.choices:
         return nn.functional.one_hot(reading.to(torch.int64), seen.choices).to(torch.float32)

@@ -11,7 +11,7 @@ import pytest
 
 from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.entry import Entry
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.scenes.scene_data import scene_data
 from tests.waiting import until
@@ -30,10 +30,10 @@ def begun(folder: Path) -> "subprocess.Popen[str]":
     return subprocess.Popen(command, stdout=pipe, stderr=pipe, env=env, text=True)
 
 
-def plan(seeds: int) -> Plan:
+def plan(seeds: int) -> TournamentPlan:
     entries = [Entry(name=name, drivers={"": {"kind": "random"}}) for name in ("ann", "bob")]
     entries.append(Entry(name="eve", drivers={"": {"kind": "scene"}}))
-    return Plan(
+    return TournamentPlan(
         scene=scene_data("sumo"),
         entries=tuple(entries),
         seeds=tuple(range(seeds)),

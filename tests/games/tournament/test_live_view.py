@@ -11,17 +11,17 @@ import pytest
 from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.live_process import live_view
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import run_tournament
 from ai4u_edu.games.tournament.tournament import Tournament
 
 NAMES = ("ann", "bob", "eve")
 
 
-def plan(system: Any = "round-robin", seeds: int = 1) -> Plan:
+def plan(system: Any = "round-robin", seeds: int = 1) -> TournamentPlan:
     entries = [Entry(name=name, drivers={"": {"kind": "random"}}) for name in NAMES[:2]]
     entries.append(Entry(name=NAMES[2], drivers={"": {"kind": "scene"}}))
-    return Plan(
+    return TournamentPlan(
         scene={"name": "sumo"},
         entries=tuple(entries),
         seeds=tuple(range(seeds)),

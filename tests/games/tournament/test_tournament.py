@@ -10,10 +10,10 @@ from typer.testing import CliRunner
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.cli.main import app
-from ai4u_edu.games.jobs import Job, Outcome
+from ai4u_edu.games.jobs import Job, JobOutcome
 from ai4u_edu.games.tournament.contest import Contest, ContestResult
 from ai4u_edu.games.tournament.entry import Entry
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import play_all
 from ai4u_edu.games.tournament.standings import standings
 from ai4u_edu.games.tournament.tournament import Tournament
@@ -89,13 +89,13 @@ def played(
 ) -> Tournament:
     """Return a tournament in which who comes first in the alphabet wins."""
 
-    def play(jobs: Sequence[Job]) -> Iterator[Outcome]:
+    def play(jobs: Sequence[Job]) -> Iterator[JobOutcome]:
         for job in jobs:
             one, other = (entry["name"] for entry in job.arguments["entries"])
             sign = (one < other) - (one > other)
-            yield Outcome(job, told(sign, -sign) | {"episode": "", "reason": ""})
+            yield JobOutcome(job, told(sign, -sign) | {"episode": "", "reason": ""})
 
-    plan = Plan(
+    plan = TournamentPlan(
         scene={"name": "sumo"},
         entries=tuple(entries(*names)),
         seeds=seeds,

@@ -24,7 +24,7 @@ from ai4u_edu.cli.main import app
 from ai4u_edu.games.jobs import Job, engine
 from ai4u_edu.games.tournament import limits
 from ai4u_edu.games.tournament.game import game
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import run_tournament, write_results
 from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.world import WorldView
@@ -278,7 +278,7 @@ def forge(folder: Path, change: Callable[[list[dict[str, Any]]], object]) -> Non
     change(sorted((each for each in lines if each["key"] in games), key=lambda e: games[e["key"]]))
     path.write_text("".join(f"{json.dumps(each)}\n" for each in lines))
     shutil.rmtree(folder / "games")
-    plan = Plan.load(folder)
+    plan = TournamentPlan.load(folder)
     write_results(run_tournament(plan, folder, engine("inline")))
 
 
@@ -377,7 +377,7 @@ def test_nothing_outside_of_the_folder_is_read(folder: Path, tmp_path: Path) -> 
 
 @pytest.mark.parametrize("kind", ["plain"])
 def test_a_tournament_that_is_not_finished_is_told(folder: Path) -> None:
-    plan = Plan.load(folder)
+    plan = TournamentPlan.load(folder)
     (folder / "journal.jsonl").unlink()
 
     def stop(_: object) -> None:

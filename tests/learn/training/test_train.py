@@ -144,10 +144,10 @@ def test_the_best_is_kept_not_the_last(tmp_path: Path, monkeypatch: pytest.Monke
     ranks = iter([0.2, 0.9, 0.4])
 
     def pretending(_model: Any, _envs: Any, seeds: Any, _table: Any) -> list[Any]:
-        from ai4u_edu.learn.training.episode import EpisodeResult
+        from ai4u_edu.learn.training.episode import EpisodeStats
 
         reward = next(ranks)
-        return [EpisodeResult(seed, False, reward, 5, False) for seed in seeds]
+        return [EpisodeStats(seed, False, reward, 5, False) for seed in seeds]
 
     monkeypatch.setattr("ai4u_edu.learn.training.eval_callback._trials", pretending)
     done = small_training(tmp_path, "sac", sac=small_settings().sac.model_dump() | {"steps": 300})
@@ -160,10 +160,10 @@ def test_it_ends_when_it_is_good_enough(tmp_path: Path, monkeypatch: pytest.Monk
     rates = iter([1.0, 0.0, 1.0, 1.0, 1.0])
 
     def pretending(_model: Any, _envs: Any, seeds: Any, _table: Any) -> list[Any]:
-        from ai4u_edu.learn.training.episode import EpisodeResult
+        from ai4u_edu.learn.training.episode import EpisodeStats
 
         success = next(rates) == 1.0
-        return [EpisodeResult(seed, success, 0.0, 5, True) for seed in seeds]
+        return [EpisodeStats(seed, success, 0.0, 5, True) for seed in seeds]
 
     monkeypatch.setattr("ai4u_edu.learn.training.eval_callback._trials", pretending)
     many = small_settings().sac.model_dump() | {"steps": 1000}

@@ -16,7 +16,7 @@ from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.base.html_report import html_page, html_picture, html_table
 from ai4u_edu.learn.training.evaluating import Evaluation
 from ai4u_edu.learn.training.settings import NO_REWARD
-from ai4u_edu.learn.training.sweep.plan import Plan
+from ai4u_edu.learn.training.sweep.plan import SweepPlan
 from ai4u_edu.learn.training.sweep.result import TrialResult, groups, ranked
 from ai4u_edu.learn.training.sweep.search_space import LEFT_OUT, text_of
 
@@ -27,7 +27,7 @@ MAX_TICK_LABELS = 8
 
 
 def page_of(
-    plan: Plan,
+    plan: SweepPlan,
     results: Sequence[TrialResult],
     evaluation: Evaluation | None,
     total: int,
@@ -69,7 +69,7 @@ def draw_pictures(results: Sequence[TrialResult], names: Sequence[str], folder: 
 
 
 def _parts(
-    plan: Plan,
+    plan: SweepPlan,
     results: Sequence[TrialResult],
     evaluation: Evaluation | None,
     total: int,
@@ -118,7 +118,7 @@ def _parts(
         )
 
 
-def _summary(plan: Plan, results: Sequence[TrialResult], total: int) -> str:
+def _summary(plan: SweepPlan, results: Sequence[TrialResult], total: int) -> str:
     counts = {
         state: sum(each.state == state for each in results)
         for state in ("finished", "pruned", "failed")

@@ -21,7 +21,7 @@ from ai4u_edu.games.jobs import Engine, Journal, run_jobs
 from ai4u_edu.learn.training.evaluating import Evaluation, evaluate
 from ai4u_edu.learn.training.policies import entrant
 from ai4u_edu.learn.training.sweep.page import draw_pictures, page_of
-from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+from ai4u_edu.learn.training.sweep.plan import Choice, SweepPlan
 from ai4u_edu.learn.training.sweep.result import TrialResult, csv_text, ranked
 from ai4u_edu.scenes.scene_data import scene_from
 
@@ -34,7 +34,7 @@ PAGE = "index.html"
 class Sweep:
     """Results of a sweep so far."""
 
-    plan: Plan
+    plan: SweepPlan
     folder: Path
     results: tuple[TrialResult, ...]
     """Results of the trials that ended, by number."""
@@ -49,13 +49,13 @@ class Sweep:
         return next((each for each in ranked(self.results) if each.network), None)
 
 
-def total_of(plan: Plan) -> int:
+def total_of(plan: SweepPlan) -> int:
     """Return the number of trials of a plan."""
     return plan.trials or len(plan.choices())
 
 
 def run_sweep(
-    plan: Plan,
+    plan: SweepPlan,
     folder: Path,
     engine: Engine,
     *,
@@ -93,7 +93,7 @@ def run_sweep(
 
 
 def _search(
-    plan: Plan,
+    plan: SweepPlan,
     folder: Path,
     engine: Engine,
     journal: Journal,
@@ -113,7 +113,7 @@ def _search(
 
 
 def _run_batch(
-    plan: Plan,
+    plan: SweepPlan,
     choices: Sequence[Choice],
     first: int,
     rivals: list[list[float]],
