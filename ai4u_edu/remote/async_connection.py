@@ -16,12 +16,12 @@ from ai4u_edu.remote.connection_options import (
 from ai4u_edu.remote.steps import (
     Close,
     ConnectionLostError,
+    Delay,
     Flow,
     Note,
     Open,
     Receive,
     Send,
-    Sleep,
     Step,
 )
 
@@ -61,7 +61,7 @@ class AsyncConnection:
                 await self._open(timeout)
             case Close():
                 await self._close()
-            case Sleep(seconds):
+            case Delay(seconds):
                 await asyncio.sleep(seconds)
             case Note(text):
                 log_note(text)

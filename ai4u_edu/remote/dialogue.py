@@ -22,12 +22,12 @@ from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.steps import (
     Close,
     ConnectionLostError,
+    Delay,
     Flow,
     Note,
     Open,
     Receive,
     Send,
-    Sleep,
 )
 from ai4u_edu.wire import native
 from ai4u_edu.wire.validation import WireError
@@ -286,7 +286,7 @@ class Dialogue:
                     missing = "no world answers yet" if is_first else "the connection is lost"
                     why = f"{missing} ({noted})"
                 yield Note(f"{why}; trying again for up to {left:.0f} s")
-            yield Sleep(min(backoff, left))
+            yield Delay(min(backoff, left))
             backoff = min(2 * backoff, MAX_BACKOFF_S)
             attempt_until = min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S)
 

@@ -19,17 +19,17 @@ from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.steps import (
     Close,
     ConnectionLostError,
+    Delay,
     Flow,
     Note,
     Open,
     Receive,
     Send,
-    Sleep,
     Step,
 )
 
 T = TypeVar("T")
-_WAITING_STEPS = (Open, Receive, Sleep)
+_WAITING_STEPS = (Open, Receive, Delay)
 
 
 class ConnectionStoppedError(RemoteError):
@@ -90,7 +90,7 @@ class SyncConnection:
                 self._open(timeout)
             case Close():
                 self._close()
-            case Sleep(seconds):
+            case Delay(seconds):
                 time.sleep(seconds)
             case Note(text):
                 self._tell(text)
