@@ -181,9 +181,9 @@ def clone(
     from ai4u_edu.learn.training.cloning import clone as cloned
     from ai4u_edu.learn.training.demonstrations import load_episodes
     from ai4u_edu.learn.training.evaluating import evaluate as evaluated
+    from ai4u_edu.learn.training.evaluating import evaluation_table
     from ai4u_edu.learn.training.policies import entrant
     from ai4u_edu.learn.training.progress_bar import counted
-    from ai4u_edu.learn.training.report import table
 
     load_own_blocks(own_blocks)
     episodes = load_episodes(data)
@@ -194,7 +194,7 @@ def clone(
         where = _driven_by(out, episodes[0], agent)
         seeds = range(1000, 1000 + evaluate)
         result = evaluated(who, where, counted(seeds, who.name))
-        Console().print(table([result]))
+        Console().print(evaluation_table([result]))
     typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
 
 

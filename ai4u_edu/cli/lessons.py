@@ -57,13 +57,13 @@ def lessons(
 
 
 def _collect(folder: Path) -> None:
-    from ai4u_edu.lessons.collecting import collect, write
+    from ai4u_edu.lessons.collecting import collect
 
     collected = collect(folder)
     for problem in collected.problems:
         typer.echo(problem, err=True)
     typer.echo(f"{len(collected.students)} students:")
-    for path in write(collected, folder):
+    for path in collected.write(folder):
         typer.echo(f"  {path}")
 
 

@@ -18,7 +18,7 @@ from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, check_blocks, lo
 
 if TYPE_CHECKING:
     from ai4u_edu.learn.training.settings import Algorithm
-    from ai4u_edu.learn.training.sweep.plan import Plan
+    from ai4u_edu.learn.training.sweep.plan import SweepPlan
     from ai4u_edu.learn.training.sweep.result import TrialResult
     from ai4u_edu.learn.training.sweep.run import Sweep
 
@@ -134,9 +134,9 @@ def _plan(
     steps: int | None,
     settings: Path | None,
     own_blocks: list[Path] | None,
-) -> "Plan":
+) -> "SweepPlan":
     from ai4u_edu.learn.training.settings import settings_for
-    from ai4u_edu.learn.training.sweep.plan import Plan
+    from ai4u_edu.learn.training.sweep.plan import SweepPlan
     from ai4u_edu.learn.training.sweep.search_space import Parameter
     from ai4u_edu.scenes.scene_data import scene_data, scene_from
 
@@ -151,7 +151,7 @@ def _plan(
     for name in names:
         if names.count(name) > 1:
             raise SetupError(f"--set: expected each setting once, got {name!r} twice")
-    return Plan(
+    return SweepPlan(
         scene=data,
         algorithms=_algorithms(algo or how.algorithm),
         seeds=parse_seeds(seeds),
@@ -163,7 +163,7 @@ def _plan(
     )
 
 
-def with_rewards_left_out(plan: "Plan") -> "Plan":
+def with_rewards_left_out(plan: "SweepPlan") -> "SweepPlan":
     """Return a plan that also trains without each of the learner's reward terms.
 
     Raises:
@@ -221,25 +221,25 @@ def parse_seeds(text: str) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _kept_plan(scene: str, out: Path | None, trials: int) -> "tuple[Plan, Path]":
-    from ai4u_edu.learn.training.sweep.plan import Plan
+def _kept_plan(scene: str, out: Path | None, trials: int) -> "tuple[SweepPlan, Path]":
+    from ai4u_edu.learn.training.sweep.plan import SweepPlan
 
     if out is None or scene:
         raise SetupError(
             "--resume goes on as it was begun: expected --out, the sweep's folder, and no scene"
         )
-    plan = Plan.load(out)
+    plan = SweepPlan.load(out)
     if trials and not plan.is_search:
         raise SetupError(f"{out} tries all combinations; expected no --trials")
     return (plan.model_copy(update={"trials": trials}) if trials else plan), out
 
 
-def _begun(plan: "Plan", folder: Path) -> "Plan":
+def _begun(plan: "SweepPlan", folder: Path) -> "SweepPlan":
     """Return the plan, unless the folder holds a sweep of another one."""
-    from ai4u_edu.learn.training.sweep.plan import FILE, Plan
+    from ai4u_edu.learn.training.sweep.plan import FILE, SweepPlan
 
     if (folder / FILE).exists():
-        different = plan.difference(Plan.load(folder))
+        different = plan.difference(SweepPlan.load(folder))
         if different:
             raise SetupError(
                 f"{folder} holds a sweep with other {different}; go on with that one (--resume "
@@ -248,7 +248,7 @@ def _begun(plan: "Plan", folder: Path) -> "Plan":
     return plan
 
 
-def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Sweep":
+def _run(plan: "SweepPlan", folder: Path, engine_name: str, address: str) -> "Sweep":
     from ai4u_edu.base.seeding import seeds_from
     from ai4u_edu.games.jobs import engine
     from ai4u_edu.games.jobs.journal import count_done

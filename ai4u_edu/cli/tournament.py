@@ -17,9 +17,9 @@ from ai4u_edu.cli.options import OwnBlocks, check_blocks, load_own_blocks, seed_
 from ai4u_edu.cli.sweep import INTERRUPTED
 
 if TYPE_CHECKING:
-    from ai4u_edu.games.jobs import Outcome
-    from ai4u_edu.games.tournament.plan import Plan
-    from ai4u_edu.games.tournament.run import Tournament
+    from ai4u_edu.games.jobs import JobOutcome
+    from ai4u_edu.games.tournament.plan import TournamentPlan
+    from ai4u_edu.games.tournament.tournament import Tournament
 
 MAX_SEEDS = 1000
 VERIFY = "verify"
@@ -96,9 +96,9 @@ def tournament(
                 "--resume goes on as it was begun: expected --out, the tournament's folder, and "
                 "no scene"
             )
-        from ai4u_edu.games.tournament.plan import Plan
+        from ai4u_edu.games.tournament.plan import TournamentPlan
 
-        plan, folder = Plan.load(out), out
+        plan, folder = TournamentPlan.load(out), out
         check_blocks(plan.scene, own_blocks)
         if not trust_python and not all(each.can_repeat for each in plan.entries):
             raise SetupError(
@@ -121,10 +121,10 @@ def _plan(
     rounds: int,
     trust_python: bool,
     own_blocks: list[Path] | None,
-) -> "Plan":
+) -> "TournamentPlan":
     from ai4u_edu.base.seeding import seeds_from
     from ai4u_edu.games.tournament.entry import parse_entry, with_names
-    from ai4u_edu.games.tournament.plan import Plan
+    from ai4u_edu.games.tournament.plan import TournamentPlan
     from ai4u_edu.games.tournament.sides import sides_of
     from ai4u_edu.scenes.scene_data import scene_data, scene_from
 
@@ -140,7 +140,7 @@ def _plan(
     entries = with_names(
         parse_entry(each, sides, scene=name, trust_python=trust_python) for each in specs
     )
-    return Plan(
+    return TournamentPlan(
         scene=data,
         entries=entries,
         seeds=tuple(seeds_from(seeds.start, len(seeds))),
@@ -149,11 +149,11 @@ def _plan(
     )
 
 
-def _check_folder(plan: "Plan", folder: Path) -> None:
-    from ai4u_edu.games.tournament.plan import FILE, Plan
+def _check_folder(plan: "TournamentPlan", folder: Path) -> None:
+    from ai4u_edu.games.tournament.plan import FILE, TournamentPlan
 
     if (folder / FILE).exists():
-        different = plan.difference(Plan.load(folder))
+        different = plan.difference(TournamentPlan.load(folder))
         if different:
             raise SetupError(
                 f"{folder} holds a tournament with other {different}; go on with that one "
@@ -161,7 +161,7 @@ def _check_folder(plan: "Plan", folder: Path) -> None:
             )
 
 
-def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournament":
+def _run(plan: "TournamentPlan", folder: Path, engine_name: str, address: str) -> "Tournament":
     from ai4u_edu.games.jobs import engine
     from ai4u_edu.games.jobs.journal import count_done
     from ai4u_edu.games.tournament.run import run_tournament, write_results
@@ -171,7 +171,7 @@ def _run(plan: "Plan", folder: Path, engine_name: str, address: str) -> "Tournam
     kept, ended = min(count_done(folder), total), count(1)
     bar = ProgressBar(total, "games", done=kept)
 
-    def tell(outcome: "Outcome") -> None:
+    def tell(outcome: "JobOutcome") -> None:
         bar.show(max(kept, next(ended)))
         result = outcome.result or {"reason": outcome.error, "forfeit": -1}
         if result["reason"]:
@@ -212,11 +212,11 @@ def _report(done: "Tournament", engine: str) -> None:
 
 def _verify(folder: Path, engine_name: str, address: str, own_blocks: list[Path] | None) -> None:
     from ai4u_edu.games.jobs import engine
-    from ai4u_edu.games.tournament.plan import Plan
+    from ai4u_edu.games.tournament.plan import TournamentPlan
     from ai4u_edu.games.tournament.verify import verify
     from ai4u_edu.learn.training.progress_bar import ProgressBar
 
-    plan = Plan.load(folder)
+    plan = TournamentPlan.load(folder)
     check_blocks(plan.scene, own_blocks)
     bar = ProgressBar(len(plan.entries) + plan.games_for(len(plan.entries)), "games")
     with closing(bar), engine(engine_name, address=address) as running:

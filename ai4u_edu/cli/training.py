@@ -121,9 +121,9 @@ def evaluate(
     """
     from ai4u_edu.base.optional_deps import need
     from ai4u_edu.learn.training.evaluating import evaluate as evaluated
+    from ai4u_edu.learn.training.evaluating import evaluation_table
     from ai4u_edu.learn.training.policies import entrant
     from ai4u_edu.learn.training.progress_bar import counted
-    from ai4u_edu.learn.training.report import table
     from ai4u_edu.scenes import Scene
 
     if plot is not None:
@@ -154,7 +154,7 @@ def evaluate(
             f"{loaded.description.name}: {episodes} episodes, seeds {seed}..{seed + episodes - 1}",
             highlight=False,
         )
-        Console().print(table(done))
+        Console().print(evaluation_table(done))
     if json_file is not None:
         text = json.dumps([each.plain() for each in done], indent=1)
         if str(json_file) == "-":

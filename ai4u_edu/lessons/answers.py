@@ -22,7 +22,7 @@ KINDS = ("solution", "right", "wrong", "lucky")
 
 
 @dataclass(frozen=True)
-class Answer:
+class SampleAnswer:
     """Possible content of an exercise's cell."""
 
     kind: str
@@ -43,7 +43,7 @@ class Answer:
 class Answers:
     """Possible contents of an exercise's cell."""
 
-    all: tuple[Answer, ...]
+    all: tuple[SampleAnswer, ...]
 
     @property
     def solution(self) -> str:
@@ -51,7 +51,7 @@ class Answers:
         return self.all[0].code
 
     @property
-    def wrong(self) -> tuple[Answer, ...]:
+    def wrong(self) -> tuple[SampleAnswer, ...]:
         """Return the misconceptions."""
         return tuple(each for each in self.all if each.kind == "wrong")
 
@@ -74,7 +74,7 @@ def answers_to(exercise: str) -> Answers:
     return Answers(tuple(found))
 
 
-def _answer(cell: Cell, path: str) -> Answer:
+def _answer(cell: Cell, path: str) -> SampleAnswer:
     kind, *rest = cell.tags or ("",)
     wanted = {"solution": (0,), "right": (1,), "wrong": (1, 2), "lucky": (1,)}.get(kind, ())
     if len(rest) not in wanted:
@@ -84,4 +84,4 @@ def _answer(cell: Cell, path: str) -> Answer:
             f"{list(cell.tags)}"
         )
     hint = rest[0] if kind == "wrong" else ""
-    return Answer(kind, cell.source, rest[-1] if rest else "solution", hint)
+    return SampleAnswer(kind, cell.source, rest[-1] if rest else "solution", hint)

@@ -1,17 +1,19 @@
 """``check``, ``hint``, ``solution`` and ``progress``, for students."""
 
+import ast
 import reprlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ai4u_edu.base.syntax import parsed
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.lessons.cell_source import definition_line, written
 from ai4u_edu.lessons.class_membership import class_trouble, report_event
-from ai4u_edu.lessons.course import is_ticket
+from ai4u_edu.lessons.course import is_ticket, lesson, lessons
 from ai4u_edu.lessons.diagnoses import COMMON, UNKNOWN, diagnosis_id
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
-from ai4u_edu.lessons.notebook_output import card, put
-from ai4u_edu.lessons.progress_file import Entry, ProgressFile
+from ai4u_edu.lessons.notebook_output import card, cells_so_far, put
+from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 from ai4u_edu.lessons.student_errors import Mistake, line_of, mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 
@@ -30,7 +32,7 @@ UNFINISHED = "There is still `...` where your answer should be: run its cell onc
 
 
 @dataclass(frozen=True)
-class Verdict:
+class CheckResult:
     """Result of a check."""
 
     passed: bool
@@ -40,23 +42,23 @@ class Verdict:
     picture: bytes = b""
 
 
-def judge(exercise: Exercise, *things: Any) -> Verdict:
+def judge(exercise: Exercise, *things: Any) -> CheckResult:
     """Run a student's work; return their exception as a sentence."""
     if not things or any(unfinished(thing) for thing in things):
-        return Verdict(False, UNFINISHED, "unfinished")
+        return CheckResult(False, UNFINISHED, "unfinished")
     if any(thing is None for thing in things):
-        return Verdict(False, NONE_GIVEN, "no-return")
+        return CheckResult(False, NONE_GIVEN, "no-return")
     with TimeLimit(exercise.call_limit_s, exercise.total_limit_s) as limit:
         try:
             found = exercise.judge(*things)
         except NotYet as reason:
-            return Verdict(False, reason.text, reason.hint or UNKNOWN, reason.picture)
+            return CheckResult(False, reason.text, reason.hint or UNKNOWN, reason.picture)
         except TimeLimitError:
-            return Verdict(False, limit.text, limit.diagnosis)
+            return CheckResult(False, limit.text, limit.diagnosis)
         except (Exception, SystemExit) as error:
             return _failed(exercise, things, error)
     done = Done(found) if isinstance(found, str) else found
-    return Verdict(True, done.text, picture=done.picture)
+    return CheckResult(True, done.text, picture=done.picture)
 
 
 def check(exercise_id: str, *things: Any) -> None:
@@ -94,7 +96,7 @@ def check_as(exercise_id: str, *things: Any, code: str | None = None) -> None:
         text=verdict.text,
         diagnosis=diagnosis,
         picture=verdict.picture,
-        code=written(exercise_id) if code is None else code,
+        code=_written(exercise_id) if code is None else code,
     )
     report_event(exercise_id, "right" if verdict.passed else "wrong", diagnosis)
     if verdict.passed:
@@ -113,7 +115,7 @@ def hint(exercise_id: str) -> None:
         SetupError: there is no such exercise.
     """
     exercise = find(exercise_id)
-    diagnosis = ProgressFile().entries().get(exercise_id, Entry()).diagnosis
+    diagnosis = ProgressFile().entries().get(exercise_id, ExerciseProgress()).diagnosis
     report_event(exercise_id, "hint", diagnosis)
     pointed = diagnosis.rpartition("/")[2]
     names = _hints_in_order(exercise, pointed)
@@ -157,23 +159,21 @@ def solution(exercise_id: str) -> None:
 
 def progress() -> None:
     """Show which exercises are solved."""
-    from ai4u_edu.lessons.course import lessons
-
     progress = ProgressFile()
     entries = progress.entries()
     rows, words, passed, total = [], [], 0, 0
-    for lesson in lessons():
-        marks = [entries.get(each, Entry()).passed for each in lesson.exercises]
+    for each in lessons():
+        marks = [entries.get(name, ExerciseProgress()).passed for name in each.exercises]
         passed, total = passed + sum(marks), total + len(marks)
-        named = list(zip(lesson.exercises, marks, strict=True))
+        named = list(zip(each.exercises, marks, strict=True))
         signs = "   ".join(f"{name} {YES if mark else NO}" for name, mark in named)
-        rows.append(f"{lesson.title}: {signs}")
+        rows.append(f"{each.title}: {signs}")
     lines = [f"{passed} of {total} exercises are solved.", *rows]
     words = [*lines, *([progress.trouble] if progress.trouble else [])]
     put(card("blue", "Progress.", words), _words("Progress.", words))
 
 
-def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -> Verdict:
+def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -> CheckResult:
     """Return the verdict on an exception: the student's mistake, or a fault of the check."""
     mistake = mistake_in(error)
     if mistake is None:
@@ -182,18 +182,65 @@ def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -
             f"The check itself has a fault: it could not try out {shown} ({type(error).__name__}: "
             f"{error}). Please tell your teacher."
         )
-        return Verdict(False, text, UNKNOWN)
+        return CheckResult(False, text, UNKNOWN)
     if mistake.function:
-        return Verdict(False, _parameters_of(exercise, mistake), mistake.name)
-    return Verdict(False, mistake.text, mistake.name)
+        return CheckResult(False, _parameters_of(exercise, mistake), mistake.name)
+    return CheckResult(False, mistake.text, mistake.name)
 
 
 def _parameters_of(exercise: Exercise, mistake: Mistake) -> str:
     """Return a sentence on a function whose parameters are not those of the exercise."""
     name = mistake.function.rpartition(".")[2]
-    line = definition_line(exercise.id, name)
+    line = _definition_line(exercise.id, name)
     wanted = f" Its first line has to be `{line}`." if line else ""
     return f"`{name}` is called with other parameters than it has: {mistake.text}.{wanted}"
+
+
+def _written(exercise: str) -> str:
+    """Return the code that was run last for an exercise; empty outside a notebook."""
+    cells = lesson(exercise.partition(".")[0]).cells
+    wanted = {name for cell in cells if cell.exercise == exercise for name in _made_in(cell.source)}
+    return _latest(wanted, cells_so_far())
+
+
+def _latest(wanted: set[str], cells: Sequence[str]) -> str:
+    """Return the last cell that defines one of the names.
+
+    >>> _latest({"go"}, ["def go(): ...", "go()", "x = 1"])
+    'def go(): ...'
+    """
+    found = (cell for cell in reversed(cells) if wanted & _made_in(cell))
+    return next(found, "")
+
+
+def _made_in(code: str) -> set[str]:
+    r"""Return the names that a cell defines, apart from those within a function.
+
+    >>> sorted(_made_in("def f(): x = 1\na, b = 1, 2\nclass C: ..."))
+    ['C', 'a', 'b', 'f']
+    """
+    try:
+        statements = parsed(code).body
+    except (SyntaxError, ValueError):  # such as a line that is meant for the notebook alone
+        return set()
+    made = set()
+    for each in statements:
+        if isinstance(each, ast.FunctionDef | ast.ClassDef):
+            made.add(each.name)
+        elif isinstance(each, ast.Assign | ast.AnnAssign):
+            targets = each.targets if isinstance(each, ast.Assign) else [each.target]
+            parts = [part for target in targets for part in ast.walk(target)]
+            made |= {part.id for part in parts if isinstance(part, ast.Name)}
+    return made
+
+
+def _definition_line(exercise: str, name: str) -> str:
+    """Return the line that defines a function in an exercise's cell; empty if there is none."""
+    for cell in lesson(exercise.partition(".")[0]).cells:
+        if cell.exercise == exercise:
+            found = (line.strip() for line in cell.source.splitlines())
+            return next((line for line in found if line.startswith(f"def {name}(")), "")
+    return ""
 
 
 def _words(sign: str, lines: list[str]) -> str:

@@ -38,7 +38,7 @@ lesson's: a scene would replace the world that a cell has just shown."""
 Receive = Callable[[FromClass], object]
 
 
-class Answer(NamedTuple):
+class SubmissionAnswer(NamedTuple):
     """Answer of the class to a network that was handed in."""
 
     is_stored: bool = False
@@ -91,7 +91,7 @@ class ClassConnection:
         """Deliver what can be delivered soon, and end the link."""
         self.client.stop()
 
-    def hand_in(self, network: Network, timeout_s: float) -> Answer:
+    def hand_in(self, network: Network, timeout_s: float) -> SubmissionAnswer:
         """Deliver a network, and wait for the class's check.
 
         Args:
@@ -113,12 +113,12 @@ class ClassConnection:
                     return answer
                 self._changed.wait(min(left_s, POLL_S))
 
-    def _answer(self, key: str) -> Answer:
+    def _answer(self, key: str) -> SubmissionAnswer:
         for each in self._handed_in.networks:
             if each.key == key:
-                return Answer(True, each.verdict == "right", each.reason)
+                return SubmissionAnswer(True, each.verdict == "right", each.reason)
         is_stored = key not in self.client.outbox.keys()  # noqa: SIM118 - it is no mapping
-        return Answer(is_stored, False, self._problem if is_stored else "")
+        return SubmissionAnswer(is_stored, False, self._problem if is_stored else "")
 
     def link_for_world(self, receive: Receive) -> "WorldLink":
         """Return a link for a world.

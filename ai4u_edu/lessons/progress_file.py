@@ -11,7 +11,6 @@ from typing import Any
 
 from ai4u_edu.base.atomic_write import partial_file, write_atomically
 from ai4u_edu.base.file_lock import FileLock, LockedError
-from ai4u_edu.lessons.moved_exercises import moved
 from ai4u_edu.lessons.prediction_values import Prediction, Value, read_predictions
 
 FILE = "progress.json"
@@ -25,7 +24,7 @@ LOCK_POLL_S = 0.002
 
 
 @dataclass
-class Entry:
+class ExerciseProgress:
     """Progress in one exercise."""
 
     passed: bool = False
@@ -56,7 +55,7 @@ class ProgressFile:
         self.trouble = ""
         """What was wrong with the file, in a sentence; empty if nothing was."""
 
-    def entries(self) -> dict[str, Entry]:
+    def entries(self) -> dict[str, ExerciseProgress]:
         """Return the entries by exercise id; a damaged file is renamed, and a new one begins."""
         return self._read()[0]
 
@@ -80,7 +79,7 @@ class ProgressFile:
             self._write(entries, predictions)
         return known
 
-    def _read(self) -> tuple[dict[str, Entry], dict[str, Prediction]]:
+    def _read(self) -> tuple[dict[str, ExerciseProgress], dict[str, Prediction]]:
         try:
             text = self.path.read_text(encoding="utf-8")
             return read_entries(text), read_predictions(json.loads(text).get("predictions"))
@@ -108,7 +107,7 @@ class ProgressFile:
         self, exercise: str, passed: bool, text: str, diagnosis: str, picture: bytes, code: str
     ) -> None:
         entries, predictions = self._read()
-        entry = entries.setdefault(exercise, Entry())
+        entry = entries.setdefault(exercise, ExerciseProgress())
         if not entry.passed:
             entry.tries += 1
             entry.passed = passed
@@ -128,7 +127,9 @@ class ProgressFile:
         """Return the path of the last check's picture, if there is one."""
         return self.folder / FOLDER / f"{exercise}.picture"
 
-    def _write(self, entries: dict[str, Entry], predictions: dict[str, Prediction]) -> None:
+    def _write(
+        self, entries: dict[str, ExerciseProgress], predictions: dict[str, Prediction]
+    ) -> None:
         plain: dict[str, Any] = {
             "version": VERSION,
             "exercises": {name: asdict(entries[name]) for name in sorted(entries)},
@@ -167,7 +168,7 @@ class ProgressFile:
         self.trouble += f"; it was put aside as {aside.name}, and a new one is begun"
 
 
-def read_entries(text: str) -> dict[str, Entry]:
+def read_entries(text: str) -> dict[str, ExerciseProgress]:
     """Return the entries of a progress file by exercise id.
 
     Raises:
@@ -180,23 +181,35 @@ def read_entries(text: str) -> dict[str, Entry]:
     except (TypeError, KeyError, AttributeError, RecursionError) as error:
         raise ValueError(str(error)) from error
     if version == 1:
-        return {moved(name): _moved_entry(each) for name, each in entries.items()}
+        return {_moved(name): _moved_entry(each) for name, each in entries.items()}
     if version != VERSION:
         raise ValueError(f"version {version!r}, expected {VERSION}")
     return entries
 
 
-def _moved_entry(entry: Entry) -> Entry:
+def _moved_entry(entry: ExerciseProgress) -> ExerciseProgress:
     """Return an entry of version 1 with the new ids of its diagnoses."""
-    counts = {moved(name): count for name, count in entry.diagnoses.items()}
-    return replace(entry, diagnosis=moved(entry.diagnosis), diagnoses=counts)
+    counts = {_moved(name): count for name, count in entry.diagnoses.items()}
+    return replace(entry, diagnosis=_moved(entry.diagnosis), diagnoses=counts)
 
 
-def _entry(plain: object) -> Entry:
+def _moved(name: str) -> str:
+    """Return the new id of an exercise, or of one of its diagnoses.
+
+    >>> [_moved(each) for each in ("03.2", "12.3/late", "00.1", "any/no-return", "")]
+    ['04.2', '17.4/late', '00.1', 'any/no-return', '']
+    """
+    exercise, slash, diagnosis = name.partition("/")
+    lesson, dot, number = exercise.partition(".")
+    new = _MOVED_EXERCISES.get(exercise, f"{_MOVED_LESSONS.get(lesson, lesson)}{dot}{number}")
+    return f"{new}{slash}{diagnosis}"
+
+
+def _entry(plain: object) -> ExerciseProgress:
     if not isinstance(plain, dict):
         raise TypeError(f"expected an entry, got {plain!r}")
     plain = {name: each for name, each in plain.items() if name != "hint"}  # of older versions
-    entry = Entry(**plain)
+    entry = ExerciseProgress(**plain)
     for name, kind in _KINDS.items():
         if type(getattr(entry, name)) is not kind:
             raise TypeError(f"{name}: expected {kind.__name__}, got {getattr(entry, name)!r}")
@@ -206,4 +219,27 @@ def _entry(plain: object) -> Entry:
     return entry
 
 
-_KINDS: dict[str, type] = {each.name: type(getattr(Entry(), each.name)) for each in fields(Entry)}
+_KINDS: dict[str, type] = {
+    each.name: type(getattr(ExerciseProgress(), each.name)) for each in fields(ExerciseProgress)
+}
+
+_MOVED_LESSONS = {
+    "01": "02",
+    "02": "03",
+    "03": "04",
+    "04": "05",
+    "05": "06",
+    "06": "08",
+    "07": "09",
+    "08": "15",
+    "09": "10",
+    "10": "11",
+    "11": "12",
+    "12": "16",
+    "13": "18",
+    "14": "19",
+    "15": "20",
+}
+"""New numbers of the lessons of the first course, whose progress files have version 1."""
+_MOVED_EXERCISES = {"05.3": "07.1", "11.4": "13.3", "12.3": "17.4"}
+"""Exercises that went to another lesson than the others of theirs."""

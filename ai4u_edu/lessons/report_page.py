@@ -14,7 +14,7 @@ from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook import EXERCISE
 from ai4u_edu.lessons.notebook_output import address, card, put
 from ai4u_edu.lessons.prediction_values import Prediction, shown
-from ai4u_edu.lessons.progress_file import Entry, ProgressFile
+from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:48em;margin:2em auto;padding:0 1em}
 pre{background:#f3f5f7;padding:.7em;overflow-x:auto}img{max-width:100%}
@@ -82,7 +82,9 @@ def codes(path: Path) -> Mapping[str, str]:
     return found
 
 
-def _exercise(progress: ProgressFile, name: str, entry: Entry, code: Mapping[str, str]) -> str:
+def _exercise(
+    progress: ProgressFile, name: str, entry: ExerciseProgress, code: Mapping[str, str]
+) -> str:
     colour = PALETTE["green" if entry.passed else "vermillion"]
     how = f"solved {entry.when}" if entry.passed else "not yet"
     checks = f"{entry.tries} check{'' if entry.tries == 1 else 's'}"

@@ -31,7 +31,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ai4u_edu.program.mistakes import ProgramError
-from ai4u_edu.program.output import Output
+from ai4u_edu.program.output import PrintedOutput
 from ai4u_edu.program.program import Program
 from ai4u_edu.program.tracing import DECISION_LIMIT_S, ReportLine
 
@@ -63,7 +63,7 @@ def load(text: str) -> str:
     """
     global _program
     said = json.loads(text)
-    output = Output()
+    output = PrintedOutput()
     _program = None
     _dtypes.clear()
     if isinstance(said.get("readings"), dict):

@@ -12,10 +12,10 @@ CUT = "\n... (cut: a decision may print 2,000 characters)\n"
 END = "\n... (nothing more is printed until the program is run again)\n"
 
 
-class Output:
+class PrintedOutput:
     r"""The program's ``print``, and what it printed in the present decision.
 
-    >>> output = Output()
+    >>> output = PrintedOutput()
     >>> output.print("left", 0.5)
     >>> output.take()
     'left 0.5\n'

@@ -8,14 +8,22 @@ from typing import Any, Self
 from ai4u_edu.program import standins
 from ai4u_edu.program.action import Outputs, checked_action
 from ai4u_edu.program.endless import loop_around, why_endless
-from ai4u_edu.program.entry import METHOD, MODULE_NAME, check_parameters, entry_name
 from ai4u_edu.program.mistakes import ProgramError, mistake_in
-from ai4u_edu.program.output import Output
+from ai4u_edu.program.output import PrintedOutput
 from ai4u_edu.program.portable import obstacle_in_tree
 from ai4u_edu.program.reading import plain_sum, readings_of
 from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, ReportLine, Trace
+from ai4u_edu.program.words import nearest, suggest
 
 MAX_SOURCE_CHARS = 200_000
+_ENTRY = "decide"
+"""Name of the function that is asked, if no other is named."""
+_METHOD = "get_action"
+_MODULE_NAME = "program"
+"""Name of a program's module, as it is in ``__name__``."""
+_VARARGS = 0x04
+"""Flag of a function with ``*arguments``; to import inspect for it takes long in a browser."""
+_EXPECTED = "expected a function: def decide(percept):"
 
 
 class Program:
@@ -45,7 +53,7 @@ class Program:
         file: str,
         *,
         outputs: Outputs | None,
-        output: Output | None,
+        output: PrintedOutput | None,
         trace: Trace,
     ) -> None:
         self.trace = trace
@@ -67,7 +75,7 @@ class Program:
         entry: str = "",
         outputs: Outputs | None = None,
         *,
-        output: Output | None = None,
+        output: PrintedOutput | None = None,
         limit_s: float = DECISION_LIMIT_S,
         keeps_lines: bool = True,
         report_line: ReportLine | None = None,
@@ -137,7 +145,7 @@ class Program:
             own["print"] = self.output.print
         self._names = {
             "__builtins__": {**vars(builtins), **own},
-            "__name__": MODULE_NAME,
+            "__name__": _MODULE_NAME,
             "__file__": self.file,
         }
         try:
@@ -147,15 +155,66 @@ class Program:
         self._call(exec, code, self._names)
 
     def _find_entry(self, entry: str) -> None:
-        value = self._names[entry_name(self._names, self._tree, self.file, entry)]
+        value = self._names[self._entry_name(entry)]
         if isinstance(value, type):
             value = self._call(value)
-        if hasattr(value, METHOD):
+        if hasattr(value, _METHOD):
             self._controller = value
             self._call_hook("on_setup", None, None)
-            value = getattr(value, METHOD)
-        check_parameters(value)
+            value = getattr(value, _METHOD)
+        _check_parameters(value)
         self._function = value
+
+    def _entry_name(self, entry: str) -> str:
+        """Return the name of the function, class with ``get_action`` or such object that is asked.
+
+        Args:
+            entry: the name that was asked for; empty for ``decide``, else the only class with
+                ``get_action``.
+
+        Raises:
+            ProgramError: there is none, or it can't be asked.
+        """
+        name = entry or self._only_entry()
+        if name not in self._names or name.startswith("__"):
+            known = [each for each in self._names if not each.startswith("_")]
+            raise ProgramError(f"{self.file} has no {name!r}; {suggest(name, known)}", 0, "entry")
+        value, line = self._names[name], self._line_of(name)
+        if isinstance(value, type) and not callable(getattr(value, _METHOD, None)):
+            text = f"the class {name} has no {_METHOD}(self, percept): it must return an action"
+            raise ProgramError(text, line, "entry")
+        if not callable(value) and not callable(getattr(value, _METHOD, None)):
+            raise ProgramError(f"{name!r} is no function; {_EXPECTED}", line, "entry")
+        return name
+
+    def _only_entry(self) -> str:
+        if _ENTRY in self._names:
+            return _ENTRY
+        own = {
+            name: value
+            for name, value in self._names.items()
+            if getattr(value, "__module__", "") == _MODULE_NAME
+        }
+        classes = [
+            name for name, each in own.items() if isinstance(each, type) and hasattr(each, _METHOD)
+        ]
+        if len(classes) == 1:
+            return classes[0]
+        near = nearest(_ENTRY, own)
+        if near:
+            text = f"the function must be called {_ENTRY}, exactly so; you wrote {near}"
+            raise ProgramError(text, self._line_of(near), "entry")
+        raise ProgramError(f"there is no function {_ENTRY!r}; {_EXPECTED}", 0, "entry")
+
+    def _line_of(self, name: str) -> int:
+        """Return the line in which a name of the module is defined; 0 if it is not found."""
+        for node in self._tree.body:
+            if getattr(node, "name", "") == name:
+                return node.lineno
+            targets = node.targets if isinstance(node, ast.Assign) else ()
+            if any(isinstance(each, ast.Name) and each.id == name for each in targets):
+                return node.lineno
+        return 0
 
     def _call_hook(self, name: str, *arguments: Any) -> None:
         """Call a method that a controller may have; the stand-in's own ones do nothing."""
@@ -213,3 +272,18 @@ def _no_input(*_prompt: object) -> None:
     raise ProgramError(
         "input() has nobody to ask here: use what percept has, or write the value into the program"
     )
+
+
+def _check_parameters(function: Any) -> None:
+    """Raise a ProgramError unless a function can be called with the percept alone."""
+    code = getattr(getattr(function, "__func__", function), "__code__", None)
+    if code is None or code.co_flags & _VARARGS:
+        return
+    is_method = hasattr(function, "__self__")
+    optional = len(function.__defaults__ or ())
+    if not code.co_argcount - optional <= 1 + is_method <= code.co_argcount:
+        name = code.co_name
+        wanted = "self and the percept" if is_method else "one value, the percept"
+        names = "self, percept" if is_method else "percept"
+        text = f"{name} must take {wanted}: def {name}({names}):"
+        raise ProgramError(text, code.co_firstlineno, "parameters")

@@ -2,9 +2,11 @@
 
 import threading
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
 
+from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.recording.decision_results import DecisionResult, DecisionResults, decision_at
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.replay import Replay
@@ -13,6 +15,7 @@ from ai4u_edu.recording.snapshot import (
     BodyState,
     Snapshot,
     StaticScene,
+    capture_agent,
     capture_snapshot,
     capture_static_scene,
 )
@@ -21,6 +24,19 @@ MAX_CACHE_BYTES = 96 * 2**20
 """Approximate memory of cached snapshots."""
 MAX_HISTORY_DECISIONS = 240
 """Decisions whose rewards are shown with each snapshot."""
+_DECISION_FIELDS = (
+    "action",
+    "clipped",
+    "reward",
+    "reward_terms",
+    "episode_reward",
+    "episode_terms",
+    "phase",
+    "history",
+    "stages",
+    "seconds_left",
+)
+"""Fields of an agent's state that belong to the decision that has just ended."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +90,7 @@ class FrameCache:
         self._static_scene: tuple[int, StaticScene] | None = None
         self._bodies: dict[str, BodyState] = {}
         self._on_request: set[int] = set()
-        self._results: list[dict[int, DecisionResult]] = [{} for _ in episode.agents]
+        self._results: list[dict[int, dict[str, Any]]] = [{} for _ in episode.agents]
         self._asked: int | None = None
         self._prepared = False
         self._stopping = False
@@ -187,7 +203,9 @@ class FrameCache:
         player = Player(self.episode)
         for index in range(len(player.taken)):
             player.sim.agents[index].ledger.keep_history(MAX_HISTORY_DECISIONS)
-            DecisionResults(player, index, self._results[index])
+            player.sim.agents[index].percept_ready.connect(
+                partial(self._note_result, player, index)
+            )
         for step in range(self._count):
             if self._stopping:
                 return None
@@ -195,6 +213,16 @@ class FrameCache:
             if step % self.stride == 0 or step == self._count - 1:
                 self._store(step, frame)
         return player
+
+    def _note_result(self, player: Player, index: int, agent: BasicAgent) -> None:
+        """Keep the result of the decision that has just ended, by its index."""
+        decision, results = player.taken[index] - 1, self._results[index]
+        if not agent.steps or decision in results:
+            return  # the episode has just begun, or the result is known
+        began = int(player.episode.agents[index].begin[decision])
+        phase = player.sim.phase(agent)
+        state = capture_agent(agent, phase=phase._replace(tick=player.sim.world.ticks - began))
+        results[decision] = {name: getattr(state, name) for name in _DECISION_FIELDS}
 
     def _make_on_request(self, player: Player, step: int) -> None:
         """Make a snapshot that was not kept, and those before it, since a person may step back."""
@@ -219,7 +247,7 @@ class FrameCache:
             same = self._static_scene is not None and self._static_scene[1] == new
             kept = self._static_scene[1] if same and self._static_scene is not None else new
             self._static_scene = player.sim.world.generation, kept
-        decisions = [decision_at(player, index) for index in range(len(player.taken))]
+        decisions = [_decision_at(player, index) for index in range(len(player.taken))]
         return _Frame(capture_snapshot(player.sim, self._static_scene[1]), tuple(decisions))
 
     def _store(self, step: int, frame: _Frame) -> None:
@@ -275,3 +303,12 @@ def _size(snapshot: Snapshot, moved: int) -> int:
         rays = sum(ray.ends.nbytes + 8 * len(ray.groups) + 300 for ray in agent.rays.values())
         size += 4000 + len(agent.percept.data) + rays
     return size
+
+
+def _decision_at(player: Player, index: int) -> int:
+    """Return the decision that an agent takes or carries out at this tick; -1 for none."""
+    record, taken, tick = player.episode.agents[index], player.taken[index], player.sim.world.ticks
+    if taken < len(record) and record.begin[taken] == tick:
+        return taken
+    has_one = taken and (player.sim.agents[index].steps or record.end[taken - 1] > tick)
+    return taken - 1 if has_one else -1  # after a restart it has taken none yet

@@ -16,10 +16,10 @@ from ai4u_edu.remote.connection_options import (
 from ai4u_edu.remote.steps import (
     Close,
     ConnectionLostError,
+    Delay,
     Flow,
     Note,
     Open,
-    Pause,
     Receive,
     Send,
     Step,
@@ -61,7 +61,7 @@ class AsyncConnection:
                 await self._open(timeout)
             case Close():
                 await self._close()
-            case Pause(seconds):
+            case Delay(seconds):
                 await asyncio.sleep(seconds)
             case Note(text):
                 log_note(text)

@@ -20,7 +20,7 @@ from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.spaces import output_space, reading_space
-from ai4u_edu.remote.sync_connection import StoppedError, SyncConnection
+from ai4u_edu.remote.sync_connection import ConnectionStoppedError, SyncConnection
 from ai4u_edu.wire import ai4u_dialogue, native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u import Order, number
@@ -129,7 +129,7 @@ class Bridge:
                     self._let_drive()
                 except ScriptGoneError as gone:
                     self._tell(str(gone))
-                except StoppedError:
+                except ConnectionStoppedError:
                     pass  # it was stopped while it waited for the world
                 finally:
                     self._leave()

@@ -6,26 +6,26 @@ reconnects. It resumes its session, or begins another one if the world has none 
 since it was restarted or the script was away for too long. Then the episode ends, truncated.
 """
 
+import math
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from secrets import token_urlsafe
 from typing import Any, Literal, NoReturn, SupportsIndex, cast
 
 from msgspec.structs import replace
 
-from ai4u_edu.base.errors import ActionError
+from ai4u_edu.base.errors import ActionError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
-from ai4u_edu.remote.outputs import numbers_of
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.steps import (
     Close,
     ConnectionLostError,
+    Delay,
     Flow,
     Note,
     Open,
-    Pause,
     Receive,
     Send,
 )
@@ -205,7 +205,7 @@ class Dialogue:
         if percept.done:
             how = "terminated" if percept.terminated else "truncated"
             raise ActionError(f"the episode is over ({how}); reset() begins another")
-        values = numbers_of(self.outputs, action)
+        values = _numbers_of(self.outputs, action)
         yield from self._answer(native.Action(percept.episode, percept.step, percept.seq, values))
 
     def reset(self, seed: SupportsIndex | None = None) -> Flow[RemotePercept]:
@@ -286,7 +286,7 @@ class Dialogue:
                     missing = "no world answers yet" if is_first else "the connection is lost"
                     why = f"{missing} ({noted})"
                 yield Note(f"{why}; trying again for up to {left:.0f} s")
-            yield Pause(min(backoff, left))
+            yield Delay(min(backoff, left))
             backoff = min(2 * backoff, MAX_BACKOFF_S)
             attempt_until = min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S)
 
@@ -443,3 +443,53 @@ class Dialogue:
     def _end(self, error: RemoteError) -> NoReturn:
         self._ended = error
         raise error from None
+
+
+def _numbers_of(outputs: Mapping[str, native.Output], action: Any) -> dict[str, tuple[float, ...]]:
+    """Return the numbers of an action by the actuator's name.
+
+    Args:
+        outputs: the actuators by name.
+        action: numbers by the actuator's name; of an agent with one actuator, its numbers alone.
+
+    Raises:
+        ActionError: it names an unknown actuator, or its numbers don't fit.
+
+    >>> move = native.Output("move", "box", (-1.0, -1.0), (1.0, 1.0), True)
+    >>> _numbers_of({"move": move}, {"move": [1, 0]})
+    {'move': (1.0, 0.0)}
+    >>> _numbers_of({"move": move}, {"mvoe": [1, 0]})
+    Traceback (most recent call last):
+    ...
+    ai4u_edu.base.errors.ActionError: no actuator is called 'mvoe'; did you mean 'move'?
+    """
+    if not isinstance(action, Mapping):
+        if len(outputs) != 1:
+            raise ActionError(
+                f"expected numbers by the actuator's name ({', '.join(outputs)}), "
+                f"got {shown(action)}"
+            )
+        action = {next(iter(outputs)): action}
+    for name in action:
+        if name not in outputs:
+            raise ActionError(f"no actuator is called {shown(name)}; {suggest(str(name), outputs)}")
+    return {name: _numbers(outputs[name], values) for name, values in action.items()}
+
+
+def _numbers(output: native.Output, values: Any) -> tuple[float, ...]:
+    try:
+        if hasattr(values, "tolist"):  # numpy's
+            values = values.tolist()
+        if isinstance(values, int | float):
+            values = (values,)
+        if isinstance(values, Sequence) and not isinstance(values, str | bytes):
+            numbers = tuple(map(float, values))
+            if len(numbers) == len(output.low) and all(map(math.isfinite, numbers)):
+                return numbers
+    except (TypeError, ValueError, OverflowError):
+        pass
+    count = len(output.low)
+    raise ActionError(
+        f"action {output.name!r}: expected {count} finite number{'s' * (count != 1)}, "
+        f"got {shown(values)}"
+    )

@@ -31,7 +31,7 @@ class Receive(NamedTuple):
     """Seconds."""
 
 
-class Pause(NamedTuple):
+class Delay(NamedTuple):
     """Sleep."""
 
     seconds: float
@@ -47,7 +47,7 @@ class Note(NamedTuple):
     text: str
 
 
-Step = Open | Send | Receive | Pause | Close | Note
+Step = Open | Send | Receive | Delay | Close | Note
 Flow = Generator[Step, Any, T]
 
 

@@ -19,20 +19,20 @@ from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.remote.steps import (
     Close,
     ConnectionLostError,
+    Delay,
     Flow,
     Note,
     Open,
-    Pause,
     Receive,
     Send,
     Step,
 )
 
 T = TypeVar("T")
-_WAITING_STEPS = (Open, Receive, Pause)
+_WAITING_STEPS = (Open, Receive, Delay)
 
 
-class StoppedError(RemoteError):
+class ConnectionStoppedError(RemoteError):
     """Another thread asked to stop waiting for the world."""
 
 
@@ -45,8 +45,8 @@ class SyncConnection:
     Args:
         address: of the world.
         stop: set by another thread to stop waiting. Then each step that waits raises a
-            StoppedError, at the latest after a second, since no step waits longer for a frame.
-            Sending, such as of a goodbye, still works.
+            ConnectionStoppedError, at the latest after a second, since no step waits longer for a
+            frame. Sending, such as of a goodbye, still works.
         tell: called with each note; left out, notes are logged.
     """
 
@@ -79,7 +79,7 @@ class SyncConnection:
 
     def _carry_out(self, step: Step) -> Any:
         if isinstance(step, _WAITING_STEPS) and self._stop is not None and self._stop.is_set():
-            raise StoppedError("the bridge was stopped")
+            raise ConnectionStoppedError("the bridge was stopped")
         match step:
             case Receive(timeout):
                 return self._receive(timeout)
@@ -90,7 +90,7 @@ class SyncConnection:
                 self._open(timeout)
             case Close():
                 self._close()
-            case Pause(seconds):
+            case Delay(seconds):
                 time.sleep(seconds)
             case Note(text):
                 self._tell(text)

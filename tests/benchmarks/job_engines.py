@@ -28,10 +28,10 @@ def games(count: int) -> list[Job]:
 def trials(count: int) -> list[Job]:
     """Return small trainings with their export."""
     # each process of a job imports this module, and games need no torch
-    from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+    from ai4u_edu.learn.training.sweep.plan import Choice, SweepPlan
     from tests.learn.training.small import small_settings
 
-    plan = Plan(
+    plan = SweepPlan(
         scene={"name": "yardstick"},
         algorithms=("ppo",),
         seeds=tuple(range(count)),

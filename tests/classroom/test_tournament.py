@@ -19,7 +19,7 @@ from ai4u_edu.classroom.tournament.event import networks_event
 from ai4u_edu.classroom.tournament.network_check import missing_extras
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
-from ai4u_edu.games.jobs.inline import InlineEngine
+from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.room.my_work import open_my_work
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, Network, Problem
@@ -147,7 +147,7 @@ def everything_is_exported(served: ServedClass, ada: Student, folder: Path, good
             path = folder / "exported" / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
-    assert verify(folder / "exported/tournaments/1 Sumo", InlineEngine()) == (2, [])
+    assert verify(folder / "exported/tournaments/1 Sumo", engine("inline")) == (2, [])
     (folder / "my-work.zip").write_bytes(ada.client.get("api/my-work").content)
     work = open_my_work(folder / "my-work.zip")
     assert (work.folder / "networks/sumo.onnx").read_bytes() == good

@@ -8,7 +8,7 @@ from typing import Any
 
 from ai4u_edu.lessons.course import Lesson
 from ai4u_edu.lessons.notebook import Cell, dumps
-from ai4u_edu.lessons.progress_file import Entry, ProgressFile
+from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 from tests.lessons.workbook import solution_of, solved
 from tests.waiting import LIMIT_S
 
@@ -24,7 +24,7 @@ class Executed:
     """A notebook that was run."""
 
     book: Any
-    entries: dict[str, Entry]
+    entries: dict[str, ExerciseProgress]
     seconds: float
     slowest: float
     """Seconds that the slowest cell took."""

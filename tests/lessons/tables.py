@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.lessons.checking import Verdict
+from ai4u_edu.lessons.checking import CheckResult
 from ai4u_edu.lessons.course import exercise_ids, is_ticket, lesson
 from tests.lessons.workbook import SLOW, handed_in, tried
 
@@ -115,7 +115,7 @@ def leaked(value: Any, text: str) -> Any:
     return None
 
 
-def _verdict(exercise: str, code: str) -> Verdict | None:
+def _verdict(exercise: str, code: str) -> CheckResult | None:
     asked.pairs = []
     with redirect_stdout(StringIO()):
         try:

@@ -8,8 +8,7 @@ import pytest
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli.main import app
-from ai4u_edu.lessons.class_page import page
-from ai4u_edu.lessons.collecting import collect, table
+from ai4u_edu.lessons.collecting import collect
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook_output import marked
@@ -59,7 +58,7 @@ def test_the_command_writes_a_page_and_a_table(
 
 def test_a_mistake_that_any_exercise_may_have_is_said_in_words(tmp_path: Path) -> None:
     hand_in(tmp_path / "ann", passed=False, diagnosis="any/endless")
-    text = page(collect(tmp_path))
+    text = collect(tmp_path).page()
     assert marked(f"1: {COMMON['endless']}") in text
 
 
@@ -74,9 +73,9 @@ def test_files_are_left_as_they_are_and_can_be_collected_again(handed_in: Path) 
 def test_nothing_in_it_is_markup_or_a_formula(handed_in: Path) -> None:
     hand_in(handed_in / "<i>x", passed=False, text=EVIL)
     collected = collect(handed_in)
-    assert "<b>" not in page(collected)
-    assert "<i>" not in page(collected)
-    assert all(f"'{EVIL}" in line for line in table(collected).splitlines() if EVIL in line)
+    assert "<b>" not in collected.page()
+    assert "<i>" not in collected.page()
+    assert all(f"'{EVIL}" in line for line in collected.table().splitlines() if EVIL in line)
 
 
 def test_a_file_may_be_called_after_the_student(tmp_path: Path) -> None:

@@ -10,12 +10,13 @@ from typing import Any
 import pytest
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons import check, class_page, hint, solution
+from ai4u_edu.lessons import check, hint, solution
 from ai4u_edu.lessons.checking import judge
+from ai4u_edu.lessons.collecting import ClassProgress
 from ai4u_edu.lessons.course import exercise_ids, is_ticket, lesson, lessons
 from ai4u_edu.lessons.exercise import EXERCISES, find
 from ai4u_edu.lessons.exit_ticket import TICKETS, Question, exit_ticket
-from ai4u_edu.lessons.progress_file import ProgressFile
+from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 
 IDS = [each for each in exercise_ids() if is_ticket(each)]
 SAMPLE = "00.exit-sample.exit"
@@ -109,9 +110,11 @@ def test_a_hint_tells_no_more_than_the_check_did(
     assert "no solution to print" in capsys.readouterr().out
 
 
-def test_the_table_of_a_class_names_the_question_of_a_mistake(ticket: str) -> None:
-    assert class_page._hint(EXERCISES[ticket], f"{ticket}/2b") == "Question 2, b: Two b."
-    assert class_page._hint(EXERCISES[ticket], f"{ticket}/begin").startswith("Write one letter")
+def test_the_table_of_a_class_names_the_question_of_a_mistake() -> None:
+    entry = ExerciseProgress(tries=2, diagnoses={"01.exit/1a": 1, "01.exit/begin": 1})
+    page = ClassProgress({"ann": {"01.exit": entry}}, []).page()
+    assert f"1: Question 1, a: {find('01.exit').hints['1a'][:20]}" in page
+    assert "1: Write one letter" in page
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,7 @@ import pytest
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons import compare, predict
 from ai4u_edu.lessons import predictions as module
-from ai4u_edu.lessons.class_page import page
-from ai4u_edu.lessons.collecting import collect, table
+from ai4u_edu.lessons.collecting import collect
 from ai4u_edu.lessons.prediction_values import Prediction
 from ai4u_edu.lessons.predictions import GUESS_FIRST, NO_GUESS
 from ai4u_edu.lessons.progress_file import FILE, ProgressFile
@@ -114,8 +113,8 @@ def test_the_report_shows_them_escaped_and_the_class_table_does_not(folder: Path
     assert "<li>09.1: said &lt;b&gt;left; it was 1, 2</li><li>09.2: said 4</li>" in text
     assert "09 Rewards" in text
     collected = collect(folder)
-    assert "left</td>" not in page(collected)
-    assert "09.1" not in page(collected) + table(collected)
+    assert "left</td>" not in collected.page()
+    assert "09.1" not in collected.page() + collected.table()
 
 
 def test_in_a_notebook_they_are_a_table(monkeypatch: pytest.MonkeyPatch) -> None:

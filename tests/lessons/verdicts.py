@@ -11,8 +11,8 @@ from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
 
-from ai4u_edu.lessons.answers import Answer, answers_to
-from ai4u_edu.lessons.checking import Verdict
+from ai4u_edu.lessons.answers import SampleAnswer, answers_to
+from ai4u_edu.lessons.checking import CheckResult
 from ai4u_edu.lessons.course import exercise_ids, is_ticket, lesson
 from ai4u_edu.lessons.diagnoses import diagnosis_id
 from ai4u_edu.lessons.exercise import find
@@ -28,14 +28,14 @@ diagnosis that they get, and lucky or hard-coded ones. Made by
 """
 
 
-def is_as_wanted(answer: Answer, verdict: Verdict) -> bool:
+def is_as_wanted(answer: SampleAnswer, verdict: CheckResult) -> bool:
     """Return True if right answers pass, and wrong ones get their diagnosis."""
     if answer.is_right or verdict.passed:
         return answer.is_right and verdict.passed
     return answer.hint in {"", verdict.hint}
 
 
-def row(exercise: str, answer: Answer, verdict: Verdict) -> str:
+def row(exercise: str, answer: SampleAnswer, verdict: CheckResult) -> str:
     """Return a line of the table."""
     known = find(exercise).hints
     said = "passes" if verdict.passed else f"`{diagnosis_id(exercise, verdict.hint, known)}`"
@@ -44,7 +44,7 @@ def row(exercise: str, answer: Answer, verdict: Verdict) -> str:
     return f"{beginning(exercise, answer)} {said} | {text} |"
 
 
-def beginning(exercise: str, answer: Answer) -> str:
+def beginning(exercise: str, answer: SampleAnswer) -> str:
     """Return the part of a line that is known without trying the answer."""
     return f"| {exercise} | {answer.kind} | {answer.name} |"
 

@@ -9,8 +9,8 @@ from functools import partial
 from typing import Any
 
 from ai4u_edu.lessons import controls, filming, live
-from ai4u_edu.lessons.answers import Answer, answers_to
-from ai4u_edu.lessons.checking import Verdict, judge
+from ai4u_edu.lessons.answers import SampleAnswer, answers_to
+from ai4u_edu.lessons.checking import CheckResult, judge
 from ai4u_edu.lessons.course import Lesson, is_ticket
 from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
 from ai4u_edu.lessons.exercises import lesson_15
@@ -79,7 +79,7 @@ def tried(
     change: Callable[[Any], Any] = lambda thing: thing,
     *,
     may_be_endless: bool = False,
-) -> Verdict:
+) -> CheckResult:
     """Return the check's verdict on code in the exercise's cell.
 
     Args:
@@ -101,7 +101,7 @@ def tried(
     return judge(quick if may_be_endless else patient(known), *map(change, things))
 
 
-def try_answer(lesson: Lesson, exercise: str, answer: Answer) -> Verdict:
+def try_answer(lesson: Lesson, exercise: str, answer: SampleAnswer) -> CheckResult:
     """Return the check's verdict on an answer.
 
     Only one that is to be found endless, or on which any verdict is right, has a time limit that

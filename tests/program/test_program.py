@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ai4u_edu.program import Output, Program, Reading, host, obstacle_in, readings_of
+from ai4u_edu.program import PrintedOutput, Program, Reading, host, obstacle_in, readings_of
 from ai4u_edu.program.output import MAX_DECISION_CHARS, MAX_TOTAL_CHARS
 
 COUNTER = """
@@ -95,7 +95,7 @@ def test_names_of_the_program_are_its_own() -> None:
 
 
 def test_what_is_printed_is_bounded() -> None:
-    output = Output()
+    output = PrintedOutput()
     source = (
         "def decide(percept):\n    print(percept['n'], 'x' * percept['count'])\n    return {}\n"
     )
@@ -117,7 +117,7 @@ def test_what_is_printed_is_bounded() -> None:
 
 
 def test_a_million_prints() -> None:
-    output = Output()
+    output = PrintedOutput()
     program = Program.load(
         "def decide(percept):\n    for i in range(100000):\n        print(i, sep='', end=';')\n"
         "    return {}",

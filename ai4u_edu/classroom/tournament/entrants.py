@@ -15,7 +15,7 @@ from ai4u_edu.classroom.tournament.network_check import driver_of
 from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import Networks
 from ai4u_edu.games.tournament.entry import Driver
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 
 SEATS = "seats.json"
 """File with the number of the seat of each entry; 0 for the scene's own player."""
@@ -71,7 +71,7 @@ def _plan(
     seeds: int,
     system: System,
     has_own_player: bool,
-) -> tuple[Plan, dict[str, int]]:
+) -> tuple[TournamentPlan, dict[str, int]]:
     """Return the plan, and the number of the seat of each entry."""
     known = network_scenes()[scene]
     own: dict[int, dict[str, Driver]] = defaultdict(dict)
@@ -89,7 +89,7 @@ def _plan(
             f"A tournament needs two players at least, and {len(entries)} can play: wait until "
             "more networks were handed in and checked, or let the scene's player take part."
         )
-    plan = Plan(
+    plan = TournamentPlan(
         scene={"name": scene},
         entries=tuple(entries),
         seeds=tuple(range(seeds)),

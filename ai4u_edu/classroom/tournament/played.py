@@ -27,7 +27,7 @@ class PlayedTournament:
 
     def __init__(self, folder: Path, work: Path, on_change: Callable[[], object]) -> None:
         self.view: dict[str, Any] | None = None
-        """The tournament so far; see :func:`ai4u_edu.games.tournament.live_view.live_view`."""
+        """The tournament so far; see :func:`ai4u_edu.games.tournament.live_process.live_view`."""
         self.problem = ""
         """Reason for which it could not be played."""
         self.is_over = False

@@ -67,7 +67,7 @@ class TournamentRunner:
 
     @property
     def view(self) -> dict[str, Any] | None:
-        """The tournament so far; see :func:`ai4u_edu.games.tournament.live_view.live_view`."""
+        """The tournament so far; see :func:`ai4u_edu.games.tournament.live_process.live_view`."""
         return self._ended_view if self._played is None else self._played.view
 
     def tick(self) -> None:

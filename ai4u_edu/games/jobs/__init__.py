@@ -5,8 +5,8 @@ tried again (:func:`run_jobs`). See ``docs/adr/0012-jobs-on-three-engines.md``.
 """
 
 from ai4u_edu.games.jobs.engine import Engine, engine
-from ai4u_edu.games.jobs.job import Job, Outcome
+from ai4u_edu.games.jobs.job import Job, JobOutcome
 from ai4u_edu.games.jobs.journal import Journal
 from ai4u_edu.games.jobs.run_jobs import TRIES, run_jobs
 
-__all__ = ["TRIES", "Engine", "Job", "Journal", "Outcome", "engine", "run_jobs"]
+__all__ = ["TRIES", "Engine", "Job", "JobOutcome", "Journal", "engine", "run_jobs"]

@@ -13,7 +13,7 @@ from ai4u_edu.games.jobs.job import Job
 MAX_ERROR_CHARS = 2000
 
 
-class Answer(NamedTuple):
+class JobAnswer(NamedTuple):
     """Result of a call, or its error."""
 
     result: Any = None
@@ -24,19 +24,19 @@ class Answer(NamedTuple):
     """False if another try would end in the same way."""
 
 
-def call(job: Job) -> Answer:
+def call(job: Job) -> JobAnswer:
     """Run a job, and return its error instead of raising it."""
     begin = time.perf_counter()
     try:
         # as a journal would give it back: lists for tuples, texts for keys
         result = json.loads(json.dumps(job.run()))
     except AI4UError as error:  # wrong arguments stay wrong
-        return Answer(None, str(error), time.perf_counter() - begin, can_retry=False)
+        return JobAnswer(None, str(error), time.perf_counter() - begin, can_retry=False)
     except Exception as error:  # it is reported, and the other jobs go on
         last = traceback.extract_tb(error.__traceback__)[-1]
         text = f"{type(error).__name__}: {error} ({Path(last.filename).name}:{last.lineno})"
-        return Answer(None, text[:MAX_ERROR_CHARS], time.perf_counter() - begin)
-    return Answer(result, "", time.perf_counter() - begin)
+        return JobAnswer(None, text[:MAX_ERROR_CHARS], time.perf_counter() - begin)
+    return JobAnswer(result, "", time.perf_counter() - begin)
 
 
 def use_one_thread() -> None:

@@ -4,7 +4,7 @@ from types import TracebackType
 from typing import Protocol, Self
 
 from ai4u_edu.base.errors import SetupError, suggest
-from ai4u_edu.games.jobs.call import Answer
+from ai4u_edu.games.jobs.call import JobAnswer, call
 from ai4u_edu.games.jobs.job import Job
 
 NAMES = ("inline", "processes", "ray")
@@ -20,7 +20,7 @@ class Engine(Protocol):
         """Begin a job; called while fewer than :attr:`width` jobs run."""
         ...
 
-    def wait(self) -> tuple[Job, Answer]:
+    def wait(self) -> tuple[Job, JobAnswer]:
         """Return a job that has ended, and its answer; called while a job runs."""
         ...
 
@@ -54,9 +54,7 @@ def engine(name: str = "processes", *, width: int | None = None, address: str = 
     if address and name != "ray":
         raise SetupError(f"--address is for --engine ray, got --engine {name}")
     if name == "inline":
-        from ai4u_edu.games.jobs.inline import InlineEngine
-
-        return InlineEngine()
+        return _InlineEngine()
     if name == "processes":
         from ai4u_edu.games.jobs.processes import ProcessEngine
 
@@ -68,3 +66,30 @@ def engine(name: str = "processes", *, width: int | None = None, address: str = 
     raise SetupError(
         f"expected an engine of {', '.join(NAMES)}, got {name!r}; {suggest(name, NAMES)}"
     )
+
+
+class _InlineEngine:
+    """Runs a job when it is waited for; errors are those of the other engines."""
+
+    width = 1
+
+    def __init__(self) -> None:
+        self._job: Job | None = None
+
+    def start(self, job: Job) -> None:
+        self._job = job
+
+    def wait(self) -> tuple[Job, JobAnswer]:
+        if self._job is None:
+            raise RuntimeError("no job runs")
+        job, self._job = self._job, None
+        return job, call(job)
+
+    def close(self) -> None:
+        """Do nothing: nothing runs."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Do nothing: nothing runs."""

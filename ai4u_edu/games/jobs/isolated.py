@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import psutil
 
-from ai4u_edu.games.jobs.call import Answer
+from ai4u_edu.games.jobs.call import JobAnswer
 from ai4u_edu.games.jobs.job import Job
 from ai4u_edu.games.jobs.worker import serve_jobs
 
@@ -21,7 +21,7 @@ START_TIMEOUT_S = 300.0
 END_TIMEOUT_S = 2.0
 
 
-class _Running(NamedTuple):
+class _Process(NamedTuple):
     process: BaseProcess
     connection: Connection
     usage: psutil.Process
@@ -50,11 +50,11 @@ class IsolatedJobs:
         self._max_wall_s, self._folder = max_wall_s, folder
         self._first = Job.of(ready) if first is None else first
         self._lock = asyncio.Lock()
-        self._running: _Running | None = None
+        self._running: _Process | None = None
         # started anew and not forked, as this process has threads
         self._context = multiprocessing.get_context("spawn")
 
-    async def run(self, job: Job, max_cpu_s: float | None = None) -> Answer:
+    async def run(self, job: Job, max_cpu_s: float | None = None) -> JobAnswer:
         """Run a job, and return its result or its error.
 
         Args:
@@ -83,7 +83,7 @@ class IsolatedJobs:
             if self._folder is not None:
                 shutil.rmtree(self._folder, ignore_errors=True)
 
-    def _run(self, job: Job, max_cpu_s: float) -> Answer:
+    def _run(self, job: Job, max_cpu_s: float) -> JobAnswer:
         running = self._running = self._running or self._start()
         try:
             begin_cpu_s, end_at = _cpu_s(running.usage), time.monotonic() + self._max_wall_s
@@ -92,17 +92,17 @@ class IsolatedJobs:
                 if _cpu_s(running.usage) - begin_cpu_s > max_cpu_s:
                     self.close()
                     limit = f"{max_cpu_s:g} s of processor time"
-                    return Answer(error=f"it took more than {limit}")
+                    return JobAnswer(error=f"it took more than {limit}")
                 if time.monotonic() > end_at:
                     self.close()
-                    return Answer(error=f"it took more than {self._max_wall_s:g} s")
-            answer: Answer = running.connection.recv()
+                    return JobAnswer(error=f"it took more than {self._max_wall_s:g} s")
+            answer: JobAnswer = running.connection.recv()
         except (EOFError, OSError, psutil.Error):
             self.close()
-            return Answer(error="its process died: it may want more memory than there is")
+            return JobAnswer(error="its process died: it may want more memory than there is")
         return answer
 
-    def _start(self) -> _Running:
+    def _start(self) -> _Process:
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)  # of a class that was killed
             self._folder.mkdir(parents=True, exist_ok=True)
@@ -123,7 +123,7 @@ class IsolatedJobs:
             if ours.poll(START_TIMEOUT_S):
                 problem = ours.recv().error
                 if not problem:
-                    return _Running(process, ours, psutil.Process(process.pid))
+                    return _Process(process, ours, psutil.Process(process.pid))
         except (EOFError, OSError, psutil.Error) as error:
             problem = str(error)
         ours.close()

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.file_lock import FileLock, LockedError
-from ai4u_edu.games.jobs.job import Job, Outcome
+from ai4u_edu.games.jobs.job import Job, JobOutcome
 
 FILE = "journal.jsonl"
 MAX_ARGUMENT_CHARS = 200
@@ -49,16 +49,16 @@ class Journal:
     def __len__(self) -> int:
         return len(self._done)
 
-    def outcome(self, job: Job) -> Outcome:
+    def outcome(self, job: Job) -> JobOutcome:
         """Return how a job was done.
 
         Raises:
             KeyError: it was not.
         """
         kept = self._done[job.key]
-        return Outcome(job, kept["result"], "", kept["tries"], kept["seconds"])
+        return JobOutcome(job, kept["result"], "", kept["tries"], kept["seconds"])
 
-    def add(self, outcome: Outcome) -> None:
+    def add(self, outcome: JobOutcome) -> None:
         """Write how a job ended."""
         line = line_of(outcome)
         self._file.write(json.dumps(line).encode() + b"\n")
@@ -123,7 +123,7 @@ class _Line(BaseModel):
     seconds: Annotated[float, Field(ge=0, allow_inf_nan=False)]
 
 
-def line_of(outcome: Outcome) -> dict[str, Any]:
+def line_of(outcome: JobOutcome) -> dict[str, Any]:
     """Return what a journal notes of a job that has ended."""
     return {
         "key": outcome.job.key,

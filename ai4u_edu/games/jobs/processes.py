@@ -15,7 +15,7 @@ from typing import Self
 
 import psutil
 
-from ai4u_edu.games.jobs.call import Answer
+from ai4u_edu.games.jobs.call import JobAnswer
 from ai4u_edu.games.jobs.job import Job
 from ai4u_edu.games.jobs.worker import is_main_thread, serve_jobs
 
@@ -52,7 +52,7 @@ class ProcessEngine:
             worker.begin()
         worker.start(job)
 
-    def wait(self) -> tuple[Job, Answer]:
+    def wait(self) -> tuple[Job, JobAnswer]:
         """See :class:`ai4u_edu.games.jobs.Engine`."""
         busy = {each.pipe: each for each in self._workers if each.is_busy}
         ready = wait([*busy], STOP_POLL_S)
@@ -65,7 +65,7 @@ class ProcessEngine:
         if answer is None:
             self._workers.remove(worker)
             end = worker.end(END_TIMEOUT_S)
-            answer = Answer(error=worker.problem or f"its process died ({end})")
+            answer = JobAnswer(error=worker.problem or f"its process died ({end})")
         return worker.job, answer
 
     def close(self) -> None:
@@ -128,10 +128,10 @@ class _Worker:
         else:
             process.resume()
 
-    def answer(self) -> Answer | None:
+    def answer(self) -> JobAnswer | None:
         """Return what the process sent; None if it died."""
         try:
-            answer: Answer = self.pipe.recv()
+            answer: JobAnswer = self.pipe.recv()
         except (EOFError, OSError):
             return None
         self.is_busy = False

@@ -5,20 +5,22 @@ token authentication.
 """
 
 import multiprocessing
+import os
 import re
+import signal
 import socket
 from contextlib import suppress
+from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
-from typing import Self
+from typing import Any, Self
 
 import psutil
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.process_family import kill_descendants
-from ai4u_edu.games.jobs.call import Answer
+from ai4u_edu.games.jobs.call import JobAnswer, call, use_one_thread
 from ai4u_edu.games.jobs.job import Job
-from ai4u_edu.games.jobs.ray_driver import drive
 
 JOBS_PER_CORE = 2
 """Jobs that Ray has for each core, so that none waits for the way there and back."""
@@ -31,6 +33,10 @@ END_TIMEOUT_S = 15.0
 """Time in which Ray ends by itself; then it is killed."""
 KILL_TIMEOUT_S = 60.0
 """Time in which the system removes processes that were killed; a busy machine takes seconds."""
+START_TRIES = 3
+"""Attempts to start Ray here: a node gives up if its agents take 15 s, as on a busy machine."""
+PIPE_POLL_S = 0.5
+"""Interval in which a process that waits for a job looks whether it shall end."""
 
 
 class RayEngine:
@@ -57,7 +63,7 @@ class RayEngine:
         context = multiprocessing.get_context("spawn")
         self._pipe, there = context.Pipe()
         self._process: BaseProcess = context.Process(
-            target=drive, args=(there, address), name="ray", daemon=True
+            target=_drive, args=(there, address), name="ray", daemon=True
         )
         self._process.start()
         there.close()
@@ -74,7 +80,7 @@ class RayEngine:
         with suppress(OSError):  # Ray's process has ended; the answer tells
             self._pipe.send(job)
 
-    def wait(self) -> tuple[Job, Answer]:
+    def wait(self) -> tuple[Job, JobAnswer]:
         """See :class:`ai4u_edu.games.jobs.Engine`.
 
         Raises:
@@ -85,7 +91,7 @@ class RayEngine:
             key, answer = self._pipe.recv()
         except (EOFError, OSError):
             raise self._ended() from None
-        return self._running.pop(key), Answer(*answer)
+        return self._running.pop(key), JobAnswer(*answer)
 
     def close(self) -> None:
         """See :class:`ai4u_edu.games.jobs.Engine`."""
@@ -151,3 +157,82 @@ def _kill(process: BaseProcess) -> None:
         kill_descendants(started)
         process.kill()
     process.join(KILL_TIMEOUT_S)
+
+
+def _drive(pipe: Connection, address: str) -> None:
+    """Start the jobs that come through a pipe until it closes, and at None send an answer.
+
+    It is the main function of the process on Ray's side.
+
+    The first message that it sends is the number of the cluster's cores and an empty text, or 0 and
+    why there is no cluster. An answer is a job's key and its
+    :class:`~ai4u_edu.games.jobs.call.JobAnswer`.
+
+    Args:
+        pipe: to the process of the engine.
+        address: of the cluster; empty to start Ray here.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the one that started it
+    os.environ.setdefault("RAY_AUTH_MODE", "token")
+    import ray as untyped
+
+    ray: Any = untyped  # it has types for a part
+    problem = _connect(ray, address)
+    if problem:
+        pipe.send((0, problem))
+        return
+    running: dict[Any, Job] = {}
+    with suppress(EOFError, OSError):  # the other process has closed the pipe, or died
+        pipe.send((int(ray.cluster_resources().get("CPU", 1)), ""))
+        _serve(ray, pipe, running)
+    for each in running:
+        with suppress(ray.exceptions.RayError):
+            ray.cancel(each, force=True)
+    ray.shutdown()
+
+
+def _connect(ray: Any, address: str) -> str:
+    """Connect to Ray or start it, and return why that is impossible, or an empty text."""
+    problem = ""
+    for _ in range(1 if address else START_TRIES):
+        try:
+            ray.init(
+                address=address or "local",
+                include_dashboard=None if address else False,
+                log_to_driver=False,
+                logging_level="ERROR",
+            )
+        except Exception as error:  # its plainest class where a node does not start in time
+            problem = str(error)
+            ray.shutdown()
+        else:
+            return ""
+    return problem
+
+
+def _serve(ray: Any, pipe: Connection, running: dict[Any, Job]) -> None:
+    remote = ray.remote(num_cpus=1, max_retries=0)(_call)
+    while True:
+        job = pipe.recv()
+        if job is not None:
+            running[remote.remote(job)] = job
+            continue
+        ready: list[Any] = []
+        while not ready:
+            ready, _ = ray.wait([*running], num_returns=1, timeout=PIPE_POLL_S)
+            if not ready and pipe.poll():  # it asks for nothing more before it has its answer
+                raise EOFError
+        pipe.send((running.pop(ready[0]).key, _answer(ray, ready[0])))
+
+
+def _answer(ray: Any, done: Any) -> JobAnswer:
+    try:
+        return JobAnswer(*ray.get(done))
+    except ray.exceptions.RayError as error:  # its process or its machine died
+        first, *_ = str(error).strip().splitlines() or [""]
+        return JobAnswer(error=f"{type(error).__name__}: {first}")
+
+
+def _call(job: Job) -> tuple[Any, ...]:
+    use_one_thread()
+    return tuple(call(job))

@@ -3,9 +3,8 @@
 from collections import deque
 from collections.abc import Iterable, Iterator
 
-from ai4u_edu.games.jobs.call import Answer
 from ai4u_edu.games.jobs.engine import Engine
-from ai4u_edu.games.jobs.job import Job, Outcome
+from ai4u_edu.games.jobs.job import Job, JobOutcome
 from ai4u_edu.games.jobs.journal import Journal
 
 TRIES = 3
@@ -14,7 +13,7 @@ TRIES = 3
 
 def run_jobs(
     jobs: Iterable[Job], engine: Engine, *, journal: Journal | None = None, tries: int = TRIES
-) -> Iterator[Outcome]:
+) -> Iterator[JobOutcome]:
     """Yield the outcome of each job: first of those in the journal, then as they end.
 
     Equal jobs are run once and have one outcome. After Ctrl-C, or if nobody takes further outcomes,
@@ -43,11 +42,7 @@ def run_jobs(
         if answer.error and answer.can_retry and tried[job.key] < tries:
             waiting.append(job)
             continue
-        outcome = _outcome(job, answer, tried[job.key])
+        outcome = JobOutcome(job, answer.result, answer.error, tried[job.key], answer.seconds)
         if journal is not None:
             journal.add(outcome)
         yield outcome
-
-
-def _outcome(job: Job, answer: Answer, tries: int) -> Outcome:
-    return Outcome(job, answer.result, answer.error, tries, answer.seconds)

@@ -30,7 +30,7 @@ def serve_jobs(
     """Run jobs until the other end of the pipe is closed; the main function of the process.
 
     Args:
-        pipe: gives each :class:`Job`, and gets its :class:`~ai4u_edu.games.jobs.call.Answer`.
+        pipe: gives each :class:`Job`, and gets its :class:`~ai4u_edu.games.jobs.call.JobAnswer`.
         is_tied: True has the system end this process with the thread that started it, on Linux:
             the thread that watches the pipe waits for libraries that hold the interpreter.
         folder: for temporary files of jobs; by default the system's.

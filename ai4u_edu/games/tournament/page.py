@@ -4,17 +4,13 @@ import base64
 import hashlib
 from collections.abc import Iterator
 from html import escape
-from typing import TYPE_CHECKING
 
 from ai4u_edu.base.html_report import html_page, html_table
-from ai4u_edu.games.tournament.best_games import best_games
 from ai4u_edu.games.tournament.standings import MAX_SURE_SIGMA, Standing
+from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.exports.html_page import html_of
-
-if TYPE_CHECKING:
-    from ai4u_edu.games.tournament.run import Tournament
 
 EMBEDDED_GAMES = 3
 MAX_LISTED_GAMES = 500
@@ -26,13 +22,13 @@ summary{cursor:pointer;padding:.3em 0}
 """
 
 
-def page_of(done: "Tournament") -> str:
+def page_of(done: Tournament) -> str:
     """Return the page."""
     title = f"Tournament: {done.plan.title}"
     return html_page(title, _parts(done), policy=POLICY, style=STYLE)
 
 
-def _parts(done: "Tournament") -> Iterator[str]:
+def _parts(done: Tournament) -> Iterator[str]:
     order = done.standings
     plan = done.plan
     kind = "race" if plan.sides.is_race else plan.system.replace("-", " ")
@@ -109,10 +105,10 @@ def _cross_table(order: list[Standing]) -> str:
     )
 
 
-def _best_games(done: "Tournament", order: list[Standing]) -> Iterator[str]:
+def _best_games(done: Tournament, order: list[Standing]) -> Iterator[str]:
     """Yield players for the best games."""
-    found = best_games(done.ended, order, EMBEDDED_GAMES)
-    for _, result, game in found:
+    games = done.best_games(order, EMBEDDED_GAMES)
+    for _, result, game in games:
         contest, told = result.contest, result.games[game]
         episode = decode(Episode, base64.b64decode(told["episode"]), "game")
         points = ", ".join(
@@ -126,11 +122,11 @@ def _best_games(done: "Tournament", order: list[Standing]) -> Iterator[str]:
             f"<details><summary>{escape(points)}; seed {contest.seed}</summary>"
             f'<iframe title="{escape(points)}" loading="lazy" srcdoc="{player}"></iframe></details>'
         )
-    if not found:
+    if not games:
         yield "<p>No game has been finished.</p>"
 
 
-def _games(done: "Tournament") -> str:
+def _games(done: Tournament) -> str:
     rows = [
         [
             number,

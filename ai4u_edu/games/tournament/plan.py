@@ -17,7 +17,7 @@ CHECK_SEED = 2**31 - 1
 """Seed of the game that an entry plays against itself before it takes part."""
 
 
-class Plan(BaseModel):
+class TournamentPlan(BaseModel):
     """Scene, entries, seeds and system of a tournament."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -32,7 +32,7 @@ class Plan(BaseModel):
     """Rounds of the Swiss system; 0 for as many as find the best one."""
 
     @model_validator(mode="after")
-    def _check_entries(self) -> "Plan":
+    def _check_entries(self) -> "TournamentPlan":
         names = [each.name for each in self.entries]
         if len({*names}) < len(names):
             raise ValueError(f"expected entries with different names, got {', '.join(names)}")
@@ -71,7 +71,7 @@ class Plan(BaseModel):
         write_atomically(folder / FILE, self.text)
 
     @classmethod
-    def load(cls, folder: Path) -> "Plan":
+    def load(cls, folder: Path) -> "TournamentPlan":
         """Read the plan of a tournament's folder.
 
         Raises:
@@ -88,7 +88,7 @@ class Plan(BaseModel):
         except ValidationError as error:
             raise SetupError(f"{path}: not as a tournament writes it: {error}") from None
 
-    def difference(self, other: "Plan") -> str:
+    def difference(self, other: "TournamentPlan") -> str:
         """Return the name of a part that differs; empty if both are equal."""
         names = type(self).model_fields
         return next((each for each in names if getattr(self, each) != getattr(other, each)), "")

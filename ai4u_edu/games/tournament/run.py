@@ -10,28 +10,26 @@
     DIR/SHA256SUMS        hashes of all these files
 """
 
-import base64
 import hashlib
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.games.jobs import Engine, Job, Journal, Outcome, run_jobs
+from ai4u_edu.games.jobs import Engine, Job, JobOutcome, Journal, run_jobs
 from ai4u_edu.games.jobs.journal import FILE as JOURNAL
 from ai4u_edu.games.tournament.contest import Contest, ContestResult, game_job
-from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.game import result_fault
 from ai4u_edu.games.tournament.page import page_of
-from ai4u_edu.games.tournament.plan import CHECK_SEED, Plan
+from ai4u_edu.games.tournament.plan import CHECK_SEED, TournamentPlan
 from ai4u_edu.games.tournament.plan import FILE as PLAN
-from ai4u_edu.games.tournament.schedule import races, round_robin, swiss_round
-from ai4u_edu.games.tournament.standings import Standing, standings
+from ai4u_edu.games.tournament.standings import Standing
+from ai4u_edu.games.tournament.tournament import Tournament
 
 GAMES = "games"
 LIST = "games.json"
@@ -40,58 +38,17 @@ PAGE = "index.html"
 SUMS = "SHA256SUMS"
 """Hashes of all other files of the folder, as ``sha256sum --check`` reads them."""
 MAX_FILE_PART_BYTES = 100
-Play = Callable[[Sequence[Job]], Iterator[Outcome]]
+Play = Callable[[Sequence[Job]], Iterator[JobOutcome]]
 """Runs jobs, and yields their outcomes as they end."""
 
 
-@dataclass
-class Tournament:
-    """Results of a tournament so far."""
-
-    plan: Plan
-    folder: Path
-    refused: dict[str, str] = field(default_factory=dict)
-    """Reasons for which entries take no part, by name."""
-    ended: dict[int, ContestResult] = field(default_factory=dict)
-    """Results of the contests that ended, by their place in the schedule."""
-    files: dict[int, list[dict[str, Any]]] = field(default_factory=dict)
-    """File, entries, seed and result of each game, by the place of its contest."""
-    is_interrupted: bool = False
-
-    @property
-    def results(self) -> list[ContestResult]:
-        """Results of the contests that ended, in the order of the schedule."""
-        return [self.ended[place] for place in sorted(self.ended)]
-
-    @property
-    def games(self) -> list[dict[str, Any]]:
-        """File, entries, seed and result of each game, in the order of the schedule."""
-        return [game for place in sorted(self.files) for game in self.files[place]]
-
-    @property
-    def admitted(self) -> list[Entry]:
-        """The entries that take part."""
-        return [each for each in self.plan.entries if each.name not in self.refused]
-
-    @property
-    def standings(self) -> list[Standing]:
-        """The standings, the best first."""
-        return standings([each.name for each in self.admitted], self.results)
-
-    def recordings(self, place: int) -> Iterator[tuple[str, bytes]]:
-        """Yield name and content of the recordings of a contest's games."""
-        for listed, told in zip(self.files.get(place, ()), self.ended[place].games, strict=True):
-            if listed["file"]:
-                yield listed["file"], base64.b64decode(told["episode"])
-
-
 def run_tournament(
-    plan: Plan,
+    plan: TournamentPlan,
     folder: Path,
     engine: Engine,
     *,
     journal: Path | None = None,
-    tell: Callable[[Outcome], object] = lambda _outcome: None,
+    tell: Callable[[JobOutcome], object] = lambda _outcome: None,
     show: Callable[[Tournament], object] = lambda _done: None,
 ) -> Tournament:
     """Play the games of a plan that have not been played; Ctrl-C keeps those that are finished.
@@ -110,7 +67,7 @@ def run_tournament(
     done, sides = Tournament(plan, folder), len(plan.sides.names)
     with Journal(folder if journal is None else journal) as kept:
 
-        def play(jobs: Sequence[Job]) -> Iterator[Outcome]:
+        def play(jobs: Sequence[Job]) -> Iterator[JobOutcome]:
             for outcome in run_jobs(jobs, engine, journal=kept):
                 fault = "" if outcome.error else result_fault(outcome.result, sides)
                 if fault:
@@ -145,20 +102,60 @@ def play_all(
     """
     _check(done, play)
     take(None)
-    plan, entries = done.plan, done.admitted
-    if plan.sides.is_race:
-        rounds = [races(entries, plan.seeds)]
-    elif plan.system == "round-robin":
-        rounds = [round_robin(entries, plan.seeds)]
-    else:
-        rounds = []
-    swiss = 0 if rounds else plan.rounds_for(len(entries))
-    by_name = {each.name: each for each in entries}
     first = 0
-    for number in range(len(rounds) or swiss):
-        contests = rounds[number] if rounds else swiss_round(by_name, done.standings, plan.seeds)
+    for contests in _rounds(done):
         _play_round(done, dict(enumerate(contests, first)), play, take)
         first += len(contests)
+
+
+def _rounds(done: Tournament) -> Iterator[list[Contest]]:
+    """Yield the contests of each round; those of the Swiss system follow from the standings."""
+    plan, entries = done.plan, done.admitted
+    if plan.sides.is_race:
+        yield [Contest(seed, tuple(entries), is_race=True) for seed in plan.seeds]
+    elif plan.system == "round-robin":
+        yield [
+            Contest(seed, pair, is_race=False)
+            for seed in plan.seeds
+            for pair in combinations(entries, 2)
+        ]
+    else:
+        by_name = {entry.name: entry for entry in entries}
+        for _ in range(plan.rounds_for(len(entries))):
+            pairs = _swiss_pairs(done.standings)
+            yield [
+                Contest(seed, (by_name[one.name], by_name[other.name]), is_race=False)
+                for seed in plan.seeds
+                for one, other in pairs
+            ]
+
+
+def _swiss_pairs(order: Sequence[Standing]) -> list[tuple[Standing, Standing]]:
+    """Return neighbours in the standings who have not met.
+
+    With an odd number of entries, the lowest one that has played most rests.
+    """
+    by_score = sorted(order, key=lambda standing: (-standing.score, -standing.mu, standing.name))
+    if len(by_score) % 2:
+        most = max(len(standing.against) for standing in by_score)
+        resting = [standing for standing in by_score if len(standing.against) == most][-1]
+        by_score.remove(resting)
+    return _unmet_pairs(by_score) or list(zip(by_score[::2], by_score[1::2], strict=True))
+
+
+def _unmet_pairs(order: list[Standing]) -> list[tuple[Standing, Standing]]:
+    """Pair the first one with the next it has not met, and so on; empty if that can't be done."""
+    if not order:
+        return []
+    first, *others = order
+    for other in others:
+        if other.name in first.against:
+            continue
+        left = [each for each in others if each is not other]
+        rest = _unmet_pairs(left)
+        if rest or not left:
+            return [(first, other), *rest]
+    return []
 
 
 def _check(done: Tournament, play: Play) -> None:
@@ -184,7 +181,7 @@ def _play_round(
     take: Callable[[int | None], object],
 ) -> None:
     """Play contests, by their place in the schedule, and take each as soon as its games ended."""
-    outcomes: dict[str, Outcome] = {}
+    outcomes: dict[str, JobOutcome] = {}
     jobs = {place: contest.jobs(done.plan.scene) for place, contest in waiting.items()}
     places: dict[str, list[int]] = {}
     for place, games in jobs.items():
@@ -199,7 +196,7 @@ def _play_round(
                 take(place)
 
 
-def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[Outcome]) -> None:
+def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[JobOutcome]) -> None:
     """Add a contest's result."""
     error = next((each.error for each in ended if each.error), "")
     if error:

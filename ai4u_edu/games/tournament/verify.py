@@ -9,14 +9,15 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, SetupError, shorten
-from ai4u_edu.games.jobs import Engine, Job, Outcome, run_jobs
+from ai4u_edu.games.jobs import Engine, Job, JobOutcome, run_jobs
 from ai4u_edu.games.jobs.journal import FILE as JOURNAL
 from ai4u_edu.games.jobs.journal import line_of, read_line
 from ai4u_edu.games.tournament.drivers import ANSWERS
 from ai4u_edu.games.tournament.game import result_fault
 from ai4u_edu.games.tournament.limits import is_over_time
-from ai4u_edu.games.tournament.plan import Plan
-from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, Tournament, files_of, play_all, sums_of
+from ai4u_edu.games.tournament.plan import TournamentPlan
+from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, files_of, play_all, sums_of
+from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
 
@@ -47,7 +48,7 @@ def verify(
     Raises:
         SetupError: there is no finished tournament in the folder.
     """
-    plan = Plan.load(folder)
+    plan = TournamentPlan.load(folder)
     if not (folder / LIST).is_file():
         raise SetupError(
             f"{folder}: expected a finished tournament, and there is no {LIST}; go on with it: "
@@ -58,12 +59,12 @@ def verify(
 
 class _Verification:
     def __init__(
-        self, plan: Plan, folder: Path, engine: Engine, tell: Callable[[], object]
+        self, plan: TournamentPlan, folder: Path, engine: Engine, tell: Callable[[], object]
     ) -> None:
         self._plan, self._folder = plan, folder
         self._engine, self._tell = engine, tell
         self._problems: list[str] = []
-        self._outcomes: dict[str, Outcome] = {}
+        self._outcomes: dict[str, JobOutcome] = {}
         self._wrong: set[str] = set()
         """Keys of the jobs of games that are told to differ."""
         self._there = dict(self._read(folder))
@@ -141,7 +142,7 @@ class _Verification:
 
     # -- the games ---------------------------------------------------------------------------------
 
-    def _play(self, jobs: Sequence[Job]) -> Iterator[Outcome]:
+    def _play(self, jobs: Sequence[Job]) -> Iterator[JobOutcome]:
         """Play games again, and yield their outcomes."""
         slow: list[Job] = []
         for outcome in self._run(jobs, {}):
@@ -152,7 +153,7 @@ class _Verification:
         sides = {job.key: int(self._claims[job.key]["forfeit"]) for job in slow}
         yield from self._run(slow, sides)
 
-    def _run(self, jobs: Sequence[Job], sides: Mapping[str, int]) -> Iterator[Outcome]:
+    def _run(self, jobs: Sequence[Job], sides: Mapping[str, int]) -> Iterator[JobOutcome]:
         """Run jobs with recorded answers in place of programs, and of a side of some jobs.
 
         Args:
@@ -164,7 +165,7 @@ class _Verification:
         for job in {job.key: job for job in jobs}.values():
             again = self._again(job, sides.get(job.key, -1))
             if again is None:
-                yield self._ended(Outcome(job, error=f"{JOURNAL} has no result of this game"))
+                yield self._ended(JobOutcome(job, error=f"{JOURNAL} has no result of this game"))
                 continue
             originals.setdefault(again.key, []).append(job)
             playing.append(again)
@@ -172,7 +173,7 @@ class _Verification:
             for job in originals[outcome.job.key]:
                 yield self._ended(replace(outcome, job=job))
 
-    def _ended(self, outcome: Outcome) -> Outcome:
+    def _ended(self, outcome: JobOutcome) -> JobOutcome:
         self._outcomes[outcome.job.key] = outcome
         self._tell()
         return outcome
@@ -192,7 +193,7 @@ class _Verification:
             entries.append({**entry, "drivers": drivers})
         return Job(job.function, {**job.arguments, "entries": entries})
 
-    def _is_slow_again(self, outcome: Outcome) -> bool:
+    def _is_slow_again(self, outcome: JobOutcome) -> bool:
         """Return True if a side took too much time as the folder says, but not in the same way."""
         claim, now = self._claims.get(outcome.job.key), outcome.result
         return (

@@ -35,7 +35,7 @@ class Element:
 
 
 @dataclass(frozen=True)
-class Description:
+class EnvDescription:
     """Every number of an environment's observations and actions; as text, a table of them."""
 
     observations: tuple[Element, ...]
@@ -61,7 +61,7 @@ class Description:
 
 def describe_agent(
     agent: BasicAgent, space: spaces.Space[Any], action_space: spaces.Space[Any]
-) -> Description:
+) -> EnvDescription:
     """Return the description of an agent's observations and actions.
 
     Args:
@@ -74,7 +74,7 @@ def describe_agent(
     }
     labels = {key: labels_of_reading(sensor) for key, sensor in sensors.items()}
     done = {name: labels_of_action(actuator) for name, actuator in outputs_of(agent).items()}
-    return Description(tuple(_elements(labels, space)), tuple(_elements(done, action_space)))
+    return EnvDescription(tuple(_elements(labels, space)), tuple(_elements(done, action_space)))
 
 
 def _elements(labels: Mapping[str, Sequence[Label]], space: spaces.Space[Any]) -> Iterable[Element]:

@@ -8,7 +8,7 @@ import gymnasium
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Percept
-from ai4u_edu.learn.envs.description import Description, describe_agent
+from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning, warn_of_default_agent
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
@@ -108,7 +108,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         goal = self._goal
         return goal is not None and self._ledger.episode_terms.get(goal, 0.0) > 0
 
-    def describe(self) -> Description:
+    def describe(self) -> EnvDescription:
         """Return what each number of an observation and of an action is, as a table.
 
         In a dict observation, the index counts the numbers of each sensor on their own.

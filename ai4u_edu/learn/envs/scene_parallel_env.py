@@ -7,7 +7,7 @@ from pettingzoo import ParallelEnv
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import ActionError, SetupError, suggest
-from ai4u_edu.learn.envs.description import Description, describe_agent
+from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.scene_env import SceneLike, load_scene
@@ -94,7 +94,7 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         """Return an agent's action space."""
         return self._action_spaces[agent]
 
-    def describe(self, agent: str) -> Description:
+    def describe(self, agent: str) -> EnvDescription:
         """Return what each number of an agent's observations and actions is, as a table."""
         return describe_agent(
             self._agents[agent], self.observation_space(agent), self.action_space(agent)

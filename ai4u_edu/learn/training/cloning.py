@@ -24,7 +24,7 @@ from ai4u_edu.learn.training.algorithms import TORCH_THREADS
 from ai4u_edu.learn.training.demonstrations import demonstrations
 from ai4u_edu.learn.training.exporting import graph_of, inputs_of
 from ai4u_edu.learn.training.progress_bar import ProgressBar
-from ai4u_edu.learn.training.rays import Rays
+from ai4u_edu.learn.training.rays import RayNearness
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes.serialization import to_plain
@@ -74,7 +74,7 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         space: spaces.Space[Any],
         layers: Sequence[int] = LAYERS,
         levels: Sequence[int] = (),
-        rays: Sequence[Rays] = (),
+        rays: Sequence[RayNearness] = (),
     ) -> None:
         super().__init__()
         self.low: Tensor

@@ -4,7 +4,7 @@ import math
 from typing import NamedTuple
 
 
-class Episode(NamedTuple):
+class EpisodeStats(NamedTuple):
     """Result of one episode."""
 
     seed: int

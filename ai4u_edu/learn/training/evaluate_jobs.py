@@ -7,7 +7,7 @@ from typing import Any
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.games.jobs import Engine, Job, run_jobs
-from ai4u_edu.learn.training.episode import Episode
+from ai4u_edu.learn.training.episode import EpisodeStats
 from ai4u_edu.learn.training.evaluating import Evaluation, evaluate
 from ai4u_edu.learn.training.policies import Entrant, entrant
 from ai4u_edu.scenes import Scene
@@ -57,7 +57,7 @@ def evaluate_on(
         first_result["name"],
         first_result["scene"],
         first_result["has_goal"],
-        tuple(Episode(*each) for each in episodes),
+        tuple(EpisodeStats(*each) for each in episodes),
     )
 
 

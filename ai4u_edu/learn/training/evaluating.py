@@ -6,10 +6,11 @@ from html import escape
 from typing import Any
 
 import numpy as np
+from rich.table import Table
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.learn.training.episode import Episode, wilson
+from ai4u_edu.learn.training.episode import EpisodeStats, wilson
 from ai4u_edu.learn.training.policies import Entrant, expect_here
 from ai4u_edu.scenes import Scene
 
@@ -25,7 +26,7 @@ class Evaluation:
     scene: str
     has_goal: bool
     """True if the scene defines a success."""
-    episodes: tuple[Episode, ...]
+    episodes: tuple[EpisodeStats, ...]
 
     @property
     def successes(self) -> int:
@@ -104,6 +105,18 @@ class Evaluation:
         }
 
 
+def evaluation_table(evaluations: Sequence[Evaluation]) -> Table:
+    """Return a table with a row for each evaluation, at least one."""
+    told = Table(box=None, pad_edge=False)
+    who, *others = evaluations[0].cells
+    told.add_column(who, overflow="fold")
+    for heading in others:
+        told.add_column(heading, justify="right")
+    for each in evaluations:
+        told.add_row(*each.cells.values())
+    return told
+
+
 def evaluate(
     who: Entrant,
     scene: Scene,
@@ -130,18 +143,18 @@ def evaluate(
     return Evaluation(who.name, scene.description.name, goal is not None, tuple(episodes))
 
 
-def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> Episode:
+def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> EpisodeStats:
     sim.reset(seed)
     reward, length, episode = 0.0, 0, sim.episode
     while not agent.done and length < DEFAULT_MAX_DECISIONS:
         sim.step(agent)
         if sim.episode != episode or agent.stopped or agent.paused:
-            return Episode(seed, False, reward, length, False)  # it gave up
+            return EpisodeStats(seed, False, reward, length, False)  # it gave up
         reward += agent.reward
         length += 1
     paid = agent.ledger.episode_terms
     won = bool(goal and paid.get(goal, 0.0) > 0)
-    return Episode(seed, won, reward, length, agent.terminated)
+    return EpisodeStats(seed, won, reward, length, agent.terminated)
 
 
 def _spread(numbers: Sequence[float]) -> dict[str, float]:

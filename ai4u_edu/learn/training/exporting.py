@@ -22,7 +22,7 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import TRAINING_KEY, VALUE_OUTPUT
 from ai4u_edu.learn.envs.spaces_of import outputs_of
-from ai4u_edu.learn.training.network import Drive, example
+from ai4u_edu.learn.training.network import PolicyModule
 from ai4u_edu.learn.training.prepare import prepare
 from ai4u_edu.learn.training.run import Config
 from ai4u_edu.learn.training.worlds import table_for
@@ -58,7 +58,7 @@ class Exported:
         chooses = config.algorithm == "dqn" and isinstance(space, spaces.Box)
         table = table_for(space, settings.actions) if chooses else None
         self._model = model
-        self._drive = Drive(model, list(inputs), table, with_critic=with_critic)
+        self._drive = PolicyModule(model, list(inputs), table, with_critic=with_critic)
         outputs = [output, VALUE_OUTPUT] if with_critic else [output]
         training = model.policy.training
         self._network = graph_of(self._drive.eval(), inputs, *outputs)
@@ -113,7 +113,7 @@ def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[An
 
 
 def graph_of(
-    drive: Drive, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], *outputs: str
+    drive: PolicyModule, inputs: dict[str, tuple[tuple[int, ...], np.dtype[Any]]], *outputs: str
 ) -> onnx.ModelProto:
     """Return the ONNX graph of a module that turns readings into an action.
 
@@ -127,7 +127,9 @@ def graph_of(
         file = Path(folder) / "network.onnx"
         torch.onnx.export(
             drive,
-            example(inputs),
+            tuple(  # two rows of zeros
+                torch.from_numpy(np.zeros((2, *shape), dtype)) for shape, dtype in inputs.values()
+            ),
             file,
             input_names=list(inputs),
             output_names=list(outputs),

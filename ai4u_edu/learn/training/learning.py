@@ -1,13 +1,20 @@
 """Training of an agent in a scene with Stable-Baselines3."""
 
+import signal
 import sys
-from collections.abc import Callable, Sequence
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import FrameType
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from stable_baselines3.common.base_class import BaseAlgorithm
 from stable_baselines3.common.callbacks import BaseCallback, CallbackList
 from stable_baselines3.common.logger import configure
@@ -19,9 +26,8 @@ from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.learn.training.algorithms import check_actions, load_model, new_model
 from ai4u_edu.learn.training.eval_callback import EvalCallback
-from ai4u_edu.learn.training.interrupt import Interrupt
 from ai4u_edu.learn.training.prepare import prepare, with_learner
-from ai4u_edu.learn.training.progress import ProgressCallback
+from ai4u_edu.learn.training.progress_bar import REFRESH_S, ProgressBar
 from ai4u_edu.learn.training.run import Check, Config, Run
 from ai4u_edu.learn.training.settings import Algorithm, Settings
 from ai4u_edu.learn.training.worlds import ABOVE, Choices, make_worlds
@@ -31,6 +37,8 @@ if TYPE_CHECKING:
     from ai4u_edu.learn.training.watch import Watch
 
 PACKAGES = ("ai4u-edu", "stable-baselines3", "torch", "numpy", "pymunk", "gymnasium")
+AVERAGED_EPISODES = 100
+"""Episodes over which the progress bar averages rewards and successes."""
 
 
 @dataclass(frozen=True)
@@ -202,8 +210,8 @@ def _learn(
         keep_checkpoints=keep_checkpoints,
         stop=stop,
     )
-    interrupt = Interrupt()
-    bar = ProgressCallback(evaluation, config.steps, quiet=quiet)
+    interrupt = _Interrupt()
+    bar = _Progress(evaluation, config.steps, quiet=quiet)
     formats = ["tensorboard"] if find_spec("tensorboard") else []
     model.set_logger(configure(str(run.tensorboard), formats))
     left = config.steps - model.num_timesteps
@@ -229,3 +237,106 @@ def _learn(
 
 def _env(prepared: Scene, settings: Settings) -> SceneEnv:
     return SceneEnv(prepared, observation=settings.observation, agent=settings.agent or None)
+
+
+class _Interrupt(BaseCallback):  # type: ignore[misc]  # seen without its types
+    """Ends a training after the step in which Ctrl-C was pressed; a second one ends it at once."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.asked = False
+
+    def _on_step(self) -> bool:
+        return not self.asked
+
+    @contextmanager
+    def listening(self) -> Iterator[None]:
+        """Turn Ctrl-C into a request to end, within this context."""
+        if threading.current_thread() is not threading.main_thread():
+            yield  # signals come to the main thread only
+            return
+        if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+            yield  # of a process whose parent decides, such as a job's
+            return
+
+        def ask(_number: int, _frame: FrameType | None) -> None:
+            if self.asked:
+                raise KeyboardInterrupt
+            self.asked = True
+
+        before = signal.signal(signal.SIGINT, ask)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+
+class _Progress(BaseCallback):  # type: ignore[misc]  # seen without its types
+    """Shows steps a second, mean reward, success rate and remaining time.
+
+    Args:
+        evaluation: the evaluation callback whose checks are shown.
+        until: the step at which the training ends at the latest.
+        quiet: True shows nothing.
+    """
+
+    def __init__(self, evaluation: EvalCallback, until: int, *, quiet: bool = False) -> None:
+        super().__init__()
+        self._evaluation = evaluation
+        self._until = until
+        self._rewards: deque[float] = deque(maxlen=AVERAGED_EPISODES)
+        self._won: deque[bool] = deque(maxlen=AVERAGED_EPISODES)
+        self._told = len(evaluation.checks)
+        self._quiet = quiet
+        self._bar: ProgressBar | None = None
+
+    def _on_training_start(self) -> None:
+        self._first = self.num_timesteps
+        self._began = self._shown = time.perf_counter()
+        self._bar = ProgressBar(self._until, "steps", quiet=self._quiet)
+
+    def _on_step(self) -> bool:
+        infos: list[dict[str, Any]] = self.locals["infos"]
+        for info in infos:
+            episode = info.get("episode")
+            if episode:
+                self._rewards.append(episode["r"])
+                self._won.append(info["is_success"])
+        if (
+            time.perf_counter() - self._shown > REFRESH_S
+            or len(self._evaluation.checks) > self._told
+        ):
+            self._show()
+        return True
+
+    def _on_rollout_end(self) -> None:
+        if self._won:
+            self.logger.record("rollout/success", float(np.mean(self._won)))
+
+    def _on_training_end(self) -> None:
+        self._show()
+        self.close()
+
+    def close(self) -> None:
+        """Remove the bar."""
+        if self._bar is not None:
+            self._bar.close()
+
+    def _show(self) -> None:
+        if self._bar is None:
+            return
+        self._shown = time.perf_counter()
+        for check in self._evaluation.checks[self._told :]:
+            success = "" if check.success is None else f"success {check.success:.0%}, "
+            self._bar.note(
+                f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
+                f"reward {check.reward:.2f} in {check.length:.0f} decisions"
+            )
+        self._told = len(self._evaluation.checks)
+        speed = (self.num_timesteps - self._first) / max(self._shown - self._began, 1e-9)
+        reward = f"{np.mean(self._rewards):.2f}" if self._rewards else "-"
+        success = f"{np.mean(self._won):.0%}" if self._won else "-"
+        self._bar.show(
+            min(self.num_timesteps, self._until),
+            f"{speed:.0f}/s  reward {reward}  success {success}",
+        )

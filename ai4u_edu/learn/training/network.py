@@ -1,6 +1,6 @@
 """A Stable-Baselines3 model as one torch module from readings to an action. Loads torch."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.algorithms import CLASSES
 
 
-class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
+class PolicyModule(nn.Module):  # type: ignore[misc]  # seen without its types
     """Torch module of a model's deterministic policy: readings in, an action out.
 
     Scaling of the readings, the choice and the scaling to the actuator's range all happen inside.
@@ -124,7 +124,7 @@ class Drive(nn.Module):  # type: ignore[misc]  # seen without its types
         return best if self.table is None else self.table[best]
 
 
-class _Seen(NamedTuple):
+class _ReadingForm(NamedTuple):
     """Form of one reading as a network's input."""
 
     choices: int
@@ -133,19 +133,19 @@ class _Seen(NamedTuple):
     shape: tuple[int, ...]
 
 
-def _spaces_of(space: spaces.Space[Any]) -> dict[str, _Seen]:
+def _spaces_of(space: spaces.Space[Any]) -> dict[str, _ReadingForm]:
     """Return the space of each reading; empty where they all come in one array."""
     if not isinstance(space, spaces.Dict):
         return {}
     return {key: _seen_of(each) for key, each in space.spaces.items()}
 
 
-def _seen_of(space: spaces.Space[Any]) -> _Seen:
+def _seen_of(space: spaces.Space[Any]) -> _ReadingForm:
     choices = int(space.n) if isinstance(space, spaces.Discrete) else 0
-    return _Seen(choices, is_image_space(space), space.shape or ())
+    return _ReadingForm(choices, is_image_space(space), space.shape or ())
 
 
-def _as_seen(reading: Tensor, seen: _Seen) -> Tensor:
+def _as_seen(reading: Tensor, seen: _ReadingForm) -> Tensor:
     """Preprocess a reading as Stable-Baselines3 does."""
     if seen.choices:
         return nn.functional.one_hot(reading.to(torch.int64), seen.choices).to(torch.float32)
@@ -161,8 +161,3 @@ def _kind_of(model: BaseAlgorithm) -> str:
         if isinstance(model, cls):
             return kind
     raise SetupError(f"expected a model of SAC, PPO or DQN, got {type(model).__name__}")
-
-
-def example(inputs: Mapping[str, tuple[tuple[int, ...], np.dtype[Any]]]) -> tuple[Tensor, ...]:
-    """Return two rows of zeros for each input, by shape and type."""
-    return tuple(torch.from_numpy(np.zeros((2, *shape), dtype)) for shape, dtype in inputs.values())

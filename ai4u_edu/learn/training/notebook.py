@@ -237,17 +237,28 @@ def demonstrate(
     >>> [episode.seed for episode in episodes]
     [1000, 1001]
     """
-    from ai4u_edu.learn.training.policies import entrant_of
+    from ai4u_edu.learn.training.evaluating import DEFAULT_MAX_DECISIONS
+    from ai4u_edu.learn.training.policies import entrant_of, expect_here
     from ai4u_edu.learn.training.progress_bar import counted
-    from ai4u_edu.learn.training.showing import show
+    from ai4u_edu.recording import Recorder
 
     driver = entrant_of(who)
     where = scene if scene is not None else driver.scene
     if not where:
         raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
-    return show(
-        driver, _scene(where), counted(seeds_from(seed, episodes), driver.name, quiet=quiet)
-    )
+    fitted = expect_here(driver).fitted(_scene(where))
+    sim = fitted.build()
+    agent = sim.agent(driver.agent) if driver.agent else sim.agents[0]
+    recorder = Recorder(sim, scene=fitted.description, keep=100_000)
+    for each in counted(seeds_from(seed, episodes), driver.name, quiet=quiet):
+        agent.use_brain(driver.brain(agent))
+        sim.reset(each)
+        for _ in range(DEFAULT_MAX_DECISIONS):  # so often too if it takes no decisions
+            if agent.done or agent.stopped or agent.paused:
+                break
+            sim.step(agent)
+    recorder.finish()
+    return list(recorder.episodes)
 
 
 def clone(

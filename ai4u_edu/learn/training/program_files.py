@@ -46,7 +46,7 @@ class ProgramController(Controller):
             raise BlockError(self._told(error)) from error
 
     def _told(self, error: ProgramError) -> str:
-        return mistake_text(Path(self.program.file), error)
+        return _mistake_text(Path(self.program.file), error)
 
 
 def program_text(path: Path) -> str | None:
@@ -87,7 +87,7 @@ def load_program(source: str, path: Path, entry: str, agent: BasicAgent | None =
             source, str(path), entry, outputs, limit_s=CALL_LIMIT_S, keeps_lines=False
         )
     except ProgramError as error:
-        raise SetupError(mistake_text(path, error)) from error
+        raise SetupError(_mistake_text(path, error)) from error
 
 
 def program_controller(source: str, path: Path, entry: str, agent: BasicAgent) -> ProgramController:
@@ -95,7 +95,7 @@ def program_controller(source: str, path: Path, entry: str, agent: BasicAgent) -
     return ProgramController(program=load_program(source, path, entry, agent))
 
 
-def mistake_text(path: Path, error: ProgramError) -> str:
+def _mistake_text(path: Path, error: ProgramError) -> str:
     """Return the sentence on a mistake with its file and line."""
     if not error.line:
         return error.text if error.text.startswith(str(path)) else f"{path}: {error.text}"

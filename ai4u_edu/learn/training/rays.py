@@ -15,7 +15,7 @@ CLOSE = 0.5
 """Range of the nearness: 1 at distance 0, 1 - CLOSE at the end of a ray."""
 
 
-class Rays(nn.Module):  # type: ignore[misc]  # seen without its types
+class RayNearness(nn.Module):  # type: ignore[misc]  # seen without its types
     """Nearness of each kind of thing on each ray; 0 where there is none.
 
     A code is only a name: water's being larger than food's means nothing, and a network would spend
@@ -50,14 +50,14 @@ class Rays(nn.Module):  # type: ignore[misc]  # seen without its types
         return (met.to(torch.float32) * close.unsqueeze(2)).flatten(1)
 
 
-def rays_of(agent: BasicAgent) -> list[Rays]:
+def rays_of(agent: BasicAgent) -> list[RayNearness]:
     """Return encoders for an agent's sensors that give both codes and distances."""
-    found: list[Rays] = []
+    found: list[RayNearness] = []
     first = 0
     for sensor in agent.bound_blocks.sensors:
         if sensor.is_input:
             if _tells_both(sensor):
-                found.append(Rays(sensor, first))
+                found.append(RayNearness(sensor, first))
             first += int(np.prod(sensor.observation_space().shape or (1,)))
     return found
 

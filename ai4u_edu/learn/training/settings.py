@@ -72,7 +72,7 @@ class DaggerSettings(BaseModel):
     """The hidden layers' sizes."""
     kinds: bool = False
     """True encodes rays as the nearness of each kind of thing, in place of code and distance;
-     see :class:`~ai4u_edu.learn.training.rays.Rays`."""
+     see :class:`~ai4u_edu.learn.training.rays.RayNearness`."""
 
 
 class Settings(BaseModel):

@@ -10,7 +10,6 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, Percept
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
-from ai4u_edu.lessons.exercises.lesson_11_choice import straight_on
 from ai4u_edu.lessons.exercises.lesson_11_why import HINTS, is_blind
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for
@@ -31,6 +30,11 @@ def player(percept: Percept) -> dict[str, list[float]]:
     """Drive as the scripted player: turn until the box is ahead, then go."""
     cosine = percept["orientation"][0]
     return {"move": [1.0, 0, 0, 0] if cosine > 0.99 else [0, 0.2, 0, 0]}
+
+
+def straight_on(_percept: Percept) -> dict[str, list[float]]:
+    """Drive on, and over the edge."""
+    return {"move": [1, 0.1, 0, 0]}
 
 
 PLACES = (0, 1, 5, 7, 9)

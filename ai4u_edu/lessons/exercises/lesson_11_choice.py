@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.blocks import NeuralNetController, Percept, trained_brain
+from ai4u_edu.blocks import NeuralNetController, trained_brain
+from ai4u_edu.lessons.exercises.lesson_11 import scripted_drives, straight_on
 
 if TYPE_CHECKING:
     from ai4u_edu.learn.training.cloning import Cloned
@@ -20,16 +21,10 @@ FALL_INDEX = 1
 """Place of the drive that falls among those of the scripted player."""
 
 
-def straight_on(_percept: Percept) -> dict[str, list[float]]:
-    """Drive on, and over the edge."""
-    return {"move": [1, 0.1, 0, 0]}
-
-
 @cache
 def _scripted() -> "tuple[Episode, ...]":
     """Return drives of the scripted player, and one that falls."""
     from ai4u_edu.learn.training import demonstrate
-    from ai4u_edu.lessons.exercises.lesson_11 import scripted_drives
 
     found = scripted_drives(CHOICE - 1)
     found[FALL_INDEX:FALL_INDEX] = demonstrate(

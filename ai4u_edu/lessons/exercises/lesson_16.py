@@ -211,22 +211,22 @@ def judges_a_contest(better: Any) -> str:
     reasons: list[NotYet] = []
     for pair in range(PAIRS):
         ahead = 0.7 if chance.random() < 0.5 else -0.7
-        contest = Contest(pair, ahead)
-        got = judge(contest.play, contest.one, contest.other)
+        players = PlayedPair(pair, ahead)
+        got = judge(players.play, players.one, players.other)
         if got is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
-        if not (got is contest.one or got is contest.other):
+        if not (got is players.one or got is players.other):
             raise NotYet(
                 f"Expected one of the two players, `one` or `other`, got {named(got)}.",
                 hint="name",
             )
-        contest.look_at_games()
-        right = contest.one if ahead > 0 else contest.other
+        players.look_at_games()
+        right = players.one if ahead > 0 else players.other
         if got is not right:
             reason = NotYet(
                 f"In pair {pair + 1} `{right.__name__}` is better: it has 0.7 points more on "
                 "average. You chose the other one.",
-                hint=contest.mistake(got),
+                hint=players.mistake(got),
             )
             reasons.append(reason)
     if len(reasons) > REVERSED_PAIRS:
@@ -236,7 +236,7 @@ def judges_a_contest(better: Any) -> str:
     return f"You found the better one of {PAIRS} pairs."
 
 
-class Contest:
+class PlayedPair:
     """Two players of a game in which chance and the seed decide too.
 
     Args:

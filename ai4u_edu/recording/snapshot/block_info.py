@@ -15,6 +15,7 @@ from ai4u_edu.blocks import (
     Actuator,
     GridSensor,
     Legend,
+    LinearRayCastingSensor,
     LocalGridSensor,
     OrientationSensor,
     Percept,
@@ -24,7 +25,7 @@ from ai4u_edu.blocks import (
     SpotPicture,
 )
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
-from ai4u_edu.recording.snapshot.ray_layout import RayLayout, ray_layout_of
+from ai4u_edu.blocks.sensors.ray_sensor import spread
 
 MIN_VISIBLE = {"cosine": -1.0, "distance": 0.0}
 """Least readings of an OrientationSensor for a visible target."""
@@ -48,6 +49,24 @@ class Window(NamedTuple):
     """Metres, along and across the heading; along x and y for a fixed window."""
     centre: tuple[float, float] | None
     """Centre of a fixed window (m); None if the window moves and turns with the agent."""
+
+
+@dataclass(frozen=True, slots=True)
+class RayLayout:
+    """The order of the numbers that a flat fan of rays reads."""
+
+    angles_deg: tuple[float, ...]
+    """Angle of each ray from the heading, positive to the left; the rightmost ray is first."""
+    has_code: bool
+    """True if a ray reads the code of what it hits; it comes before the distance."""
+    has_distance: bool
+    """True if a ray reads the distance to what it hits; 0 if it hits nothing."""
+    codes: tuple[tuple[str, float], ...]
+    """Name of each group, and its code in the reading."""
+    reach: float
+    """Largest distance in the reading: 1, or metres."""
+    reach_m: float
+    """Length of a ray, metres."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -204,7 +223,7 @@ def _sense(sensor: Sensor) -> SensorInfo:
         legend=sensor.legend(),
         window=_window(sensor),
         eye=sensor.eye if isinstance(sensor, RaySensor) else None,
-        rays=ray_layout_of(sensor),
+        rays=_ray_layout_of(sensor),
     )
 
 
@@ -253,3 +272,19 @@ def _control(actuator: Actuator) -> ActuatorInfo:
 def _has_effect(actuator: Actuator, slot: str) -> bool:
     powers = POWERS.get(slot, ()) if isinstance(actuator, GroundMotion) else ()
     return not powers or any(getattr(actuator, power) > 0 for power in powers)
+
+
+def _ray_layout_of(sensor: object) -> RayLayout | None:
+    """Return the layout of a sensor's rays; None if it reads no flat fan."""
+    if not isinstance(sensor, LinearRayCastingSensor):
+        return None
+    angles = np.degrees(spread(sensor.number_of_rays, sensor.field_of_view))
+    largest = sensor.largest_code if sensor.normalized else 1.0
+    return RayLayout(
+        angles_deg=tuple((angles - sensor.horizontal_shift).round(2).tolist()),
+        has_code=sensor.return_code,
+        has_distance=sensor.return_distance,
+        codes=tuple((name, code / largest) for name, code in sensor.group_code.items()),
+        reach=sensor.farthest,
+        reach_m=sensor.vision_max_distance,
+    )

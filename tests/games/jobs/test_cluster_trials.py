@@ -13,10 +13,11 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.games.jobs import Engine, engine
 from ai4u_edu.games.tournament.entry import Entry, parse_entry
-from ai4u_edu.games.tournament.plan import Plan as TournamentPlan
-from ai4u_edu.games.tournament.run import Tournament, run_tournament, write_results
+from ai4u_edu.games.tournament.plan import TournamentPlan
+from ai4u_edu.games.tournament.run import run_tournament, write_results
 from ai4u_edu.games.tournament.sides import sides_of
-from ai4u_edu.learn.training.sweep.plan import Plan
+from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.learn.training.sweep.plan import SweepPlan
 from ai4u_edu.learn.training.sweep.result import csv_text
 from ai4u_edu.learn.training.sweep.run import Sweep, run_sweep
 from ai4u_edu.learn.training.sweep.search_space import Parameter
@@ -57,7 +58,7 @@ def rows(done: Sweep) -> list[dict[str, str]]:
 def test_a_sweep_has_the_same_table_though_a_machine_dies(
     cluster: tuple[Engine, Killer], tmp_path: Path
 ) -> None:
-    plan = Plan(
+    plan = SweepPlan(
         scene={"name": "yardstick"},
         algorithms=("ppo",),
         seeds=(0, 1),

@@ -20,8 +20,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.games.jobs import (
     Engine,
     Job,
+    JobOutcome,
     Journal,
-    Outcome,
     engine,
     processes,
     ray_engine,
@@ -61,7 +61,7 @@ def apart(request: pytest.FixtureRequest, engines: Callable[[str], Engine]) -> E
     return engines(request.param)
 
 
-def by_job(outcomes: Iterator[Outcome]) -> dict[str, Outcome]:
+def by_job(outcomes: Iterator[JobOutcome]) -> dict[str, JobOutcome]:
     return {each.job.key: each for each in outcomes}
 
 

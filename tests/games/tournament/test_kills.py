@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu.games.jobs.inline import InlineEngine
+from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.entry import Entry
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.scenes.scene_data import scene_data
 from tests.waiting import until
@@ -30,10 +30,10 @@ def begun(folder: Path) -> "subprocess.Popen[str]":
     return subprocess.Popen(command, stdout=pipe, stderr=pipe, env=env, text=True)
 
 
-def plan(seeds: int) -> Plan:
+def plan(seeds: int) -> TournamentPlan:
     entries = [Entry(name=name, drivers={"": {"kind": "random"}}) for name in ("ann", "bob")]
     entries.append(Entry(name="eve", drivers={"": {"kind": "scene"}}))
-    return Plan(
+    return TournamentPlan(
         scene=scene_data("sumo"),
         entries=tuple(entries),
         seeds=tuple(range(seeds)),
@@ -65,7 +65,7 @@ def test_a_tournament_goes_on_after_each_kill_and_is_whole(tmp_path: Path, kills
         _, told = process.communicate()
     assert process.returncode == 0, told
     count = 6 * max(2, kills // 5)
-    assert verify(tmp_path, InlineEngine()) == (count, [])
+    assert verify(tmp_path, engine("inline")) == (count, [])
 
 
 def _wait_for_a_game(journal: Path, process: "subprocess.Popen[str]") -> None:

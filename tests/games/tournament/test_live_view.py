@@ -8,19 +8,20 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.games.jobs.inline import InlineEngine
+from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.entry import Entry
-from ai4u_edu.games.tournament.live_view import live_view
-from ai4u_edu.games.tournament.plan import Plan
-from ai4u_edu.games.tournament.run import Tournament, run_tournament
+from ai4u_edu.games.tournament.live_process import live_view
+from ai4u_edu.games.tournament.plan import TournamentPlan
+from ai4u_edu.games.tournament.run import run_tournament
+from ai4u_edu.games.tournament.tournament import Tournament
 
 NAMES = ("ann", "bob", "eve")
 
 
-def plan(system: Any = "round-robin", seeds: int = 1) -> Plan:
+def plan(system: Any = "round-robin", seeds: int = 1) -> TournamentPlan:
     entries = [Entry(name=name, drivers={"": {"kind": "random"}}) for name in NAMES[:2]]
     entries.append(Entry(name=NAMES[2], drivers={"": {"kind": "scene"}}))
-    return Plan(
+    return TournamentPlan(
         scene={"name": "sumo"},
         entries=tuple(entries),
         seeds=tuple(range(seeds)),
@@ -54,7 +55,7 @@ def test_each_contest_is_shown_and_the_process_goes_on_where_it_was(tmp_path: Pa
     def show(done: Tournament) -> None:
         views.append(json.loads(json.dumps(live_view(done))))
 
-    done = run_tournament(plan(), tmp_path, InlineEngine(), show=show)
+    done = run_tournament(plan(), tmp_path, engine("inline"), show=show)
     assert [each["games"] for each in views] == [0, 2, 4, 6]
     assert {each["total"] for each in views} == {6}
     assert views[0]["standings"][0]["against"] == {}

@@ -1,18 +1,22 @@
 """Tournaments: who plays whom, who wins, and that all can be played again."""
 
 import json
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 from typer.testing import CliRunner
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.cli.main import app
+from ai4u_edu.games.jobs import Job, JobOutcome
 from ai4u_edu.games.tournament.contest import Contest, ContestResult
 from ai4u_edu.games.tournament.entry import Entry
-from ai4u_edu.games.tournament.schedule import round_robin, swiss_round
+from ai4u_edu.games.tournament.plan import TournamentPlan
+from ai4u_edu.games.tournament.run import play_all
 from ai4u_edu.games.tournament.standings import standings
+from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.recording import Episode
 from tests.games.tournament.bad_networks import INPUTS, few_outputs
 from tests.learn.training.networks import network
@@ -80,30 +84,46 @@ def test_a_game_that_could_not_be_played_counts_for_nobody() -> None:
 # -- who plays whom -------------------------------------------------------------------------------
 
 
+def played(
+    system: Literal["round-robin", "swiss"], *names: str, seeds: tuple[int, ...] = (0,)
+) -> Tournament:
+    """Return a tournament in which who comes first in the alphabet wins."""
+
+    def play(jobs: Sequence[Job]) -> Iterator[JobOutcome]:
+        for job in jobs:
+            one, other = (entry["name"] for entry in job.arguments["entries"])
+            sign = (one < other) - (one > other)
+            yield JobOutcome(job, told(sign, -sign) | {"episode": "", "reason": ""})
+
+    plan = TournamentPlan(
+        scene={"name": "sumo"},
+        entries=tuple(entries(*names)),
+        seeds=seeds,
+        system=system,
+        rounds=4,
+    )
+    done = Tournament(plan, Path("unused"))
+    play_all(done, play)
+    return done
+
+
 def test_in_a_round_robin_all_meet_on_each_seed_and_change_sides() -> None:
-    contests = round_robin(entries("a", "b", "c"), (0, 1))
-    assert len(contests) == 6
-    assert [[e.name for e in each] for each in contests[0].seatings] == [["a", "b"], ["b", "a"]]
+    done = played("round-robin", "a", "b", "c", seeds=(0, 1))
+    assert len(done.ended) == 6
+    assert [each["entries"] for each in done.games[:2]] == [["a", "b"], ["b", "a"]]
+    assert [result.contest.seed for result in done.results] == [0, 0, 0, 1, 1, 1]
 
 
 def test_in_swiss_rounds_nobody_meets_twice_and_everybody_rests_once_at_most() -> None:
     names = ["a", "b", "c", "d", "e"]
-    by_name = {each.name: each for each in entries(*names)}
-    results: list[ContestResult] = []
-    met: set[frozenset[str]] = set()
-    rested: list[str] = []
-    for _ in range(4):
-        contests = swiss_round(by_name, standings(names, results), (0,))
-        pairs = [each.names for each in contests]
-        assert not met & {frozenset(pair) for pair in pairs}
-        met |= {frozenset(pair) for pair in pairs}
-        rested += [name for name in names if not any(name in pair for pair in pairs)]
-        # who comes first in the alphabet wins
-        for each in contests:
-            sign = 1 if each.names[0] < each.names[1] else -1
-            results.append(ContestResult(each, (told(sign, -sign), told(-sign, sign))))
-    assert len(set(rested)) == 4
-    assert standings(names, results)[0].name == "a"
+    done = played("swiss", *names)
+    pairs = [result.contest.names for result in done.results]
+    rounds = [pairs[first : first + 2] for first in range(0, len(pairs), 2)]
+    assert len(rounds) == 4
+    assert len({frozenset(pair) for pair in pairs}) == len(pairs)
+    rested = [name for met in rounds for name in names if not any(name in pair for pair in met)]
+    assert len(set(rested)) == len(rested) == 4
+    assert done.standings[0].name == "a"
 
 
 # -- the command ----------------------------------------------------------------------------------

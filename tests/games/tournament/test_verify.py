@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from itertools import count
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import pytest
 from typer.testing import CliRunner
@@ -21,10 +21,10 @@ from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks import Answer, Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.cli.main import app
-from ai4u_edu.games.jobs.inline import InlineEngine
+from ai4u_edu.games.jobs import Job, engine
 from ai4u_edu.games.tournament import limits
 from ai4u_edu.games.tournament.game import game
-from ai4u_edu.games.tournament.plan import Plan
+from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import run_tournament, write_results
 from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.world import WorldView
@@ -86,18 +86,31 @@ def listed(folder: Path) -> list[dict[str, Any]]:
     return found
 
 
-class Memory(InlineEngine):
+class Memory:
     """An engine that remembers results, as the games of a folder are the same in each round."""
 
+    width = 1
     results: ClassVar[dict[str, Any]] = {}
 
+    def start(self, job: Job) -> None:
+        self._job = job
+
     def wait(self) -> Any:
-        job = self._job
-        assert job is not None
-        if job.key not in self.results:
-            self.results[job.key] = super().wait()
-        self._job = None
-        return self.results[job.key]
+        key = self._job.key
+        if key not in self.results:
+            inline = engine("inline")
+            inline.start(self._job)
+            self.results[key] = inline.wait()
+        return self.results[key]
+
+    def close(self) -> None:
+        """Do nothing: nothing runs."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
 
 def problems(folder: Path) -> list[str]:
@@ -265,8 +278,8 @@ def forge(folder: Path, change: Callable[[list[dict[str, Any]]], object]) -> Non
     change(sorted((each for each in lines if each["key"] in games), key=lambda e: games[e["key"]]))
     path.write_text("".join(f"{json.dumps(each)}\n" for each in lines))
     shutil.rmtree(folder / "games")
-    plan = Plan.load(folder)
-    write_results(run_tournament(plan, folder, InlineEngine()))
+    plan = TournamentPlan.load(folder)
+    write_results(run_tournament(plan, folder, engine("inline")))
 
 
 def turn_points(games: list[dict[str, Any]]) -> None:
@@ -364,17 +377,17 @@ def test_nothing_outside_of_the_folder_is_read(folder: Path, tmp_path: Path) -> 
 
 @pytest.mark.parametrize("kind", ["plain"])
 def test_a_tournament_that_is_not_finished_is_told(folder: Path) -> None:
-    plan = Plan.load(folder)
+    plan = TournamentPlan.load(folder)
     (folder / "journal.jsonl").unlink()
 
     def stop(_: object) -> None:
         raise KeyboardInterrupt
 
-    write_results(run_tournament(plan, folder, InlineEngine(), show=stop))
+    write_results(run_tournament(plan, folder, engine("inline"), show=stop))
     assert "games.json: it has 0 games, and the plan has 2" in problems(folder)
     (folder / "games.json").unlink()
     with pytest.raises(SetupError, match="expected a finished tournament, and there is no games"):
-        verify(folder, InlineEngine())
+        verify(folder, engine("inline"))
 
 
 STARTS = count()
@@ -409,14 +422,14 @@ def test_a_failure_by_time_may_come_at_another_decision(
     games = listed(folder)
     assert [each["entries"][each["forfeit"]] for each in games] == ["Sue", "Sue"]
     assert games[0]["ticks"] != games[1]["ticks"]
-    assert verify(folder, InlineEngine()) == (2, [])
+    assert verify(folder, engine("inline")) == (2, [])
     found = listed(folder)
     found[0]["points"][0] += 1.0
     (folder / "games.json").write_text(json.dumps(found, indent=1) + "\n")
-    (told,) = verify(folder, InlineEngine())[1]
+    (told,) = verify(folder, engine("inline"))[1]
     assert "game 1 (Sue vs Ann, seed 0): points: the folder says" in told
 
 
 def test_long_names_in_other_scripts_fit_into_the_names_of_files(tmp_path: Path) -> None:
     folder = played(tmp_path / "out", f"{40 * '名'}=random", f"{40 * '字'}=scene")
-    assert verify(folder, InlineEngine()) == (2, [])
+    assert verify(folder, engine("inline")) == (2, [])

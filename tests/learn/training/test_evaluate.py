@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from ai4u_edu import BasicAgent, Command, LocalBrain, Percept, Scene
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.cli.main import app
-from ai4u_edu.learn.training.episode import Episode, wilson
+from ai4u_edu.learn.training.episode import EpisodeStats, wilson
 from ai4u_edu.learn.training.evaluating import DEFAULT_MAX_DECISIONS, Evaluation, evaluate
 from ai4u_edu.learn.training.plots import plot_curves, plot_evaluations
 from ai4u_edu.learn.training.policies import Entrant, entrant
@@ -187,7 +187,7 @@ def test_the_command(tmp_path: Path) -> None:
 
 
 def _evaluation(name: str, successes: int, count: int) -> Evaluation:
-    episodes = tuple(Episode(seed, seed < successes, 1.0, 5, True) for seed in range(count))
+    episodes = tuple(EpisodeStats(seed, seed < successes, 1.0, 5, True) for seed in range(count))
     return Evaluation(name, "road", True, episodes)
 
 

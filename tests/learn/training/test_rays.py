@@ -12,7 +12,7 @@ from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of
 from ai4u_edu.learn.training import dagger
 from ai4u_edu.learn.training.cloning import Clone, write_network
-from ai4u_edu.learn.training.rays import CLOSE, Rays, rays_of
+from ai4u_edu.learn.training.rays import CLOSE, RayNearness, rays_of
 from ai4u_edu.learn.training.settings import DaggerSettings
 from tests.scenes.solvers import solver_of
 
@@ -38,7 +38,7 @@ def test_each_kind_of_each_ray_has_a_place_of_its_own(
         normalized=normalized,
         normalize_distance=normalize_distance,
     )
-    rays = Rays(sensor, 1)
+    rays = RayNearness(sensor, 1)
     seen = np.array([[9, *np.column_stack([codes, distances]).ravel()]], np.float32)
     wanted: list[list[float]] = [[0, 0], [1 - CLOSE / 2, 0], [0, 1 - CLOSE]]
     assert rays(torch.from_numpy(seen)).tolist() == [np.ravel(wanted).tolist()]
@@ -49,7 +49,7 @@ def test_a_grid_of_rays_has_first_its_codes_and_then_its_distances() -> None:
         perception_key="eye", rows=1, columns=2, group_code=NAMED, return_distance=True
     )
     seen = torch.tensor([[0.5, 1.0, 0.2, 0.4]])
-    told = Rays(sensor, 0)(seen)[0].tolist()
+    told = RayNearness(sensor, 0)(seen)[0].tolist()
     assert told == pytest.approx([1 - 0.2 * CLOSE, 0, 0, 1 - 0.4 * CLOSE])
 
 

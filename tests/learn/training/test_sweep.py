@@ -13,10 +13,10 @@ from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.cli.main import app
 from ai4u_edu.cli.sweep import parse_seeds, with_rewards_left_out
-from ai4u_edu.games.jobs import Outcome
+from ai4u_edu.games.jobs import JobOutcome
 from ai4u_edu.learn.training.run import Check
 from ai4u_edu.learn.training.sweep.page import page_of
-from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+from ai4u_edu.learn.training.sweep.plan import Choice, SweepPlan
 from ai4u_edu.learn.training.sweep.result import TrialResult, csv_text, groups, ranked
 from ai4u_edu.learn.training.sweep.search_space import Parameter
 from ai4u_edu.learn.training.sweep.trial import CHECKS, trial
@@ -27,8 +27,8 @@ from tests.learn.training.small import CHOICES, small_settings
 pytestmark = pytest.mark.needs("sweep")
 
 
-def plan(**changes: object) -> Plan:
-    return Plan.model_validate(
+def plan(**changes: object) -> SweepPlan:
+    return SweepPlan.model_validate(
         {
             "scene": {"name": "box_chase"},
             "algorithms": ("ppo",),
@@ -53,7 +53,7 @@ def result(
     check = Check(steps=at, seconds=0, success=success, reward=success * 10, length=20)
     done = {"checks": [check.model_dump()], "steps": 64, "pruned": False, "network": "AAAA"} | told
     choice = Choice(algorithm="ppo", seed=seed, settings={"gamma": 0.9})
-    return TrialResult.of(number, choice, Outcome(plan().job(choice), done), has_goal=True)
+    return TrialResult.of(number, choice, JobOutcome(plan().job(choice), done), has_goal=True)
 
 
 # -- what is tried ------------------------------------------------------------------------------
@@ -204,7 +204,7 @@ def test_settings_are_summed_up_over_seeds() -> None:
 def test_a_trial_that_failed_is_in_table_and_page_as_text() -> None:
     choice = Choice(algorithm="ppo", seed=0, settings={"gamma": "<b>"})
     failed = TrialResult.of(
-        1, choice, Outcome(plan().job(choice), error="ValueError: <script>"), has_goal=True
+        1, choice, JobOutcome(plan().job(choice), error="ValueError: <script>"), has_goal=True
     )
     page = page_of(plan(parameters=parameters("gamma=<b>")), [result(0, 1.0), failed], None, 5, [])
     assert "<script>" not in page

@@ -144,12 +144,12 @@ def test_the_best_is_kept_not_the_last(tmp_path: Path, monkeypatch: pytest.Monke
     ranks = iter([0.2, 0.9, 0.4])
 
     def pretending(_model: Any, _envs: Any, seeds: Any, _table: Any) -> list[Any]:
-        from ai4u_edu.learn.training.episode import Episode
+        from ai4u_edu.learn.training.episode import EpisodeStats
 
         reward = next(ranks)
-        return [Episode(seed, False, reward, 5, False) for seed in seeds]
+        return [EpisodeStats(seed, False, reward, 5, False) for seed in seeds]
 
-    monkeypatch.setattr("ai4u_edu.learn.training.eval_callback.trials", pretending)
+    monkeypatch.setattr("ai4u_edu.learn.training.eval_callback._trials", pretending)
     done = small_training(tmp_path, "sac", sac=small_settings().sac.model_dump() | {"steps": 300})
     assert done.best.steps == 200
     assert load_model("sac", tmp_path / "best.zip").num_timesteps == 200
@@ -160,12 +160,12 @@ def test_it_ends_when_it_is_good_enough(tmp_path: Path, monkeypatch: pytest.Monk
     rates = iter([1.0, 0.0, 1.0, 1.0, 1.0])
 
     def pretending(_model: Any, _envs: Any, seeds: Any, _table: Any) -> list[Any]:
-        from ai4u_edu.learn.training.episode import Episode
+        from ai4u_edu.learn.training.episode import EpisodeStats
 
         success = next(rates) == 1.0
-        return [Episode(seed, success, 0.0, 5, True) for seed in seeds]
+        return [EpisodeStats(seed, success, 0.0, 5, True) for seed in seeds]
 
-    monkeypatch.setattr("ai4u_edu.learn.training.eval_callback.trials", pretending)
+    monkeypatch.setattr("ai4u_edu.learn.training.eval_callback._trials", pretending)
     many = small_settings().sac.model_dump() | {"steps": 1000}
     done = small_training(tmp_path, "sac", enough=2, sac=many)
     assert done.enough

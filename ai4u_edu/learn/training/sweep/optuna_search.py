@@ -7,7 +7,7 @@ from typing import Any
 import optuna
 from optuna.storages.journal import JournalFileBackend
 
-from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+from ai4u_edu.learn.training.sweep.plan import Choice, SweepPlan
 from ai4u_edu.learn.training.sweep.result import TrialResult
 from ai4u_edu.learn.training.sweep.search_space import Parameter, Value
 
@@ -28,7 +28,7 @@ class OptunaSearch:
         folder: gets the study in Optuna's journal format, for tools such as optuna-dashboard.
     """
 
-    def __init__(self, plan: Plan, folder: Path) -> None:
+    def __init__(self, plan: SweepPlan, folder: Path) -> None:
         optuna.logging.set_verbosity(optuna.logging.ERROR)
         self._plan = plan
         path = folder / FILE

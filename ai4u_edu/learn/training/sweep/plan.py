@@ -32,7 +32,7 @@ class Choice(BaseModel):
     """Values of the parameters, by their names."""
 
 
-class Plan(BaseModel):
+class SweepPlan(BaseModel):
     """Scene, settings, seeds and trials of a sweep."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -96,7 +96,7 @@ class Plan(BaseModel):
             rivals=rivals or [],
         )
 
-    def with_equal_budgets(self) -> "Plan":
+    def with_equal_budgets(self) -> "SweepPlan":
         """Return the plan with steps that all trials can learn from to the last one.
 
         PPO learns from the decisions of a whole rollout at once, and would take the rest of the
@@ -168,7 +168,7 @@ class Plan(BaseModel):
         write_atomically(folder / FILE, self.model_dump_json(indent=1) + "\n")
 
     @classmethod
-    def load(cls, folder: Path) -> "Plan":
+    def load(cls, folder: Path) -> "SweepPlan":
         """Read the plan of a sweep's folder.
 
         Raises:
@@ -184,7 +184,7 @@ class Plan(BaseModel):
         except ValidationError as error:
             raise SetupError(f"{path}: not as a sweep writes it: {error}") from None
 
-    def difference(self, other: "Plan") -> str:
+    def difference(self, other: "SweepPlan") -> str:
         """Return the name of a part that differs; empty if one goes on where the other ended."""
         for name in type(self).model_fields:
             if name == "trials" and self.is_search == other.is_search:

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.games.jobs import Outcome
+from ai4u_edu.games.jobs import JobOutcome
 from ai4u_edu.learn.training.run import Check
 from ai4u_edu.learn.training.sweep.plan import Choice
 from ai4u_edu.learn.training.sweep.search_space import text_of
@@ -57,7 +57,7 @@ class TrialResult:
     has_goal: bool
 
     @classmethod
-    def of(cls, number: int, choice: Choice, outcome: Outcome, has_goal: bool) -> "TrialResult":
+    def of(cls, number: int, choice: Choice, outcome: JobOutcome, has_goal: bool) -> "TrialResult":
         """Return the result that a job's outcome means.
 
         Raises:

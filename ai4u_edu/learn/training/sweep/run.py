@@ -20,11 +20,9 @@ from ai4u_edu.base.optional_deps import need
 from ai4u_edu.games.jobs import Engine, Journal, run_jobs
 from ai4u_edu.learn.training.evaluating import Evaluation, evaluate
 from ai4u_edu.learn.training.policies import entrant
-from ai4u_edu.learn.training.sweep.page import page_of
-from ai4u_edu.learn.training.sweep.pictures import plot_curves, plot_parallel, plot_terms
-from ai4u_edu.learn.training.sweep.plan import Choice, Plan
+from ai4u_edu.learn.training.sweep.page import draw_pictures, page_of
+from ai4u_edu.learn.training.sweep.plan import Choice, SweepPlan
 from ai4u_edu.learn.training.sweep.result import TrialResult, csv_text, ranked
-from ai4u_edu.learn.training.sweep.search_space import LEFT_OUT
 from ai4u_edu.scenes.scene_data import scene_from
 
 NETWORKS = "networks"
@@ -36,7 +34,7 @@ PAGE = "index.html"
 class Sweep:
     """Results of a sweep so far."""
 
-    plan: Plan
+    plan: SweepPlan
     folder: Path
     results: tuple[TrialResult, ...]
     """Results of the trials that ended, by number."""
@@ -51,13 +49,13 @@ class Sweep:
         return next((each for each in ranked(self.results) if each.network), None)
 
 
-def total_of(plan: Plan) -> int:
+def total_of(plan: SweepPlan) -> int:
     """Return the number of trials of a plan."""
     return plan.trials or len(plan.choices())
 
 
 def run_sweep(
-    plan: Plan,
+    plan: SweepPlan,
     folder: Path,
     engine: Engine,
     *,
@@ -95,7 +93,7 @@ def run_sweep(
 
 
 def _search(
-    plan: Plan,
+    plan: SweepPlan,
     folder: Path,
     engine: Engine,
     journal: Journal,
@@ -115,7 +113,7 @@ def _search(
 
 
 def _run_batch(
-    plan: Plan,
+    plan: SweepPlan,
     choices: Sequence[Choice],
     first: int,
     rivals: list[list[float]],
@@ -162,14 +160,7 @@ def write_report(sweep: Sweep) -> Path | None:
     write_atomically(folder / "trials.csv", csv_text(sweep.results, names))
     if sweep.best is not None:
         write_atomically(folder / BEST, sweep.best.network)
-    pictures = []
-    if any(each.checks for each in sweep.results):
-        pictures = [folder / "curves.png", folder / "parallel.png"]
-        plot_curves(sweep.results, pictures[0])
-        plot_parallel(sweep.results, names, pictures[1])
-        if LEFT_OUT in names:
-            pictures.append(folder / "terms.png")
-            plot_terms(sweep.results, pictures[2])
+    pictures = draw_pictures(sweep.results, names, folder)
     page = folder / PAGE
     text = page_of(sweep.plan, sweep.results, sweep.evaluation, total_of(sweep.plan), pictures)
     write_atomically(page, text)
