@@ -1,9 +1,9 @@
 """``python3 -m tests``: every check of the project, from a fresh clone with a bare Python.
 
 ``--fast`` takes a minute and needs neither a browser nor torch; ``--nightly`` adds repetitions and
-long runs. ``--only mypy`` runs one tool; ``--seed 7`` draws the order of the tests. Other arguments
-go to pytest, which then runs alone: ``python3 -m tests -k cycle``. Standard library only, in a
-syntax that Python 3.8 reads.
+long runs. ``--only mypy`` runs one tool, and ``--only web`` those of the page's scripts, which need
+Node.js; ``--seed 7`` draws the order of the tests. Other arguments go to pytest, which then runs
+alone: ``python3 -m tests -k cycle``. Standard library only, in a syntax that Python 3.8 reads.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from ai4u_edu import bootstrap
-from tests import setup_browser
+from tests import setup_browser, setup_web
 from tests.remote import ai4u_venv
 
 TESTS = Path(__file__).resolve().parent
@@ -45,13 +45,14 @@ LONG_RUNS = {
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
     "soak": ["-m", "tests.soak", "--minutes", "30"],
 }
+WEB = "web"
 NO_TESTS_COLLECTED = 5
 
 
 def main() -> int:
     """Run the checks, all of them even if one fails; return the exit code."""
     parser = argparse.ArgumentParser(prog="python3 -m tests", allow_abbrev=False)
-    tools = sorted({*(name.split()[0] for name in STATIC_CHECKS), "pytest"})
+    tools = sorted({*(name.split()[0] for name in STATIC_CHECKS), "pytest", WEB})
     parser.add_argument("--only", choices=tools, help="run this one alone")
     tier = parser.add_mutually_exclusive_group()
     tier.add_argument("--fast", action="store_true", help="no browser, no torch, nothing slow")
@@ -67,12 +68,19 @@ def main() -> int:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     # else each program that a test starts compiles the package anew
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    python, missing = set_up(options, only)
+    if only == WEB:
+        try:
+            web = setup_web.ensure(ROOT)
+        except setup_web.WebToolsError as error:
+            sys.exit(str(error))
+        return report([failed for name in web for failed in run_quietly(name, web[name])])
+    python, missing, web = set_up(options, only)
     static = {
         name: [python, *arguments]
         for name, arguments in STATIC_CHECKS.items()
         if only in ("", name.split()[0]) and not (options.fast and name == "mypy" and not only)
     }
+    static.update(web)
     with ThreadPoolExecutor(2) as pool:
         checks = [pool.submit(run_quietly, name, static[name]) for name in static]
         failed = (
@@ -83,10 +91,16 @@ def main() -> int:
     return report([name for check in checks for name in check.result()] + failed)
 
 
-def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str]]:
-    """Get all that the checks need; return the Python to run them with and what is missing."""
+def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str], dict[str, list[str]]]:
+    """Get all that the checks need.
+
+    Returns:
+        The Python to run them with, what is missing, and the checks of ``web/``, none of them where
+        there is no Node.js: it is no package of Python, and a fresh machine may lack it.
+    """
     wants_all = not options.fast and only in ("", "pytest")
     with ThreadPoolExecutor(2) as pool:  # one downloads while the other unpacks
+        web = pool.submit(get_web_tools) if not options.fast and not only else None
         ai4u = pool.submit(get_ai4u, options.nightly) if wants_all else None
         debians = pool.submit(setup_browser.install_debians) if wants_all else None
         try:
@@ -94,7 +108,8 @@ def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str]]:
         except bootstrap.SetupError as error:
             sys.exit(str(error))
         missing = get_browser(python, debians.result()) if debians else []
-        return str(python), missing + (ai4u.result() if ai4u else [])
+        missing += ai4u.result() if ai4u else []
+        return str(python), missing, web.result() if web else {}
 
 
 def run_tests(
@@ -144,6 +159,15 @@ def get_ai4u(trains: bool) -> list[str]:
         print(f"\n{error}\nGoing on without the tests that need it.", flush=True)
         return ["AI4U's package"]
     return []
+
+
+def get_web_tools() -> dict[str, list[str]]:
+    """Get the checks of ``web/`` by name; none, with a note, if they can't be had here."""
+    try:
+        return setup_web.ensure(ROOT)
+    except setup_web.WebToolsError as error:
+        print(f"\n{error}\nGoing on without the checks of web/.", flush=True)
+        return {}
 
 
 def run_quietly(name: str, command: list[str]) -> list[str]:

@@ -28,7 +28,7 @@ const FUNCTIONS = {
 /**
  * Return the blocks of an agent.
  * @param part the part "python" of the panel
- * @returns {{senses: object[], actions: object[], touches: object[], outputs: object[], rest: object}} blocks are
+ * @returns {{senses: object[], actions: object[], touches: object[], outputs: object[]}} blocks are
  *   {type, message, fields, output, python}: python returns {code, order, functions}
  */
 export function agentBlocks({ sensors = [], actuators = [] }) {
@@ -48,7 +48,7 @@ function senseBlocks(sensor) {
   const { key, shape, stack = 1, rays, slots = [] } = sensor;
   const reading = `percept[${JSON.stringify(key)}]${stack > 1 ? "[-1]" : ""}`;
   if (rays) return rayBlocks(sensor, reading);
-  if (shape.length - (stack > 1) === 0) return [plainBlock(sensor, reading)];
+  if (shape.length === (stack > 1 ? 1 : 0)) return [plainBlock(sensor, reading)];
   if (TOUCHES.has(sensor.class)) return [touchBlock(sensor, `${reading}[0]`)];
   return slots.length ? [slotBlock(sensor, reading)] : [statisticBlock(sensor, reading)];
 }

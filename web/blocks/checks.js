@@ -91,7 +91,7 @@ function findsExit() {
 }
 
 function check(see) {
-  const its = { isDone: false, words: "", test: () => {} };
-  its.see = (decision) => see(its, decision);
+  /** @type {{isDone: boolean, words: string, see: (decision: any) => void, test: (rows: any[]) => void}} */
+  const its = { isDone: false, words: "", see: (decision) => see(its, decision), test: () => {} };
   return its;
 }

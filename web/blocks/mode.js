@@ -12,8 +12,11 @@ const HELP =
   "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
 
 export class BlocksMode {
-  /** Called with true or false when the person sees blocks, or no longer. */
-  onSwitch = (_isOn) => {};
+  /**
+   * Called with true or false when the person sees blocks, or no longer.
+   * @type {(isOn: boolean) => void}
+   */
+  onSwitch = () => {};
   #tab;
   #panel;
   #part = null;
@@ -42,10 +45,11 @@ export class BlocksMode {
 
   /**
    * @param panel the panel
-   * @param tab.editor the CodeEditor, which shows the blocks' Python
-   * @param tab.changed called when the person has changed the blocks
-   * @param tab.replace called with another program
-   * @param tab.keys [{key, run}], with Ctrl or Cmd and a key, such as "Enter" or "Shift+Enter"
+   * @param {object} tab
+   * @param {import("../code/editor.js").CodeEditor} tab.editor shows the blocks' Python
+   * @param {() => void} tab.changed called when the person has changed the blocks
+   * @param {(text: string) => void} tab.replace called with another program
+   * @param {(way: "run" | "step") => void} tab.run called when the person runs the program with a shortcut
    */
   constructor(panel, tab) {
     [this.#panel, this.#tab] = [panel, tab];

@@ -91,7 +91,7 @@ export class BlockSteps {
     this.#draw();
   }
 
-  /** Look at a decision of a run. @param detail {percept, action} */
+  /** Look at a decision of a run: {percept, action}. */
   note(detail) {
     if (this.#check === null || this.#part === null || !this.#isHere) return;
     const decision = seen(this.#part, detail);

@@ -23,7 +23,7 @@ export function definitions(agent) {
     style: "senses",
     tooltip,
   }));
-  const actions = agent.actions.map(({ type, message, fields, start }) => ({
+  const actions = agent.actions.map(({ type, message, fields }) => ({
     type,
     message0: message,
     args0: fields,

@@ -24,9 +24,11 @@ export class BlocksWorkspace {
 
   /**
    * @param {HTMLElement} parent element that gets the editor
-   * @param options.label accessible name
-   * @param options.agent as agentBlocks() returns it
-   * @param options.ask returns what the person answers to a question, or null
+   * @param {object} options
+   * @param {string} options.label accessible name
+   * @param {ReturnType<typeof import("./agent.js").agentBlocks>} options.agent
+   * @param {(question: string, start: string) => Promise<string | null>} options.ask returns what the person answers to a
+   *   question, or null
    */
   constructor(parent, { label, agent, ask }) {
     define(agent);
@@ -59,7 +61,7 @@ export class BlocksWorkspace {
     new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
     keepFocus(parent);
     // the panel scrolls, which Blockly does not notice
-    addEventListener("scroll", ({ target }) => target.contains?.(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
+    addEventListener("scroll", ({ target }) => target instanceof Node && target.contains(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
   }
 
   /** The blocks with their ids, as blocks/python.js reads them. */

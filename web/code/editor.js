@@ -60,17 +60,21 @@ const hanging = StateField.define({
 });
 
 export class CodeEditor {
-  /** Called with the text after each change by the person. */
-  onChange = (_text) => {};
+  /**
+   * Called with the text after each change by the person.
+   * @type {(text: string) => void}
+   */
+  onChange = () => {};
   #view;
   #names = { readings: [], outputs: [] };
   #isSetting = false;
 
   /**
    * @param {HTMLElement} parent element that gets the editor
-   * @param options.label accessible name
-   * @param options.describedBy id of the element that tells how to use it
-   * @param options.keys [{key, run}, ...] in CodeMirror's words; they come before the editor's own
+   * @param {object} options
+   * @param {string} options.label accessible name
+   * @param {string} [options.describedBy] id of the element that tells how to use it
+   * @param {{key: string, run: () => boolean}[]} [options.keys] in CodeMirror's words; they come before the editor's own
    */
   constructor(parent, { label, describedBy = "", keys = [] }) {
     const attributes = { "aria-label": label, "aria-describedby": describedBy, spellcheck: "false", autocapitalize: "off", tabindex: "0" };
@@ -174,7 +178,8 @@ export class CodeEditor {
   }
 
   #complete(context) {
-    for (const [pattern, names] of [[PERCEPT_KEY, this.#names.readings], [ACTION_NAME, this.#names.outputs]]) {
+    const { readings, outputs } = this.#names;
+    for (const { pattern, names } of [{ pattern: PERCEPT_KEY, names: readings }, { pattern: ACTION_NAME, names: outputs }]) {
       const before = context.matchBefore(pattern);
       if (before === null || !names.length) continue;
       const typed = /[^"']*$/.exec(before.text)[0];

@@ -41,6 +41,7 @@ export class CodeEngine {
   /** Counts ends of programs: what was asked before is not done later. */
   #ends = 0;
   /** The end of the latest call. */
+  /** @type {Promise<any>} */
   #last = Promise.resolve();
   /** Until the spare worker is started. */
   #timer;
@@ -126,7 +127,12 @@ export class CodeEngine {
     return this.#queue(() => (this.#isLoaded ? this.#call(method, text) : problem("not_loaded", NOT_LOADED)));
   }
 
-  /** Start a call when the one before is over: that may have to end the worker. */
+  /**
+   * Start a call when the one before is over: that may have to end the worker.
+   * @template Answer
+   * @param {() => Promise<Answer> | Answer} call
+   * @returns {Promise<Answer>}
+   */
   #queue(call) {
     const answer = this.#last.then(call);
     this.#last = answer.catch(() => {}); // the caller is told

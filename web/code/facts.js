@@ -48,11 +48,11 @@ export class VariableList {
     this.update({});
   }
 
-  /** @param variables {name: text} */
+  /** @param {Record<string, string>} variables texts by name */
   update(variables) {
     const items = Object.entries(variables);
     this.element.hidden = items.length === 0;
-    const make = ([name]) => element("div", {}, element("dt", { textContent: name }), element("dd"));
+    const make = (/** @type {[string, string]} */ [name]) => element("div", {}, element("dt", { textContent: name }), element("dd"));
     keyed(this.#list, items, ([name]) => name, make, (item, [, text]) => setText(item.lastChild, text));
   }
 }

@@ -38,9 +38,10 @@ export class ProgramSection {
 
   /**
    * @param panel the panel
-   * @param tab.text() returns the program in the editor
-   * @param tab.show(text) puts another one there, and forgets how the one before ended
-   * @param tab.isBusy() returns true while the program drives
+   * @param {object} tab
+   * @param {() => string} tab.text returns the program in the editor
+   * @param {(text: string) => void} tab.show puts another one there, and forgets how the one before ended
+   * @param {() => boolean} tab.isBusy returns true while the program drives
    */
   constructor(panel, tab) {
     [this.#panel, this.#tab] = [panel, tab];

@@ -41,10 +41,11 @@ export class CodeRun extends EventTarget {
   #timer = 0;
 
   /**
-   * @param parts.makeEngine returns a CodeEngine
-   * @param parts.connect as RemoteClient.connect
-   * @param parts.prepare called before each start; lets a paused world run
-   * @param parts.beginAgain begins another episode while nobody drives; returns false if it can't
+   * @param {object} parts
+   * @param {() => any} [parts.makeEngine] returns a CodeEngine
+   * @param {(options: any) => Promise<any>} [parts.connect] as RemoteClient.connect
+   * @param {() => Promise<void>} [parts.prepare] called before each start; lets a paused world run
+   * @param {() => Promise<boolean>} [parts.beginAgain] begins another episode while nobody drives; returns false if it can't
    */
   constructor(parts = {}) {
     super();
@@ -70,7 +71,10 @@ export class CodeRun extends EventTarget {
   /**
    * Drive an agent with a program, at the world's own pace. An episode with the same start begins, but after steps of
    * the same program it goes on.
-   * @param {number} [from.seed] begins an episode with it instead
+   * @param {string} source
+   * @param {string} agent
+   * @param {object} [from]
+   * @param {number | null} [from.seed] begins an episode with it instead
    * @param {boolean} [from.isHere] drives from where the agent stands instead
    */
   async run(source, agent, { seed = null, isHere = false } = {}) {

@@ -32,12 +32,14 @@ export class CodeTest extends EventTarget {
   #current = null;
 
   /**
-   * @param parts.warm returns a CodeEngine with Python loaded
-   * @param parts.speed {max(), restore()} of the world
-   * @param parts.connect as RemoteClient.connect
-   * @param parts.prepare called before the start; lets a paused world run
-   * @param parts.outcome returns the world's word for an episode that ended without the goal; called with percept and seed
-   * @param parts.draw returns the seeds
+   * @param {object} parts
+   * @param {() => Promise<any>} parts.warm returns a CodeEngine with Python loaded
+   * @param {{max: () => any, restore: () => any}} parts.speed of the world
+   * @param {(options: any) => Promise<any>} [parts.connect] as RemoteClient.connect
+   * @param {() => Promise<void>} [parts.prepare] called before the start; lets a paused world run
+   * @param {(percept: any, seed: number) => Promise<string>} [parts.outcome] returns the world's word for an episode that ended
+   *   without the goal
+   * @param {() => number[]} [parts.draw] returns the seeds
    */
   constructor(parts) {
     super();

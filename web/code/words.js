@@ -5,12 +5,15 @@ const PYTHON_MB = 13;
 
 /**
  * Return {kind, text, count}: kind is "off", "busy", "on", "done" or "bad"; count changes too often to be announced.
- * @param run.phase as of CodeRun
- * @param run.isPerson true while the person drives in the program's place
- * @param run.start the number of the start that is tested
- * @param run.isPaused true while the world is paused
- * @param run.python "loading", "ready", or a sentence about what went wrong
- * @param run.end the detail of the event "end"; null while there is none
+ * @param {object} run
+ * @param {string} run.phase as of CodeRun
+ * @param {number} run.decision number of the latest one
+ * @param {number} run.start the number of the start that is tested
+ * @param {string} run.success the world's word for reaching the goal
+ * @param {boolean} run.isPerson true while the person drives in the program's place
+ * @param {boolean} run.isPaused true while the world is paused
+ * @param {string} run.python "loading", "ready", or a sentence about what went wrong
+ * @param {any} run.end the detail of the event "end"; null while there is none
  */
 export function runWords({ phase, decision, start, success, isPerson, isPaused, python, end }) {
   if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);

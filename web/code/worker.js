@@ -62,7 +62,7 @@ async function start({ wasm, library, program }) {
   self.fetch = async (url) => new Response(String(url).endsWith(".zip") ? library : null);
   WebAssembly.instantiateStreaming = async (_, imports) => ({
     module: wasm,
-    instance: await WebAssembly.instantiate(wasm, imports),
+    instance: await WebAssembly.instantiate(/** @type {WebAssembly.Module} */ (wasm), imports),
   });
   const python = await loadPyodide({
     createPyodideModule,

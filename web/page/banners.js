@@ -41,6 +41,7 @@ export class Banners {
   #connectionError = "";
   #requestError = "";
   #timer = 0;
+  /** @type {[any, any]} */
   #lastDraw = [null, {}];
 
   /** @param {(name: string) => void} sendCommand called with the name of a command */
@@ -66,13 +67,14 @@ export class Banners {
 
   /**
    * @param state the server's last state message; null while disconnected
-   * @param page.restart the label of the restart key
-   * @param page.name the agent's name, if this page can't drive it
-   * @param page.isNew true until the person has pressed a key: then the goal is shown
-   * @param page.result of the episode that a person has just won: see page/results.js; else null
-   * @param page.isLost true once the connection has been gone for some seconds
-   * @param page.held the text for a world that a teacher holds; empty for none
-   * @param page.howToStart what the person does to start, such as "press a key"; empty if this page can't
+   * @param {object} page
+   * @param {string} page.restart the label of the restart key
+   * @param {string} page.name the agent's name, if this page can't drive it
+   * @param {boolean} page.isNew true until the person has pressed a key: then the goal is shown
+   * @param {any} page.result of the episode that a person has just won: see page/results.js; else null
+   * @param {boolean} page.isLost true once the connection has been gone for some seconds
+   * @param {string} page.held the text for a world that a teacher holds; empty for none
+   * @param {string} page.howToStart what the person does to start, such as "press a key"; empty if this page can't
    */
   draw(state, page) {
     this.#lastDraw = [state, page];
@@ -101,6 +103,7 @@ export class Banners {
     return null;
   }
 
+  /** @param {{kind: string, text: string, amount?: string, hint?: string, details?: string, buttons?: string[]}} banner */
   #element({ kind, text, amount, hint, details, buttons = [] }) {
     const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
     const words = element("p", {}, element(tag, { textContent: text }));

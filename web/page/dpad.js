@@ -10,9 +10,10 @@ const DIRECTION_ACTIONS = {
 
 /** Return the actions on the pad by direction (up, left, down, right), without empty directions. */
 export function dpadActions(bindings) {
-  const found = Object.entries(DIRECTION_ACTIONS).map(([direction, actions]) => [
-    direction,
-    actions.find((action) => action in bindings),
-  ]);
-  return new Map(found.filter(([, action]) => action !== undefined));
+  const pad = new Map();
+  for (const [direction, actions] of Object.entries(DIRECTION_ACTIONS)) {
+    const bound = actions.find((action) => action in bindings);
+    if (bound !== undefined) pad.set(direction, bound);
+  }
+  return pad;
 }

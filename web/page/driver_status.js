@@ -22,6 +22,10 @@ export class DriverStatus {
   }
 
   /**
+   * @param {object} shown
+   * @param {boolean} shown.connected
+   * @param {any} shown.hello the server's first message
+   * @param {any} shown.control who drives
    * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
    * @param {boolean} shown.isPaused true while the world is paused
    * @param {boolean} shown.isWaiting true while the world waits for a key

@@ -12,5 +12,9 @@ export function watchFocus(changed) {
   const later = () => setTimeout(changed); // while the event is handled, the focus has not moved yet
   for (const type of ["focusin", "focusout", "focus", "blur"]) addEventListener(type, later);
   // whatever viser does with the click
-  addEventListener("pointerdown", ({ target }) => target.matches?.("canvas") && document.activeElement?.blur(), { capture: true });
+  addEventListener("pointerdown", blurForCanvas, { capture: true });
+}
+
+function blurForCanvas({ target }) {
+  if (target instanceof HTMLCanvasElement) /** @type {HTMLElement | null} */ (document.activeElement)?.blur();
 }

@@ -130,7 +130,7 @@ export class Help {
 
   #listKeys() {
     this.#reset.hidden = !this.#keymap.isChanged;
-    const focused = document.activeElement?.dataset?.action;
+    const focused = /** @type {HTMLElement | null} */ (document.activeElement)?.dataset?.action;
     const rows = Object.entries(this.#keymap.keys).map(([action, codes]) => {
       const isRebinding = this.#actionToRebind === action;
       const printed = codes.map(label).join(" or ") || "no key";

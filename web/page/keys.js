@@ -18,10 +18,16 @@ const CAMERA_CODES = [..."WASDQE"].map((letter) => `Key${letter}`).concat(
 const INPUT_TYPES_WITHOUT_TEXT = "button, checkbox, color, file, image, radio, range, reset, submit".split(", ");
 
 export class HeldKeys {
-  /** Called with the code of each newly pressed key. */
-  onpress = (_code) => {};
-  /** Called with the event of a newly pressed key that is not the agent's; returns true if it was used. */
-  onotherpress = (_event) => false;
+  /**
+   * Called with the code of each newly pressed key.
+   * @type {(code: string) => void}
+   */
+  onpress = () => {};
+  /**
+   * Called with the event of a newly pressed key that is not the agent's; returns true if it was used.
+   * @type {(event: KeyboardEvent) => boolean}
+   */
+  onotherpress = () => false;
   /** Overridden by a dialog: while it returns true, keyboard events are ignored. */
   isSuspended = () => false;
 

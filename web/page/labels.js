@@ -19,6 +19,7 @@ const KEY_LABELS = {
 };
 const CAPTIONS = { backward: "back", jump_forward: "jump forward", turn_left: "left", turn_right: "right" };
 
+/** @type {ReadonlyMap<string, string>} */
 let layout = new Map();
 
 /** Load the keyboard's layout, where the browser supports that. */

@@ -1,7 +1,7 @@
 /** The page that asks for a world's token. Without this script the form works too. */
 
 const form = document.querySelector("form");
-const input = document.querySelector("#token");
+const input = /** @type {HTMLInputElement} */ (document.querySelector("#token"));
 const button = document.querySelector("button");
 const problem = document.querySelector("#problem");
 

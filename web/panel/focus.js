@@ -13,14 +13,14 @@ export function returnFocus(root) {
   };
   root.addEventListener("click", release);
   root.addEventListener("change", ({ target }) => {
-    if (isPointer && (target.matches("select") || !isTextInput(target))) focusWorld();
+    if (isPointer && (target instanceof HTMLSelectElement || !isTextInput(target))) focusWorld();
   });
   root.addEventListener("keydown", (event) => {
     const { key, target, isComposing } = event;
     if (!isTextInput(target)) return;
     event.stopPropagation(); // else viser moves its camera
     if (isComposing) return;
-    const ends = key === "Escape" || (key === "Enter" && !target.matches("textarea, select"));
+    const ends = key === "Escape" || (key === "Enter" && !(target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement));
     if (ends) focusWorld(); // the field has handled the key before; losing the focus sends its entry
   });
   root.addEventListener("keyup", (event) => isTextInput(event.target) && event.stopPropagation());
@@ -28,5 +28,5 @@ export function returnFocus(root) {
 
 /** Take the focus from whatever control has it. */
 export function focusWorld() {
-  if (!document.querySelector("dialog[open]")) document.activeElement?.blur();
+  if (!document.querySelector("dialog[open]")) /** @type {HTMLElement | null} */ (document.activeElement)?.blur();
 }

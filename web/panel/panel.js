@@ -31,7 +31,8 @@ const LOADERS = {
 
 /**
  * Make the panel and put it into the page.
- * @param driving {agent, take(), letGo()}: the agent in the page's address or null, and how a person drives it
+ * @param {{agent: string | null, take: () => void, letGo: () => void}} driving the agent in the page's address or null, and
+ *   how a person drives it
  * @param {HTMLElement} dock the keys on the screen
  */
 export function startPanel(driving, dock) {
@@ -87,7 +88,7 @@ export class Panel extends EventTarget {
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
     returnFocus(this.element);
     this.#setDetails(this.details);
-    this.addEventListener("part:scene", ({ detail }) => this.#onScene(detail));
+    this.addEventListener("part:scene", (/** @type {CustomEvent} */ { detail }) => this.#onScene(detail));
   }
 
   /** Put the panel into the page and connect it. */

@@ -7,10 +7,16 @@ const PART_BYTES = 2 ** 18;
 const NOT_CONNECTED = "Not connected to the world. The page reconnects by itself.";
 
 export class PanelSocket {
-  /** Called with each message that is not an answer. */
-  onmessage = (_message) => {};
-  /** Called with true when it connects, and with false when the connection is lost. */
-  onconnected = (_isConnected) => {};
+  /**
+   * Called with each message that is not an answer.
+   * @type {(message: any) => void}
+   */
+  onmessage = () => {};
+  /**
+   * Called with true when it connects, and with false when the connection is lost.
+   * @type {(isConnected: boolean) => void}
+   */
+  onconnected = () => {};
 
   #socket;
   #lastId = 0;

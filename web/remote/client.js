@@ -179,7 +179,10 @@ class Connection {
     this.#lost ??= new ConnectionLostError("there is no connection");
   }
 
-  /** Wait until something has happened, or for a time; reject if interrupted. */
+  /**
+   * Wait until something has happened, or for a time; reject if interrupted.
+   * @returns {Promise<void>}
+   */
   #happened(has, timeout) {
     return new Promise((resolve, reject) => {
       let timer;

@@ -211,7 +211,7 @@ export class Dialogue {
     const latest = this.percept?.seq ?? 0;
     if (message.type === "percept" && message.seq > latest) {
       const { type, data, texts, ...rest } = message;
-      this.percept = { values: valuesOf(this.welcome.readings, message), ...rest };
+      this.percept = { values: valuesOf(this.welcome.readings, { data, texts }), ...rest };
       this.#isAnswered = false;
     } else if (message.type === "bye") {
       this.#end(new RemoteError(`The world has ended the session: ${message.reason}`, "ended"));
@@ -220,6 +220,7 @@ export class Dialogue {
     }
   }
 
+  /** @param {{[field: string]: any}} problem */
   #handleProblem({ code, text, seq }, latest) {
     const error = new RemoteError(text, code);
     if ([...PROBLEMS.values()].includes(code)) this.#end(error);

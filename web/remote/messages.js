@@ -68,11 +68,13 @@ export function actionFrame({ episode, step, seq }, values) {
 /**
  * Return the message in a frame, with its fields by name and its type.
  *
+ * @returns {{type: string, [field: string]: any}}
  * @throws {Error} there is no message in it
  */
 export function messageIn(frame) {
   const [type, ...fields] = decode(frame);
   if (!Object.hasOwn(FIELDS, type)) throw new Error(`a message of an unknown type, ${String(type).slice(0, 40)}`);
+  /** @type {{type: string, [field: string]: any}} */
   const message = { type, ...named(FIELDS[type], fields) };
   if (type === "welcome") {
     message.readings = message.readings.map((each) => readingOf(named(READING, each)));

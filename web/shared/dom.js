@@ -4,9 +4,11 @@ import { icon as iconNamed } from "./icons.js";
 
 /**
  * Create an element.
- * @param properties properties, or attributes where there is no such property; `dataset` and `on` (event
+ * @param {string} tag
+ * @param {Record<string, any>} properties properties, or attributes where there is no such property; `dataset` and `on` (event
  *   handlers) are objects
- * @param children nodes or strings; null and false are left out
+ * @param {any[]} children nodes or strings; null and false are left out
+ * @returns {any} of the tag's own type
  */
 export function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);
@@ -38,8 +40,9 @@ export function setAttributes(target, attributes) {
 /**
  * Create a button.
  * @param {string} text may be empty if there are an icon and a label
- * @param options.kind "", "main", "quiet" or "danger"
- * @param options.label accessible name and tooltip, for a button without text
+ * @param {(event: MouseEvent) => void} onClick
+ * @param {{icon?: string, label?: string, kind?: string, [property: string]: any}} [options] `kind` is "", "main", "quiet"
+ *   or "danger"; `label` an accessible name and tooltip, for a button without text; others are properties
  */
 export function button(text, onClick, { icon = "", label = "", kind = "", ...properties } = {}) {
   const made = element(
@@ -58,12 +61,16 @@ export function button(text, onClick, { icon = "", label = "", kind = "", ...pro
 /**
  * Make an element's children match a list without creating those again that stay: focus, typed text and open
  * sections survive.
- * @param keyOf returns an item's key, unique in the list
- * @param make returns the element of a new item
- * @param update brings an element up to date with its item
+ * @template Item
+ * @param {Element} parent
+ * @param {Iterable<Item>} items
+ * @param {(item: NoInfer<Item>) => string | number} keyOf returns an item's key, unique in the list
+ * @param {(item: NoInfer<Item>) => any} make returns the element of a new item
+ * @param {(child: any, item: NoInfer<Item>) => void} update brings an element up to date with its item
  */
 export function keyed(parent, items, keyOf, make, update = () => {}) {
-  const before = new Map([...parent.children].map((child) => [child.dataset.key, child]));
+  const children = /** @type {HTMLElement[]} */ ([...parent.children]);
+  const before = new Map(children.map((child) => [child.dataset.key, child]));
   let next = parent.firstElementChild;
   for (const item of items) {
     const key = String(keyOf(item));

@@ -9,7 +9,7 @@ let count = 0;
  *
  * @param {{title: string, text?: string, content: Node[], yes?: string, no?: string, isDanger?: boolean}} form
  *   without `yes`, it has only a button that closes it
- * @param {() => Promise<boolean | void>} send called when the form is sent; its error's message is shown, and after false
+ * @param {() => Promise<any>} send called when the form is sent; its error's message is shown, and after false
  *   the form stays
  * @returns {Promise<boolean>} true if it was sent
  */

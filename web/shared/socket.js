@@ -11,8 +11,10 @@ const CLOSE_WORLD_REPLACED = 1012;
 
 export class JsonSocket {
   onopen = () => {};
-  onclose = (_reason) => {};
-  onmessage = (_message) => {};
+  /** @type {(reason: string) => void} */
+  onclose = () => {};
+  /** @type {(message: any) => void} */
+  onmessage = () => {};
   /** Called before it reconnects to another world. */
   onworldreplaced = () => {};
 

@@ -9,7 +9,7 @@ const MAX_ROUND_TRIP_MS = 150;
 const DRIVING_KEYS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "KeyW", "KeyA", "KeyS", "KeyD"];
 const SIGNS = { yes: "✓", no: "×", open: "…" };
 const list = document.querySelector("#checks");
-const result = document.querySelector("#result");
+const result = /** @type {HTMLElement} */ (document.querySelector("#result"));
 const lines = new Map();
 
 add("browser", "This browser can read the page");

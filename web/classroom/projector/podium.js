@@ -18,7 +18,7 @@ export class Podium {
   /**
    * Show the best, or nobody.
    * @param {string} id of what they have won; the same places are not shown again from the beginning
-   * @param rows {name, colour, text} of the best, the first at the beginning
+   * @param {{name: string, colour: string, text: string}[]} rows of the best, the first at the beginning
    */
   show(id, rows) {
     const best = rows.slice(0, 3);

@@ -49,7 +49,7 @@ export class BlankScreen {
 
   #open() {
     // a dialog that is opened later would lie above it
-    for (const other of document.querySelectorAll("dialog:modal")) other.close();
+    for (const other of /** @type {NodeListOf<HTMLDialogElement>} */ (document.querySelectorAll("dialog:modal"))) other.close();
     this.#dialog.showModal();
     this.#dialog.focus();
   }
@@ -66,7 +66,7 @@ export function showLeft(reason) {
   dialog.setAttribute("aria-labelledby", title.id);
   dialog.addEventListener("cancel", (event) => event.preventDefault());
   document.body.append(dialog);
-  for (const other of document.querySelectorAll("dialog:modal")) other.close();
+  for (const other of /** @type {NodeListOf<HTMLDialogElement>} */ (document.querySelectorAll("dialog:modal"))) other.close();
   dialog.showModal();
 }
 

@@ -43,9 +43,10 @@ export class ClassPrograms {
   #readTimer = 0;
 
   /**
-   * @param tab.source() returns the program that the person has here; null for none
-   * @param tab.take(source) replaces the program, and keeps the one before
-   * @param tab.keep(source) keeps another program
+   * @param {object} tab
+   * @param {() => string | null} tab.source returns the program that the person has here; null for none
+   * @param {(source: string) => void} tab.take replaces the program, and keeps the one before
+   * @param {(source: string) => void} tab.keep keeps another program
    */
   constructor(tab) {
     this.#tab = tab;

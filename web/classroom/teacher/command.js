@@ -6,8 +6,8 @@ const UNREACHABLE = "The class can't be reached. Is its program still running?";
 
 /**
  * Send a command.
- * @param {{do: string}} command with its arguments
- * @returns {Promise<object>} the answer
+ * @param {{do: string, [argument: string]: any}} command with its arguments
+ * @returns {Promise<any>} the answer
  * @throws {Error} with a sentence for the teacher if it can't be done
  */
 export async function command(command) {

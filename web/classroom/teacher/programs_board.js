@@ -69,7 +69,7 @@ export class ProgramsBoard {
     if (told === this.#toldMistakes) return;
     this.#toldMistakes = told;
     const title = element("h2", { textContent: "Mistakes that stopped programs" });
-    const cards = named.map(({ title: sentence, ...each }) => mistakeCard({ sentence, ...each }));
+    const cards = named.map((mistake) => mistakeCard({ ...mistake, sentence: mistake.title }));
     this.#mistakes.replaceChildren(...(cards.length ? [title, ...cards] : []));
   }
 
@@ -78,7 +78,7 @@ export class ProgramsBoard {
     const { seats, runs = {} } = this.#state;
     const here = new Map(seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat]));
     const isStopped = ({ seat }) => runs[seat]?.state === "mistake";
-    const shown = this.#programs.filter(({ seat }) => here.has(seat)).sort((a, b) => isStopped(b) - isStopped(a));
+    const shown = this.#programs.filter(({ seat }) => here.has(seat)).sort((a, b) => Number(isStopped(b)) - Number(isStopped(a)));
     this.#empty.hidden = shown.length > 0;
     keyed(
       this.#list,

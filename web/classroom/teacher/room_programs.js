@@ -10,6 +10,7 @@ const ELSEWHERE = "In this class, students' programs stay on their own machines.
 /** Id of the agent of a scene that has one only. */
 const ONLY_AGENT = "0";
 /** Units of an age, the largest first: [seconds, word]. */
+/** @type {[number, string][]} */
 const UNITS = [[86400, "day"], [3600, "hour"], [60, "minute"]];
 
 /** Show the latest program of each seat of a room, as text that can't be changed. */

@@ -5,7 +5,7 @@
  * @param {(panel: HTMLElement) => void} onShow called when another panel is shown
  */
 export function watchTabs(list, onShow) {
-  const tabs = [...list.querySelectorAll("[role=tab]")];
+  const tabs = /** @type {HTMLElement[]} */ ([...list.querySelectorAll("[role=tab]")]);
   const panelOf = (tab) => document.getElementById(tab.getAttribute("aria-controls"));
 
   function choose(chosen) {
@@ -19,7 +19,7 @@ export function watchTabs(list, onShow) {
 
   for (const tab of tabs) tab.addEventListener("click", () => choose(tab));
   list.addEventListener("keydown", (event) => {
-    const at = tabs.indexOf(document.activeElement);
+    const at = tabs.findIndex((tab) => tab === document.activeElement);
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key];
     if (to === undefined || at < 0) return;
     event.preventDefault();

@@ -8,8 +8,10 @@ const MAX_CROSSED = 16;
 /**
  * Return the table of standings; with few entries also who won how often against whom, as in chess.
  *
- * @param {(row) => string} nameOf returns the name of a row
- * @param {boolean} isShort without the points, for the projector
+ * @param results of the tournament
+ * @param {object} [options]
+ * @param {(row: any) => string} [options.nameOf] returns the name of a row
+ * @param {boolean} [options.isShort] without the points, for the projector
  */
 export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ name }) => name, isShort = false } = {}) {
   const isCrossed = !isRace && standings.length <= MAX_CROSSED;

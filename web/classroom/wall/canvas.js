@@ -89,7 +89,7 @@ export class WallCanvas {
   }
 
   #request() {
-    this.#frame ||= requestAnimationFrame((now) => this.#draw(now));
+    if (this.#frame === 0) this.#frame = requestAnimationFrame((now) => this.#draw(now));
   }
 
   #draw(now) {

@@ -23,10 +23,10 @@ export class WallControls {
       this.#buttons.set(filter, button);
     }
     place.querySelector("#filters").append(...this.#buttons.values());
-    const sort = place.querySelector("#sort");
-    const slider = place.querySelector("#size");
+    const sort = /** @type {HTMLSelectElement} */ (place.querySelector("#sort"));
+    const slider = /** @type {HTMLInputElement} */ (place.querySelector("#size"));
     sort.value = by === "name" ? "name" : "help";
-    slider.value = size;
+    slider.value = String(size);
     const look = () => {
       const width = widthOf(slider.valueAsNumber);
       slider.setAttribute("aria-valuetext", width ? `cards ${Math.round(width)} pixels wide` : "all cards fit");

@@ -53,6 +53,7 @@ export class Drawing {
     const scale = FILLED * Math.min(box.width / (right - left || 1), box.height / (top - bottom || 1));
     const x = box.x + box.width / 2 - (scale * (left + right)) / 2;
     const y = box.y + box.height / 2 + (scale * (bottom + top)) / 2;
+    /** @type {[number, number, number]} */
     const place = [scale, x, y];
     context.save();
     context.beginPath();

@@ -17,7 +17,7 @@ export const FILTERS = {
 
 /**
  * Return rooms in the wall's order.
- * @param {"help" | "name"} by
+ * @param {string} by "help" or "name"
  * @param {(room: object) => string} nameOf
  * @param {string[] | null} held ids of rooms in an order to keep; others follow
  */
@@ -34,8 +34,13 @@ export function ordered(rooms, by, nameOf, held) {
 
 /**
  * Return columns and width of cards: the largest ones of which all fit into a width and a height.
- * @param card {minWidth, heightOf, widthOf}: least width, and height and width from each other, without the gap
- * @param kept number of columns to keep if cards become little smaller by that; 0 for none
+ * @param {number} count number of cards
+ * @param {number} width
+ * @param {number} height
+ * @param {number} gap
+ * @param {{minWidth: number, heightOf: (width: number) => number, widthOf: (height: number) => number}} card least width, and
+ *   height and width from each other, without the gap
+ * @param {number} [kept] number of columns to keep if cards become little smaller by that; 0 for none
  */
 export function fitting(count, width, height, gap, { minWidth, heightOf, widthOf }, kept = 0) {
   const most = Math.max(1, Math.floor((width + gap) / (minWidth + gap)));

@@ -28,9 +28,10 @@ export class Wall {
 
   /**
    * @param {HTMLElement} wall has a canvas and a list
-   * @param options.onOpen called with a room's id; without it, cards are no buttons
-   * @param options.realNames see classroom/teacher/real_names.js
-   * @param options.heightLeft returns the height that all cards should fit into
+   * @param {object} options
+   * @param {((room: string) => void) | null} [options.onOpen] called with a room's id; without it, cards are no buttons
+   * @param {{of: (seat: any) => string}} [options.realNames] see classroom/teacher/real_names.js
+   * @param {() => number} options.heightLeft returns the height that all cards should fit into
    */
   constructor(wall, { onOpen = null, realNames = { of: () => "" }, heightLeft }) {
     this.#wall = wall;
@@ -87,7 +88,7 @@ export class Wall {
     const ids = rooms.map((room) => room.id);
     const isOther = ids.join() !== this.#order.join();
     this.#order = ids;
-    const focused = this.#list.contains(document.activeElement) && document.activeElement;
+    const focused = this.#list.contains(document.activeElement) ? /** @type {HTMLElement} */ (document.activeElement) : null;
     keyed(
       this.#list,
       rooms,

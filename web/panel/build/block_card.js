@@ -79,7 +79,9 @@ export class BlockCard {
       isShown ? tools : [],
       ({ label }) => label,
       ({ icon, label, kind = "quiet", run }) => button("", run, { icon, label, kind }),
-      (made, { isEnabled }) => (made.disabled = !isEnabled),
+      (made, { isEnabled }) => {
+        made.disabled = !isEnabled;
+      },
     );
   }
 

@@ -7,9 +7,10 @@ import { picture } from "./pictures.js";
 /**
  * Open the gallery.
  * @param panel the panel
- * @param options.title of the dialog, such as "Add a sensor"
- * @param options.kind "sensors", "actuators", "rewards" or "brains"
- * @param options.parent path of the list that gets the block; left out for the agent's own
+ * @param {object} options
+ * @param {string} options.title of the dialog, such as "Add a sensor"
+ * @param {string} options.kind "sensors", "actuators", "rewards" or "brains"
+ * @param {(string | number)[]} [options.parent] path of the list that gets the block; default: the agent's own
  */
 export async function openGallery(panel, { title, kind, parent = [kind] }) {
   const content = element("div", { className: "ai4u-gallery" }, element("p", { textContent: "Loading …" }));

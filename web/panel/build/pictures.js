@@ -59,7 +59,7 @@ export function picture(name) {
   if (strokes === undefined) return icon(name, 32);
   const svg = document.createElementNS(SVG, "svg");
   const attributes = { viewBox: "0 0 96 60", width: 96, height: 60, "aria-hidden": "true", class: "ai4u-picture" };
-  for (const [key, value] of Object.entries(attributes)) svg.setAttribute(key, value);
+  for (const [key, value] of Object.entries(attributes)) svg.setAttribute(key, String(value));
   for (const [kind, data] of WITHOUT_ROBOT.has(name) ? strokes : [...strokes, ROBOT, NOSE]) {
     const path = document.createElementNS(SVG, "path");
     path.setAttribute("class", kind);

@@ -169,7 +169,7 @@ export class DriveTab {
     const query = new URLSearchParams(location.search);
     query.set("agent", this.#panel.shown.agent);
     query.delete("websocket");
-    location.search = query;
+    location.search = String(query);
   }
 }
 

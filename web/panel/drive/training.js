@@ -11,7 +11,7 @@ export class Training {
   #last = element("p", { className: "ai4u-soft" });
   element = element("div", {}, this.#text, this.#bar, this.#curve.element, this.#last);
 
-  /** @param training {text, is_over, share, points: [decisions, reward, success or null][]} */
+  /** @param {{text: string, is_over: boolean, share: number, points: any[]}} training points are [decisions, reward, success or null] */
   update({ text, is_over: isOver, share, points }) {
     setText(this.#text, text);
     this.#bar.value = share;

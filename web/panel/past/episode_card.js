@@ -17,7 +17,7 @@ export class EpisodeCard {
 
   constructor(panel) {
     this.#panel = panel;
-    this.#card = new Card({ onToggle: (isOpen) => this.#choose(isOpen) });
+    this.#card = new Card({ onToggle: (isOpen) => void this.#choose(isOpen) });
     const { driver, steps, seed } = this.#facts;
     seed.element.append(this.#copy);
     const list = element("dl", { className: "ai4u-episode-facts" }, driver.element, steps.element, seed.element);

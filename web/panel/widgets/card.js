@@ -18,7 +18,11 @@ export class Card {
   body = element("div", { className: "ai4u-card-body", id: freeId(), hidden: true });
   element = element("article", { className: "ai4u-card" });
 
-  /** @param options.onToggle called with true when the person opens it, and with false when they close it */
+  /**
+   * @param {object} [options]
+   * @param {(isOpen: boolean) => void} [options.onToggle] called with true when the person opens it, and with false when they
+   *   close it
+   */
   constructor({ onToggle = () => {} } = {}) {
     this.#onToggle = onToggle;
     const words = element("span", { className: "ai4u-card-words" }, this.#title, this.#type, this.#reads);
@@ -37,9 +41,14 @@ export class Card {
   }
 
   /**
-   * @param state.type the class's name, shown in Details
-   * @param state.reads what it reads or does just now, short
-   * @param state.mark a short remark such as "off" or "best"
+   * @param {object} state
+   * @param {string} [state.icon] its name
+   * @param {string} state.title
+   * @param {string} [state.type] the class's name, shown in Details
+   * @param {string} [state.reads] what it reads or does just now, short
+   * @param {boolean} [state.isOn]
+   * @param {boolean} [state.isOpen]
+   * @param {string} [state.mark] a short remark such as "off" or "best"
    */
   update({ icon: name = "own", title, type = "", reads = "", isOn = true, isOpen = false, mark = "" }) {
     if (name !== this.#iconName) this.#icon.replaceChildren(icon((this.#iconName = name)));
@@ -52,7 +61,7 @@ export class Card {
     this.body.hidden = !isOpen;
   }
 
-  /** @param list [{icon, label, isEnabled = true, isDanger = false, onClick}] */
+  /** @param {{icon: string, label: string, isEnabled?: boolean, isDanger?: boolean, onClick: () => void}[]} list */
   actions(list) {
     keyed(
       this.#actions,

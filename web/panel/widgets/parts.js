@@ -35,7 +35,7 @@ export function toggle(label, onChange, { title = "" } = {}) {
     element("i", { ariaHidden: "true" }),
     element("span", { textContent: label }),
   );
-  const set = (isOn) => setAttributes(made, { "aria-checked": Boolean(isOn) ? "true" : "false" });
+  const set = (isOn) => setAttributes(made, { "aria-checked": isOn ? "true" : "false" });
   setAttributes(made, { role: "switch" });
   set(false);
   made.addEventListener("click", () => {

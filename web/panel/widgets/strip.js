@@ -11,7 +11,7 @@ export function makeStrip() {
   return element("figure", {}, element("div"), element("figcaption"));
 }
 
-/** @param strip {caption, zeros, shares, colours, older}: positions in the ranges, 0 to 1, left to right */
+/** Draw {caption, zeros, shares, colours, older}: positions in the ranges, 0 to 1, left to right. */
 export function drawStrip(figure, { caption, zeros, shares, colours, older = [] }) {
   const accent = getComputedStyle(document.querySelector(".ai4u-panel")).getPropertyValue("--accent");
   const key = JSON.stringify([shares, colours, older, accent]);

@@ -1,0 +1,44 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { namesOf, startProgram } from "../../../web/code/start.js";
+
+const SENSORS = [
+  { key: "box", title: "Box", shape: [2], values: [{ name: "left_edge" }, { name: "right" }] },
+  { key: "rays", title: "Rays.", shape: [8, 2], stack: 3, values: [{ name: "0" }, { name: "1" }] },
+  { key: "many", title: "Many", shape: [7], values: Array.from({ length: 7 }, (_, index) => ({ name: `v${index}` })) },
+  { key: "speed", title: "Speed", shape: [] },
+  { key: "word", title: "Word", shape: [], text: "go", help: "What is said." },
+];
+const ACTUATORS = [
+  { name: "move", is_choice: false, components: [{ name: "forward", low: -1, high: 1, has_effect: true }, { name: "turn_rate", low: -1, high: 0.2, has_effect: true }] },
+  { name: "pick", is_choice: true, components: [{ name: "", low: 1, high: 3, has_effect: true }] },
+  { name: "arm", is_choice: false, components: [{ name: "", low: 0, high: 1, has_effect: false }] },
+];
+
+test("readings are told by names, by size, or in words", () => {
+  assert.deepEqual(namesOf(SENSORS, []).readings.map(({ words }) => words), [
+    "left edge, right",
+    "rays, 8 x 2 numbers (3 moments)",
+    "many, 7 numbers",
+    "speed, 1 number",
+    "what is said",
+  ]);
+});
+
+test("actions are told with their ranges, and begin at rest or with a small turn within their range", () => {
+  assert.deepEqual(namesOf([], ACTUATORS).outputs, [
+    { name: "move", words: "forward -1 to 1, turn rate -1 to 0.2", values: [0, 0.2] },
+    { name: "pick", words: "choice 1 to 3", values: [1] },
+    { name: "arm", words: "number (no effect)", values: [0] },
+  ]);
+});
+
+test("the first program names what it senses and does, and decides", () => {
+  const names = namesOf(SENSORS.slice(3, 4), ACTUATORS.slice(0, 1));
+  assert.equal(
+    startProgram(names),
+    '# It senses:\n# percept["speed"]: speed, 1 number\n# It can do:\n# "move": forward -1 to 1, turn rate -1 to 0.2\n\n' +
+      'def decide(percept):\n    return {"move": [0, 0.2]}\n',
+  );
+});

@@ -1,0 +1,20 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { number, seconds } from "../../../web/shared/numbers.js";
+
+test("a number has three digits that matter, and a real minus", () => {
+  assert.deepEqual([0, 1.234, -12.34, 99.96, 100.4, -1234.5].map(number), ["0.00", "1.23", "−12.3", "100.0", "100", "−1235"]);
+});
+
+test("a number that is rounded to zero has no sign", () => {
+  assert.equal(number(-0.001), "0.00");
+});
+
+test("what is no number is shown as it is, and nothing as a dash", () => {
+  assert.deepEqual([null, undefined, Infinity, "far"].map(number), ["–", "–", "Infinity", "far"]);
+});
+
+test("a duration is in seconds, from a minute on in minutes", () => {
+  assert.deepEqual([null, 0, 59.94, 60, 125.9, 600].map(seconds), ["–", "0.0 s", "59.9 s", "1:00 min", "2:05 min", "10:00 min"]);
+});
