@@ -4,8 +4,8 @@ from ai4u_edu.blocks import Percept
 from ai4u_edu.explain.baseline import mean_of
 from ai4u_edu.explain.live import MAX_MEAN_PERCEPTS, MIN_MEAN_PERCEPTS, NamedBaseline
 from ai4u_edu.recording.frame_cache import FrameCache
+from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 
 
 class EpisodeBaseline:

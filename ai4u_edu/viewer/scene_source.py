@@ -4,10 +4,10 @@ from concurrent.futures import CancelledError
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
+from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 
 EXPORT_TIMEOUT_S = 2.0
 """Time that the world's thread has to describe its world."""

@@ -11,13 +11,13 @@ from ai4u_edu.explain.elsewhere import PoseTrial
 from ai4u_edu.explain.live import LiveExplainer
 from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
+from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.part import Part, RatedPart
 from ai4u_edu.viewer.episode_baseline import EpisodeBaseline
 from ai4u_edu.viewer.replay.ghosts import Ghosts
-from ai4u_edu.viewer.replay.replay_player import ReplayPlayer
 from ai4u_edu.viewer.scene.actions import Actions
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.bodies import Bodies

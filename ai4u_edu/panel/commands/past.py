@@ -15,7 +15,7 @@ from ai4u_edu.panel.page import Page
 from ai4u_edu.recording import Archive, Episode
 from ai4u_edu.recording.file import decode
 from ai4u_edu.recording.frame_cache import FrameCache
-from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE
+from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
 
 MAX_POINTS = 300
 """Most points of a term's curve."""
