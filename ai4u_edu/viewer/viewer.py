@@ -10,6 +10,7 @@ from ai4u_edu.editing import SceneEditor
 from ai4u_edu.explain.elsewhere import PoseTrial
 from ai4u_edu.explain.live import LiveExplainer
 from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.recording import Ghosts
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
@@ -17,11 +18,11 @@ from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.part import Part, RatedPart
 from ai4u_edu.viewer.episode_baseline import EpisodeBaseline
-from ai4u_edu.viewer.replay.ghosts import Ghosts
 from ai4u_edu.viewer.scene.actions import Actions
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.bodies import Bodies
 from ai4u_edu.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
+from ai4u_edu.viewer.scene.ghost_bodies import GhostBodies
 from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import set_up_lights
@@ -76,7 +77,7 @@ class Viewer:
         self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         set_up_lights(server.scene)
-        self.player, self.ghosts = ReplayPlayer(runner), Ghosts(server)
+        self.player, self.ghosts = ReplayPlayer(runner), Ghosts()
 
         def latest() -> Snapshot:
             return runner.latest
@@ -100,7 +101,7 @@ class Viewer:
             (Ground(server), TEXTS_PER_S),
             (bodies, MAX_FRAMES_PER_S),
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
-            (self.ghosts, senses_per_s),
+            (GhostBodies(server, self.ghosts), senses_per_s),
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
             (PolicyMaps(viewer_clients, self.maps), senses_per_s),

@@ -10,8 +10,9 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
+from ai4u_edu.viewer.scene.ghost_bodies import GhostBodies
 from tests.recording.recorded_drives import take
-from tests.viewer.pages import publish, shown
+from tests.viewer.pages import part_of, publish, shown
 from tests.waiting import until
 
 
@@ -49,13 +50,18 @@ def step(viewer: Viewer, times: int = 1) -> None:
     shown(viewer)
 
 
+def bodies_of(viewer: Viewer) -> list[Any]:
+    """Return the drawn bodies of the first ghost."""
+    return [*part_of(viewer, GhostBodies).bodies(viewer.ghosts.drives[0])]
+
+
 def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(viewer: Viewer) -> None:
     sim = viewer.runner.sim
     sim.agents[0].use_brain(LocalBrain(controller=lambda _: {}))  # the living one stays
     for round_ in range(2):
         for number, pose in enumerate(viewer.poses[:20]):  # type: ignore[attr-defined]
             step(viewer)
-            (body,) = viewer.ghosts.drives[0].bodies
+            (body,) = bodies_of(viewer)
             if number % 2:  # its poses are those of every other tick
                 assert body.frame.position[:2] == pytest.approx(pose[:2], abs=1e-5), round_
             assert body.frame.visible
@@ -68,16 +74,16 @@ def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(viewer: Viewe
 
 def test_it_stays_at_the_end_of_its_run(viewer: Viewer) -> None:
     step(viewer, 32)
-    end = tuple(viewer.ghosts.drives[0].bodies[0].frame.position)
+    end = tuple(bodies_of(viewer)[0].frame.position)
     step(viewer, 5)
-    assert tuple(viewer.ghosts.drives[0].bodies[0].frame.position) == end
+    assert tuple(bodies_of(viewer)[0].frame.position) == end
 
 
 def test_nothing_is_sent_while_it_stands(viewer: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:
     step(viewer)
-    body = viewer.ghosts.drives[0].bodies[0]
+    body = bodies_of(viewer)[0]
     monkeypatch.setattr(type(body.frame), "position", property(fset=lambda *_: pytest.fail("sent")))
-    viewer.ghosts.draw(viewer.runner.latest)
+    part_of(viewer, GhostBodies).draw(viewer.runner.latest)
 
 
 def test_it_says_whose_it_is_and_where_that_is_unfair(viewer: Viewer) -> None:
@@ -87,12 +93,12 @@ def test_it_says_whose_it_is_and_where_that_is_unfair(viewer: Viewer) -> None:
     runner.sim.reset(2)
     step(viewer)
     assert "It began otherwise: with seed 1." in ghosts.text(runner.latest)
-    assert ghosts.drives[0].bodies[0].label.text == "ghost of another start"
+    assert bodies_of(viewer)[0].label.text == "ghost of another start"
     ghosts.race(take("donut", decisions=5).episode, "donut")
     until(lambda: ghosts.drives[0].path is not None)
     step(viewer)
     assert "It ran in another scene." in ghosts.text(runner.latest)
-    assert ghosts.drives[0].bodies == []
+    assert bodies_of(viewer) == []
     ghosts.race(None)
     step(viewer)
     assert ghosts.text(runner.latest) == ""
@@ -106,7 +112,7 @@ def test_several_have_their_names_and_a_removed_one_is_gone(viewer: Viewer) -> N
     until(lambda: all(each.path is not None for each in ghosts.drives))
     step(viewer, 10)
     assert ghosts.text(runner.latest) == "Ghosts: Red Fox, Calm Owl"
-    bodies = [each.bodies[0] for each in ghosts.drives]
+    bodies = [part_of(viewer, GhostBodies).bodies(drive)[0] for drive in ghosts.drives]
     assert [each.label.text for each in bodies] == ["Red Fox", "Calm Owl"]
     for body, (poses, _) in zip(bodies, others, strict=True):
         assert body.frame.position[:2] == pytest.approx(poses[9][:2], abs=1e-5)

@@ -1,15 +1,13 @@
-"""One ghost: the agents of a recorded episode, translucent, at the same time of the episode."""
-
-import threading
+"""Ghosts: the agents of recorded episodes, translucent, at the same time of the episode."""
 
 from viser import FrameHandle, LabelHandle, SceneApi
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.recording import Episode, Ghost, ghost_of
+from ai4u_edu.recording.ghosts import GhostDrive, Ghosts
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import Rgb, body_colour, mix_colours
+from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.face import face
 from ai4u_edu.viewer.scene.geometry import heading_wxyz, prism
 from ai4u_edu.viewer.scene.layers import Layers
@@ -29,89 +27,81 @@ COLOURS = tuple(rgb(name) for name in ("orange", "purple", "green"))
 Pose = tuple[float, float, float, float]
 
 
-class GhostDrive:
-    """The ghost of one episode. A background thread computes its path; the viewer's thread draws.
+class GhostBodies:
+    """The ghosts on all pages; the viewer's thread calls it.
 
     Args:
-        scene: viser's scene.
-        node: name of the ghost's node there.
-        episode: the recorded episode.
-        name: the episode's name.
-        label: text at the ghost.
-        place: index among several ghosts, which differ by it.
+        server: viser's server.
+        ghosts: what is drawn.
     """
 
-    def __init__(
-        self,
-        scene: SceneApi,
-        node: str,
-        episode: Episode,
-        name: str,
-        label: str = "ghost",
-        place: int | None = None,
-    ) -> None:
-        self._place = place
-        self._scene, self._subtree = scene, Subtree(scene, node)
-        self._episode, self.name, self._label = episode, name, label
-        self.problem = ""
-        """The reason why it can't be shown; else empty."""
-        self.path: Ghost | None = None
-        """The poses by time; None until they are computed."""
+    def __init__(self, server: LocalServer, ghosts: Ghosts) -> None:
+        self._scene, self._ghosts = server.scene, ghosts
+        self._drawn: dict[GhostDrive, _Ghost] = {}
+        self._layers: Layers | None = None
+        self._count = 0
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Rebuild the ghosts at the next drawing, for a new static scene."""
+        self._layers = Layers.of(static_scene)
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Move the ghosts to their poses at the snapshot's time."""
+        drives, layers = self._ghosts.drives, self._layers
+        for gone in self._drawn.keys() - set(drives):
+            self._drawn.pop(gone).remove()
+        if layers is not None:
+            for drive in drives:
+                if drive.path is not None:
+                    self._picture(drive).draw(snapshot, layers)
+
+    def bodies(self, drive: GhostDrive) -> list["_Body"]:
+        """Return the bodies of a ghost that are drawn."""
+        return self._drawn[drive].bodies if drive in self._drawn else []
+
+    def _picture(self, drive: GhostDrive) -> "_Ghost":
+        if drive not in self._drawn:
+            self._count += 1
+            self._drawn[drive] = _Ghost(self._scene, f"ghost{self._count}-", drive)
+        return self._drawn[drive]
+
+
+class _Ghost:
+    """The bodies of one ghost, below a node of their own."""
+
+    def __init__(self, scene: SceneApi, node: str, drive: GhostDrive) -> None:
+        self._scene, self._subtree, self._drive = scene, Subtree(scene, node), drive
         self.bodies: list[_Body] = []
         self._built_for: StaticScene | None = None
         self._layers: Layers | None = None
-        threading.Thread(target=self._compute, name="ghost", daemon=True).start()
-
-    def warning(self, snapshot: Snapshot) -> str:
-        """Return what makes a race against it unfair; empty if it is fair."""
-        if self._is_of_other_scene(snapshot.static_scene):
-            return "It ran in another scene."
-        if snapshot.seed != self._episode.seed:
-            seed = self._episode.seed
-            return f"It began otherwise: with seed {seed}. Race against it again."
-        return ""
 
     def draw(self, snapshot: Snapshot, layers: Layers) -> None:
-        """Move the ghost to its pose at the snapshot's time."""
-        if self.path is None:
+        drive = self._drive
+        if drive.path is None:
             return
         if self._built_for is not snapshot.static_scene or self._layers is not layers:
             self._build(snapshot.static_scene, layers)
-        now = self.path.at(snapshot.time + 1e-4)  # a bit later, because its times are rounded
-        is_fair = snapshot.seed == self._episode.seed
-        text = self._label if is_fair else f"{self._label} of another start"
+        now = drive.path.at(snapshot.time + 1e-4)  # a bit later, because its times are rounded
+        is_fair = snapshot.seed == drive.episode.seed
+        text = drive.label if is_fair else f"{drive.label} of another start"
         for body in self.bodies:
             body.move(now.get(body.name), layers, text)
 
     def remove(self) -> None:
-        """Take it from the scene."""
         self.bodies = []
         self._subtree.remove()
 
     def _build(self, static_scene: StaticScene, layers: Layers) -> None:
         self._built_for, self._layers, self.bodies = static_scene, layers, []
-        recorded = self._episode.scene
+        recorded = self._drive.episode.scene
         with self._subtree.rebuild() as parent:
-            if self._is_of_other_scene(static_scene):
+            if self._drive.is_of_other_scene(static_scene):
                 return
             drivers = {str(agent.get("body", "")) for agent in recorded.agents}
             for number, body in enumerate(recorded.bodies):
                 if body.name in drivers:
-                    node = f"{parent}/{number}"
-                    self.bodies.append(_Body(self._scene, node, body, layers, self._place))
-
-    def _compute(self) -> None:
-        try:
-            self.path = ghost_of(self._episode)
-        except AI4UError as error:
-            self.problem = str(error)
-
-    def _is_of_other_scene(self, static_scene: StaticScene) -> bool:
-        """Return True if the episode has other bodies or floors; positions may be random."""
-        scene = self._episode.scene
-        recorded = {(body.name, body.kind, body.shape) for body in scene.bodies}
-        current = {(body.name, body.kind, body.shape) for body in static_scene.bodies}
-        return recorded != current or len(scene.floors) != len(static_scene.floors)
+                    node, place = f"{parent}/{number}", self._drive.place
+                    self.bodies.append(_Body(self._scene, node, body, layers, place))
 
 
 class _Body:

@@ -1,1 +1,0 @@
-"""Recorded episodes on the page: list, player, ghosts."""
