@@ -22,7 +22,7 @@ FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
 MAX_FILM_BYTES = 1_500_000
 PROGRAMS = {
     "build-an-agent.md": ["touched the lamp: True"],
-    "python.md": ["'touch': 1.0"],
+    "python.md": ["'touch': 1.0", "watch it at http://127.0.0.1:"],
     "explain.md": ["(19, 4)", "It turns left because ray "],
     "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
 }
@@ -37,7 +37,7 @@ def programs(page: Path) -> list[str]:
 
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_programs_run(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    names: dict[str, Any] = {}
+    names: dict[str, Any] = {"input": lambda _: "\n"}
     for block in programs(ROOT / "docs" / name):
         exec(block, names)  # noqa: S102 - our own
     told = capsys.readouterr().out

@@ -27,10 +27,9 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.check import Outcome
-from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.agent import agent_part
+from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.viewer import Viewer
 from tests.viewer.pages import page, shown
 
 pytestmark = pytest.mark.slow
@@ -101,15 +100,15 @@ def test_the_scene_passes_its_check(sim: object, home: Path) -> None:
 
 def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None:
     runner = Runner(sim, seed=1)
-    viewer = Viewer(runner)
+    served = serve_world(runner)
+    viewer = served.viewer
     try:
         for _ in range(30):
             runner._tick()
         runner._publish()
         with page(viewer):
             shown(viewer)
-            context = PanelContext(runner, viewer)
-            told = agent_part(context, runner.latest, runner.latest.agents[0], ())
+            told = agent_part(served.context, runner.latest, runner.latest.agents[0], ())
         (agent,) = sim.agents
         smell = float(agent.percept["smell"][0])
         assert 0.6 < smell < 1
@@ -126,7 +125,7 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         ]
         assert sorted(texts) == ["cheese", "mouse"]
     finally:
-        viewer.stop()
+        served.stop()
 
 
 def run(*args: str) -> subprocess.CompletedProcess[str]:

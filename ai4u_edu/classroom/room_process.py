@@ -17,6 +17,7 @@ from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
+from ai4u_edu.lessons.course import lessons
 from ai4u_edu.room import Room, RoomSettings
 from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
 from ai4u_edu.server import Rules, serve
@@ -95,6 +96,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         # the class checks both: the name under which a browser has the page is in its requests
         allowed_hosts=("*",),
         rules=_rules(order),
+        lessons=lessons,
         saved_scenes=order.folder / "scenes",
         class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
         class_folder=order.folder,
@@ -109,11 +111,11 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
     except AI4UError as error:
         parent.send(RoomFailed(str(error)))
         return
-    app = Starlette(routes=[RoomMount(path_of(order.id), app=room.app)])
     threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
-    ports = partial(RoomReady, viser_port=room.viser_port)
     scene_file = SceneFile(order.folder, room.editor, room.runner)
     with tuned_process(), released_memory(), room, scene_file:
+        app = Starlette(routes=[RoomMount(path_of(order.id), app=room.page.app)])
+        ports = partial(RoomReady, viser_port=room.page.viewer.port)
         ready = partial(_tell, parent, ports)
         serve(app, HOST, 0, on_ready=ready, timeouts=order.timeouts)
 

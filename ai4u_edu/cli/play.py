@@ -1,6 +1,7 @@
 """``ai4u-edu play``: serve a scene in the browser."""
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,6 +49,7 @@ def play(
     """Serve a scene in the browser; drive with W, A, S, D."""
     expect_scene("play", [scene, *context.args])
     from ai4u_edu.editing.autosave import unsaved_folder
+    from ai4u_edu.lessons.course import lessons
     from ai4u_edu.room import RoomSettings
     from ai4u_edu.server import Rules, hosts_for, token_for
 
@@ -62,7 +64,7 @@ def play(
         allowed_hosts=hosts_for(host),
         proxy_hosts=tuple(allow_host or ()),
         rules=Rules(grace, receive_timeout, token, seeded_resets, lockstep, on_missing or ""),
-        drivers=tuple(brain or ()),
+        lessons=lessons,
         record=record,
         keep=keep,
         ghost=ghost,
@@ -72,6 +74,10 @@ def play(
         unsaved=unsaved_folder() if autosave or restore else None,
         autosave=autosave,
     )
+    if brain:
+        from ai4u_edu.training.assigned import with_drivers  # loads packages that most don't need
+
+        settings = replace(settings, build=partial(with_drivers, specs=brain, is_served=True))
     settings = with_class(_with_work(settings), class_url, code, name_choice, port)
     if autosave and settings.saved_scenes is None and settings.class_folder is None:
         settings = replace(settings, saved_scenes=_own_scenes())
@@ -110,7 +116,7 @@ def _serve(
             open_on_desktop(with_token(url, token))
 
     with tuned_process(), room:
-        serve(room.app, host, port, on_ready=announce, per_address=connections)
+        serve(room.page.app, host, port, on_ready=announce, per_address=connections)
     HAS_SERVED.set()
 
 

@@ -4,10 +4,9 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Percept
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, lock_viser_port, open_on_desktop, room_app
-from ai4u_edu.viewer import Viewer
+from ai4u_edu.server import open_on_desktop
 
 
 class LivePage:
@@ -22,13 +21,8 @@ class LivePage:
 
     def __init__(self, sim: ControlRequestor, title: str) -> None:
         self._runner = Runner(sim)
-        self._viewer = Viewer(self._runner, title=title)
-        lock_viser_port(self._viewer.server)
-        self._viewer.start()
-        panel = PanelSockets(self._runner, self._viewer)
-        room = room_app(self._runner, viser_port=self._viewer.port, title=title, panel=panel)
-        self._server = ServerThread(room).start()
-        self.url = self._server.url
+        self._served = serve_world(self._runner, title=title)
+        self.url = self._served.url
         """Where the page is."""
         open_on_desktop(self.url)
 
@@ -43,6 +37,5 @@ class LivePage:
 
     def close(self) -> None:
         """Stop serving the page."""
-        self._server.stop()
-        self._viewer.stop()
+        self._served.stop()
         self._runner.stop()

@@ -56,9 +56,8 @@ class Live:
     ) -> None:
         # loaded when a world is shown: exercises can be checked without a page
         from ai4u_edu.editing import SceneEditor
-        from ai4u_edu.panel import PanelSockets
-        from ai4u_edu.server import Rules, ServerThread, lock_viser_port, room_app, with_token
-        from ai4u_edu.viewer import Viewer
+        from ai4u_edu.room import serve_world
+        from ai4u_edu.server import Rules, with_token
 
         self.title = title
         self.recorder = recorder
@@ -66,25 +65,19 @@ class Live:
         self._stall_watch = StallWatch(self.runner)
         self._class_member: ClassMember | None = None
         self._class_feed = NotebookFeed()
-        self._editor = editor = None if scene is None else SceneEditor(self.runner, scene)
-        self._viewer = Viewer(self.runner, title=title, editor=editor)
-        lock_viser_port(self._viewer.server)
-        room = room_app(
-            self.runner,
-            viser_port=self._viewer.port,
-            title=title if editor is None else lambda: editor.title,
-            allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
-            rules=Rules(token=TOKEN, lockstep=True),  # the world is whose notebook it is
-            panel=PanelSockets(self.runner, self._viewer, editor),
-            class_feed=self._class_feed,
-        )
-        self._server = ServerThread(room)
-        self.url = with_token(self._server.url, TOKEN)
-        """The page's address on this machine, with the token."""
+        self._editor = None if scene is None else SceneEditor(self.runner, scene)
         self.runner.start()
         self._stall_watch.start()
-        self._viewer.start()
-        self._server.start()
+        self._served = serve_world(
+            self.runner,
+            title=title,
+            editor=self._editor,
+            rules=Rules(token=TOKEN, lockstep=True),  # the world is whose notebook it is
+            allowed_hosts=("*",),  # the token is asked for; a proxy passes any name on
+            class_feed=self._class_feed,
+        )
+        self.url = with_token(self._served.url, TOKEN)
+        """The page's address on this machine, with the token."""
         self.running = True
         self._kept: Episode | None = None
         self._page_watch: PageWatch | None = None
@@ -98,7 +91,7 @@ class Live:
     @property
     def port(self) -> int:
         """Port of the page."""
-        return int(self._server.url.rstrip("/").rpartition(":")[2])
+        return int(self._served.url.rstrip("/").rpartition(":")[2])
 
     @property
     def episodes(self) -> list[Episode]:
@@ -114,7 +107,7 @@ class Live:
         """
         is_at_hub = "JUPYTERHUB_SERVICE_PREFIX" in os.environ
         self._page_watch = PageWatch(
-            lambda: len(self._viewer.viewer_clients),
+            lambda: len(self._served.viewer.viewer_clients),
             lambda: end(self),
             GONE_AT_HUB_S if is_at_hub else GONE_S,
         )
@@ -131,7 +124,7 @@ class Live:
             connection.link_for_world,
             connection.folder,
             title=self.title,
-            show_ghosts=self._viewer.ghosts.race_all,
+            show_ghosts=self._served.context.ghosts.race_all,
             page=page_at_hub(f"proxy/{self.port}/?token={TOKEN}"),
         )
         self._class_feed.follow(member.view)
@@ -151,8 +144,7 @@ class Live:
             self.leave_class()
             if self._page_watch is not None:
                 self._page_watch.stop()
-            self._server.stop()
-            self._viewer.stop()
+            self._served.stop()
             self.runner.stop()
             self._stall_watch.stop()
 

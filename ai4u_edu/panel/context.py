@@ -10,13 +10,14 @@ import msgspec
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.panel.upload import UPLOAD_IDLE_S
+from ai4u_edu.explain.explanations import Explanations
+from ai4u_edu.panel.page_view import Pictures
+from ai4u_edu.recording import Ghosts
+from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer import Viewer
 
-FRAME_TIMEOUT_S = 10.0
-"""Usual time that the replay of an episode has for its next decision."""
 MAX_CACHED = 200
 """Most texts that a cache holds; it is emptied then."""
 
@@ -47,21 +48,25 @@ class PartCache:
 
 @dataclass(frozen=True)
 class PanelContext:
-    """The running world, its viewer and its editor, for parts and commands.
+    """The running world and what belongs to it, for parts and commands.
 
     Args:
         runner: runs the world.
-        viewer: draws it.
+        pictures: the pages' pictures of it.
+        player: plays its recorded episodes.
+        ghosts: recorded episodes to race against.
+        explanations: explain what its agents do.
         editor: changes it; None if it can only be watched and driven.
-        frame_timeout: time (s) that the replay of an episode has for its next decision.
-        upload_timeout: time (s) without a new part after which an unfinished file is dropped.
+        timeouts: time limits of a replay's frames and of uploads.
     """
 
     runner: Runner
-    viewer: Viewer
+    pictures: Pictures
+    player: ReplayPlayer
+    ghosts: Ghosts
+    explanations: Explanations
     editor: SceneEditor | None = None
-    frame_timeout: float = FRAME_TIMEOUT_S
-    upload_timeout: float = UPLOAD_IDLE_S
+    timeouts: Timeouts = DEFAULT_TIMEOUTS
     cache: PartCache = field(default_factory=PartCache)
     slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
     """Held by a page whose command does slow work in another thread."""

@@ -1,12 +1,14 @@
-"""The things that one page looks at, and the link to the page's picture in viser."""
+"""The things that one page looks at, and the link to the page's picture."""
 
 from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Protocol
 
-from ai4u_edu.explain.elsewhere import Elsewhere
+from ai4u_edu.editing import ChangeResult
+from ai4u_edu.explain.elsewhere import Elsewhere, Pose
 from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.panel.messages.base import Show
-from ai4u_edu.viewer.scene.view import Mode
-from ai4u_edu.viewer.viewer_client import PagePanel, ViewerClient, ViewerClients
+from ai4u_edu.panel.messages.play import CameraMode
 
 TEXTS_PER_CURVE = 4
 """Times that the other texts are sent for each curve of rewards, which is longer than all else."""
@@ -16,27 +18,99 @@ MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
 
 
+class PictureListener(Protocol):
+    """Gets what a user does in a page's picture; in the picture's thread."""
+
+    def on_selected(self, body: str) -> None:
+        """Note that somebody clicked on a body."""
+
+    def on_dropped(self, change: "Future[ChangeResult]") -> None:
+        """Report the result of a move with the mouse."""
+
+    def on_stand_in(self, pose: Pose) -> None:
+        """Note that somebody put the agent's stand-in somewhere."""
+
+
+class Picture(Protocol):
+    """The picture of one page, as its panel needs it; whoever draws it reads these choices."""
+
+    panel: PictureListener | None
+    agent: str
+    """Id of the agent that is shown."""
+    selected: str
+    """Name of the selected thing; empty if there is none."""
+    is_why_shown: bool
+    maps: MapChoice
+    elsewhere: Elsewhere | None
+    is_motion_reduced: bool
+    is_move_mode: bool
+    snap_m: float
+
+    @property
+    def address(self) -> str:
+        """The page's address in the browser; empty if it is not known."""
+
+    @property
+    def camera(self) -> CameraMode:
+        """Position of the camera."""
+
+    @property
+    def ground_center(self) -> tuple[float, float]:
+        """Point (x, y) of the ground in the middle of the picture (m)."""
+
+    @property
+    def is_dark(self) -> bool:
+        """True for dark colours."""
+
+    @property
+    def sensor_choices(self) -> dict[tuple[str, str], bool]:
+        """Sensors that were switched on or off, by agent and key."""
+
+    @property
+    def trail_choices(self) -> dict[str, bool]:
+        """Trails that were switched on or off, by agent."""
+
+    def choose_camera(self, mode: CameraMode) -> None:
+        """Put the camera somewhere, also if it was there before and was moved since."""
+
+    def set_dark(self, is_dark: bool) -> None:
+        """Draw in dark or light colours."""
+
+    def show_sensor(self, key: str, on: bool, agent: str = "") -> None:
+        """Draw a sensor, or hide it; by default one of the agent that is shown."""
+
+    def show_trail(self, agent_id: str, on: bool) -> None:
+        """Draw the trail behind an agent, or hide it."""
+
+
+class Pictures(Protocol):
+    """The pictures of all open pages."""
+
+    def find(self, page_id: str) -> Picture | None:
+        """Return the latest picture of a page; None if there is none."""
+
+
 class PageView:
     """The things that one page looks at, and its choices.
 
-    viser's connection of the page may come later than the panel's, and may come again: choices are
-    kept here and applied whenever there is another client. A panel that connects again takes over
-    what its picture shows. Belongs to the server's event loop.
+    The connection of the page's picture may come later than the panel's, and may come again:
+    choices are kept here and applied whenever there is another picture. A panel that connects again
+    takes over what its picture shows. Belongs to the server's event loop.
 
     Args:
-        viewer_clients: viser's clients.
+        pictures: those of all pages.
         page_id: the page's random id; empty if it has no picture.
         agent: id of the agent that is shown first.
         panel: told what the user does in the picture.
     """
 
     def __init__(
-        self, viewer_clients: ViewerClients, page_id: str, agent: str, panel: PagePanel
+        self, pictures: Pictures, page_id: str, agent: str, panel: PictureListener
     ) -> None:
-        self._viewer_clients, self._page_id, self._panel = viewer_clients, page_id, panel
-        self._client: ViewerClient | None = None
+        self._pictures, self._page_id, self._panel = pictures, page_id, panel
+        self._picture: Picture | None = None
         self.show = Show(type="show", agent=agent)
-        self._camera: Mode | None = None
+        self._camera: CameraMode | None = None
         self.is_move_mode = False
         self.is_why_shown = False
         """True if the page shows why the agent acts as it does."""
@@ -60,19 +134,19 @@ class PageView:
         return self.show.agent
 
     @property
-    def camera(self) -> Mode:
+    def camera(self) -> CameraMode:
         """Position of the page's camera."""
-        return self._camera or Mode.ARENA
+        return self._camera or "arena"
 
     @property
     def address(self) -> str:
         """The page's address in the browser; empty if it is not known."""
-        return "" if self._client is None else self._client.address
+        return "" if self._picture is None else self._picture.address
 
     @property
-    def client(self) -> ViewerClient | None:
-        """Viser's client of this page; None while there is none."""
-        return self._client
+    def ground_center(self) -> tuple[float, float] | None:
+        """Point (x, y) of the ground in the middle of the picture (m); None without a picture."""
+        return None if self._picture is None else self._picture.ground_center
 
     def ask_again(self, *names: str) -> None:
         """Note that the page waits for parts, also if they are as before."""
@@ -87,13 +161,13 @@ class PageView:
         return names
 
     def refresh(self) -> None:
-        """Find viser's client of this page, and give a new one all that was chosen."""
-        client = self._viewer_clients.find(self._page_id)
-        if client is not self._client:
-            self._client = client
-            if client is not None:
-                self._take_over(client)
-                self._choose_all(client)
+        """Find the picture of this page, and give a new one all that was chosen."""
+        picture = self._pictures.find(self._page_id)
+        if picture is not self._picture:
+            self._picture = picture
+            if picture is not None:
+                self._take_over(picture)
+                self._choose_all(picture)
 
     def look_at(self, show: Show) -> None:
         """Look at something else."""
@@ -121,15 +195,15 @@ class PageView:
         self._curve = self.agent, TEXTS_PER_CURVE - 1 if is_due else left - 1
         return is_due
 
-    def choose_camera(self, mode: Mode) -> None:
+    def choose_camera(self, mode: CameraMode) -> None:
         """Put the camera somewhere."""
         self._camera = mode
-        self._apply(lambda client: client.view.choose(mode))
+        self._apply(lambda picture: picture.choose_camera(mode))
 
     def choose_dark(self, is_dark: bool) -> None:
         """Draw the picture in dark or light colours."""
         self._is_dark = is_dark
-        self._apply(lambda client: client.set_dark(is_dark))
+        self._apply(lambda picture: picture.set_dark(is_dark))
 
     def reduce_motion(self, on: bool) -> None:
         """Leave out motion that nothing in the world makes, or not."""
@@ -141,7 +215,7 @@ class PageView:
         if len(self.sensors) >= MAX_SENSOR_CHOICES:
             self.sensors.clear()
         self.sensors[self.agent, key] = on
-        self._apply(lambda client: client.show_sensor(key, on))
+        self._apply(lambda picture: picture.show_sensor(key, on))
 
     def show_why(self, on: bool) -> None:
         """Show why the agent acts as it does, or no longer."""
@@ -181,36 +255,36 @@ class PageView:
         self._apply(self._choose_shown)
 
     def close(self) -> None:
-        """Forget the client; its picture stays as it is."""
-        if self._client is not None and self._client.panel is self._panel:
-            self._client.panel = None
+        """Forget the picture, which stays as it is."""
+        if self._picture is not None and self._picture.panel is self._panel:
+            self._picture.panel = None
 
-    def _apply(self, choose: Callable[[ViewerClient], None]) -> None:
-        if self._client is not None:
-            choose(self._client)
+    def _apply(self, choose: Callable[[Picture], None]) -> None:
+        if self._picture is not None:
+            choose(self._picture)
 
-    def _take_over(self, client: ViewerClient) -> None:
+    def _take_over(self, picture: Picture) -> None:
         """Take over what the picture shows, except for what was chosen since."""
-        self._camera = self._camera or client.view.mode
-        self.trails = client.trail_choices | self.trails
-        self.sensors = client.sensor_choices | self.sensors
+        self._camera = self._camera or picture.camera
+        self.trails = picture.trail_choices | self.trails
+        self.sensors = picture.sensor_choices | self.sensors
 
-    def _choose_shown(self, client: ViewerClient) -> None:
-        client.agent = self.show.agent
-        client.selected = self.show.body or ""
-        client.is_why_shown = self.is_why_shown
-        client.maps, client.elsewhere = self.maps, self.elsewhere
-        client.is_motion_reduced = self._is_motion_reduced
-        client.is_move_mode, client.snap_m = self.is_move_mode, self.snap_m
+    def _choose_shown(self, picture: Picture) -> None:
+        picture.agent = self.show.agent
+        picture.selected = self.show.body or ""
+        picture.is_why_shown = self.is_why_shown
+        picture.maps, picture.elsewhere = self.maps, self.elsewhere
+        picture.is_motion_reduced = self._is_motion_reduced
+        picture.is_move_mode, picture.snap_m = self.is_move_mode, self.snap_m
         for agent, on in self.trails.items():
-            client.show_trail(agent, on)
+            picture.show_trail(agent, on)
 
-    def _choose_all(self, client: ViewerClient) -> None:
-        client.panel = self._panel
-        self._choose_shown(client)
-        if self.camera is not client.view.mode:
-            client.view.choose(self.camera)
-        if self._is_dark is not None and self._is_dark != client.is_dark:
-            client.set_dark(self._is_dark)
+    def _choose_all(self, picture: Picture) -> None:
+        picture.panel = self._panel
+        self._choose_shown(picture)
+        if self.camera != picture.camera:
+            picture.choose_camera(self.camera)
+        if self._is_dark is not None and self._is_dark != picture.is_dark:
+            picture.set_dark(self._is_dark)
         for (agent, key), on in self.sensors.items():
-            client.show_sensor(key, on, agent)
+            picture.show_sensor(key, on, agent)

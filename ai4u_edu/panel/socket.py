@@ -12,25 +12,24 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
-from ai4u_edu.editing import ChangeResult, SceneEditor
+from ai4u_edu.editing import ChangeResult
 from ai4u_edu.explain.elsewhere import Pose
 from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
 from ai4u_edu.panel.commands import blocks, compare, past, run, scenes, view, why, world
 from ai4u_edu.panel.commands.handler import Handler
-from ai4u_edu.panel.context import FRAME_TIMEOUT_S, PanelContext
+from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.labels import past_tense
 from ai4u_edu.panel.messages.base import Command, Show
 from ai4u_edu.panel.messages.reader import id_in, read_message
 from ai4u_edu.panel.page import Level, Page
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.due import due_parts
-from ai4u_edu.panel.upload import MAX_PART_BYTES, UPLOAD_IDLE_S, Upload
+from ai4u_edu.panel.upload import MAX_PART_BYTES, Upload
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
 from ai4u_edu.server.keepalive import keepalives
 from ai4u_edu.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.server.proxy import PAGE_ID_PARAM, page_id
-from ai4u_edu.viewer import Viewer
 
 LIMITS = ReceiveLimits(100, 2**16, MAX_PART_BYTES)
 """Limits of one page; dragging a slider sends some thirty messages a second."""
@@ -58,25 +57,11 @@ class PanelSockets:
     """The sockets of all pages' panels; an ASGI app.
 
     Args:
-        runner: runs the world.
-        viewer: draws it; knows which picture belongs to which page.
-        editor: changes the world; left out, it can only be watched and driven.
-        frame_timeout: time (s) that the replay of an episode has for its next decision.
-        upload_timeout: time (s) without a new part after which an unfinished file is dropped.
+        context: the running world.
     """
 
-    def __init__(
-        self,
-        runner: Runner,
-        viewer: Viewer,
-        editor: SceneEditor | None = None,
-        *,
-        frame_timeout: float = FRAME_TIMEOUT_S,
-        upload_timeout: float = UPLOAD_IDLE_S,
-    ) -> None:
-        self._context = PanelContext(
-            runner, viewer, editor, frame_timeout=frame_timeout, upload_timeout=upload_timeout
-        )
+    def __init__(self, context: PanelContext) -> None:
+        self._context = context
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's socket until it is closed."""
@@ -99,8 +84,8 @@ class _Connection:
     def __init__(self, socket: WebSocket, context: PanelContext, page_id: str) -> None:
         self._socket, self._context = socket, context
         agent = _first_agent(context.runner, socket.query_params.get("agent"))
-        self._view = PageView(context.viewer.viewer_clients, page_id, agent, self)
-        upload = Upload(context.upload_timeout)
+        self._view = PageView(context.pictures, page_id, agent, self)
+        upload = Upload(context.timeouts.upload)
         self._page = Page(context, self._view, self._note, upload)
         self._loop = asyncio.get_running_loop()
         self._changed = asyncio.Event()

@@ -4,10 +4,9 @@ import asyncio
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS
 
 MAX_PART_BYTES = 2**19
-UPLOAD_IDLE_S = 30.0
-"""Usual time (s) without a new part after which an unfinished file is dropped."""
 
 
 class Upload:
@@ -17,7 +16,7 @@ class Upload:
         idle_timeout: time (s) without a new part after which an unfinished file is dropped.
     """
 
-    def __init__(self, idle_timeout: float = UPLOAD_IDLE_S) -> None:
+    def __init__(self, idle_timeout: float = DEFAULT_TIMEOUTS.upload) -> None:
         self._idle_timeout = idle_timeout
         self._data = bytearray()
         self._timer: asyncio.TimerHandle | None = None

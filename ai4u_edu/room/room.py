@@ -4,30 +4,26 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Self
 
-from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.class_member import ClassMember
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.editing.autosave import Autosave, unsaved_scenes
 from ai4u_edu.editing.scene_store import SceneStore
 from ai4u_edu.editing.sharing import SharedScene, read_shared
 from ai4u_edu.editing.unsaved import Unsaved, choose_unsaved
-from ai4u_edu.lessons.course import lessons
-from ai4u_edu.panel import PanelSockets
-from ai4u_edu.recording import Episode, recorder_into
+from ai4u_edu.recording import Episode, Ghosts, recorder_into
+from ai4u_edu.room.served_world import ServedWorld, serve_world
 from ai4u_edu.room.settings import RoomSettings
 from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import is_link
-from ai4u_edu.server import LessonView, lock_viser_port, room_app
 from ai4u_edu.server.scripts import ScriptReport
-from ai4u_edu.viewer import Viewer
 
 
 class Room:
     """A world, the threads that run and draw it, and the app that serves its page and API.
 
-    ``with Room(settings) as room: serve(room.app, ...)``
+    ``with Room(settings) as room: serve(room.page.app, ...)``
 
     Args:
         settings: of the room.
@@ -49,7 +45,7 @@ class Room:
         restored = _restored(settings, self.unsaved)
         scene, linked_seed = _scene_of(settings, restored)
         self.title = scene.description.title or scene.description.name
-        sim, scene = _build(scene, settings.drivers)
+        sim, scene = settings.build(scene)
         recorder = recorder_into(settings.record, sim, scene, settings.keep)
         ghost = Episode.load(settings.ghost) if settings.ghost else None
         self.runner = Runner(
@@ -71,10 +67,10 @@ class Room:
             self.editor.recovery.mark_restored(restored)
         elif self.unsaved:
             self.editor.recovery.unsaved = self.unsaved[0]
-        self._viewer = Viewer(self.runner, title=self.title, editor=self.editor)
+        self._settings = settings
+        self._ghosts = Ghosts()
         if ghost is not None and settings.ghost is not None:
-            self._viewer.ghosts.race(ghost, settings.ghost.name)
-        lock_viser_port(self._viewer.server, settings.viser_secret)
+            self._ghosts.race(ghost, settings.ghost.name)
         self.class_member = None
         if settings.class_link is not None:
             self.class_member = ClassMember(
@@ -82,39 +78,42 @@ class Room:
                 self.editor,
                 settings.class_link,
                 settings.class_folder,
-                show_ghosts=self._viewer.ghosts.race_all,
+                show_ghosts=self._ghosts.race_all,
             )
         self._script_report = None if tell is None else ScriptReport(self.runner, tell)
-        self.app = room_app(
-            self.runner,
-            viser_port=self._viewer.port,
-            viser_secret=settings.viser_secret,
-            title=lambda: self.editor.title,
-            allowed_hosts=settings.allowed_hosts,
-            proxy_hosts=settings.proxy_hosts,
-            rules=settings.rules,
-            editor=self.editor,
-            lessons=_lessons,
-            panel=PanelSockets(self.runner, self._viewer, self.editor),
-            class_feed=None if self.class_member is None else self.class_member.view,
-            script_report=self._script_report,
-        )
+        self._page: ServedWorld | None = None
         self._ending = ExitStack()
 
     @property
-    def viser_port(self) -> int:
-        """Port on 127.0.0.1 at which the room's viser listens."""
-        return self._viewer.port
+    def page(self) -> ServedWorld:
+        """The page, which is there while the room has been entered."""
+        if self._page is None:
+            raise RuntimeError("expected a room that has been entered; use it in a with statement")
+        return self._page
 
     def __enter__(self) -> Self:
         if self._script_report is not None:
             self._ending.enter_context(self._script_report)
-        self.runner.start()
-        self._viewer.start()
+        settings = self._settings
+        self._page = page = serve_world(
+            self.runner,
+            title=self.title,
+            editor=self.editor,
+            port=None,
+            rules=settings.rules,
+            ghosts=self._ghosts,
+            allowed_hosts=settings.allowed_hosts,
+            proxy_hosts=settings.proxy_hosts,
+            viser_secret=settings.viser_secret,
+            lessons=settings.lessons,
+            class_feed=None if self.class_member is None else self.class_member.view,
+            script_report=self._script_report,
+        )
         # the last one first: the runner may yet change what is saved
-        self._ending.callback(self._viewer.stop)
+        self._ending.callback(page.stop)
         if self._autosave is not None:
             self._ending.callback(self._autosave.stop)
+        self.runner.start()
         self._ending.callback(self.runner.stop)
         if self.class_member is not None:
             self.class_member.start()
@@ -140,26 +139,7 @@ def _scene_of(settings: RoomSettings, restored: Unsaved | None) -> SharedScene:
     return SharedScene(Scene.load(settings.scene), None)
 
 
-def _build(scene: Scene, drivers: tuple[str, ...]) -> tuple[ControlRequestor, Scene]:
-    if not drivers:
-        return scene.build(), scene
-    from ai4u_edu.training.assigned import with_drivers  # loads packages that most don't need
-
-    return with_drivers(scene, [*drivers], is_served=True)
-
-
 def _first_seed(settings: RoomSettings, ghost: Episode | None, linked: int | None) -> int | None:
     if settings.seed is not None:
         return settings.seed
     return linked if ghost is None else ghost.seed
-
-
-def _lessons() -> list[LessonView]:
-    return [
-        LessonView(
-            number=each.number,
-            title=each.title.removeprefix(each.number).strip(),
-            duration=each.duration,
-        )
-        for each in lessons()
-    ]

@@ -1,14 +1,23 @@
 """Settings of a room."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.class_member import ClassLinkSettings
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, MIN_FRAMES_PER_S
+from ai4u_edu.scenes import Scene
 from ai4u_edu.server import Rules
 from ai4u_edu.server.host_origin import LOOPBACK
+from ai4u_edu.server.start_page import Lesson
 from ai4u_edu.server.viser_lockdown import PROXY_SECRET
+
+
+def build_scene(scene: Scene) -> tuple[ControlRequestor, Scene]:
+    """Return a scene's world with the agents' own brains, and the scene as it is."""
+    return scene.build(), scene
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +40,10 @@ class RoomSettings:
     rules: Rules = field(default_factory=Rules)
     viser_secret: str = PROXY_SECRET
     """Secret of the room's viser; only a proxy may know it."""
-    drivers: tuple[str, ...] = ()
+    build: Callable[[Scene], tuple[ControlRequestor, Scene]] = build_scene
+    """Builds the scene's world, and returns the scene as its agents are used to observe it."""
+    lessons: Callable[[], Sequence[Lesson]] = list
+    """Returns the lessons that the start page lists."""
     record: Path | None = None
     keep: int = DEFAULT_KEPT_EPISODES
     ghost: Path | None = None

@@ -1,6 +1,6 @@
 """The web app of one room: a running world, its page, and the API."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 
 from starlette.applications import Starlette
@@ -21,7 +21,7 @@ from ai4u_edu.server.program_zip import program_zip
 from ai4u_edu.server.proxy import ViserProxy
 from ai4u_edu.server.scene_routes import SceneRoutes
 from ai4u_edu.server.scripts import RemoteSockets, Report, Rules
-from ai4u_edu.server.start_page import LessonView, StartPage
+from ai4u_edu.server.start_page import Lesson, StartPage
 from ai4u_edu.server.state_routes import StateRoutes
 from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.server.token_auth import TokenAuth
@@ -43,7 +43,7 @@ def room_app(
     rules: Rules | None = None,
     panel: ASGIApp | None = None,
     editor: SceneEditor | None = None,
-    lessons: Callable[[], list[LessonView]] = list,
+    lessons: Callable[[], Sequence[Lesson]] = list,
     class_feed: ClassFeed | None = None,
     script_report: Report | None = None,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,

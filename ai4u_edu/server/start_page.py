@@ -1,8 +1,8 @@
 """HTTP routes of the start page: the page, the library's scenes with pictures, and the lessons."""
 
 import asyncio
-from collections.abc import Callable
-from typing import Literal
+from collections.abc import Callable, Sequence
+from typing import Literal, Protocol
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
@@ -41,6 +41,22 @@ class ScenesView(BaseModel):
     saved: list[LibrarySceneView]
 
 
+class Lesson(Protocol):
+    """A lesson of the course, as the start page lists it."""
+
+    @property
+    def number(self) -> str:
+        """Two digits."""
+
+    @property
+    def title(self) -> str:
+        """Its heading, which may begin with the number."""
+
+    @property
+    def duration(self) -> str:
+        """The time that it takes, in words."""
+
+
 class LessonView(BaseModel):
     """A lesson of the course."""
 
@@ -69,7 +85,7 @@ class StartPage:
         editor: has the store of saved scenes, if there is one.
     """
 
-    def __init__(self, lessons: Callable[[], list[LessonView]], editor: SceneEditor) -> None:
+    def __init__(self, lessons: Callable[[], Sequence[Lesson]], editor: SceneEditor) -> None:
         self._lessons, self._editor = lessons, editor
         self._drawing = asyncio.Lock()
 
@@ -92,7 +108,10 @@ class StartPage:
 
     async def lessons(self, _: Request) -> Response:
         """Return the lessons."""
-        return _json(LessonsView(lessons=await asyncio.to_thread(self._lessons)))
+        return _json(await asyncio.to_thread(self._lesson_views))
+
+    def _lesson_views(self) -> LessonsView:
+        return LessonsView(lessons=[_lesson_view(lesson) for lesson in self._lessons()])
 
 
 def _library_views() -> list[LibrarySceneView]:
@@ -105,6 +124,11 @@ def _library_views() -> list[LibrarySceneView]:
 def _saved_view(card: Card) -> LibrarySceneView:
     about = {name: value for name, value in card._asdict().items() if name != "png"}
     return LibrarySceneView.model_validate(about | {"picture": card.picture_url})
+
+
+def _lesson_view(lesson: Lesson) -> LessonView:
+    title = lesson.title.removeprefix(lesson.number).strip()
+    return LessonView(number=lesson.number, title=title, duration=lesson.duration)
 
 
 def _json(view: BaseModel) -> Response:

@@ -30,6 +30,10 @@ class Timeouts:
     """Time for viser to accept a page's connection."""
     open_scene: float = 10.0
     """Time for the world to open a scene; a block that does not return keeps it from doing so."""
+    frame: float = 10.0
+    """Time that the replay of an episode has for its next decision."""
+    upload: float = 30.0
+    """Time without a new part after which a file that a page has not sent whole is dropped."""
     shutdown: float = 1.0
     """Time that apps have to return at shutdown, rounded up to whole seconds; then they are
     cancelled."""

@@ -1,5 +1,6 @@
 """Types of snapshots: the state of a world at one tick, for the page, the API and the recorder."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -16,7 +17,7 @@ from ai4u_edu.blocks import (
     Stages,
 )
 from ai4u_edu.snapshot.block_info import ActuatorInfo, SensorInfo
-from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, Region, WorldSettings
 
 NOWHERE = Phase()
 """Phase before the first decision."""
@@ -42,6 +43,25 @@ class StaticScene:
     """The goal in words."""
     success: str = ""
     """The reward term that is paid when the goal is reached; empty if there is none."""
+
+    @property
+    def lowest_floor(self) -> float:
+        """Height of the lowest floor; bodies below it are falling."""
+        return min((floor.top for floor in self.floors), default=0.0)
+
+    def floor_under(self, x: float, y: float, below: float = math.inf) -> float | None:
+        """Return the height of the highest floor at (x, y), at most ``below``; None over the void.
+
+        The ground of a world without floors is endless, at height 0.
+        """
+        if not self.floors:
+            return 0.0
+        tops = [
+            floor.top
+            for floor in self.floors
+            if floor.top <= below + 1e-6 and Region(floor).contains(x, y)
+        ]
+        return max(tops, default=None)
 
 
 class Need(NamedTuple):
@@ -124,6 +144,14 @@ class AgentState(NamedTuple):
     """Descriptions of its sensors; the same object until its blocks are rebound."""
     actuator_infos: tuple[ActuatorInfo, ...] = ()
     """Descriptions of its actuators, likewise."""
+
+    def has_marks(self, sensor: SensorInfo) -> bool:
+        """Return True if a sensor's last reading has rays or spots to draw in the world."""
+        return sensor.key in self.rays or sensor.key in self.spots
+
+    def is_drawable(self, sensor: SensorInfo) -> bool:
+        """Return True if a sensor has marks, or refers to things or a part of the world."""
+        return self.has_marks(sensor) or bool(sensor.targets or sensor.groups or sensor.window)
 
 
 @dataclass(frozen=True, slots=True)

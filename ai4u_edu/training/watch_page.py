@@ -19,16 +19,15 @@ from ai4u_edu.base.process_signals import ask_to_end, has_ended
 from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.blocks.brains.command import Answer, Command
 from ai4u_edu.blocks.loading import load_blocks
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.training_progress import TrainingProgress
-from ai4u_edu.server import PortTakenError, lock_viser_port, open_on_desktop, room_app, serve
+from ai4u_edu.server import PortTakenError, open_on_desktop, serve
 from ai4u_edu.server.process_exit import HAS_SERVED, end_process
 from ai4u_edu.training.algorithms import load_model
 from ai4u_edu.training.policies import driver_of
 from ai4u_edu.training.prepare import prepare
 from ai4u_edu.training.run import Run
-from ai4u_edu.viewer import Viewer
 
 RELOAD_POLL_S = 0.5
 """Interval at which the page looks for new weights."""
@@ -84,10 +83,7 @@ def show(run: Run, port: int, *, open_page: bool) -> None:
     title = f"{scene.description.title or scene.description.name}, learning"
     runner = Runner(sim)
     runner.training = latest.progress
-    viewer = Viewer(runner, title=title)
-    lock_viser_port(viewer.server)
-    panel = PanelSockets(runner, viewer)
-    room = room_app(runner, viser_port=viewer.port, title=title, panel=panel)
+    page = serve_world(runner, title=title, port=None)
 
     def ready(url: str) -> None:
         sys.stderr.write(f"watch it learn at {url}\n")
@@ -97,20 +93,19 @@ def show(run: Run, port: int, *, open_page: bool) -> None:
 
     ended = threading.Event()
     runner.start()
-    viewer.start()
     reloader = threading.Thread(
         target=_refresh, args=(latest, runner, ended), name="weights", daemon=True
     )
     reloader.start()
     try:
         try:
-            serve(room, "127.0.0.1", port, on_ready=ready)
+            serve(page.app, "127.0.0.1", port, on_ready=ready)
         except PortTakenError:
-            serve(room, "127.0.0.1", 0, on_ready=ready)
+            serve(page.app, "127.0.0.1", 0, on_ready=ready)
     finally:
         ended.set()
         runner.stop()
-        viewer.stop()
+        page.stop()
 
 
 def going_on(drive: Callable[[Percept], Answer]) -> Callable[[Percept], Answer]:

@@ -2,22 +2,16 @@
 
 import threading
 import time
-import warnings
 
 from ai4u_edu.base.log_limit import ErrorLog
-from ai4u_edu.blocks import Brain
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.explain.elsewhere import PoseTrial
-from ai4u_edu.explain.live import LiveExplainer
-from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.explain.explanations import Explanations
 from ai4u_edu.recording import Ghosts
-from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S, TEXTS_PER_S
-from ai4u_edu.runtime.replay_player import ReplayPlayer
+from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.backend.part import Part, RatedPart
-from ai4u_edu.viewer.episode_baseline import EpisodeBaseline
 from ai4u_edu.viewer.scene.actions import Actions
 from ai4u_edu.viewer.scene.arena import camera_bounds
 from ai4u_edu.viewer.scene.bodies import Bodies
@@ -31,7 +25,6 @@ from ai4u_edu.viewer.scene.policy_maps import PolicyMaps
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.scene.stand_in import StandIns
 from ai4u_edu.viewer.scene.trails import Trails
-from ai4u_edu.viewer.scene_source import SceneSource
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
 MAX_PLOTTED_DECISIONS = 240
@@ -40,8 +33,6 @@ PAGE_POLL_S = 0.1
 """Poll interval for pages that open, while there are none."""
 MIN_PAUSE_S = 0.001
 """Pause after a frame that took longer than it may, so that other threads run."""
-STOP_S = 2.0
-"""Time that all threads of a viewer usually have to end."""
 
 
 class Viewer:
@@ -53,8 +44,9 @@ class Viewer:
     Args:
         runner: whose world is drawn.
         title: of viser's page.
-        editor: changes the world; left out, the world can only be watched.
-        workshop: deprecated name of ``editor``.
+        editor: changes the world; left out, nothing can be moved with the mouse.
+        ghosts: recorded episodes to draw beside the agents; left out, there are none.
+        explanations: of the agents; left out, none can be drawn.
     """
 
     def __init__(
@@ -63,11 +55,9 @@ class Viewer:
         *,
         title: str = "AI4U Edu",
         editor: SceneEditor | None = None,
-        workshop: SceneEditor | None = None,
+        ghosts: Ghosts | None = None,
+        explanations: Explanations | None = None,
     ) -> None:
-        if workshop is not None:
-            warnings.warn("use Viewer(editor=...)", DeprecationWarning, stacklevel=2)
-            editor = workshop
         self.runner = runner
         self.server = server = LocalServer(title)
         self.viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
@@ -77,37 +67,25 @@ class Viewer:
         self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
         server.gui.configure_theme(show_logo=False, show_share_button=False)
         set_up_lights(server.scene)
-        self.player, self.ghosts = ReplayPlayer(runner), Ghosts()
-
-        def latest() -> Snapshot:
-            return runner.latest
-
-        self.explainer = explainer = LiveExplainer(
-            latest, self._brain_of, EpisodeBaseline(self.player)
-        )
         senses_per_s = runner.frame_budget.senses_per_s
-        thrift = senses_per_s / SENSES_PER_S  # less than 1 in the rooms of a class
-        self.maps = LiveMaps(
-            latest,
-            explainer,
-            SceneSource(runner, self.player),
-            thrift,
-            lambda: runner.next_tick_at,
-        )
-        self.pose_trial = PoseTrial(latest, explainer, SceneSource(runner, self.player))
         bodies = Bodies(server, self._choose, lambda: viewer_clients.is_motion_reduced)
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (Ground(server), TEXTS_PER_S),
             (bodies, MAX_FRAMES_PER_S),
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
-            (GhostBodies(server, self.ghosts), senses_per_s),
+            (GhostBodies(server, ghosts or Ghosts()), senses_per_s),
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
-            (PolicyMaps(viewer_clients, self.maps), senses_per_s),
-            (StandIns(viewer_clients), MAX_FRAMES_PER_S),
-            (SenseOverlay(viewer_clients, senses_per_s, self.explainer), MAX_FRAMES_PER_S),
         ]
+        explainer = None
+        if explanations is not None:
+            explainer = explanations.explainer
+            parts += [
+                (PolicyMaps(viewer_clients, explanations.maps), senses_per_s),
+                (StandIns(viewer_clients), MAX_FRAMES_PER_S),
+            ]
+        parts.append((SenseOverlay(viewer_clients, senses_per_s, explainer), MAX_FRAMES_PER_S))
         if editor is not None:
             parts.append((PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S))
         self.parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]
@@ -122,26 +100,11 @@ class Viewer:
         """Start to draw."""
         self.thread.start()
 
-    def stop(self, timeout: float | None = None) -> None:
-        """End the thread and viser's server.
-
-        Blocks of a replayed episode may not return. Threads that do not end in time are left
-        behind; they are daemons.
-
-        Args:
-            timeout: time (s) that they have to end; default: :data:`STOP_S`.
-        """
+    def stop(self) -> None:
+        """End the thread and viser's server."""
         self._stopping.set()
-        self.explainer.stop()
-        self.maps.stop()
-        ending = threading.Thread(target=self._end, name="viewer end", daemon=True)
-        ending.start()
-        ending.join(STOP_S if timeout is None else timeout)
-
-    def _end(self) -> None:
         if self.thread.is_alive():
             self.thread.join()
-        self.player.stop()
         self.server.stop()
 
     def _run(self) -> None:
@@ -166,10 +129,6 @@ class Viewer:
             due = max(due + period, began)  # a late frame does not move the later ones
             if time.monotonic() >= due:
                 self._stopping.wait(MIN_PAUSE_S)
-
-    def _brain_of(self, agent_id: str) -> Brain | None:
-        agents = self.runner.sim.agents
-        return next((agent.brain for agent in agents if agent.id == agent_id), None)
 
     def _choose(self, client_id: int, body: str) -> None:
         """Show the agent with that body on one page."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future
-from typing import Protocol
+from typing import Literal, Protocol
 from urllib.parse import unquote
 
 from viser import ClientHandle
@@ -12,7 +12,8 @@ from ai4u_edu.explain.elsewhere import Elsewhere, Pose
 from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.scene.view import View
+from ai4u_edu.viewer.scene.framing import ground_at_center
+from ai4u_edu.viewer.scene.view import Mode, View
 
 AGENT_HEADER = "X-AI4U-Edu-Agent"
 """Request header from our proxy: id of the agent that a page is about, percent-encoded."""
@@ -90,6 +91,20 @@ class ViewerClient:
         """Show the first of these agents, unless the one that is shown is among them."""
         if self.agent not in ids:
             self.agent = ids[0]
+
+    @property
+    def camera(self) -> Literal["arena", "follow", "turn", "eyes"]:
+        """Position of its camera."""
+        return self.view.mode.value
+
+    def choose_camera(self, mode: str) -> None:
+        """Put its camera somewhere, also if it was there before and was moved since."""
+        self.view.choose(Mode(mode))
+
+    @property
+    def ground_center(self) -> tuple[float, float]:
+        """Point (x, y) of the ground in the middle of its picture (m)."""
+        return ground_at_center(self.client.camera.position, self.client.camera.look_at)
 
     def shows_sensor(self, key: str, *, is_default: bool) -> bool:
         """Return True if a sensor of the agent is shown in the scene.

@@ -35,10 +35,9 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.viewer import Viewer
 from tests.load.clients import is_picture
@@ -85,26 +84,20 @@ def crowd() -> ControlRequestor:
 def serve(there: Connection) -> None:
     """Run the world until the other process ends it."""
     runner = Runner(crowd(), seed=1)
-    viewer = Viewer(runner)
-    lock_viser_port(viewer.server)
-    drawn, draw = [0, 0.0], viewer.draw
+    drawn, draw = [0, 0.0], Viewer.draw
 
-    def timed(snapshot: Snapshot) -> None:
+    def timed(self: Viewer, snapshot: Snapshot) -> None:
         began = time.thread_time()
-        draw(snapshot)
+        draw(self, snapshot)
         drawn[0] += 1
         drawn[1] += time.thread_time() - began
 
-    viewer.draw = timed  # type: ignore[method-assign]
+    Viewer.draw = timed  # type: ignore[method-assign]
     runner.start()
-    viewer.start()
-    panel = PanelSockets(runner, viewer)
-    app = room_app(runner, viser_port=viewer.port, title="Cost", panel=panel)
-    with tuned_process(), ServerThread(app) as server:
-        there.send(server.url)
+    with tuned_process(), serve_world(runner, title="Cost") as world:
+        there.send(world.url)
         while there.recv() != "enough":
             there.send(tuple(drawn))
-    viewer.stop()
     runner.stop()
 
 

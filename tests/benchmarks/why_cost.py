@@ -16,11 +16,11 @@ import numpy as np
 from ai4u_edu import Scene, trained_brain
 from ai4u_edu.explain.live import INTEREST_S, LiveExplainer
 from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
+from ai4u_edu.room.explanations import SceneSource
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.world_thread import WorldThread
-from ai4u_edu.viewer.scene_source import SceneSource
 
 PAIRS = 5
 SECONDS = 6.0

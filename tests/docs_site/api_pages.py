@@ -30,6 +30,7 @@ PACKAGES = (
     "ai4u_edu.program",
     "ai4u_edu.recording",
     "ai4u_edu.remote",
+    "ai4u_edu.room",
     "ai4u_edu.scenes",
     "ai4u_edu.snapshot",
     "ai4u_edu.training",

@@ -82,6 +82,6 @@ def test_a_hundred_clients_that_never_read_stop_no_other() -> None:
     finally:
         for connection in connections:
             connection.close()
-        viewer.stop(LIMIT_S)
+        viewer.stop()
         runner.stop(LIMIT_S)
     until(lambda: process.num_fds() <= before[0] + 8 and process.num_threads() <= before[1] + 40)

@@ -19,12 +19,10 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.server.scripts import Rules
-from ai4u_edu.viewer import Viewer
 from tests.builders import still
 
 RAYS = 16
@@ -98,16 +96,9 @@ def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
     runner = TimedRunner.__new__(TimedRunner)
     runner.late = []
     runner.__init__(crowd(agents, in_turn=in_turn), seed=1)  # type: ignore[misc]
-    viewer = Viewer(runner, title="Load")
-    lock_viser_port(viewer.server)
-    panel = PanelSockets(runner, viewer)
-    app = room_app(
-        runner, viser_port=viewer.port, title="Load", rules=Rules(grace=1.0), panel=panel
-    )
     runner.start()
-    viewer.start()
-    with tuned_process(), ServerThread(app) as server:
-        ends.send(server.url)
+    with tuned_process(), serve_world(runner, title="Load", rules=Rules(grace=1.0)) as world:
+        ends.send(world.url)
         processor = time.process_time()
         while ends.recv() != "end":
             late, runner.late = runner.late, []
@@ -120,5 +111,4 @@ def serve(agents: int, ends: Connection, *, in_turn: bool = True) -> None:
                     {name: state.missing for name, state in states.items() if state},
                 )
             )
-    viewer.stop()
     runner.stop()

@@ -15,11 +15,11 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu import Scene
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.panel import PanelSockets
+from ai4u_edu.panel import PanelContext
 from ai4u_edu.recording import Recorder
+from ai4u_edu.room import serve_world
 from ai4u_edu.runtime import tick_monitor
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.server import ServerThread, lock_viser_port, room_app
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.viewer_client import ViewerClient
 from tests.load.clients import CAMERA
@@ -36,6 +36,7 @@ class PanelRoom:
     runner: Runner
     viewer: Viewer
     editor: SceneEditor
+    context: PanelContext
     url: str
 
     def page(self, query: str = "") -> "PanelPage":
@@ -44,35 +45,19 @@ class PanelRoom:
 
 @contextmanager
 def panel_room(scene: str = "box_chase", *, can_edit: bool = True) -> Iterator[PanelRoom]:
-    """Serve a scene of the library with viewer and editor, paused."""
+    """Serve a scene of the library, paused."""
     loaded = Scene.load(scene)
     sim = loaded.build()
     runner = Runner(sim, seed=1, recorder=Recorder(sim, scene=loaded.description))
     editor = SceneEditor(runner, loaded)
-    viewer = Viewer(runner, editor=editor)
-    lock_viser_port(viewer.server)
-    app = room_app(
-        runner,
-        viser_port=viewer.port,
-        title=lambda: editor.title,
-        panel=PanelSockets(
-            runner,
-            viewer,
-            editor if can_edit else None,
-            frame_timeout=LIMIT_S,
-            upload_timeout=LIMIT_S,
-        ),
-        timeouts=PATIENT,
-    )
     runner.paused = True
     with patch.object(tick_monitor, "STALL_S", LIMIT_S):  # else a page is told of it
         runner.start()
-        viewer.start()
+        world = serve_world(runner, editor=editor if can_edit else None, timeouts=PATIENT)
         try:
-            with ServerThread(app, timeouts=PATIENT) as server:
-                yield PanelRoom(runner, viewer, editor, server.url)
+            yield PanelRoom(runner, world.viewer, editor, world.context, world.url)
         finally:
-            viewer.stop()
+            world.stop()
             runner.stop(LIMIT_S)
 
 

@@ -37,7 +37,7 @@ def test_where_two_drivers_first_disagree(tmp_path: Path) -> None:
         page.done("new_start")
         part = page.part("past", lambda m: len(m["episodes"]) > before)
         page.done("episode", number=part["episodes"][0]["number"])
-        until(lambda: room.viewer.player.frame_cache)
+        until(lambda: room.context.player.frame_cache)
         rivals = page.done("rivals")["rivals"]
         found = {each["value"]: each["steps"] for each in rivals}
         assert found["network:checkpoint-000001000.onnx"] == 1000
@@ -82,7 +82,7 @@ def test_what_i_did_is_a_driver_and_my_keys_are_none() -> None:
         page.done("new_start")
         number = page.part("past", lambda m: m["episodes"])["episodes"][0]["number"]
         page.done("episode", number=number)
-        until(lambda: room.viewer.player.frame_cache)
+        until(lambda: room.context.player.frame_cache)
         rivals = page.done("rivals")["rivals"]
         assert rivals[0]["text"] == "What I did"
         assert "The driver that it has now" not in [each["text"] for each in rivals]

@@ -96,7 +96,7 @@ def test_what_paid_in_an_episode(page: PanelPage, room: PanelRoom) -> None:
     agent = room.runner.sim.agents[0]
     agent.end_of_step.connect(lambda _: agent.add_reward(7 * (agent.steps == 2), name="found"))
     page.done("episode", number=episode(page))
-    until(lambda: room.viewer.player.frame_cache)
+    until(lambda: room.context.player.frame_cache)
     told = page.done("paid")
     found = next(each for each in told["terms"] if each["term"] == "found")
     assert (found["total"], found["curve"]) == (7, [0, 0, 7])

@@ -2,12 +2,12 @@
 
 import base64
 from collections.abc import Iterator
+from dataclasses import replace
 from uuid import uuid4
 
 import pytest
 
 from ai4u_edu.blocks import RemoteStatus
-from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.parts.agent import agent_part
 from ai4u_edu.viewer.scene.view import Mode
 from tests.panel.rooms import PanelRoom, panel_room, picture
@@ -96,7 +96,6 @@ def test_a_sensor_is_hidden() -> None:
 
 
 def test_the_script_that_drives_an_agent(room: PanelRoom) -> None:
-    context = PanelContext(room.runner, room.viewer)
     snapshot = room.runner.latest
     remote = RemoteStatus("late", "no answer for 2 s", 7, 0, 0, 0, 3)
     for status, told in (
@@ -112,17 +111,14 @@ def test_the_script_that_drives_an_agent(room: PanelRoom) -> None:
         ),
     ):
         agent = snapshot.agents[0]._replace(remote=status)
-        assert agent_part(context, snapshot, agent, ())["script"] == told
+        assert agent_part(room.context, snapshot, agent, ())["script"] == told
 
 
 def test_pages_of_one_world_look_at_the_same_moments_and_those_of_others_at_other_ones(
     room: PanelRoom,
 ) -> None:
     now = 0.0
-    one, other = (
-        PanelContext(room.runner, room.viewer, clock=lambda: now, began=began)
-        for began in (0.0, 0.1)
-    )
+    one, other = (replace(room.context, clock=lambda: now, began=began) for began in (0.0, 0.1))
     for now in (7.25, 7.35):
         assert now + one.until_next_look(0.4) == pytest.approx(7.6)
         assert now + other.until_next_look(0.4) == pytest.approx(7.3 if now < 7.3 else 7.7)

@@ -73,7 +73,7 @@ def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
     try:
         assert runner.submit(settings).result(LIMIT_S) == before
     finally:
-        viewer.stop(LIMIT_S)
+        viewer.stop()
         runner.stop(LIMIT_S)
 
 

@@ -38,6 +38,8 @@ PATIENT = Timeouts(
     close=LIMIT_S,
     viser=LIMIT_S,
     open_scene=LIMIT_S,
+    frame=LIMIT_S,
+    upload=LIMIT_S,
 )
 """Time limits that only a fault reaches. Those of a server that ends are as usual, so that no test
 waits for pages that it has left open."""

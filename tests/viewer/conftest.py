@@ -22,7 +22,7 @@ def runner() -> Iterator[Runner]:
 def viewer(runner: Runner) -> Iterator[Viewer]:
     viewer = Viewer(runner)
     yield viewer
-    viewer.stop(LIMIT_S)
+    viewer.stop()
 
 
 @pytest.fixture

@@ -13,6 +13,7 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
 from ai4u_edu.viewer.viewer_client import AGENT_HEADER, DARK_HEADER
@@ -77,7 +78,11 @@ def page(viewer: Viewer, agent: str = "", *, dark: bool = False) -> Iterator[Pag
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     with connect(
         f"ws://127.0.0.1:{viewer.port}",
-        additional_headers={AGENT_HEADER: agent, DARK_HEADER: "1" if dark else ""},
+        additional_headers={
+            AGENT_HEADER: agent,
+            DARK_HEADER: "1" if dark else "",
+            PROXY_SECRET_HEADER: PROXY_SECRET,
+        },
         subprotocols=[protocol],
         max_size=None,
         compression=None,

@@ -5,8 +5,6 @@ from ai4u_edu import BoxShape, CircleShape, World
 from ai4u_edu.viewer.scene.arena import (
     arena_size,
     camera_bounds,
-    floor_under,
-    lowest_floor,
     region_outlines,
 )
 from tests.viewer.worlds import busy_world, static_scene_of
@@ -14,16 +12,16 @@ from tests.viewer.worlds import busy_world, static_scene_of
 
 def test_the_floor_under_a_place() -> None:
     static_scene = static_scene_of(busy_world())
-    assert floor_under(static_scene, 0.0, 0.0) == 0.0
-    assert floor_under(static_scene, 0.0, 3.4) == 0.5
-    assert floor_under(static_scene, 0.0, 3.4, below=0.4) == 0.0
+    assert static_scene.floor_under(0.0, 0.0) == 0.0
+    assert static_scene.floor_under(0.0, 3.4) == 0.5
+    assert static_scene.floor_under(0.0, 3.4, below=0.4) == 0.0
     assert (
-        floor_under(static_scene, 0.0, -6.5) == 0.0
+        static_scene.floor_under(0.0, -6.5) == 0.0
     )  # the pier's end, which points down the screen
-    assert floor_under(static_scene, 9.0, 0.0) == 0.0
-    assert floor_under(static_scene, 7.5, 0.0) is None  # the ring's hole
-    assert floor_under(static_scene, 0.0, 20.0) is None
-    assert lowest_floor(static_scene) == 0.0
+    assert static_scene.floor_under(9.0, 0.0) == 0.0
+    assert static_scene.floor_under(7.5, 0.0) is None  # the ring's hole
+    assert static_scene.floor_under(0.0, 20.0) is None
+    assert static_scene.lowest_floor == 0.0
 
 
 def test_a_ring_is_placed_with_its_hole() -> None:
@@ -37,7 +35,7 @@ def test_endless_ground_is_everywhere_and_seen_with_space_around() -> None:
     world = World()
     world.add_body("robot", CircleShape(radius=0.5))
     static_scene = static_scene_of(world)
-    assert floor_under(static_scene, 1e4, -1e4) == 0.0
+    assert static_scene.floor_under(1e4, -1e4) == 0.0
     assert arena_size(static_scene) == 4.0
     (left, low), (right, high) = camera_bounds(static_scene)
     assert min(right - left, high - low) >= 6.0

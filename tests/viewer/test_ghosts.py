@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.recording import Episode, Ghosts, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.ghost_bodies import GhostBodies
@@ -31,37 +31,46 @@ def driving(seed: int, steps: int, turn: float) -> tuple[Runner, list[Any], Epis
     return runner, poses, recorder.episodes[-1]
 
 
+class Race(NamedTuple):
+    """A world with the ghost of an episode of it."""
+
+    viewer: Viewer
+    ghosts: Ghosts
+    poses: list[Any]
+    """The robot's pose after each decision of the episode."""
+    episode: Episode
+
+    def step(self, times: int = 1) -> None:
+        """Run some decisions, and draw."""
+        runner = self.viewer.runner
+        for _ in range(times):
+            runner.sim.step()
+        publish(runner)
+        shown(self.viewer)
+
+    def bodies(self, index: int = 0) -> list[Any]:
+        """Return the drawn bodies of a ghost."""
+        return [*part_of(self.viewer, GhostBodies).bodies(self.ghosts.drives[index])]
+
+
 @pytest.fixture
-def viewer() -> Iterator[Viewer]:
+def race() -> Iterator[Race]:
     runner, poses, episode = driving(1, 30, 0.5)
-    viewer = Viewer(runner)
-    viewer.ghosts.race(episode, "episode <1>")
-    until(lambda: viewer.ghosts.drives[0].path is not None)
-    viewer.poses, viewer.episode = poses, episode  # type: ignore[attr-defined]
-    yield viewer
+    ghosts = Ghosts()
+    ghosts.race(episode, "episode <1>")
+    viewer = Viewer(runner, ghosts=ghosts)
+    until(lambda: ghosts.drives[0].path is not None)
+    yield Race(viewer, ghosts, poses, episode)
     viewer.stop()
 
 
-def step(viewer: Viewer, times: int = 1) -> None:
-    runner = viewer.runner
-    for _ in range(times):
-        runner.sim.step()
-    publish(runner)
-    shown(viewer)
-
-
-def bodies_of(viewer: Viewer) -> list[Any]:
-    """Return the drawn bodies of the first ghost."""
-    return [*part_of(viewer, GhostBodies).bodies(viewer.ghosts.drives[0])]
-
-
-def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(viewer: Viewer) -> None:
-    sim = viewer.runner.sim
+def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(race: Race) -> None:
+    sim = race.viewer.runner.sim
     sim.agents[0].use_brain(LocalBrain(controller=lambda _: {}))  # the living one stays
     for round_ in range(2):
-        for number, pose in enumerate(viewer.poses[:20]):  # type: ignore[attr-defined]
-            step(viewer)
-            (body,) = bodies_of(viewer)
+        for number, pose in enumerate(race.poses[:20]):
+            race.step()
+            (body,) = race.bodies()
             if number % 2:  # its poses are those of every other tick
                 assert body.frame.position[:2] == pytest.approx(pose[:2], abs=1e-5), round_
             assert body.frame.visible
@@ -72,61 +81,61 @@ def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(viewer: Viewe
     assert body.label.text == "ghost"
 
 
-def test_it_stays_at_the_end_of_its_run(viewer: Viewer) -> None:
-    step(viewer, 32)
-    end = tuple(bodies_of(viewer)[0].frame.position)
-    step(viewer, 5)
-    assert tuple(bodies_of(viewer)[0].frame.position) == end
+def test_it_stays_at_the_end_of_its_run(race: Race) -> None:
+    race.step(32)
+    end = tuple(race.bodies()[0].frame.position)
+    race.step(5)
+    assert tuple(race.bodies()[0].frame.position) == end
 
 
-def test_nothing_is_sent_while_it_stands(viewer: Viewer, monkeypatch: pytest.MonkeyPatch) -> None:
-    step(viewer)
-    body = bodies_of(viewer)[0]
+def test_nothing_is_sent_while_it_stands(race: Race, monkeypatch: pytest.MonkeyPatch) -> None:
+    race.step()
+    body = race.bodies()[0]
     monkeypatch.setattr(type(body.frame), "position", property(fset=lambda *_: pytest.fail("sent")))
-    part_of(viewer, GhostBodies).draw(viewer.runner.latest)
+    part_of(race.viewer, GhostBodies).draw(race.viewer.runner.latest)
 
 
-def test_it_says_whose_it_is_and_where_that_is_unfair(viewer: Viewer) -> None:
-    ghosts, runner = viewer.ghosts, viewer.runner
-    step(viewer)
+def test_it_says_whose_it_is_and_where_that_is_unfair(race: Race) -> None:
+    ghosts, runner = race.ghosts, race.viewer.runner
+    race.step()
     assert ghosts.text(runner.latest) == "Ghost: episode <1>"
     runner.sim.reset(2)
-    step(viewer)
+    race.step()
     assert "It began otherwise: with seed 1." in ghosts.text(runner.latest)
-    assert bodies_of(viewer)[0].label.text == "ghost of another start"
+    assert race.bodies()[0].label.text == "ghost of another start"
     ghosts.race(take("donut", decisions=5).episode, "donut")
     until(lambda: ghosts.drives[0].path is not None)
-    step(viewer)
+    race.step()
     assert "It ran in another scene." in ghosts.text(runner.latest)
-    assert bodies_of(viewer) == []
+    assert race.bodies() == []
     ghosts.race(None)
-    step(viewer)
+    race.step()
     assert ghosts.text(runner.latest) == ""
 
 
-def test_several_have_their_names_and_a_removed_one_is_gone(viewer: Viewer) -> None:
-    ghosts, runner = viewer.ghosts, viewer.runner
+def test_several_have_their_names_and_a_removed_one_is_gone(race: Race) -> None:
+    ghosts, runner = race.ghosts, race.viewer.runner
     runner.sim.agents[0].use_brain(LocalBrain(controller=lambda _: {}))
     others = [driving(1, 30, turn)[1:] for turn in (-0.5, 0.2)]
     ghosts.race_all([(others[0][1], "Red Fox"), (others[1][1], "Calm Owl")])
     until(lambda: all(each.path is not None for each in ghosts.drives))
-    step(viewer, 10)
+    race.step(10)
     assert ghosts.text(runner.latest) == "Ghosts: Red Fox, Calm Owl"
-    bodies = [part_of(viewer, GhostBodies).bodies(drive)[0] for drive in ghosts.drives]
+    bodies = [race.bodies(index)[0] for index in range(2)]
     assert [each.label.text for each in bodies] == ["Red Fox", "Calm Owl"]
     for body, (poses, _) in zip(bodies, others, strict=True):
         assert body.frame.position[:2] == pytest.approx(poses[9][:2], abs=1e-5)
     ghosts.race_all([(others[1][1], "Calm Owl")])
-    step(viewer)
+    race.step()
     with pytest.warns(UserWarning, match="already removed"):
         bodies[0].frame.remove()
 
 
-def test_a_run_that_can_not_be_played_is_told(viewer: Viewer) -> None:
-    episode: Episode = viewer.episode  # type: ignore[attr-defined]
+def test_a_run_that_can_not_be_played_is_told(race: Race) -> None:
+    episode = race.episode
     scene = episode.scene.model_copy(update={"agents": ({"body": "nobody"},)})
-    viewer.ghosts.race(replace(episode, scene=scene), "broken")
-    until(lambda: viewer.ghosts.drives[0].problem)
-    assert viewer.ghosts.text(viewer.runner.latest).startswith(
+    race.ghosts.race(replace(episode, scene=scene), "broken")
+    until(lambda: race.ghosts.drives[0].problem)
+    assert race.ghosts.text(race.viewer.runner.latest).startswith(
         "No ghost: the episode's scene can't be made"
     )

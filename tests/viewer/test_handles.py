@@ -85,7 +85,7 @@ def handled(harness: EditorHarness) -> Iterator[HandledPage]:
     viewer = Viewer(harness.runner, editor=harness.editor)
     with page(viewer) as here:
         yield HandledPage(viewer, here, harness)
-    viewer.stop(LIMIT_S)
+    viewer.stop()
 
 
 def thing(harness: EditorHarness, name: str) -> Any:

@@ -9,9 +9,12 @@ import pytest
 
 from ai4u_edu.explain import map_maker
 from ai4u_edu.explain.elsewhere import Pose
+from ai4u_edu.explain.explanations import Explanations
 from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap, MapRequest
+from ai4u_edu.room.explanations import explanations_of
+from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.field_arrows import LEFT, RIGHT, STRAIGHT, arrow_colours, arrow_shapes
@@ -32,6 +35,20 @@ def runner() -> Runner:
     runner.paused = True
     publish(runner)
     return runner
+
+
+@pytest.fixture
+def explanations(runner: Runner) -> Iterator[Explanations]:
+    explanations = explanations_of(runner, ReplayPlayer(runner))
+    yield explanations
+    explanations.stop()
+
+
+@pytest.fixture
+def viewer(runner: Runner, explanations: Explanations) -> Iterator[Viewer]:
+    viewer = Viewer(runner, explanations=explanations)
+    yield viewer
+    viewer.stop()
 
 
 @pytest.fixture
@@ -92,7 +109,9 @@ def test_the_maps_that_a_page_has_chosen(
     seen(viewer, lambda: found.cells is None)
 
 
-def test_the_stand_in_is_dragged_and_turned(viewer: Viewer, here: Page) -> None:
+def test_the_stand_in_is_dragged_and_turned(
+    viewer: Viewer, here: Page, explanations: Explanations
+) -> None:
     (client,) = viewer.viewer_clients.values()
     pages = part_of(viewer, StandIns).pages
     told: list[Pose] = []
@@ -104,7 +123,7 @@ def test_the_stand_in_is_dragged_and_turned(viewer: Viewer, here: Page) -> None:
             told.append(pose)
 
     client.panel = Panel()
-    client.elsewhere = viewer.pose_trial.at("0", Pose(1.0, -1.0, 0.0))
+    client.elsewhere = explanations.pose_trial.at("0", Pose(1.0, -1.0, 0.0))
 
     def stand_in() -> StandIn | None:
         return next(iter(pages.values()), None)

@@ -23,7 +23,6 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer import Viewer
 from ai4u_edu.viewer.scene.pointers import RING_RADIUS, pointer
-from ai4u_edu.viewer.scene.sense_overlay import is_drawable
 from tests.viewer.pages import Page, page, publish, shown
 from tests.waiting import until
 
@@ -60,7 +59,7 @@ def senses(runner: Runner) -> dict[str, SensorInfo]:
 
 def test_only_sensors_with_something_to_show_have_a_button(runner: Runner) -> None:
     agent = runner.latest.agents[0]
-    seen = {key for key, sense in senses(runner).items() if is_drawable(sense, agent)}
+    seen = {key for key, sense in senses(runner).items() if agent.is_drawable(sense)}
     assert seen == {"fan", "bearing", "group_touch", "position", "map"}
 
 

@@ -149,7 +149,7 @@ def test_an_error_is_told_once_and_drawing_goes_on(
         for _ in range(2):  # the first one is written before it draws again
             assert drawn.wait(LIMIT_S)
             drawn.clear()
-    viewer.stop(LIMIT_S)
+    viewer.stop()
     told = capsys.readouterr().err
     assert told.count("ValueError: no bodies at tick") == 1
     assert told.count("Traceback") == 1
@@ -169,7 +169,7 @@ def test_an_error_beside_the_parts_does_not_end_the_thread(
     assert failed.wait(LIMIT_S)
     failed.clear()
     assert failed.wait(LIMIT_S)
-    viewer.stop(LIMIT_S)
+    viewer.stop()
     assert capsys.readouterr().err.count("OSError: no clients") == 1
 
 
@@ -180,7 +180,7 @@ def moving() -> Iterator[Viewer]:
     runner = Runner(sim, seed=1)
     viewer = Viewer(runner)
     yield viewer
-    viewer.stop(LIMIT_S)
+    viewer.stop()
     runner.stop(LIMIT_S)
 
 

@@ -42,7 +42,7 @@ async def _rivals(page: Page, _command: m.ListRivals) -> Answer:
 async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
     frame_cache = chosen_episode(page)
     editor, agent_id = page.context.required_editor(), page.view.agent
-    policy = page.context.viewer.explainer.policy
+    policy = page.context.explanations.explainer.policy
 
     def asked(name: str) -> Policy:
         return _policy(editor, agent_id, name) if name else policy(agent_id)
@@ -51,7 +51,7 @@ async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
         first, second = (
             None if name == WHAT_IT_DID else asked(name) for name in (command.first, command.second)
         )
-        return compare(first, second, _states(frame_cache, agent_id, page.context.frame_timeout))
+        return compare(first, second, _states(frame_cache, agent_id, page.context.timeouts.frame))
 
     return Answer(more=_plain(await page.in_thread(compared)))
 
@@ -59,14 +59,14 @@ async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
 def _choices(page: Page) -> list[dict[str, Any]]:
     """Return what can be asked about an episode: what was done, and all drivers by the percept."""
     editor, agent_id = page.context.required_editor(), page.view.agent
-    player = page.context.viewer.player
+    player = page.context.player
     entry = None if player.archive is None else player.archive.find(player.number or 0)
     is_person = entry is not None and entry.is_person
     found: list[dict[str, Any]] = [
         {"value": WHAT_IT_DID, "text": "What I did" if is_person else "What it did"}
     ]
     with suppress(AI4UError):
-        page.context.viewer.explainer.policy(agent_id)
+        page.context.explanations.explainer.policy(agent_id)
         found.append({"value": "", "text": "The driver that it has now"})
     found += [
         {"value": each.name, "text": each.title}

@@ -27,58 +27,58 @@ async def _episode(page: Page, command: m.OpenEpisode) -> Answer:
     archive = _archive(page)
     if command.number != RUNNING_EPISODE and archive.find(command.number) is None:
         raise SetupError(f"episode {command.number} is not kept any more")
-    page.context.viewer.player.open(command.number, page.view.agent)
+    page.context.player.open(command.number, page.view.agent)
     page.view.ask_again("past")
     return Answer()
 
 
 async def _step(page: Page, command: m.GoToStep) -> Answer:
     chosen_episode(page)
-    page.context.viewer.player.go_to(command.step)
+    page.context.player.go_to(command.step)
     return Answer()
 
 
 async def _play(page: Page, _command: m.Play) -> Answer:
     chosen_episode(page)
-    page.context.viewer.player.play()
+    page.context.player.play()
     return Answer()
 
 
 async def _stop(page: Page, _command: m.Stop) -> Answer:
-    page.context.viewer.player.play(on=False)
+    page.context.player.play(on=False)
     return Answer()
 
 
 async def _play_speed(page: Page, command: m.SetPlaySpeed) -> Answer:
-    page.context.viewer.player.speed = command.speed
+    page.context.player.speed = command.speed
     return Answer()
 
 
 async def _back_to_live(page: Page, _command: m.BackToLive) -> Answer:
-    await page.result(page.context.viewer.player.return_to_present())
+    await page.result(page.context.player.return_to_present())
     return Answer()
 
 
 async def _continue(page: Page, _command: m.ContinueHere) -> Answer:
     chosen_episode(page)
     # it waits until the episode was replayed up to there
-    await page.result(await page.in_thread(page.context.viewer.player.continue_from_here))
+    await page.result(await page.in_thread(page.context.player.continue_from_here))
     return Answer("The world runs on from here.")
 
 
 async def _race(page: Page, _command: m.Race) -> Answer:
     frame_cache = chosen_episode(page)
-    runner, viewer = page.context.runner, page.context.viewer
+    context, runner = page.context, page.context.runner
     number = frame_cache.number
-    viewer.player.cancel()
-    viewer.ghosts.race(frame_cache.episode, f"episode {number}")
+    context.player.cancel()
+    context.ghosts.race(frame_cache.episode, f"episode {number}")
     runner.reset(frame_cache.episode.seed)
     await page.result(runner.resume())
     return Answer(f"Race against episode {number}: it starts as you do.")
 
 
 async def _remove_ghost(page: Page, _command: m.RemoveGhost) -> Answer:
-    page.context.viewer.ghosts.race(None)
+    page.context.ghosts.race(None)
     return Answer("The ghost is gone.")
 
 
@@ -118,12 +118,12 @@ async def _open_recording(page: Page, command: m.OpenRecording) -> Answer:
     data = page.upload.take(command.size)
     episode = await page.in_thread(lambda: decode(Episode, data, command.name))
     number = archive.append(episode, command.name).number
-    page.context.viewer.player.open(number)
+    page.context.player.open(number)
     return Answer(f"Opened {command.name} as episode {number}.", {"number": number})
 
 
 def _archive(page: Page) -> Archive:
-    archive = page.context.viewer.player.archive
+    archive = page.context.player.archive
     if archive is None:
         raise SetupError("episodes are not recorded here")
     return archive
@@ -135,7 +135,7 @@ def chosen_episode(page: Page) -> FrameCache:
     Raises:
         SetupError: none is chosen.
     """
-    frame_cache = page.context.viewer.player.frame_cache
+    frame_cache = page.context.player.frame_cache
     if frame_cache is None:
         raise SetupError("choose an episode first")
     return frame_cache

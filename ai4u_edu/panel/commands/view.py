@@ -8,7 +8,6 @@ from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import play as m
 from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
-from ai4u_edu.viewer.scene.view import Mode
 
 
 async def _agent(page: Page, command: m.ShowAgent) -> Answer:
@@ -18,7 +17,7 @@ async def _agent(page: Page, command: m.ShowAgent) -> Answer:
 
 
 async def _camera(page: Page, command: m.Camera) -> Answer:
-    page.view.choose_camera(Mode[command.mode.upper()])
+    page.view.choose_camera(command.mode)
     return Answer()
 
 

@@ -18,7 +18,7 @@ from ai4u_edu.panel.page import Page
 
 async def _what_if(page: Page, command: m.AskWhatIf) -> Answer:
     changes = {(each.key, each.index): each.value for each in command.changes}
-    ask = partial(page.context.viewer.explainer.what_if, page.view.agent, changes)
+    ask = partial(page.context.explanations.explainer.what_if, page.view.agent, changes)
     return Answer(more=_plain(await page.in_thread(ask)))
 
 
@@ -27,7 +27,7 @@ async def _elsewhere(page: Page, command: m.AskElsewhere) -> Answer:
     asked = None
     if x is not None and y is not None and degrees is not None:
         asked = Pose(x, y, math.radians(degrees))
-    trial = page.context.viewer.pose_trial
+    trial = page.context.explanations.pose_trial
     found = await page.in_thread(partial(trial.at, page.view.agent, asked))
     page.view.show_elsewhere(found)
     return Answer(more=_plain_elsewhere(found))

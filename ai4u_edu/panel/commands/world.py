@@ -16,10 +16,9 @@ from ai4u_edu.panel.answers import Answer, change_answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import edit as m
 from ai4u_edu.panel.messages.base import Command
+from ai4u_edu.panel.new_things import TEMPLATES, Template, free_position
 from ai4u_edu.panel.page import Page
-from ai4u_edu.panel.templates import TEMPLATES, Template
 from ai4u_edu.snapshot import StaticScene
-from ai4u_edu.viewer.scene.new_things import free_position, ground_at_center
 from ai4u_edu.world import BodyDescription, Pose
 
 COPY_OFFSET_M = 0.5
@@ -162,11 +161,8 @@ def _copy_of(thing: Thing) -> dict[str, Any]:
 
 def _place_for(page: Page, described: Mapping[str, Any], template: Template) -> tuple[float, float]:
     """Return a place in the middle of the picture, for a body one where it touches nothing."""
-    client, snapshot = page.view.client, page.context.runner.latest
-    center = _middle(snapshot.static_scene)
-    if client is not None:
-        camera = client.client.camera
-        center = ground_at_center(camera.position, camera.look_at)
+    snapshot = page.context.runner.latest
+    center = page.view.ground_center or _middle(snapshot.static_scene)
     if template.kind in {"floors", "areas"}:
         return round(center[0], 1), round(center[1], 1)
     found = free_position(snapshot, dict(described), *center)

@@ -58,10 +58,14 @@ class ShowAgent(Command, tag="agent"):
     agent: Name
 
 
+CameraMode = Literal["arena", "follow", "turn", "eyes"]
+"""Position of a page's camera: over the arena, over the agent, turning with it, in its eye."""
+
+
 class Camera(Command, tag="camera"):
     """Put the camera somewhere."""
 
-    mode: Literal["arena", "follow", "turn", "eyes"]
+    mode: CameraMode
 
 
 class ShowSensor(Command, tag="sensor"):

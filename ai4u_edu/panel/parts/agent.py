@@ -18,7 +18,6 @@ from ai4u_edu.snapshot import AgentState, Need, Snapshot
 from ai4u_edu.snapshot.agent_words import ending, script_problem, title
 from ai4u_edu.snapshot.block_info import ActuatorInfo
 from ai4u_edu.snapshot.theme import body_colour, group_colours
-from ai4u_edu.viewer.scene.sense_overlay import is_drawable, is_shown_by_default
 
 MAX_PAID_DECISIONS = 6
 """Most decisions in the list of the latest rewards; those without a reward are left out."""
@@ -48,7 +47,7 @@ def agent_part(
     editor = context.editor
     sensors = [
         sensor_json(sensor, agent.percept[sensor.key], colours, agent.rays.get(sensor.key))
-        | {"is_drawable": is_drawable(sensor, agent), "is_shown": sensor.key in shown}
+        | {"is_drawable": agent.is_drawable(sensor), "is_shown": sensor.key in shown}
         for sensor in agent.sensor_infos
     ]
     _tell_apart(sensors)
@@ -124,8 +123,8 @@ def shown_sensors(agent: AgentState, choices: Mapping[tuple[str, str], bool]) ->
     return frozenset(
         sensor.key
         for sensor in agent.sensor_infos
-        if is_drawable(sensor, agent)
-        and choices.get((agent.id, sensor.key), is_shown_by_default(sensor, agent))
+        if agent.is_drawable(sensor)
+        and choices.get((agent.id, sensor.key), agent.has_marks(sensor))
     )
 
 

@@ -37,7 +37,7 @@ def due_parts(context: PanelContext, view: PageView) -> Parts:
     if "agent" in view.show.tabs:
         yield from _agent_parts(context, view)
     if "past" in view.show.tabs and context.runner.recorder is not None:
-        player, ghosts = context.viewer.player, context.viewer.ghosts
+        player, ghosts = context.player, context.ghosts
         past_key = "past", player.step, player.is_playing, player.number, ghosts.name
         yield "past", cache.of_snapshot(snapshot, past_key, lambda: past_part(context, snapshot))
     if context.editor is not None:
@@ -67,11 +67,11 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     if view.is_curve_due():
         yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
     if view.is_why_shown:
-        why = context.viewer.explainer.why(agent.id)
+        why = context.explanations.explainer.why(agent.id)
         if why is not None:
             yield "why", cache.of_snapshot(snapshot, ("why", why), lambda: why_part(why))
     if requests := view.maps.requests(agent.id):
-        maps = [context.viewer.maps.ask(each) for each in requests]
+        maps = [context.explanations.maps.ask(each) for each in requests]
         maps_key = "maps", agent.id, view.maps, *maps
         yield (
             "maps",

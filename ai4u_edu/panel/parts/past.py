@@ -22,7 +22,7 @@ FORMATS = {
 
 def past_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
     """Return the kept episodes, the latest first, and the state of the player."""
-    player, recorder = context.viewer.player, context.runner.recorder
+    player, recorder = context.player, context.runner.recorder
     archive, frame_cache = player.archive, player.frame_cache
     entries = () if archive is None else archive.entries
     bests = frozenset() if archive is None else archive.bests()
@@ -40,7 +40,7 @@ def past_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
         "playing": _playing(context),
         "is_showing": bool(snapshot.past),
         "shown": snapshot.past,
-        "ghost": context.viewer.ghosts.text(snapshot),
+        "ghost": context.ghosts.text(snapshot),
         "problem": problem,
         "downloads": _downloads(context, entries),
     }
@@ -87,7 +87,7 @@ def _episode(entry: ArchiveEntry, *, is_best: bool, is_here: bool) -> dict[str, 
 
 def _playing(context: PanelContext) -> dict[str, Any] | None:
     """Return the chosen episode; None if none is, or nothing of it can be shown yet."""
-    player = context.viewer.player
+    player = context.player
     frame_cache = player.frame_cache
     if frame_cache is None or player.number is None or frame_cache.last < 0:
         return None
@@ -106,7 +106,7 @@ def _playing(context: PanelContext) -> dict[str, Any] | None:
 
 def _world_episode(context: PanelContext, number: int) -> int:
     """Return the number by which the world counted the chosen episode; 0 if it was loaded."""
-    recorder, archive = context.runner.recorder, context.viewer.player.archive
+    recorder, archive = context.runner.recorder, context.player.archive
     if number == RUNNING_EPISODE:
         return 0 if recorder is None else recorder.world_episode
     entry = None if archive is None else archive.find(number)
@@ -114,7 +114,7 @@ def _world_episode(context: PanelContext, number: int) -> int:
 
 
 def _downloads(context: PanelContext, entries: tuple[ArchiveEntry, ...]) -> list[dict[str, str]]:
-    number = context.viewer.player.number
+    number = context.player.number
     if not any(entry.number == number for entry in entries):
         return []
     return [

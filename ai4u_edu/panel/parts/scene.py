@@ -47,7 +47,7 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
 
 def _shown_scene(context: PanelContext, snapshot: Snapshot) -> SceneDescription | None:
     """Return the scene of the recorded episode that pages see; None while they see the present."""
-    frame_cache = context.viewer.player.frame_cache
+    frame_cache = context.player.frame_cache
     return frame_cache.episode.scene if snapshot.past and frame_cache is not None else None
 
 

@@ -7,10 +7,10 @@ from ai4u_edu.editing import EditState, SceneEditor
 from ai4u_edu.editing.settings import scene_form
 from ai4u_edu.editing.thing_form import thing_form
 from ai4u_edu.editing.things import Thing, kind_of
+from ai4u_edu.panel.new_things import TEMPLATES
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.blocks import changes_json
 from ai4u_edu.panel.parts.fields import field_json
-from ai4u_edu.panel.templates import TEMPLATES
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import BodyDescription
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.viewer.scene.geometry import Array, circle, rotate
-from ai4u_edu.world import CircleShape, Region, RegionDescription, RingShape
+from ai4u_edu.world import CircleShape, RegionDescription, RingShape
 
 CIRCLE_CORNERS = 160
 """Corners of a round region: on a screen 2000 pixels high, the drawn edge is off by 0.2 pixels."""
@@ -22,25 +22,6 @@ def region_outlines(region: RegionDescription) -> tuple[Array, Array | None]:
     if not isinstance(shape, RingShape):
         return outline, None
     return outline, rotate(np.array(shape.hole()), angle) + region.position
-
-
-def floor_under(
-    static_scene: StaticScene, x: float, y: float, below: float = math.inf
-) -> float | None:
-    """Return the height of the highest floor at (x, y), at most ``below``; None over the void."""
-    if not static_scene.floors:
-        return 0.0
-    tops = [
-        floor.top
-        for floor in static_scene.floors
-        if floor.top <= below + 1e-6 and Region(floor).contains(x, y)
-    ]
-    return max(tops, default=None)
-
-
-def lowest_floor(static_scene: StaticScene) -> float:
-    """Return the height of the lowest floor; bodies below it are falling."""
-    return min((floor.top for floor in static_scene.floors), default=0.0)
 
 
 def arena_size(static_scene: StaticScene) -> float:

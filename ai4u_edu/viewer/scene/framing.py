@@ -1,6 +1,7 @@
 """Camera poses from above: a very long lens, far away, so that perspective can't be seen."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 Bounds = tuple[tuple[float, float], tuple[float, float]]
@@ -74,3 +75,22 @@ def frame_arena(bounds: Bounds, aspect: float) -> Frame:
 def frame_point(x: float, y: float, height: float, aspect: float) -> Frame:
     """Return the frame that shows a point in the middle of the uncovered part of a window."""
     return Frame(x, y - (1 - uncovered_share(aspect)) / 2 * height, height)
+
+
+def ground_at_center(position: Iterable[float], look_at: Iterable[float]) -> tuple[float, float]:
+    """Return the point (x, y) of the ground in the middle of a camera's picture.
+
+    For a camera that looks almost horizontally, as from an agent's eye, that point is far away;
+    then return the point below the camera's target.
+
+    >>> ground_at_center((3, 4, 10), (3, 4, 5))
+    (3.0, 4.0)
+    >>> ground_at_center((0, 0, 10), (2, 0, 5))
+    (4.0, 0.0)
+    >>> ground_at_center((0, 0, 1), (2, 0, 0.99))
+    (2.0, 0.0)
+    """
+    (x, y, z), (target_x, target_y, target_z) = position, look_at
+    dx, dy, down = target_x - x, target_y - y, z - target_z
+    share = z / down if down > 0.2 * math.hypot(dx, dy) else 1.0
+    return float(x + share * dx), float(y + share * dy)

@@ -4,7 +4,7 @@ from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import half_width
 from ai4u_edu.snapshot.theme import FLOOR, GRID, VOID, Rgb, area_colour, floor_colour, mix_colours
 from ai4u_edu.viewer.backend.local_server import LocalServer
-from ai4u_edu.viewer.scene.arena import arena_size, floor_under, lowest_floor, region_outlines
+from ai4u_edu.viewer.scene.arena import arena_size, region_outlines
 from ai4u_edu.viewer.scene.geometry import (
     Array,
     Mesh,
@@ -59,8 +59,8 @@ class Ground:
             for floor in static_scene.floors:
                 _floor(drawer, layers, floor, arena_size(static_scene))
             for area in static_scene.areas:
-                top = floor_under(static_scene, *area.position)
-                _area(drawer, layers, area, lowest_floor(static_scene) if top is None else top)
+                top = static_scene.floor_under(*area.position)
+                _area(drawer, layers, area, static_scene.lowest_floor if top is None else top)
             drawer.finish()
         self._built_for = wanted
 

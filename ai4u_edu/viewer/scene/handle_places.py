@@ -5,7 +5,6 @@ import math
 import numpy as np
 
 from ai4u_edu.snapshot import StaticScene
-from ai4u_edu.viewer.scene.arena import floor_under, lowest_floor
 from ai4u_edu.viewer.scene.drags import Thing
 from ai4u_edu.viewer.scene.geometry import Array
 from ai4u_edu.viewer.scene.layers import Layers
@@ -35,8 +34,8 @@ def surface_z(region: Region, static_scene: StaticScene) -> float:
     """Return the height of a floor's surface, or of the surface under an area."""
     if isinstance(region, FloorDescription):
         return region.top
-    ground = floor_under(static_scene, *region.position)
-    return lowest_floor(static_scene) if ground is None else ground
+    ground = static_scene.floor_under(*region.position)
+    return static_scene.lowest_floor if ground is None else ground
 
 
 def plate_z(region: Region, static_scene: StaticScene) -> float:

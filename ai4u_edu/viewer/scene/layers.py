@@ -7,7 +7,7 @@ which gets coarser with the camera's distance and so with the arena's size.
 from dataclasses import dataclass
 
 from ai4u_edu.snapshot import StaticScene
-from ai4u_edu.viewer.scene.arena import arena_size, lowest_floor
+from ai4u_edu.viewer.scene.arena import arena_size
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Layers:
     def of(cls, static_scene: StaticScene) -> "Layers":
         """Return the layers for a static scene."""
         unit = arena_size(static_scene) / 2500
-        deepest = min(static_scene.settings.fall_threshold, lowest_floor(static_scene))
+        deepest = min(static_scene.settings.fall_threshold, static_scene.lowest_floor)
         return cls(unit, deepest - 5.0 - 20 * unit)
 
     @property

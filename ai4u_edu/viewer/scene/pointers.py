@@ -9,7 +9,7 @@ from viser import LineSegmentsHandle, SceneApi
 from ai4u_edu.snapshot import BodyState, Snapshot
 from ai4u_edu.snapshot.block_info import SensorInfo, Window
 from ai4u_edu.snapshot.theme import SPOT_LIT, Rgb
-from ai4u_edu.viewer.scene.arena import floor_under, lowest_floor, region_outlines
+from ai4u_edu.viewer.scene.arena import region_outlines
 from ai4u_edu.viewer.scene.geometry import Array, circle, rotate, segments
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import line_colours
@@ -18,11 +18,6 @@ RING_RADIUS = 1.25
 """Radius of the ring around a body, as a multiple of the body's reach."""
 LINE_THICKNESS_PX = 3.0
 INK: Rgb = SPOT_LIT
-
-
-def has_pointer(sensor: SensorInfo) -> bool:
-    """Return True if a sensor refers to bodies, areas or a window of the world."""
-    return bool(sensor.targets or sensor.groups or sensor.window)
 
 
 class Pointers:
@@ -78,8 +73,8 @@ def pointer(snapshot: Snapshot, body: BodyState, sensor: SensorInfo) -> list[Arr
         # paint of a group is seen as it is; outlines of its pieces would cross at each joint
         is_member = not area.paint and set(area.tags) & set(sensor.groups)
         if area.name in sensor.targets or is_member:
-            top = floor_under(static_scene, *area.position)
-            level = (lowest_floor(static_scene) if top is None else top) + z - body.z
+            top = static_scene.floor_under(*area.position)
+            level = (static_scene.lowest_floor if top is None else top) + z - body.z
             outline, hole = region_outlines(area)
             marks += [segments(edge, level) for edge in (outline, hole) if edge is not None]
             if area.name in sensor.targets:

@@ -9,7 +9,6 @@ from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap
 from ai4u_edu.runtime.frame_budget import TRAILS_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.viewer.scene.arena import floor_under, lowest_floor
 from ai4u_edu.viewer.scene.field_arrows import FieldArrows
 from ai4u_edu.viewer.scene.geometry import Array, cap
 from ai4u_edu.viewer.scene.layers import Layers
@@ -97,8 +96,8 @@ class PageMaps:
     def _grounds(self, told: LiveMap | None) -> Array:
         """Return the heights of the floor at a map's places, (n,)."""
         places = () if told is None else told.poses
-        lowest = lowest_floor(self._static_scene)
-        tops = (floor_under(self._static_scene, x, y) for x, y, _ in places)
+        lowest = self._static_scene.lowest_floor
+        tops = (self._static_scene.floor_under(x, y) for x, y, _ in places)
         return np.array([lowest if top is None else top for top in tops])
 
 

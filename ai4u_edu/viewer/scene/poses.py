@@ -5,7 +5,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ai4u_edu.snapshot import BodyState, Snapshot
-from ai4u_edu.viewer.scene.arena import floor_under, lowest_floor
 from ai4u_edu.viewer.scene.geometry import Array
 from ai4u_edu.viewer.scene.layers import Layers
 
@@ -49,7 +48,7 @@ def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
     heights, half_headings, ground_heights = numbers[:, 2], numbers[:, 3] / 2, numbers[:, 4]
     is_gone = np.array([body.fallen for body in bodies], dtype=bool)
     is_void = np.array([ground is None for ground in grounds], dtype=bool)
-    lowest = lowest_floor(static_scene)
+    lowest = static_scene.lowest_floor
     reach = max(lowest - static_scene.settings.fall_threshold, 0.1)
     depths = np.minimum(np.maximum((lowest - heights) / reach, 0.0), 1.0)
     scales = 1 - (1 - MIN_FALLING_SCALE) * depths
@@ -72,4 +71,4 @@ def _ground(snapshot: Snapshot, body: BodyState) -> float | None:
     """Return the height of the ground under a body; None over the void."""
     if body.on_ground:
         return body.z
-    return floor_under(snapshot.static_scene, body.x, body.y, body.z)
+    return snapshot.static_scene.floor_under(body.x, body.y, body.z)

@@ -3,22 +3,11 @@
 from ai4u_edu.explain.live import LiveExplainer, Why
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
-from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.viewer.scene.layers import Layers
-from ai4u_edu.viewer.scene.pointers import Pointers, has_pointer
+from ai4u_edu.viewer.scene.pointers import Pointers
 from ai4u_edu.viewer.scene.rays import Rays, RayStyle
 from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
-
-
-def is_drawable(sensor: SensorInfo, agent: AgentState) -> bool:
-    """Return True if a sensor has something to draw in the scene."""
-    return is_shown_by_default(sensor, agent) or has_pointer(sensor)
-
-
-def is_shown_by_default(sensor: SensorInfo, agent: AgentState) -> bool:
-    """Return True if a sensor is drawn unless switched off: one with rays or spots."""
-    return sensor.key in agent.rays or sensor.key in agent.spots
 
 
 class SenseOverlay:
@@ -83,9 +72,7 @@ class _Page:
             sensor
             for sensor in agent.sensor_infos
             if not body.fallen
-            and self._viewer_client.shows_sensor(
-                sensor.key, is_default=is_shown_by_default(sensor, agent)
-            )
+            and self._viewer_client.shows_sensor(sensor.key, is_default=agent.has_marks(sensor))
         ]
         keys = [sensor.key for sensor in shown]
         with self._viewer_client.client.atomic():

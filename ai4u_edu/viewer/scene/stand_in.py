@@ -14,7 +14,7 @@ from ai4u_edu.explain.map_maker import LiveMap, MapRequest
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.reporting import report_errors
-from ai4u_edu.viewer.scene.arena import arena_size, floor_under, lowest_floor
+from ai4u_edu.viewer.scene.arena import arena_size
 from ai4u_edu.viewer.scene.drags import Action, Drag
 from ai4u_edu.viewer.scene.field_arrows import FieldArrows
 from ai4u_edu.viewer.scene.geometry import circle, grow, heading_wxyz, prism, segments
@@ -107,8 +107,8 @@ class StandIn:
             if self._built != (body, static_scene):
                 self._build(body, static_scene)
             self.pose = pose
-            ground = floor_under(static_scene, pose.x, pose.y)
-            z = lowest_floor(static_scene) if ground is None else ground
+            ground = static_scene.floor_under(pose.x, pose.y)
+            z = static_scene.lowest_floor if ground is None else ground
             layers = Layers.of(static_scene)
             if self._frame is not None:
                 self._frame.position = (pose.x, pose.y, z + layers.body)

@@ -38,15 +38,15 @@ NORTH = (0.0, 1.0, 0.0)
 
 
 class Mode(StrEnum):
-    """Position of a page's camera."""
+    """Position of a page's camera, by the name that a page sends."""
 
-    ARENA = "Arena"
+    ARENA = "arena"
     """Over the whole arena."""
-    FOLLOW = "Follow"
+    FOLLOW = "follow"
     """Over the agent that the page shows."""
-    TURN = "Turn"
+    TURN = "turn"
     """Over the agent, and turning with it: ahead is up."""
-    EYES = "Eyes"
+    EYES = "eyes"
     """In the agent's eye."""
 
 

@@ -1,70 +1,101 @@
 """Things that a page can add to a world, and the search for a free position."""
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, Literal, NamedTuple
 
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.viewer.scene.arena import floor_under
 from ai4u_edu.world import BodyDescription
 
-BODY_TEMPLATES: dict[str, dict[str, Any]] = {
-    "Wall": {
-        "name": "wall",
-        "shape": {"type": "box", "size": [2, 0.3]},
-        "heading_deg": 90,
-        "kind": "static",
-        "tags": ["wall"],
-    },
-    "Box": {
-        "name": "box",
-        "shape": {"type": "box", "size": [0.8, 0.8]},
-        "colour": "sky blue",
-        "tags": ["box"],
-    },
-    "Disc": {
-        "name": "disc",
-        "shape": {"type": "circle", "radius": 0.4},
-        "colour": "purple",
-        "tags": ["disc"],
-    },
-    "Target": {
-        "name": "target",
-        "shape": {"type": "circle", "radius": 0.4},
-        "kind": "static",
-        "colour": "yellow",
-        "tags": ["target"],
-        "label": "target",
-    },
+
+class Template(NamedTuple):
+    """A thing that can be added."""
+
+    title: str
+    icon: str
+    """Name of its icon in ``web/panel_icons.js``."""
+    kind: Literal["bodies", "floors", "areas", "agents"]
+    description: Mapping[str, Any]
+
+
+TEMPLATES: Mapping[str, Template] = {
+    "wall": Template(
+        "Wall",
+        "wall",
+        "bodies",
+        {
+            "name": "wall",
+            "shape": {"type": "box", "size": [2, 0.3]},
+            "heading_deg": 90,
+            "kind": "static",
+            "tags": ["wall"],
+        },
+    ),
+    "box": Template(
+        "Box",
+        "box",
+        "bodies",
+        {
+            "name": "box",
+            "shape": {"type": "box", "size": [0.8, 0.8]},
+            "colour": "sky blue",
+            "tags": ["box"],
+        },
+    ),
+    "ball": Template(
+        "Ball",
+        "ball",
+        "bodies",
+        {
+            "name": "ball",
+            "shape": {"type": "circle", "radius": 0.4},
+            "colour": "purple",
+            "tags": ["disc"],
+        },
+    ),
+    "target": Template(
+        "Target",
+        "target",
+        "bodies",
+        {
+            "name": "target",
+            "shape": {"type": "circle", "radius": 0.4},
+            "kind": "static",
+            "colour": "yellow",
+            "tags": ["target"],
+            "label": "target",
+        },
+    ),
+    "lamp": Template(
+        "Lamp",
+        "lamp",
+        "bodies",
+        {
+            "name": "lamp",
+            "shape": {"type": "circle", "radius": 0.3},
+            "kind": "static",
+            "colour": "yellow",
+            "tags": ["lamp"],
+        },
+    ),
+    "area": Template(
+        "Area",
+        "area",
+        "areas",
+        {"name": "area", "shape": {"type": "circle", "radius": 1.0}, "tags": ["area"]},
+    ),
+    "floor": Template(
+        "Floor", "floor", "floors", {"name": "floor", "shape": {"type": "box", "size": [4, 4]}}
+    ),
+    "agent": Template("Agent", "agent", "agents", {"name": "robot"}),
 }
-"""Descriptions of new bodies, by the label of their button."""
+"""Templates by the name that a page sends. An agent is a copy of the one that the page shows."""
 RING_SPACING_M = 0.5
 """Distance (m) between the rings of positions that are tried."""
 MAX_RINGS = 23
 """Number of those rings."""
-MIN_DOWNWARD_SLOPE = 0.2
-"""Slope from which a camera counts as looking down at the ground."""
 CLEARANCE_M = 0.15
 """Free distance (m) between a new body and the others."""
-
-
-def ground_at_center(position: Iterable[float], look_at: Iterable[float]) -> tuple[float, float]:
-    """Return the point (x, y) of the ground in the middle of a camera's picture.
-
-    For a camera that looks almost horizontally, as from an agent's eye, that point is far away;
-    then return the point below the camera's target.
-
-    >>> ground_at_center((3, 4, 10), (3, 4, 5))
-    (3.0, 4.0)
-    >>> ground_at_center((0, 0, 10), (2, 0, 5))
-    (4.0, 0.0)
-    >>> ground_at_center((0, 0, 1), (2, 0, 0.99))
-    (2.0, 0.0)
-    """
-    (x, y, z), (target_x, target_y, target_z) = position, look_at
-    dx, dy, down = target_x - x, target_y - y, z - target_z
-    share = z / down if down > MIN_DOWNWARD_SLOPE * math.hypot(dx, dy) else 1.0
-    return float(x + share * dx), float(y + share * dy)
 
 
 def free_position(
@@ -87,7 +118,7 @@ def free_position(
     ]
     for position in _positions_around(x, y):
         on_floor = all(
-            floor_under(snapshot.static_scene, position[0] + dx * reach, position[1] + dy * reach)
+            snapshot.static_scene.floor_under(position[0] + dx * reach, position[1] + dy * reach)
             is not None
             for dx, dy in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))
         )

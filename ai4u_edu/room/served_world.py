@@ -1,0 +1,170 @@
+"""A running world and its page: the one place that puts picture, panel and server together."""
+
+import threading
+from collections.abc import Callable, Collection, Sequence
+from typing import Self
+
+from starlette.applications import Starlette
+
+from ai4u_edu.editing import SceneEditor
+from ai4u_edu.panel import PanelContext, PanelSockets
+from ai4u_edu.recording import Ghosts
+from ai4u_edu.room.explanations import explanations_of
+from ai4u_edu.runtime.replay_player import ReplayPlayer
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.server import LOOPBACK, Rules, ServerThread, lock_viser_port, room_app
+from ai4u_edu.server.class_feed import ClassFeed
+from ai4u_edu.server.scripts import Report
+from ai4u_edu.server.start_page import Lesson
+from ai4u_edu.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
+from ai4u_edu.server.viser_lockdown import PROXY_SECRET
+from ai4u_edu.viewer import Viewer
+
+DEFAULT_TITLE = "AI4U Edu"
+STOP_S = 2.0
+"""Time that all threads of a page usually have to end."""
+
+
+def serve_world(
+    runner: Runner,
+    *,
+    title: str = "",
+    editor: SceneEditor | None = None,
+    port: int | None = 0,
+    rules: Rules | None = None,
+    ghosts: Ghosts | None = None,
+    allowed_hosts: Collection[str] = LOOPBACK,
+    proxy_hosts: Collection[str] = (),
+    viser_secret: str = PROXY_SECRET,
+    lessons: Callable[[], Sequence[Lesson]] | None = None,
+    class_feed: ClassFeed | None = None,
+    script_report: Report | None = None,
+    timeouts: Timeouts = DEFAULT_TIMEOUTS,
+) -> "ServedWorld":
+    """Serve the page and the API of a running world, for this machine, until it is stopped.
+
+    The runner stays the caller's, who starts it before or after, or ticks it with
+    :meth:`Runner.advance <ai4u_edu.runtime.runner.Runner.advance>`, and stops it in the end. Any
+    kind of world will do: one of a scene, or one made in Python.
+
+    To serve it for other machines, or below a path of another app, take no port, and give the
+    :attr:`~ServedWorld.app` to :func:`ai4u_edu.server.serve` or to your own app.
+
+    Args:
+        runner: runs the world.
+        title: the page's title; left out, that of the editor's scene.
+        editor: lets pages change the world; left out, it can be watched and driven only.
+        port: port on 127.0.0.1; 0 for a free one, None for no server.
+        rules: for scripts that drive agents; page and API ask for their token, too.
+        ghosts: recorded episodes to race against; left out, pages choose some.
+        allowed_hosts: host names that requests may use; see :mod:`ai4u_edu.server.host_origin`.
+        proxy_hosts: host names of a reverse proxy in front; see there.
+        viser_secret: secret of the world's viser; only a proxy may know it.
+        lessons: returns the lessons on the start page, at which pages also open other scenes; left
+            out, there is no start page. It needs an editor.
+        class_feed: of the class that the world belongs to; pages show it.
+        script_report: of what happens with scripts.
+        timeouts: time limits of connections and answers.
+
+    Raises:
+        PortTakenError: another program listens at the port.
+
+    >>> import httpx
+    >>> from ai4u_edu import Scene
+    >>> from ai4u_edu.runtime.runner import Runner
+    >>> runner = Runner(Scene.load("box_chase").build(), seed=1)
+    >>> runner.start()
+    >>> with serve_world(runner, title="My world") as world:
+    ...     httpx.get(world.url + "healthz").json()["scene"]
+    'My world'
+    >>> runner.stop()
+    """
+    player, ghosts = ReplayPlayer(runner), ghosts or Ghosts()
+    explanations = explanations_of(runner, player)
+    title = title or (DEFAULT_TITLE if editor is None else editor.title)
+    viewer = Viewer(runner, title=title, editor=editor, ghosts=ghosts, explanations=explanations)
+    lock_viser_port(viewer.server, viser_secret)
+    context = PanelContext(
+        runner, viewer.viewer_clients, player, ghosts, explanations, editor, timeouts
+    )
+    app = room_app(
+        runner,
+        viser_port=viewer.port,
+        viser_secret=viser_secret,
+        title=title if editor is None else lambda: editor.title,
+        allowed_hosts=allowed_hosts,
+        proxy_hosts=proxy_hosts,
+        rules=rules,
+        panel=PanelSockets(context),
+        editor=None if lessons is None else editor,
+        lessons=lessons or list,
+        class_feed=class_feed,
+        script_report=script_report,
+        timeouts=timeouts,
+    )
+    server = None
+    try:
+        if port is not None:
+            server = ServerThread(app, port=port, timeouts=timeouts)
+    except BaseException:
+        viewer.stop()
+        raise
+    return ServedWorld(app, viewer, context, server)
+
+
+class ServedWorld:
+    """A world whose page is served; :func:`serve_world` makes it.
+
+    Its own threads draw the world, play recorded episodes, explain actions and answer requests.
+    None of them runs physics or blocks of the running world, nor changes it: they read the runner's
+    latest snapshot, and submit commands to the runner. Any thread may call :meth:`stop`, once.
+
+    Args:
+        app: page and API.
+        viewer: draws the world.
+        context: the world and what belongs to it.
+        server: serves the app; None if the caller does.
+    """
+
+    def __init__(
+        self, app: Starlette, viewer: Viewer, context: PanelContext, server: ServerThread | None
+    ) -> None:
+        self.app = app
+        """ASGI app of page and API; mount it under a path with
+        :class:`~ai4u_edu.server.RoomMount`."""
+        self.viewer = viewer
+        """Draws the world with viser; knows the open pages."""
+        self.context = context
+        """The runner, the player of recorded episodes, ghosts, explanations and editor."""
+        self.url = "" if server is None else server.url
+        """The page's address, with a slash at the end; empty without a server."""
+        self._server = server
+        viewer.start()
+        if server is not None:
+            server.start()
+
+    def stop(self, timeout: float = STOP_S) -> None:
+        """Stop serving and drawing the world; the runner goes on.
+
+        Blocks of a replayed episode may not return. Threads that do not end in time are left
+        behind; they are daemons.
+
+        Args:
+            timeout: time (s) that the threads have to end.
+        """
+        if self._server is not None:
+            self._server.stop()
+        self.context.explanations.stop()
+        ending = threading.Thread(target=self._end, name="page end", daemon=True)
+        ending.start()
+        ending.join(timeout)
+
+    def _end(self) -> None:
+        self.viewer.stop()
+        self.context.player.stop()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
