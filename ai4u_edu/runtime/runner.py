@@ -1,35 +1,191 @@
 """A world that runs by the wall clock, and what other threads may ask of it."""
 
+import logging
 import math
-import warnings
+import threading
+import time
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TypeVar
 
-from ai4u_edu.agent.block_errors import reason_for_no_decision
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.block_errors import reason_for_no_decision, sentence_of, storable
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
+from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.recording.scene_export import without_unknown_brains
-from ai4u_edu.runtime.world_thread import WorldThread
+from ai4u_edu.runtime.clock import Clock, TickSchedule
+from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
+from ai4u_edu.runtime.episode_clock import EpisodeClock
+from ai4u_edu.runtime.frame_budget import FrameBudget
+from ai4u_edu.runtime.pending_answers import PendingAnswers
+from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
+from ai4u_edu.runtime.start_wait import StartWait
+from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
+from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
-RENAMED_METHODS = {
-    "use": "replace_sim",
-    "exchange": "replace_sim_now",
-    "show": "show_past",
-    "call": "notify_answer",
-    "expect_call": "expect_answer",
-}
+T = TypeVar("T")
+logger = logging.getLogger(__name__)
+
+DECISION_WAIT_S = 0.25
+"""Time that a command waits for a moment between all agents' decisions. Where agents decide at
+different times there may be none; then it runs between any two ticks."""
+REST_POLL_S, HELD_POLL_S = 0.1, 0.5
+"""Time between two snapshots while the world is paused, and while it is held."""
+STOP_S = 1.0
+"""Time that the thread usually has to end; a block that does not return may keep it from that."""
+WORLD_REPLACED = "another world has taken its place; connect anew to drive there"
+"""Reason that the scripts of a replaced world are told."""
 
 
-class Runner(WorldThread):
+class Runner:
     """Runs a world in a thread of its own; pauses, resets, steps and replaces it on request.
 
-    A block that does not return delays nothing but the world; :attr:`stall` reports it. All methods
-    below may be called from any thread: they queue a command, which runs between two decisions, and
-    return its future at once. To look at the world, take :attr:`latest`.
+    The world's thread alone runs physics and the code of blocks; no lock guards the world. Other
+    threads read :attr:`latest`, which is immutable, or :meth:`submit` a command, as the methods
+    from :meth:`pause` to :meth:`replace_sim` do: it runs between two decisions, and its future is
+    returned at once. The parts that threads share have their own locks: the queue of commands, the
+    count of answers, the latest snapshot, the monitor of long ticks. A block that does not return
+    delays nothing but the world; :attr:`stall` reports it.
+
+    Args:
+        sim: the world and its agents.
+        seed: of the first episode.
+        time_scale: how fast the time runs (``math.inf``: unlimited); left out, as the sim says.
+        recorder: keeps the episodes; it has to listen to the same sim.
+        wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
+        frame_budget: limits of how often the world is drawn; left out, the usual ones.
+        clock: seconds; a :class:`~ai4u_edu.runtime.clock.Clock` also sleeps between two ticks.
     """
+
+    def __init__(
+        self,
+        sim: ControlRequestor,
+        *,
+        seed: int | None = None,
+        time_scale: float | None = None,
+        recorder: Recorder | None = None,
+        wait_for_key: bool = False,
+        frame_budget: FrameBudget | None = None,
+        clock: Callable[[], float] | Clock = time.perf_counter,
+    ) -> None:
+        self.sim = sim
+        self.recorder = recorder
+        self.training: TrainingProgress | None = None
+        """Progress of the training whose policy drives in this world; replaced, never changed."""
+        self.paused, self.error = False, ""
+        self.is_held = False
+        """True while the world stands still for a teacher; see :meth:`hold`."""
+        self.describe_error: Callable[[BaseException, Sequence[BasicAgent]], str] = sentence_of
+        """Returns the sentence on a block's error that pages show; may be replaced."""
+        self.time_scale = sim.default_time_scale
+        if time_scale is not None:
+            self.set_time_scale(time_scale)
+        self.frame_budget = frame_budget or FrameBudget()
+        whole_clock = clock if isinstance(clock, Clock) else Clock(clock)
+        self._clock = read = whole_clock.read
+        self._wake = threading.Event()
+        self._queue = CommandQueue(read, self._wake)
+        self._answers = PendingAnswers(self._wake, read)
+        self._stopping = False
+        self._thread: threading.Thread | None = None
+        self._schedule = TickSchedule(whole_clock)
+        self._monitor = TickMonitor(read, lambda: self.sim.agents)
+        self._start_wait = StartWait(is_enabled=wait_for_key)
+        self._episode_clock = EpisodeClock()
+        sim.reset(seed)
+        self._publisher = SnapshotPublisher(sim, self.frame_budget, read)
+        self._publisher.latest = self._picture()
+
+    # -- for any thread ----------------------------------------------------------------------------
+
+    @property
+    def latest(self) -> Snapshot:
+        """The latest snapshot; replaced, never changed."""
+        return self._publisher.latest
+
+    def wait(self, seen: Snapshot, timeout: float) -> Snapshot:
+        """Return the latest snapshot as soon as it is not ``seen``, or after ``timeout`` s."""
+        return self._publisher.wait(seen, timeout)
+
+    @property
+    def stall(self) -> Stall | None:
+        """The tick or command that has not ended for too long; None if there is none."""
+        return self._monitor.stall
+
+    @property
+    def lateness(self) -> float:
+        """Moving average of the lateness (s) of ticks."""
+        return self._schedule.lateness
+
+    def is_unpaced(self) -> bool:
+        """Return True if the world runs as fast as it can, and not by the clock."""
+        return math.isinf(self.time_scale)
+
+    @property
+    def thread_id(self) -> int:
+        """Identifier of the world's thread; 0 while it does not run."""
+        thread = self._thread
+        return thread.ident or 0 if thread is not None and thread.is_alive() else 0
+
+    @property
+    def next_tick_at(self) -> float:
+        """Time (s, of ``time.monotonic``) at which the next tick is due; infinity if none is.
+
+        It lies in the past while that tick runs.
+        """
+        if self.paused or self.error or self.is_held or self.is_unpaced():
+            return math.inf
+        return self._schedule.due
+
+    @property
+    def is_waiting_for_key(self) -> bool:
+        """True while the world waits on its first frame until a key is pressed."""
+        return self._start_wait.is_waiting
+
+    @property
+    def is_left_behind(self) -> bool:
+        """True if the thread was to end and still runs; only the end of the process ends it."""
+        return self._stopping and self._thread is not None and self._thread.is_alive()
+
+    def start(self) -> None:
+        """Start to tick."""
+        self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
+        self._schedule.due = self._clock()
+        self._thread.start()
+        self._monitor.start()
+
+    def stop(self, timeout: float | None = None) -> None:
+        """End the thread; cancel commands that still wait, and close brains.
+
+        If a block does not return in time, the thread is left behind with the brains that it uses;
+        :attr:`is_left_behind` is True then.
+
+        Args:
+            timeout: time (s) that the thread has to end; default: :data:`STOP_S`.
+        """
+        self._stopping = True
+        self._queue.close()
+        self._wake.set()
+        thread = self._thread
+        if thread is None:
+            self._end()
+        elif thread is not threading.current_thread():
+            thread.join(STOP_S if timeout is None else timeout)
+        if self.is_left_behind:
+            where = self._monitor.under_way()
+            logger.warning("the world is left behind unfinished: %s", where or "it did not end")
+            if self.recorder is not None:
+                self.recorder.finish()
+        self._monitor.stop()
+
+    def submit(self, command: Callable[[], T]) -> "Future[T]":
+        """Run a command in the world's thread, between two decisions."""
+        return self._queue.submit(command)
 
     def pause(self) -> "Future[None]":
         """Pause the world, and release all keys."""
@@ -79,27 +235,6 @@ class Runner(WorldThread):
             self.sim.is_seed_locked = is_locked
 
         return self.submit(command)
-
-    @property
-    def thread_id(self) -> int:
-        """Identifier of the world's thread; 0 while it does not run."""
-        thread = self._thread
-        return thread.ident or 0 if thread is not None and thread.is_alive() else 0
-
-    @property
-    def next_tick_at(self) -> float:
-        """Time (s, of ``time.monotonic``) at which the next tick is due; infinity if none is.
-
-        It lies in the past while that tick runs.
-        """
-        if self.paused or self.error or self.is_held or self.is_unpaced():
-            return math.inf
-        return self._schedule.due
-
-    @property
-    def is_waiting_for_key(self) -> bool:
-        """True while the world waits on its first frame until a key is pressed."""
-        return self._start_wait.is_waiting
 
     def start_episode(self) -> "Future[None]":
         """Let a world that waits for a key run; a paused or held one goes on waiting."""
@@ -171,11 +306,11 @@ class Runner(WorldThread):
         """
 
         def command() -> None:
-            if goes_on and self._past is None:
+            if goes_on and self._publisher.past is None:
                 return
             if not self.paused:
                 self._set_paused(True)
-            self._past = None if past is None else self._as_past(past)
+            self._publisher.show_past(past, self.time_scale)
 
         return self.submit(command)
 
@@ -201,10 +336,9 @@ class Runner(WorldThread):
         def command() -> None:
             if not replay.fits(self.sim):
                 other = Scene(without_unknown_brains(replay.episode.scene)).build()
-                other.reset(replay.episode.seed)
-                self._replace(other, None)
+                self.replace_sim_now(other, seed=replay.episode.seed)
             replay.continue_from(step, agent=agent, sim=self.sim)
-            self.error, self._past, self.paused = "", None, False
+            self.error, self._publisher.past, self.paused = "", None, False
 
         return self.submit(command)
 
@@ -225,32 +359,186 @@ class Runner(WorldThread):
         """
         return self.submit(lambda: self.replace_sim_now(sim, recorder, seed=seed))
 
+    def notify_answer(self) -> None:
+        """Wake the world's thread if this is the last answer that it waits for."""
+        self._answers.notify()
+
+    # -- for the world's thread, or before it starts -----------------------------------------------
+
+    def set_time_scale(self, time_scale: float) -> None:
+        """Set the time scale at once.
+
+        Raises:
+            ValueError: it is not above 0.
+        """
+        if not time_scale > 0:
+            raise ValueError(f"time scale: expected a number above 0, got {time_scale}")
+        self.time_scale = time_scale
+
+    def advance(self) -> None:
+        """Run the commands that wait, and tick once unless the world is paused, held or waits.
+
+        The world's thread does nothing else; code without such a thread may call it instead.
+        """
+        self._wake.clear()
+        self._monitor.begin()
+        try:
+            self._run_commands()
+            if self.paused or self.error or self.is_held or self._must_wait_for_key():
+                self._rest()
+            else:
+                self._tick(whole_decision=self.is_unpaced())
+                self._keep_time()
+        finally:
+            self._monitor.end()
+
     def replace_sim_now(
         self, sim: ControlRequestor, recorder: Recorder | None = None, *, seed: int | None = None
     ) -> None:
         """Run another world at once, as :meth:`replace_sim` does; only for the world's thread."""
         if not sim.episode:
             sim.reset(seed)  # before anything else: if it fails, all stays as it was
-        self._replace(sim, recorder)
+        before, self.sim = self.sim, sim
+        if recorder is not None:
+            if self.recorder is not None and self.recorder is not recorder:
+                self.recorder.set_enabled(False)
+            self.recorder = recorder
+        elif self.recorder is not None:
+            self.recorder.listen_to(sim)
+        self.error, self._publisher.past = "", None
+        self._publisher.forget_static_scene()
+        sim.is_seed_locked = before.is_seed_locked
+        self._monitor.forget()
+        self._schedule.forget()
+        kept = [agent.brain for agent in sim.agents]
+        for agent in before.agents:
+            agent.keyboard.release()
+            if not any(agent.brain is brain for brain in kept):
+                self._close(agent.brain, WORLD_REPLACED)
 
     def expect_answer(self) -> None:
         """Announce that :meth:`notify_answer` will be called; only for the world's thread."""
         self._answers.expect()
 
-    def notify_answer(self) -> None:
-        """Wake the world's thread if this is the last answer that it waits for."""
-        self._answers.notify()
+    def _run(self) -> None:
+        while not self._stopping:
+            self._answers.clear()
+            began = self._clock()
+            self._attempt(self.advance)
+            self._answers.wait(self.sim, began, self._all_keep_waiting)
+        self._end()
 
-    def _reset(self, seed: int | None) -> None:
-        self.sim.reset(seed)
-        self.error, self._past = "", None
+    def _all_keep_waiting(self) -> bool:
+        """Return True if no brain needs to be asked again until an answer comes."""
+        if not self.is_unpaced():
+            return False
+        self._monitor.begin()
+        try:
+            return all(agent.brain.keeps_waiting for agent in self.sim.agents)
+        finally:
+            self._monitor.end()
+
+    def _end(self) -> None:
+        self._monitor.begin()
+        if self.recorder is not None:
+            self.recorder.finish()
+        for agent in self.sim.agents:
+            self._close(agent.brain)
+        self._monitor.end()
+
+    @property
+    def _period(self) -> float:
+        """Seconds from one tick to the next, by the wall clock."""
+        return self.sim.world.dt / self.time_scale
+
+    def _must_wait_for_key(self) -> bool:
+        if self._start_wait.begins(self.sim):
+            self._publish()  # at once: pages show that it waits
+        return self._start_wait.is_waiting
+
+    def _rest(self) -> None:
+        self._schedule.rest()
+        self._monitor.end()
+        self._wake.wait(HELD_POLL_S if self.is_held else REST_POLL_S)
+        self._monitor.begin()
+        for agent in self.sim.agents:
+            self._attempt(agent.brain.idle)
+        self._publish()  # keys may be pressed in a paused world, and scripts may connect
+        self._schedule.rest()
+
+    def _tick(self, *, whole_decision: bool = False) -> None:
+        """Tick once, or as many times as make a decision."""
+        self._monitor.begin()
+        began, ticks, self._publisher.past = self._clock(), 1, None
+
+        def tick() -> None:
+            nonlocal ticks
+            if whole_decision:
+                ticks = self.sim.step_decision() or 1
+            else:
+                self.sim.tick()
+
+        self._attempt(tick)
+        self._episode_clock.note_ends(self.sim)
+        ended = self._clock()
+        if not self.sim.waiting_for_brain:  # a world that waits for a script is not slow
+            self._schedule.ticked += ticks
+            self._monitor.note_tick((ended - began) / ticks, self.sim.world.count_contacts)
+        next_tick_at = self._schedule.due + self._period
+        if self.error or self.frame_budget.is_snapshot_due(ended, next_tick_at):
+            self._publish()
+
+    def _keep_time(self) -> None:
+        self._schedule.tick_ended(self._period, held=self.sim.waiting_for_brain)
+        self._monitor.end()
+        self._schedule.sleep(self._wake, self._run_commands_in_pause)
+
+    def _run_commands_in_pause(self) -> bool:
+        """Run commands in a long pause between two ticks; return True to continue the pause."""
+        self._monitor.begin()
+        self._run_commands()
+        self._monitor.end()
+        self._schedule.due = min(self._schedule.due, self._clock() + self._period)
+        return not (self.paused or self.error or self.is_held or self._stopping)
+
+    def _run_commands(self) -> None:
+        while (first := self._queue.first) is not None and not self._stopping:
+            is_between_decisions = (
+                self.paused
+                or self.error
+                or self.is_held
+                or self.sim.waiting_for_brain
+                or self.sim.between_decisions()
+            )
+            if not is_between_decisions and self._clock() - first.asked_at < DECISION_WAIT_S:
+                return
+            command = self._queue.take()
+            if command is not None:
+                self._run_command(command)
+
+    def _run_command(self, command: QueuedCommand) -> None:
+        self._monitor.begin()
+        try:
+            result = self.recorder.guard(command.run) if self.recorder else command.run()
+        except BaseException as error:  # it belongs to the caller
+            self._publish()
+            command.future.set_exception(storable(error, self.sim.agents))
+            if not self._may_keep(error):
+                raise
+        else:
+            self._publish()  # before the result: the caller may read the snapshot at once
+            command.future.set_result(result)
 
     def _set_paused(self, paused: bool) -> None:
         self.paused = paused
         if not paused:
-            self._past = None
+            self._publisher.past = None
         else:
             self._release_keys()
+
+    def _reset(self, seed: int | None) -> None:
+        self.sim.reset(seed)
+        self.error, self._publisher.past = "", None
 
     def _release_keys(self) -> None:
         for agent in self.sim.agents:
@@ -260,12 +548,53 @@ class Runner(WorldThread):
         if self.is_held:
             raise NoDecisionError("the teacher has stopped the world; wait until it goes on")
 
-    if not TYPE_CHECKING:  # a type checker is to report the old names
+    def _attempt(self, act: Callable[[], object]) -> None:
+        """Call what may raise anything, as a student's block does; the page shows the error."""
+        try:
+            act()
+        except BaseException as error:
+            if not self._may_keep(error):
+                raise
+            self.error = self.describe_error(error, self.sim.agents)
 
-        def __getattr__(self, name: str) -> object:
-            """Return a method by the name that it had before; deprecated for one release."""
-            new = RENAMED_METHODS.get(name)
-            if new is None:
-                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-            warnings.warn(f"Runner.{name} is now Runner.{new}", DeprecationWarning, stacklevel=2)
-            return getattr(self, new)
+    def _may_keep(self, error: BaseException) -> bool:
+        """Return True for a block's error; Ctrl-C is raised in the main thread only."""
+        return isinstance(error, Exception) or threading.current_thread() is self._thread
+
+    def _close(self, brain: Brain, reason: str = "") -> None:
+        """Close a brain that no longer drives, and log its error."""
+        try:
+            if reason and isinstance(brain, RemoteBrain):
+                brain.close(reason)
+            else:
+                brain.close()
+        except BaseException as error:
+            if not self._may_keep(error):
+                raise
+            logger.warning("%s could not be closed", type(brain).__name__, exc_info=True)
+
+    def _publish(self) -> None:
+        self._attempt(lambda: self._publisher.publish(self._picture))
+        if self.error and self.latest.error != self.error and self._publisher.past is None:
+            # a block makes the snapshot fail: publish the last one, with the reason
+            self._publisher.publish(lambda: replace(self.latest, error=self.error))
+
+    def _picture(self) -> Snapshot:
+        sim = self.sim
+        return capture_snapshot(
+            sim,
+            self._publisher.static_scene(sim),
+            paused=self.paused,
+            time_scale=self.time_scale,
+            real_time_factor=self._real_time_factor(),
+            error=self.error,
+            slow_tick=self._monitor.slow_tick,
+            episode_time=self._episode_clock.read(sim),
+            waiting=self._start_wait.reason(sim, is_held=self.is_held, has_error=bool(self.error)),
+        )
+
+    def _real_time_factor(self) -> float:
+        measured = self._schedule.real_time_factor(self.sim.world.dt)
+        if measured is not None:
+            return measured
+        return 0.0 if self.paused else 1.0 if self.is_unpaced() else self.time_scale

@@ -15,7 +15,7 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from ai4u_edu import Sensor
-from ai4u_edu.runtime.world_thread import WorldThread
+from ai4u_edu.runtime.runner import Runner
 
 POLL_S = 0.5
 REQUEST = "write"
@@ -32,10 +32,10 @@ class NoReading(Sensor):
 
 
 _late_s: list[float] = []
-_tick = WorldThread._tick
+_tick = Runner._tick
 
 
-def _timed_tick(self: WorldThread, *, whole_decision: bool = False) -> None:
+def _timed_tick(self: Runner, *, whole_decision: bool = False) -> None:
     _late_s.append(self._clock() - self._schedule.due)
     _tick(self, whole_decision=whole_decision)
 
@@ -52,7 +52,7 @@ def _write(folder: Path) -> None:
 def _begin() -> None:
     folder = os.environ.get("AI4U_LATENESS_FOLDER")
     if folder:
-        WorldThread._tick = _timed_tick  # type: ignore[method-assign]  # to measure
+        Runner._tick = _timed_tick  # type: ignore[method-assign]  # to measure
         threading.Thread(target=_write, args=[Path(folder)], daemon=True).start()
 
 

@@ -20,7 +20,6 @@ from ai4u_edu.room.explanations import SceneSource
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.world_thread import WorldThread
 
 PAIRS = 5
 SECONDS = 6.0
@@ -29,7 +28,7 @@ ASKS_PER_S = 8.0
 """Rate at which a page's panel asks."""
 
 _late_s: list[float] = []
-_tick = WorldThread._tick
+_tick = Runner._tick
 
 
 class Half(NamedTuple):
@@ -48,7 +47,7 @@ def main() -> None:
     parser.add_argument("--pairs", type=int, default=PAIRS)
     parser.add_argument("--maps", action="store_true")
     options = parser.parse_args()
-    WorldThread._tick = _timed_tick  # type: ignore[method-assign]  # to measure
+    Runner._tick = _timed_tick  # type: ignore[method-assign]  # to measure
     with tuned_process():
         for scene in options.scenes:
             pairs = _pairs(scene, options.pairs, has_maps=options.maps)
@@ -100,7 +99,7 @@ def _half(runner: Runner, ask: Callable[[], object] | None) -> Half:
     return Half(1000 * float(np.percentile(_late_s, 99)), 100 * share)
 
 
-def _timed_tick(self: WorldThread, *, whole_decision: bool = False) -> None:
+def _timed_tick(self: Runner, *, whole_decision: bool = False) -> None:
     _late_s.append(self._clock() - self._schedule.due)
     _tick(self, whole_decision=whole_decision)
 

@@ -54,7 +54,7 @@ def test_who_waits_for_a_call_keeps_the_world_waiting() -> None:
 def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_vain(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.world_thread.ANSWER_POLL_S", LIMIT_S)
+    monkeypatch.setattr("ai4u_edu.runtime.pending_answers.ANSWER_POLL_S", LIMIT_S)
     link = ScriptedLink(Reset(7))
     sim, _ = sim_with_link(link)
     runner = Runner(sim, time_scale=math.inf)
@@ -101,7 +101,7 @@ def test_a_restart_of_one_agent_does_not_wait_for_the_world_to_go_on() -> None:
 
 
 def test_a_held_world_is_a_good_moment_for_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.world_thread.DECISION_WAIT_S", math.inf)
+    monkeypatch.setattr("ai4u_edu.runtime.runner.DECISION_WAIT_S", math.inf)
     sim = two_agents(ScriptedLink(), lambda percept: FORWARD)
     runner = Runner(sim, time_scale=math.inf)
     runner.advance()

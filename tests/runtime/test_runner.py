@@ -143,16 +143,6 @@ def test_another_world_goes_on_where_it_stands_with_the_brain_that_it_shares(
     del brain.close
 
 
-@pytest.mark.parametrize(
-    ("old", "new"), [("use", "replace_sim"), ("show", "show_past"), ("call", "notify_answer")]
-)
-def test_old_names_of_methods_still_work_and_warn(runner: Runner, old: str, new: str) -> None:
-    with pytest.warns(DeprecationWarning, match=f"Runner.{old} is now Runner.{new}"):
-        assert getattr(runner, old) == getattr(runner, new)
-    with pytest.raises(AttributeError, match="'Runner' object has no attribute 'unknown'"):
-        getattr(runner, "unknown")  # noqa: B009 - a type checker would refuse it
-
-
 def test_a_world_that_can_not_begin_changes_nothing(runner: Runner) -> None:
     before, other = runner.sim, Scene.load("box_chase").build()
 

@@ -225,8 +225,8 @@ def test_a_command_that_does_not_end_is_a_stall_too(
 def test_a_world_that_stands_still_or_waits_for_a_script_is_not_stalled(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.runtime.world_thread.REST_POLL_S", 60.0)
-    monkeypatch.setattr("ai4u_edu.runtime.world_thread.HOLD_POLL_S", 60.0)
+    monkeypatch.setattr("ai4u_edu.runtime.runner.REST_POLL_S", 60.0)
+    monkeypatch.setattr("ai4u_edu.runtime.pending_answers.HOLD_POLL_S", 60.0)
     sim = small_sim(brains=[Silent(answer=Command.HOLD)])
     runner = Runner(sim, clock=lambda: 100.0)
     monkeypatch.setattr(

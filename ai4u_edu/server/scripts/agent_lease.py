@@ -8,8 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.runtime.world_thread import WORLD_REPLACED
+from ai4u_edu.runtime.runner import WORLD_REPLACED, Runner
 from ai4u_edu.server.loop_queue import LoopQueue
 from ai4u_edu.server.scripts.outbox import Outbox
 from ai4u_edu.server.scripts.refusal import RefusalError
