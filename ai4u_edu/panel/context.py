@@ -10,7 +10,6 @@ import msgspec
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.explain.explanations import Explanations
 from ai4u_edu.panel.page_view import Pictures
 from ai4u_edu.recording import Ghosts
 from ai4u_edu.runtime.replay_player import ReplayPlayer
@@ -55,7 +54,6 @@ class PanelContext:
         pictures: the pages' pictures of it.
         player: plays its recorded episodes.
         ghosts: recorded episodes to race against.
-        explanations: explain what its agents do.
         editor: changes it; None if it can only be watched and driven.
         timeouts: time limits of a replay's frames and of uploads.
     """
@@ -64,7 +62,6 @@ class PanelContext:
     pictures: Pictures
     player: ReplayPlayer
     ghosts: Ghosts
-    explanations: Explanations
     editor: SceneEditor | None = None
     timeouts: Timeouts = DEFAULT_TIMEOUTS
     cache: PartCache = field(default_factory=PartCache)

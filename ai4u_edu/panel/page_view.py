@@ -1,19 +1,15 @@
 """The things that one page looks at, and the link to the page's picture."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
 from typing import Protocol
 
 from ai4u_edu.editing import ChangeResult
-from ai4u_edu.explain.elsewhere import Elsewhere, Pose
-from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.panel.messages.base import Show
 from ai4u_edu.panel.messages.play import CameraMode
 
 TEXTS_PER_CURVE = 4
 """Times that the other texts are sent for each curve of rewards, which is longer than all else."""
-EXPLANATIONS = {"why", "maps"}
-"""Names of the parts that a page clears when it shows another agent."""
 MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
 
@@ -27,8 +23,8 @@ class PictureListener(Protocol):
     def on_dropped(self, change: "Future[ChangeResult]") -> None:
         """Report the result of a move with the mouse."""
 
-    def on_stand_in(self, pose: Pose) -> None:
-        """Note that somebody put the agent's stand-in somewhere."""
+    def send(self, message: Mapping[str, object]) -> None:
+        """Send the page a message."""
 
 
 class Picture(Protocol):
@@ -39,9 +35,8 @@ class Picture(Protocol):
     """Id of the agent that is shown."""
     selected: str
     """Name of the selected thing; empty if there is none."""
-    is_why_shown: bool
-    maps: MapChoice
-    elsewhere: Elsewhere | None
+    choices: dict[str, object]
+    """Choices about options, by option."""
     is_motion_reduced: bool
     is_move_mode: bool
     snap_m: float
@@ -102,22 +97,25 @@ class PageView:
         page_id: the page's random id; empty if it has no picture.
         agent: id of the agent that is shown first.
         panel: told what the user does in the picture.
+        agent_parts: names of the parts that the page clears when it shows another agent.
     """
 
     def __init__(
-        self, pictures: Pictures, page_id: str, agent: str, panel: PictureListener
+        self,
+        pictures: Pictures,
+        page_id: str,
+        agent: str,
+        panel: PictureListener,
+        agent_parts: Collection[str] = (),
     ) -> None:
         self._pictures, self._page_id, self._panel = pictures, page_id, panel
+        self._agent_parts = agent_parts
         self._picture: Picture | None = None
         self.show = Show(type="show", agent=agent)
         self._camera: CameraMode | None = None
         self.is_move_mode = False
-        self.is_why_shown = False
-        """True if the page shows why the agent acts as it does."""
-        self.maps = MapChoice()
-        """The maps over the floor that the page shows."""
-        self.elsewhere: Elsewhere | None = None
-        """The place at which the page tries the agent; None if it does not."""
+        self.choices: dict[str, object] = {}
+        """Choices about options, by option; the page's picture gets the same."""
         self.snap_m = 0.0
         self.trails: dict[str, bool] = {}
         """Trails that were switched on or off, by agent."""
@@ -172,13 +170,13 @@ class PageView:
     def look_at(self, show: Show) -> None:
         """Look at something else."""
         if show.agent != self.agent:
-            self.ask_again(*EXPLANATIONS)
+            self.ask_again(*self._agent_parts)
         self.show = show
         self._apply(self._choose_shown)
 
     def choose_agent(self, agent: str) -> None:
         """Look at another agent."""
-        self.ask_again(*EXPLANATIONS)
+        self.ask_again(*self._agent_parts)
         self.show = Show(
             type="show",
             agent=agent,
@@ -217,21 +215,16 @@ class PageView:
         self.sensors[self.agent, key] = on
         self._apply(lambda picture: picture.show_sensor(key, on))
 
-    def show_why(self, on: bool) -> None:
-        """Show why the agent acts as it does, or no longer."""
-        self.is_why_shown = on
-        self.ask_again("why")
-        self._apply(self._choose_shown)
+    def choose(self, option: str, choice: object, *parts: str) -> None:
+        """Keep the page's choice about an option.
 
-    def show_maps(self, maps: MapChoice) -> None:
-        """Show these maps over the floor."""
-        self.maps = maps
-        self.ask_again("maps")
-        self._apply(self._choose_shown)
-
-    def show_elsewhere(self, elsewhere: Elsewhere | None) -> None:
-        """Show what the agent would do at another place, or no longer."""
-        self.elsewhere = elsewhere
+        Args:
+            option: its key.
+            choice: what was chosen.
+            parts: names of the parts that the page waits for.
+        """
+        self.choices[option] = choice
+        self.ask_again(*parts)
         self._apply(self._choose_shown)
 
     def show_trail(self, on: bool) -> None:
@@ -272,8 +265,7 @@ class PageView:
     def _choose_shown(self, picture: Picture) -> None:
         picture.agent = self.show.agent
         picture.selected = self.show.body or ""
-        picture.is_why_shown = self.is_why_shown
-        picture.maps, picture.elsewhere = self.maps, self.elsewhere
+        picture.choices = self.choices
         picture.is_motion_reduced = self._is_motion_reduced
         picture.is_move_mode, picture.snap_m = self.is_move_mode, self.snap_m
         for agent, on in self.trails.items():

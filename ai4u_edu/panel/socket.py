@@ -1,10 +1,10 @@
 """The panel's sockets: each page gets the parts that it looks at, and sends commands."""
 
 import asyncio
-import math
-from collections.abc import Coroutine, Mapping
+from collections.abc import Collection, Coroutine, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
+from typing import Protocol
 
 import msgspec
 from starlette.types import Receive, Scope, Send
@@ -13,17 +13,16 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import ChangeResult
-from ai4u_edu.explain.elsewhere import Pose
 from ai4u_edu.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
-from ai4u_edu.panel.commands import blocks, compare, past, run, scenes, view, why, world
+from ai4u_edu.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.labels import past_tense
 from ai4u_edu.panel.messages.base import Command, Show
-from ai4u_edu.panel.messages.reader import id_in, read_message
+from ai4u_edu.panel.messages.reader import MessageReader, id_in
 from ai4u_edu.panel.page import Level, Page
 from ai4u_edu.panel.page_view import PageView
-from ai4u_edu.panel.parts.due import due_parts
+from ai4u_edu.panel.parts.due import Parts, due_parts
 from ai4u_edu.panel.upload import MAX_PART_BYTES, Upload
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import choose_agent
@@ -45,12 +44,25 @@ HANDLERS: Mapping[type[Command], Handler] = {
     **world.HANDLERS,
     **scenes.HANDLERS,
     **past.HANDLERS,
-    **why.HANDLERS,
-    **compare.HANDLERS,
 }
-"""Handlers of all commands by the type of their message."""
+"""Handlers of the panel's own commands by the type of their message."""
 
 _error_log = ErrorLog()
+
+
+class PanelOption(Protocol):
+    """Parts and commands that an option adds to all panels; the server's event loop calls it."""
+
+    @property
+    def commands(self) -> Mapping[type[Command], Handler]:
+        """Handlers of its commands by the type of their message."""
+
+    @property
+    def agent_parts(self) -> Collection[str]:
+        """Names of its parts that a page clears when it shows another agent."""
+
+    def panel_parts(self, context: PanelContext, view: PageView) -> Parts:
+        """Yield the name and the JSON of each of its parts that a page looks at."""
 
 
 class PanelSockets:
@@ -58,10 +70,16 @@ class PanelSockets:
 
     Args:
         context: the running world.
+        options: what options add.
     """
 
-    def __init__(self, context: PanelContext) -> None:
-        self._context = context
+    def __init__(self, context: PanelContext, options: Sequence[PanelOption] = ()) -> None:
+        self.context, self.options = context, options
+        self.handlers = dict(HANDLERS)
+        """Handlers of all commands."""
+        for option in options:
+            self.handlers |= option.commands
+        self.reader = MessageReader(self.handlers)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's socket until it is closed."""
@@ -71,20 +89,22 @@ class PanelSockets:
             if PAGE_ID_PARAM in socket.query_params and not page_id(scope):
                 await socket.close(1008, "expected a page id of 8 to 64 letters, digits and -")
                 return
-            await _Connection(socket, self._context, page_id(scope)).serve()
+            await _Connection(socket, self, page_id(scope)).serve()
 
 
 class _Connection:
     """One page's connection.
 
     The server's event loop calls everything but :meth:`on_selected`, :meth:`on_dropped` and
-    :meth:`on_stand_in`.
+    :meth:`send`.
     """
 
-    def __init__(self, socket: WebSocket, context: PanelContext, page_id: str) -> None:
-        self._socket, self._context = socket, context
+    def __init__(self, socket: WebSocket, panel: PanelSockets, page_id: str) -> None:
+        self._socket, self._panel = socket, panel
+        self._context = context = panel.context
         agent = _first_agent(context.runner, socket.query_params.get("agent"))
-        self._view = PageView(context.pictures, page_id, agent, self)
+        agent_parts = {name for option in panel.options for name in option.agent_parts}
+        self._view = PageView(context.pictures, page_id, agent, self, agent_parts)
         upload = Upload(context.timeouts.upload)
         self._page = Page(context, self._view, self._note, upload)
         self._loop = asyncio.get_running_loop()
@@ -118,10 +138,8 @@ class _Connection:
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(lambda: self._spawn(self._report_drop(change)))
 
-    def on_stand_in(self, pose: Pose) -> None:
-        """Tell the page that somebody put the agent's stand-in somewhere."""
-        degrees = round(math.degrees(pose.heading), 1)
-        message = {"type": "stand_in", "x": pose.x, "y": pose.y, "heading_deg": degrees}
+    def send(self, message: Mapping[str, object]) -> None:
+        """Send the page a message."""
         with suppress(RuntimeError):
             self._loop.call_soon_threadsafe(lambda: self._spawn_send(message))
 
@@ -145,7 +163,9 @@ class _Connection:
     # -- messages from the page ------------------------------------------------------------------
 
     async def _receive(self) -> None:
-        async for message in receive_messages(self._socket, LIMITS, _read, self._refuse_message):
+        async for message in receive_messages(
+            self._socket, LIMITS, self._read, self._refuse_message
+        ):
             if isinstance(message, bytes):
                 self._add_part(message)
             elif isinstance(message, Show):
@@ -154,6 +174,10 @@ class _Connection:
                 await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
             else:
                 self._spawn(self._carry_out(message))
+
+    def _read(self, data: str | bytes) -> bytes | Show | Command:
+        """Return the message in a text, or a part of a file, which is binary."""
+        return data if isinstance(data, bytes) else self._panel.reader.read(data)
 
     def _add_part(self, part: bytes) -> None:
         """Keep a part of a file."""
@@ -170,7 +194,7 @@ class _Connection:
 
     async def _carry_out(self, command: Command) -> None:
         try:
-            answer: Answer = await HANDLERS[type(command)](self._page, command)
+            answer: Answer = await self._panel.handlers[type(command)](self._page, command)
         except asyncio.CancelledError:
             task = asyncio.current_task()
             if task is not None and task.cancelling():
@@ -207,7 +231,7 @@ class _Connection:
             for name in self._view.take_asked_again():
                 self._sent.pop(name, None)
             with _error_log.caught():
-                for name, text in due_parts(self._context, self._view):
+                for name, text in self._due_parts():
                     if self._sent.get(name) != text:
                         self._sent[name] = text
                         await self._send_text(text.decode())
@@ -215,6 +239,11 @@ class _Connection:
             with suppress(TimeoutError):
                 async with asyncio.timeout(self._context.until_next_look(period)):
                     await self._changed.wait()
+
+    def _due_parts(self) -> Parts:
+        yield from due_parts(self._context, self._view)
+        for option in self._panel.options:
+            yield from option.panel_parts(self._context, self._view)
 
     def _settle(self) -> None:
         """Show another agent if another world has no agent of that id."""
@@ -240,11 +269,6 @@ class _Connection:
         if self._socket.application_state is WebSocketState.CONNECTED:
             with suppress(WebSocketDisconnect):
                 await self._socket.send_text(text)
-
-
-def _read(data: str | bytes) -> bytes | Show | Command:
-    """Return the message in a text, or a part of a file, which is binary."""
-    return data if isinstance(data, bytes) else read_message(data)
 
 
 def _first_agent(runner: Runner, wanted: str | None) -> str:

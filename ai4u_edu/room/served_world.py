@@ -9,7 +9,7 @@ from starlette.applications import Starlette
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.panel import PanelContext, PanelSockets
 from ai4u_edu.recording import Ghosts
-from ai4u_edu.room.explanations import explanations_of
+from ai4u_edu.room.options import OPTIONS, Option, load_options
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import LOOPBACK, Rules, ServerThread, lock_viser_port, room_app
@@ -39,6 +39,7 @@ def serve_world(
     lessons: Callable[[], Sequence[Lesson]] | None = None,
     class_feed: ClassFeed | None = None,
     script_report: Report | None = None,
+    options: Sequence[str] = OPTIONS,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> "ServedWorld":
     """Serve the page and the API of a running world, for this machine, until it is stopped.
@@ -64,6 +65,7 @@ def serve_world(
             out, there is no start page. It needs an editor.
         class_feed: of the class that the world belongs to; pages show it.
         script_report: of what happens with scripts.
+        options: modules of what is added to the page; see :mod:`ai4u_edu.room.options`.
         timeouts: time limits of connections and answers.
 
     Raises:
@@ -80,13 +82,11 @@ def serve_world(
     >>> runner.stop()
     """
     player, ghosts = ReplayPlayer(runner), ghosts or Ghosts()
-    explanations = explanations_of(runner, player)
+    added = load_options(options, runner, player)
     title = title or (DEFAULT_TITLE if editor is None else editor.title)
-    viewer = Viewer(runner, title=title, editor=editor, ghosts=ghosts, explanations=explanations)
+    viewer = Viewer(runner, title=title, editor=editor, ghosts=ghosts, options=added)
     lock_viser_port(viewer.server, viser_secret)
-    context = PanelContext(
-        runner, viewer.viewer_clients, player, ghosts, explanations, editor, timeouts
-    )
+    context = PanelContext(runner, viewer.viewer_clients, player, ghosts, editor, timeouts)
     app = room_app(
         runner,
         viser_port=viewer.port,
@@ -95,7 +95,7 @@ def serve_world(
         allowed_hosts=allowed_hosts,
         proxy_hosts=proxy_hosts,
         rules=rules,
-        panel=PanelSockets(context),
+        panel=PanelSockets(context, added),
         editor=None if lessons is None else editor,
         lessons=lessons or list,
         class_feed=class_feed,
@@ -109,7 +109,7 @@ def serve_world(
     except BaseException:
         viewer.stop()
         raise
-    return ServedWorld(app, viewer, context, server)
+    return ServedWorld(app, viewer, context, added, server)
 
 
 class ServedWorld:
@@ -123,11 +123,17 @@ class ServedWorld:
         app: page and API.
         viewer: draws the world.
         context: the world and what belongs to it.
+        options: what is added to the page.
         server: serves the app; None if the caller does.
     """
 
     def __init__(
-        self, app: Starlette, viewer: Viewer, context: PanelContext, server: ServerThread | None
+        self,
+        app: Starlette,
+        viewer: Viewer,
+        context: PanelContext,
+        options: Sequence[Option],
+        server: ServerThread | None,
     ) -> None:
         self.app = app
         """ASGI app of page and API; mount it under a path with
@@ -135,10 +141,10 @@ class ServedWorld:
         self.viewer = viewer
         """Draws the world with viser; knows the open pages."""
         self.context = context
-        """The runner, the player of recorded episodes, ghosts, explanations and editor."""
+        """The runner, the player of recorded episodes, the ghosts and the editor."""
         self.url = "" if server is None else server.url
         """The page's address, with a slash at the end; empty without a server."""
-        self._server = server
+        self._options, self._server = options, server
         viewer.start()
         if server is not None:
             server.start()
@@ -154,7 +160,8 @@ class ServedWorld:
         """
         if self._server is not None:
             self._server.stop()
-        self.context.explanations.stop()
+        for option in self._options:
+            option.stop()
         ending = threading.Thread(target=self._end, name="page end", daemon=True)
         ending.start()
         ending.join(timeout)

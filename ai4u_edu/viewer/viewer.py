@@ -2,10 +2,10 @@
 
 import threading
 import time
+from collections.abc import Sequence
 
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.editing import SceneEditor
-from ai4u_edu.explain.explanations import Explanations
 from ai4u_edu.recording import Ghosts
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
@@ -21,9 +21,7 @@ from ai4u_edu.viewer.scene.ground import Ground
 from ai4u_edu.viewer.scene.labels import Labels
 from ai4u_edu.viewer.scene.light import set_up_lights
 from ai4u_edu.viewer.scene.page_handles import PageHandles
-from ai4u_edu.viewer.scene.policy_maps import PolicyMaps
-from ai4u_edu.viewer.scene.sense_overlay import SenseOverlay
-from ai4u_edu.viewer.scene.stand_in import StandIns
+from ai4u_edu.viewer.scene.sense_overlay import PictureOption, SenseOverlay
 from ai4u_edu.viewer.scene.trails import Trails
 from ai4u_edu.viewer.viewer_client import ViewerClients
 
@@ -46,7 +44,7 @@ class Viewer:
         title: of viser's page.
         editor: changes the world; left out, nothing can be moved with the mouse.
         ghosts: recorded episodes to draw beside the agents; left out, there are none.
-        explanations: of the agents; left out, none can be drawn.
+        options: draw what they add.
     """
 
     def __init__(
@@ -56,7 +54,7 @@ class Viewer:
         title: str = "AI4U Edu",
         editor: SceneEditor | None = None,
         ghosts: Ghosts | None = None,
-        explanations: Explanations | None = None,
+        options: Sequence[PictureOption] = (),
     ) -> None:
         self.runner = runner
         self.server = server = LocalServer(title)
@@ -78,14 +76,9 @@ class Viewer:
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
         ]
-        explainer = None
-        if explanations is not None:
-            explainer = explanations.explainer
-            parts += [
-                (PolicyMaps(viewer_clients, explanations.maps), senses_per_s),
-                (StandIns(viewer_clients), MAX_FRAMES_PER_S),
-            ]
-        parts.append((SenseOverlay(viewer_clients, senses_per_s, explainer), MAX_FRAMES_PER_S))
+        for option in options:
+            parts += option.picture_parts(viewer_clients)
+        parts.append((SenseOverlay(viewer_clients, senses_per_s, options), MAX_FRAMES_PER_S))
         if editor is not None:
             parts.append((PageHandles(viewer_clients, editor), MAX_FRAMES_PER_S))
         self.parts = [RatedPart(part, rate, self._error_log) for part, rate in parts]

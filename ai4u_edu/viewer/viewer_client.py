@@ -8,8 +8,6 @@ from urllib.parse import unquote
 from viser import ClientHandle
 
 from ai4u_edu.editing import ChangeResult
-from ai4u_edu.explain.elsewhere import Elsewhere, Pose
-from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.local_server import LocalServer
 from ai4u_edu.viewer.scene.framing import ground_at_center
@@ -34,8 +32,8 @@ class PagePanel(Protocol):
     def on_dropped(self, change: "Future[ChangeResult]") -> None:
         """Report the result of a move with the mouse."""
 
-    def on_stand_in(self, pose: Pose) -> None:
-        """Note that somebody put the agent's stand-in somewhere."""
+    def send(self, message: Mapping[str, object]) -> None:
+        """Send the page a message."""
 
 
 class ViewerClient:
@@ -70,12 +68,8 @@ class ViewerClient:
         """True if its user may drag things."""
         self.is_motion_reduced = False
         """True if its user prefers pictures without motion that nothing in the world makes."""
-        self.is_why_shown = False
-        """True if rays are coloured by how much they matter to the agent's action."""
-        self.maps = MapChoice()
-        """Maps over the floor that are drawn."""
-        self.elsewhere: Elsewhere | None = None
-        """Another place at which the agent is tried; None if it is at none."""
+        self.choices: dict[str, object] = {}
+        """Choices about options, by option; the page's panel has the same."""
         self.snap_m = 0.0
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)

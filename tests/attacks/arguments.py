@@ -8,11 +8,25 @@ from typing import Any
 import msgspec
 from msgspec import inspect
 
+from ai4u_edu.explain_page import messages as explain_messages
+from ai4u_edu.panel.messages import edit, play
 from ai4u_edu.panel.messages.base import Command
-from ai4u_edu.panel.messages.reader import NAMES
+from ai4u_edu.panel.messages.reader import MessageReader
 from tests.attacks.test_odd_input_messages import ODD
 
 Message = dict[str, Any]
+
+OWN_COMMANDS, EXPLAIN_COMMANDS = (
+    [
+        kind
+        for module in modules
+        for kind in vars(module).values()
+        if isinstance(kind, type) and issubclass(kind, Command) and kind is not Command
+    ]
+    for modules in ((play, edit), (explain_messages,))
+)
+"""Types of the panel's own commands, and of those about explanations."""
+NAMES = MessageReader([*OWN_COMMANDS, *EXPLAIN_COMMANDS]).names
 
 TEXTS = ("", "a", "wall", "box", "Lesson 1", "0", "-1.5", "ünï", "<b>x</b>", "../../etc", "x" * 300)
 TABS = ("agent", "blocks", "world", "past")

@@ -10,13 +10,14 @@ import msgspec
 import pytest
 from websockets.exceptions import ConnectionClosed
 
+from ai4u_edu.explain_page import page_option
 from ai4u_edu.panel import socket
 from ai4u_edu.panel.messages.base import MAX_NAME_CHARS
-from ai4u_edu.panel.messages.reader import NAMES
 from ai4u_edu.panel.socket import MAX_PENDING_COMMANDS as MAX_PENDING
 from ai4u_edu.panel.upload import MAX_PART_BYTES
 from ai4u_edu.recording.file import MAX_FILE_BYTES
 from ai4u_edu.server import page_receiver
+from tests.attacks.arguments import EXPLAIN_COMMANDS, NAMES, OWN_COMMANDS
 from tests.attacks.test_odd_input_messages import ODD
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room
 from tests.waiting import LIMIT_S
@@ -131,6 +132,8 @@ def test_names_are_bounded(room: PanelRoom) -> None:
         assert "length <=" in page.failed("sensor", key=name, on=True)["text"]
 
 
-def test_each_command_has_a_handler() -> None:
-    assert set(socket.HANDLERS) == set(NAMES.values())
+def test_each_command_has_a_handler(room: PanelRoom) -> None:
+    assert set(socket.HANDLERS) == set(OWN_COMMANDS)
+    option = page_option(room.runner, room.context.player)
+    assert set(option.commands) == set(EXPLAIN_COMMANDS)
     assert all(get_args(kind) == () for kind in NAMES.values())

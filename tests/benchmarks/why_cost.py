@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ai4u_edu import Scene, trained_brain
-from ai4u_edu.explain.live import INTEREST_S, LiveExplainer
-from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
-from ai4u_edu.room.explanations import SceneSource
+from ai4u_edu.explain.live import INTEREST_S
+from ai4u_edu.explain.live_maps import MapChoice
+from ai4u_edu.explain_page import page_option
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
@@ -64,25 +64,20 @@ def _pairs(scene: str, count: int, *, has_maps: bool) -> list[tuple[Half, Half]]
     agent = sim.agents[0]
     agent.use_brain(trained_brain(f"zoo:{scene}"))
     runner = Runner(sim, seed=1)
-    explainer = LiveExplainer(lambda: runner.latest, lambda _agent: agent.brain)
-    scene_source = SceneSource(runner, ReplayPlayer(runner))
-    maps = LiveMaps(
-        lambda: runner.latest, explainer, scene_source, next_tick_at=lambda: runner.next_tick_at
-    )
+    option = page_option(runner, ReplayPlayer(runner))
     requests = MapChoice(has_field=True, has_values=True).requests(agent.id) if has_maps else ()
 
     def ask() -> None:
-        explainer.why(agent.id)
+        option.explainer.why(agent.id)
         for request in requests:
-            maps.ask(request)
+            option.maps.ask(request)
 
     runner.start()
     try:
         _half(runner, None)  # warms up
         return [(_half(runner, None), _half(runner, ask)) for _ in range(count)]
     finally:
-        explainer.stop()
-        maps.stop()
+        option.stop()
         runner.stop()
 
 

@@ -1,12 +1,8 @@
 """Commands about recorded episodes. All pages share the player."""
 
 from collections.abc import Mapping
-from typing import Any
-
-import numpy as np
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.explain import RewardTerms, reward_terms
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import play as m
@@ -16,11 +12,6 @@ from ai4u_edu.recording import Archive, Episode
 from ai4u_edu.recording.file import decode
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
-
-MAX_POINTS = 300
-"""Most points of a term's curve."""
-MOMENTS = 5
-"""Decisions that are told of those that paid most."""
 
 
 async def _episode(page: Page, command: m.OpenEpisode) -> Answer:
@@ -82,31 +73,6 @@ async def _remove_ghost(page: Page, _command: m.RemoveGhost) -> Answer:
     return Answer("The ghost is gone.")
 
 
-async def _paid(page: Page, _command: m.AskPaid) -> Answer:
-    frame_cache = chosen_episode(page)
-    told = reward_terms(frame_cache.episode, frame_cache.record.id)
-    count = len(told.amounts)
-    places = np.linspace(0, count - 1, min(count, MAX_POINTS)).round().astype(int)
-    sums = told.amounts.cumsum(axis=0)[places]
-    return Answer(
-        more={
-            "terms": [
-                {"term": name, "total": float(told.totals[index]), "curve": sums[:, index].tolist()}
-                for index, name in enumerate(told.terms)
-                if told.amounts[:, index].any()
-            ],
-            "moments": [
-                {"step": step, "terms": _amounts(told, step)} for step in told.moments(MOMENTS)
-            ],
-        }
-    )
-
-
-def _amounts(told: RewardTerms, step: int) -> list[dict[str, Any]]:
-    amounts = zip(told.terms, told.amounts[step].tolist(), strict=True)
-    return [{"term": name, "amount": amount} for name, amount in amounts if amount]
-
-
 async def _pin(page: Page, command: m.Pin) -> Answer:
     _archive(page).pin(command.number, on=command.on)
     kept = "is kept" if command.on else "is no longer pinned"
@@ -151,7 +117,6 @@ HANDLERS: Mapping[type[Command], Handler] = {
     m.ContinueHere: _continue,
     m.Race: _race,
     m.RemoveGhost: _remove_ghost,
-    m.AskPaid: _paid,
     m.Pin: _pin,
     m.OpenRecording: _open_recording,
 }

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 
-from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.messages import play as m
@@ -26,16 +25,6 @@ async def _sensor(page: Page, command: m.ShowSensor) -> Answer:
     return Answer()
 
 
-async def _why(page: Page, command: m.ShowWhy) -> Answer:
-    page.view.show_why(command.on)
-    return Answer()
-
-
-async def _maps(page: Page, command: m.ShowMaps) -> Answer:
-    page.view.show_maps(MapChoice(command.field, command.values, command.facing))
-    return Answer()
-
-
 async def _trail(page: Page, command: m.ShowTrail) -> Answer:
     page.view.show_trail(command.on)
     return Answer()
@@ -55,8 +44,6 @@ HANDLERS: Mapping[type[Command], Handler] = {
     m.ShowAgent: _agent,
     m.Camera: _camera,
     m.ShowSensor: _sensor,
-    m.ShowWhy: _why,
-    m.ShowMaps: _maps,
     m.ShowTrail: _trail,
     m.Dark: _dark,
     m.ReduceMotion: _reduce_motion,

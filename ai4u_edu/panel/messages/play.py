@@ -2,12 +2,9 @@
 
 from typing import Annotated, Literal
 
-from msgspec import Meta, Struct
+from msgspec import Meta
 
-from ai4u_edu.panel.messages.base import Command, Degrees, Metres, Name, Number, Seed
-
-MAX_CHANGES = 128
-"""Most numbers of a percept that are changed at once."""
+from ai4u_edu.panel.messages.base import Command, Name, Number, Seed
 
 
 class Pause(Command, tag="pause"):
@@ -75,46 +72,6 @@ class ShowSensor(Command, tag="sensor"):
     on: bool
 
 
-class ShowWhy(Command, tag="why"):
-    """Show why the agent acts as it does, or no longer."""
-
-    on: bool
-
-
-class ShowMaps(Command, tag="maps"):
-    """Show maps over the floor: what the agent would do at each place, and what it is worth."""
-
-    field: bool
-    values: bool
-    facing: Name = ""
-
-
-class Change(Struct, forbid_unknown_fields=True):
-    """Another value of one number of a percept."""
-
-    key: Name
-    index: Number
-    value: Annotated[float, Meta(ge=-1e9, le=1e9)]
-
-
-class AskWhatIf(Command, tag="what_if"):
-    """Return the action on the agent's percept, and on a changed one."""
-
-    changes: Annotated[list[Change], Meta(max_length=MAX_CHANGES)]
-
-
-class AskElsewhere(Command, tag="elsewhere"):
-    """Return the action at another pose, and show it; left out, where the agent stands now."""
-
-    x: Metres | None = None
-    y: Metres | None = None
-    heading_deg: Degrees | None = None
-
-
-class HideElsewhere(Command, tag="hide_elsewhere"):
-    """Show no other pose any more."""
-
-
 class ShowTrail(Command, tag="trail"):
     """Draw the agent's trail, or hide it."""
 
@@ -173,21 +130,6 @@ class Race(Command, tag="race"):
 
 class RemoveGhost(Command, tag="remove_ghost"):
     """Remove the ghost."""
-
-
-class AskPaid(Command, tag="paid"):
-    """Return the reward terms of the chosen episode over time, and the decisions that paid most."""
-
-
-class ListRivals(Command, tag="rivals"):
-    """Return the drivers that the present one can be compared with."""
-
-
-class CompareDrivers(Command, tag="compare"):
-    """Return where two drivers first disagree in the chosen episode; empty for the present one."""
-
-    first: Name
-    second: Name
 
 
 class Pin(Command, tag="pin"):

@@ -1,34 +1,62 @@
 """Reading of a page's messages."""
 
+from collections.abc import Iterable
 from typing import Any, Union
 
 import msgspec
 from msgspec import Struct
 
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.panel.messages import edit, play
 from ai4u_edu.panel.messages.base import Command, Number, Show
 
 
-def read_message(text: str | bytes) -> Show | Command:
-    """Return the message in a JSON text.
+class MessageReader:
+    """Reads messages from pages: what a page looks at, and commands.
 
-    Raises:
-        ValueError: it is no such message; the text says what was expected.
+    Args:
+        commands: types of the commands that pages may send.
 
-    >>> read_message('{"type": "do", "id": 1, "command": "speed", "speed": 2}').speed
+    >>> from ai4u_edu.panel.messages import play
+    >>> read = MessageReader([play.Pause, play.SetSpeed]).read
+    >>> read('{"type": "do", "id": 1, "command": "speed", "speed": 2}').speed
     2.0
-    >>> read_message('{"type": "do", "id": 1, "command": "puase"}')
+    >>> read('{"type": "do", "id": 1, "command": "puase"}')
     Traceback (most recent call last):
     ...
     ValueError: no command is called 'puase'; did you mean 'pause'?
     """
-    try:
-        return _decoded(text)
-    except msgspec.ValidationError as error:
-        raise ValueError(_sentence(str(error))) from None
-    except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
-        raise ValueError(f"expected JSON, got {text[:40]!r}: {error}") from None
+
+    def __init__(self, commands: Iterable[type[Command]]) -> None:
+        self.names = {str(each.__struct_config__.tag): each for each in commands}
+        """Commands by name."""
+        self._command: msgspec.json.Decoder[Any] = msgspec.json.Decoder(
+            Union[tuple(self.names.values())]  # noqa: UP007 - there is no other way for a list
+        )
+
+    def read(self, text: str | bytes) -> Show | Command:
+        """Return the message in a JSON text.
+
+        Raises:
+            ValueError: it is no such message; the text says what was expected.
+        """
+        try:
+            return self._decoded(text)
+        except msgspec.ValidationError as error:
+            raise ValueError(_sentence(str(error))) from None
+        except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
+            raise ValueError(f"expected JSON, got {text[:40]!r}: {error}") from None
+
+    def _decoded(self, text: str | bytes) -> Show | Command:
+        kind = _ENVELOPE.decode(text)
+        if kind.type == "show":
+            return _SHOW.decode(text)
+        if kind.type != "do":
+            raise ValueError(f"expected the type 'show' or 'do', got {kind.type!r:.80}")
+        if kind.command not in self.names:
+            hint = suggest(kind.command[:80], self.names)
+            raise ValueError(f"no command is called {kind.command!r:.80}; {hint}")
+        command: Command = self._command.decode(text)
+        return command
 
 
 def id_in(text: str | bytes) -> int | None:
@@ -37,19 +65,6 @@ def id_in(text: str | bytes) -> int | None:
         return _ENVELOPE.decode(text).id
     except (msgspec.MsgspecError, RecursionError, UnicodeError):
         return None
-
-
-def _decoded(text: str | bytes) -> Show | Command:
-    kind = _ENVELOPE.decode(text)
-    if kind.type == "show":
-        return _SHOW.decode(text)
-    if kind.type != "do":
-        raise ValueError(f"expected the type 'show' or 'do', got {kind.type!r:.80}")
-    if kind.command not in NAMES:
-        hint = suggest(kind.command[:80], NAMES)
-        raise ValueError(f"no command is called {kind.command!r:.80}; {hint}")
-    command: Command = _COMMAND.decode(text)
-    return command
 
 
 class _Envelope(Struct):
@@ -69,15 +84,5 @@ def _sentence(text: str) -> str:
     return f"{place.lstrip('.')}: {what}" if place else what
 
 
-NAMES: dict[str, type[Command]] = {
-    str(each.__struct_config__.tag): each
-    for module in (play, edit)
-    for each in vars(module).values()
-    if isinstance(each, type) and issubclass(each, Command) and each is not Command
-}
-"""Commands by name."""
 _ENVELOPE = msgspec.json.Decoder(_Envelope)
 _SHOW = msgspec.json.Decoder(Show)
-_COMMAND: "msgspec.json.Decoder[Any]" = msgspec.json.Decoder(
-    Union[tuple(NAMES.values())]  # noqa: UP007 - there is no other way for a list
-)

@@ -9,13 +9,11 @@ from ai4u_edu.panel.context import PanelContext
 from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
 from ai4u_edu.panel.parts.blocks import blocks_part
-from ai4u_edu.panel.parts.maps import maps_part
 from ai4u_edu.panel.parts.past import past_part
 from ai4u_edu.panel.parts.run import run_part
 from ai4u_edu.panel.parts.scene import scene_part
 from ai4u_edu.panel.parts.training import training_part
 from ai4u_edu.panel.parts.view import view_part
-from ai4u_edu.panel.parts.why import why_part
 from ai4u_edu.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
@@ -66,17 +64,6 @@ def _agent_parts(context: PanelContext, view: PageView) -> Parts:
     )
     if view.is_curve_due():
         yield "curve", cache.of_snapshot(snapshot, ("curve", agent.id), lambda: curve_part(agent))
-    if view.is_why_shown:
-        why = context.explanations.explainer.why(agent.id)
-        if why is not None:
-            yield "why", cache.of_snapshot(snapshot, ("why", why), lambda: why_part(why))
-    if requests := view.maps.requests(agent.id):
-        maps = [context.explanations.maps.ask(each) for each in requests]
-        maps_key = "maps", agent.id, view.maps, *maps
-        yield (
-            "maps",
-            cache.of_snapshot(snapshot, maps_key, lambda: maps_part(snapshot, agent, maps)),
-        )
     address = view.address
     yield (
         "python",

@@ -1,13 +1,35 @@
 """Sensor readings drawn in the scene: on each page, those of the agent that it shows."""
 
-from ai4u_edu.explain.live import LiveExplainer, Why
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.viewer.backend.part import Part
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.pointers import Pointers
 from ai4u_edu.viewer.scene.rays import Rays, RayStyle
 from ai4u_edu.viewer.scene.spots import Spots
 from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
+
+RayWeights = Mapping[str, npt.NDArray[np.float64]]
+"""Weight of each ray of a sensor, 0..1, by perception key."""
+
+
+class PictureOption(Protocol):
+    """Parts that an option adds to the pictures of all pages; the viewer's thread calls it."""
+
+    def picture_parts(self, pages: ViewerClients) -> Sequence[tuple[Part, float]]:
+        """Return what is drawn, and how many times a second at most."""
+
+    def ray_weights(self, page: ViewerClient) -> RayWeights | None:
+        """Return how much each ray of a page's agent matters; None to draw rays as usual.
+
+        As long as nothing has changed, the same object comes again.
+        """
 
 
 class SenseOverlay:
@@ -16,17 +38,17 @@ class SenseOverlay:
     Args:
         viewer_clients: the pages.
         rate: how many times a second each page is drawn, at most.
-        explainer: tells how much each ray matters, for pages that show it.
+        options: may tell how much each ray matters.
     """
 
     def __init__(
         self,
         viewer_clients: ViewerClients,
         rate: float = SENSES_PER_S,
-        explainer: LiveExplainer | None = None,
+        options: Sequence[PictureOption] = (),
     ) -> None:
         self._viewer_clients, self._rate = viewer_clients, rate
-        self._explainer = explainer
+        self._options = options
         self._pages: dict[int, _Page] = {}
 
     def build(self, static_scene: StaticScene) -> None:
@@ -50,9 +72,13 @@ class SenseOverlay:
                 self._pages[number] = _Page(viewer_client, self._style)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
-                shows_why = viewer_client.is_why_shown and self._explainer is not None
-                why = self._explainer.why(agent.id) if shows_why and self._explainer else None
-                self._pages[number].draw(snapshot, agent, self._tops[agent.body], why)
+                weights = self._weights(viewer_client)
+                self._pages[number].draw(snapshot, agent, self._tops[agent.body], weights)
+
+    def _weights(self, viewer_client: ViewerClient) -> RayWeights | None:
+        """Return the rays' weights of the first option that has some for a page."""
+        found = (option.ray_weights(viewer_client) for option in self._options)
+        return next((weights for weights in found if weights is not None), None)
 
 
 class _Page:
@@ -66,7 +92,9 @@ class _Page:
         self._drawn: tuple[object, object] = (None, None)
         self._keys: list[str] = []
 
-    def draw(self, snapshot: Snapshot, agent: AgentState, top: float, why: Why | None) -> None:
+    def draw(
+        self, snapshot: Snapshot, agent: AgentState, top: float, weights: RayWeights | None
+    ) -> None:
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
         shown = [
             sensor
@@ -78,12 +106,11 @@ class _Page:
         with self._viewer_client.client.atomic():
             # `rays` is a new object after every reading
             drawn = self._drawn
-            if agent.rays is not drawn[0] or why is not drawn[1] or keys != self._keys:
-                self._drawn, self._keys = (agent.rays, why), keys
+            if agent.rays is not drawn[0] or weights is not drawn[1] or keys != self._keys:
+                self._drawn, self._keys = (agent.rays, weights), keys
                 seeing = [key for key in keys if key in agent.rays]
-                matters = {} if why is None else why.ray_weights
-                weights = [matters.get(key) for key in seeing]
-                self._rays.draw([agent.rays[key] for key in seeing], body.heading, weights)
+                matters = [(weights or {}).get(key) for key in seeing]
+                self._rays.draw([agent.rays[key] for key in seeing], body.heading, matters)
                 self._spots.draw([agent.spots[key] for key in keys if key in agent.spots], top)
             self._pointers.draw(snapshot, body, shown)
 

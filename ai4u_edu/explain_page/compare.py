@@ -13,13 +13,14 @@ from ai4u_edu.blocks import Block, Controller, LocalBrain, NeuralNetController
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.explain.comparison import Comparison, compare
 from ai4u_edu.explain.errors import NotExplainableError
+from ai4u_edu.explain.live import LiveExplainer
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.statefulness import dependence_of
+from ai4u_edu.explain_page import messages as m
+from ai4u_edu.explain_page.commands import plain_action
 from ai4u_edu.panel.answers import Answer
 from ai4u_edu.panel.commands.handler import Handler
 from ai4u_edu.panel.commands.past import chosen_episode
-from ai4u_edu.panel.commands.why import plain_action
-from ai4u_edu.panel.messages import play as m
 from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.recording.frame_cache import FrameCache
@@ -35,48 +36,62 @@ MAX_POINTS = 300
 """Most points of the curve of distances."""
 
 
-async def _rivals(page: Page, _command: m.ListRivals) -> Answer:
-    return Answer(more={"rivals": await page.in_thread(partial(_choices, page))})
+class CompareCommands:
+    """Handlers of the commands that compare two drivers of one world.
 
+    Args:
+        explainer: knows the agents' policies.
+    """
 
-async def _compare(page: Page, command: m.CompareDrivers) -> Answer:
-    frame_cache = chosen_episode(page)
-    editor, agent_id = page.context.required_editor(), page.view.agent
-    policy = page.context.explanations.explainer.policy
+    def __init__(self, explainer: LiveExplainer) -> None:
+        self._policy = explainer.policy
+        self.handlers: Mapping[type[Command], Handler] = {
+            m.ListRivals: self._rivals,
+            m.CompareDrivers: self._compare,
+        }
+        """Handlers by the type of their command."""
 
-    def asked(name: str) -> Policy:
-        return _policy(editor, agent_id, name) if name else policy(agent_id)
+    async def _rivals(self, page: Page, _command: m.ListRivals) -> Answer:
+        return Answer(more={"rivals": await page.in_thread(partial(self._choices, page))})
 
-    def compared() -> Comparison:
-        first, second = (
-            None if name == WHAT_IT_DID else asked(name) for name in (command.first, command.second)
-        )
-        return compare(first, second, _states(frame_cache, agent_id, page.context.timeouts.frame))
+    async def _compare(self, page: Page, command: m.CompareDrivers) -> Answer:
+        frame_cache = chosen_episode(page)
+        editor, agent_id = page.context.required_editor(), page.view.agent
 
-    return Answer(more=_plain(await page.in_thread(compared)))
+        def asked(name: str) -> Policy:
+            return _policy(editor, agent_id, name) if name else self._policy(agent_id)
 
+        def compared() -> Comparison:
+            first, second = (
+                None if name == WHAT_IT_DID else asked(name)
+                for name in (command.first, command.second)
+            )
+            timeout = page.context.timeouts.frame
+            return compare(first, second, _states(frame_cache, agent_id, timeout))
 
-def _choices(page: Page) -> list[dict[str, Any]]:
-    """Return what can be asked about an episode: what was done, and all drivers by the percept."""
-    editor, agent_id = page.context.required_editor(), page.view.agent
-    player = page.context.player
-    entry = None if player.archive is None else player.archive.find(player.number or 0)
-    is_person = entry is not None and entry.is_person
-    found: list[dict[str, Any]] = [
-        {"value": WHAT_IT_DID, "text": "What I did" if is_person else "What it did"}
-    ]
-    with suppress(AI4UError):
-        page.context.explanations.explainer.policy(agent_id)
-        found.append({"value": "", "text": "The driver that it has now"})
-    found += [
-        {"value": each.name, "text": each.title}
-        for each in editor.drivers(agent_id)
-        if not each.name.startswith(NOT_COMPARED)
-        and not each.title.startswith(NOT_COMPARED)
-        and not _reason_against(each.title)
-        and not editor.reason_against_driver(agent_id, each.name)
-    ]
-    return [choice | {"steps": _steps_of(choice["value"])} for choice in found]
+        return Answer(more=_plain(await page.in_thread(compared)))
+
+    def _choices(self, page: Page) -> list[dict[str, Any]]:
+        """Return what can be asked about an episode: what was done, and drivers by the percept."""
+        editor, agent_id = page.context.required_editor(), page.view.agent
+        player = page.context.player
+        entry = None if player.archive is None else player.archive.find(player.number or 0)
+        is_person = entry is not None and entry.is_person
+        found: list[dict[str, Any]] = [
+            {"value": WHAT_IT_DID, "text": "What I did" if is_person else "What it did"}
+        ]
+        with suppress(AI4UError):
+            self._policy(agent_id)
+            found.append({"value": "", "text": "The driver that it has now"})
+        found += [
+            {"value": each.name, "text": each.title}
+            for each in editor.drivers(agent_id)
+            if not each.name.startswith(NOT_COMPARED)
+            and not each.title.startswith(NOT_COMPARED)
+            and not _reason_against(each.title)
+            and not editor.reason_against_driver(agent_id, each.name)
+        ]
+        return [choice | {"steps": _steps_of(choice["value"])} for choice in found]
 
 
 def _policy(editor: SceneEditor, agent_id: str, driver: str) -> Policy:
@@ -132,7 +147,3 @@ def _plain(found: Comparison) -> dict[str, Any]:
         "first": found.sentences[0],
         "second": found.sentences[1],
     }
-
-
-HANDLERS: Mapping[type[Command], Handler] = {m.ListRivals: _rivals, m.CompareDrivers: _compare}
-"""Handlers by the type of their command."""

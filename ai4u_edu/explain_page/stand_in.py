@@ -11,12 +11,13 @@ from viser import BatchedMeshHandle, FrameHandle, SceneNodeDragEvent
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.explain.elsewhere import Elsewhere, Pose
 from ai4u_edu.explain.map_maker import LiveMap, MapRequest
+from ai4u_edu.explain_page.choice import OPTION, choice_of
+from ai4u_edu.explain_page.field_arrows import FieldArrows
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.viewer.backend.reporting import report_errors
 from ai4u_edu.viewer.scene.arena import arena_size
 from ai4u_edu.viewer.scene.drags import Action, Drag
-from ai4u_edu.viewer.scene.field_arrows import FieldArrows
 from ai4u_edu.viewer.scene.geometry import circle, grow, heading_wxyz, prism, segments
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import line_colours
@@ -58,7 +59,7 @@ class StandIns:
             del self.pages[gone]
         for number in self._turns.due(self._viewer_clients.keys()):
             client = self._viewer_clients[number]
-            told = client.elsewhere if snapshot.paused else None
+            told = choice_of(client).elsewhere if snapshot.paused else None
             if number not in self.pages and told is None:
                 continue
             if number not in self.pages:
@@ -176,13 +177,16 @@ class StandIn:
             turned = pose.heading if goal.heading_deg is None else math.radians(goal.heading_deg)
             pose = Pose(goal.x, goal.y, turned)
         is_over = event.phase == "end"
-        told = self._client.elsewhere
-        if is_over and told is not None:
-            self._client.elsewhere = told._replace(pose=pose)
+        choice = choice_of(self._client)
+        if is_over and choice.elsewhere is not None:
+            elsewhere = choice.elsewhere._replace(pose=pose)
+            self._client.choices[OPTION] = choice._replace(elsewhere=elsewhere)
         self._dragged = None if is_over else pose
         self._drag = None if is_over else drag
         if self._client.panel is not None:
-            self._client.panel.on_stand_in(pose)
+            degrees = round(math.degrees(pose.heading), 1)
+            message = {"type": "stand_in", "x": pose.x, "y": pose.y, "heading_deg": degrees}
+            self._client.panel.send(message)
 
 
 def _arrow_of(told: Elsewhere, pose: Pose, body: BodyDescription) -> LiveMap:

@@ -7,9 +7,10 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap
+from ai4u_edu.explain_page.choice import choice_of
+from ai4u_edu.explain_page.field_arrows import FieldArrows
 from ai4u_edu.runtime.frame_budget import TRAILS_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.viewer.scene.field_arrows import FieldArrows
 from ai4u_edu.viewer.scene.geometry import Array, cap
 from ai4u_edu.viewer.scene.layers import Layers
 from ai4u_edu.viewer.scene.light import surface_colours
@@ -45,7 +46,7 @@ class PolicyMaps:
             del self.pages[gone]
         for number in self._turns.due(self._viewer_clients.keys()):
             client = self._viewer_clients[number]
-            requests = client.maps.requests(client.agent)
+            requests = choice_of(client).maps.requests(client.agent)
             if number not in self.pages and not requests:
                 continue
             if number not in self.pages:

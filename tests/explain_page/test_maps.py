@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import trained_brain
 from ai4u_edu.explain import map_maker
-from ai4u_edu.explain.elsewhere import Pose
+from ai4u_edu.explain_page.choice import choice_of
 from tests.panel.rooms import PanelRoom, panel_room, picture
 from tests.waiting import LIMIT_S, until
 
@@ -41,17 +41,17 @@ def test_each_page_has_its_own_maps(monkeypatch: pytest.MonkeyPatch) -> None:
         assert (part["agent"], part["problem"], part["faced"]) == ("0", "", ["box"])
         assert part["field"] == {"done": 16, "count": 16, "seconds": 0.0}
         assert part["values"] is None
-        until(lambda: client.maps == (True, False, "box"))
+        until(lambda: choice_of(client).maps == (True, False, "box"))
         other.done("maps", field=False, values=True)
         values = other.part("maps", is_complete)["values"]
         assert values["low"] < values["high"] <= 100
         assert values["words"].startswith("what one episode from there pays")
         assert len(values["colours"]) == 13
-        assert client.maps == (True, False, "box")
+        assert choice_of(client).maps == (True, False, "box")
         page.done("maps", field=True, values=False, facing="bax")
         assert "did you mean 'box'" in page.part("maps", lambda part: part["problem"])["problem"]
         page.done("maps", field=False, values=False)
-        until(lambda: client.maps == (False, False, ""))
+        until(lambda: choice_of(client).maps == (False, False, ""))
 
 
 def test_a_person_is_no_policy() -> None:
@@ -93,14 +93,14 @@ def test_if_it_stood_elsewhere() -> None:
         assert there["action"][1]["now"] == turn["now"]
         assert not page.done("elsewhere", x=40, y=0, heading_deg=0)["can_stand"]
         assert robot.pose == before
-        until(lambda: client.elsewhere is not None and client.elsewhere.pose.x == 40)
+        until(lambda: (tried := choice_of(client).elsewhere) is not None and tried.pose.x == 40)
         # dragged in the picture: the page is told, and asks
         assert client.panel is not None
-        client.panel.on_stand_in(Pose(1.0, 2.0, 0.5))
+        client.panel.send({"type": "stand_in", "x": 1.0, "y": 2.0, "heading_deg": 28.6})
         told = page.receive(lambda message: message["type"] == "stand_in")
         assert (told["x"], told["y"], told["heading_deg"]) == (1.0, 2.0, 28.6)
         page.done("hide_elsewhere")
-        until(lambda: client.elsewhere is None)
+        until(lambda: choice_of(client).elsewhere is None)
         assert "expected" in page.failed("elsewhere", x="left", y=0, heading_deg=0)["text"]
 
 
@@ -133,4 +133,4 @@ def test_at_a_moment_of_the_past() -> None:
         page.done("maps", field=True, values=False)
         told = page.part("maps", is_complete)
         assert told["field"]["seconds"] == pytest.approx(room.runner.latest.time, abs=0.01)
-        until(lambda: client.elsewhere is not None)
+        until(lambda: choice_of(client).elsewhere is not None)

@@ -1,52 +1,106 @@
 """Explanations of a running world's agents, also in a recorded episode that its pages look at."""
 
+from collections.abc import Iterator, Mapping
 from concurrent.futures import CancelledError
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Brain, Percept
 from ai4u_edu.explain.baseline import mean_of
 from ai4u_edu.explain.elsewhere import PoseTrial
-from ai4u_edu.explain.explanations import Explanations
 from ai4u_edu.explain.live import (
     MAX_MEAN_PERCEPTS,
     MIN_MEAN_PERCEPTS,
+    Floats,
     LiveExplainer,
     NamedBaseline,
 )
 from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.explain_page.choice import choice_of
+from ai4u_edu.explain_page.commands import WhyCommands
+from ai4u_edu.explain_page.compare import CompareCommands
+from ai4u_edu.explain_page.parts import maps_part, why_part
+from ai4u_edu.explain_page.policy_maps import PolicyMaps
+from ai4u_edu.explain_page.stand_in import StandIns
+from ai4u_edu.panel import PanelContext
+from ai4u_edu.panel.page_view import PageView
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
-from ai4u_edu.runtime.frame_budget import SENSES_PER_S
+from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.viewer.backend.part import Part
+from ai4u_edu.viewer.viewer_client import ViewerClient, ViewerClients
 
 EXPORT_TIMEOUT_S = 2.0
 """Time that the world's thread has to describe its world."""
 
 
-def explanations_of(runner: Runner, player: ReplayPlayer) -> Explanations:
-    """Return what explains the agents of a running world.
+class ExplainOption:
+    """Explanations of a running world's agents: parts of the picture and the panel, and commands.
+
+    Any thread may call it. What is computed is computed in threads of its own while somebody looks.
 
     Args:
         runner: runs the world.
         player: plays the recorded episodes that its pages look at.
     """
 
-    def latest() -> Snapshot:
-        return runner.latest
+    agent_parts = frozenset({"why", "maps"})
 
-    def brain_of(agent_id: str) -> Brain | None:
-        agents = runner.sim.agents
-        return next((agent.brain for agent in agents if agent.id == agent_id), None)
+    def __init__(self, runner: Runner, player: ReplayPlayer) -> None:
+        def latest() -> Snapshot:
+            return runner.latest
 
-    explainer = LiveExplainer(latest, brain_of, EpisodeBaseline(player))
-    thrift = runner.frame_budget.senses_per_s / SENSES_PER_S  # less than 1 in a class's rooms
-    maps = LiveMaps(
-        latest, explainer, SceneSource(runner, player), thrift, lambda: runner.next_tick_at
-    )
-    return Explanations(explainer, maps, PoseTrial(latest, explainer, SceneSource(runner, player)))
+        def brain_of(agent_id: str) -> Brain | None:
+            agents = runner.sim.agents
+            return next((agent.brain for agent in agents if agent.id == agent_id), None)
+
+        self._runner = runner
+        self._rate = rate = runner.frame_budget.senses_per_s
+        self.explainer = explainer = LiveExplainer(latest, brain_of, EpisodeBaseline(player))
+        thrift = rate / SENSES_PER_S  # less than 1 in a class's rooms
+        scenes = SceneSource(runner, player), SceneSource(runner, player)  # one for each thread
+        self.maps = LiveMaps(latest, explainer, scenes[0], thrift, lambda: runner.next_tick_at)
+        self.pose_trial = PoseTrial(latest, explainer, scenes[1])
+        self.commands = {
+            **WhyCommands(explainer, self.pose_trial).handlers,
+            **CompareCommands(explainer).handlers,
+        }
+
+    def panel_parts(self, context: PanelContext, view: PageView) -> Iterator[tuple[str, bytes]]:
+        """Yield why the page's agent acts as it does, and its maps, if the page shows them."""
+        snapshot, choice = self._runner.latest, choice_of(view)
+        agent = next((each for each in snapshot.agents if each.id == view.agent), None)
+        if agent is None or "agent" not in view.show.tabs:
+            return
+        if choice.is_why_shown and (why := self.explainer.why(agent.id)) is not None:
+            yield "why", context.cache.of_snapshot(snapshot, ("why", why), lambda: why_part(why))
+        if requests := choice.maps.requests(agent.id):
+            maps = [self.maps.ask(request) for request in requests]
+            key = "maps", agent.id, choice.maps, *maps
+            yield (
+                "maps",
+                context.cache.of_snapshot(snapshot, key, lambda: maps_part(snapshot, agent, maps)),
+            )
+
+    def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:
+        """Return the maps over the floor, and the stand-ins for agents at other places."""
+        return [
+            (PolicyMaps(pages, self.maps), self._rate),
+            (StandIns(pages), MAX_FRAMES_PER_S),
+        ]
+
+    def ray_weights(self, page: ViewerClient) -> Mapping[str, Floats] | None:
+        """Return how much each ray matters to the page's agent; None if the page hides it."""
+        why = self.explainer.why(page.agent) if choice_of(page).is_why_shown else None
+        return None if why is None else why.ray_weights
+
+    def stop(self) -> None:
+        """End the threads; they are not waited for, as a student's function may not return."""
+        self.explainer.stop()
+        self.maps.stop()
 
 
 class SceneSource:

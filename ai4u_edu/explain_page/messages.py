@@ -1,0 +1,62 @@
+"""Commands that ask why an agent acts as it does."""
+
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from ai4u_edu.panel.messages.base import Command, Degrees, Metres, Name, Number
+
+
+class ShowWhy(Command, tag="why"):
+    """Show why the agent acts as it does, or no longer."""
+
+    on: bool
+
+
+class ShowMaps(Command, tag="maps"):
+    """Show maps over the floor: what the agent would do at each place, and what it is worth."""
+
+    field: bool
+    values: bool
+    facing: Name = ""
+
+
+class Change(Struct, forbid_unknown_fields=True):
+    """Another value of one number of a percept."""
+
+    key: Name
+    index: Number
+    value: Annotated[float, Meta(ge=-1e9, le=1e9)]
+
+
+class AskWhatIf(Command, tag="what_if"):
+    """Return the action on the agent's percept, and on a changed one."""
+
+    changes: Annotated[list[Change], Meta(max_length=128)]
+
+
+class AskElsewhere(Command, tag="elsewhere"):
+    """Return the action at another pose, and show it; left out, where the agent stands now."""
+
+    x: Metres | None = None
+    y: Metres | None = None
+    heading_deg: Degrees | None = None
+
+
+class HideElsewhere(Command, tag="hide_elsewhere"):
+    """Show no other pose any more."""
+
+
+class AskPaid(Command, tag="paid"):
+    """Return the reward terms of the chosen episode over time, and the decisions that paid most."""
+
+
+class ListRivals(Command, tag="rivals"):
+    """Return the drivers that the present one can be compared with."""
+
+
+class CompareDrivers(Command, tag="compare"):
+    """Return where two drivers first disagree in the chosen episode; empty for the present one."""
+
+    first: Name
+    second: Name

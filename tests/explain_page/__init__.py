@@ -1,0 +1,1 @@
+"""Tests of the page's panel: its state and its commands."""

@@ -1,0 +1,1 @@
+"""Tests of a room, and of options of its page."""
