@@ -1,4 +1,4 @@
-"""What one page has chosen to see of explanations."""
+"""Choices of one page about explanations."""
 
 from typing import NamedTuple, Protocol
 
@@ -10,7 +10,7 @@ OPTION = "explain"
 
 
 class ExplainChoice(NamedTuple):
-    """What one page has chosen to see of explanations."""
+    """Choices of one page about explanations."""
 
     is_why_shown: bool = False
     """True if the page shows why its agent acts as it does."""

@@ -17,7 +17,7 @@ logger = logging.getLogger(__name__)
 
 
 class Option(PanelOption, PictureOption, Protocol):
-    """What an option adds to the page of one world: parts of picture and panel, and commands."""
+    """An option of one world's page: it adds parts of picture and panel, and commands."""
 
     def stop(self) -> None:
         """End its threads, without waiting for code of a student that may not return."""

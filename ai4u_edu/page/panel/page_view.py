@@ -36,7 +36,7 @@ class Picture(Protocol):
     selected: str
     """Name of the selected thing; empty if there is none."""
     choices: dict[str, object]
-    """What was chosen to see of options, by option."""
+    """Choices about options, by option."""
     is_motion_reduced: bool
     is_move_mode: bool
     snap_m: float
@@ -115,7 +115,7 @@ class PageView:
         self._camera: CameraMode | None = None
         self.is_move_mode = False
         self.choices: dict[str, object] = {}
-        """What the page has chosen to see of options, by option; its picture gets the same."""
+        """Choices about options, by option; the page's picture gets the same."""
         self.snap_m = 0.0
         self.trails: dict[str, bool] = {}
         """Trails that were switched on or off, by agent."""
@@ -216,7 +216,7 @@ class PageView:
         self._apply(lambda picture: picture.show_sensor(key, on))
 
     def choose(self, option: str, choice: object, *parts: str) -> None:
-        """Keep what the page has chosen to see of an option.
+        """Keep the page's choice about an option.
 
         Args:
             option: its key.

@@ -51,7 +51,7 @@ _error_log = ErrorLog()
 
 
 class PanelOption(Protocol):
-    """What an option adds to the panels of all pages; the server's event loop calls it."""
+    """Parts and commands that an option adds to all panels; the server's event loop calls it."""
 
     @property
     def commands(self) -> Mapping[type[Command], Handler]:
@@ -74,11 +74,12 @@ class PanelSockets:
     """
 
     def __init__(self, context: PanelContext, options: Sequence[PanelOption] = ()) -> None:
-        self._context, self._options = context, options
-        self._handlers = dict(HANDLERS)
+        self.context, self.options = context, options
+        self.handlers = dict(HANDLERS)
+        """Handlers of all commands."""
         for option in options:
-            self._handlers |= option.commands
-        self._reader = MessageReader(self._handlers)
+            self.handlers |= option.commands
+        self.reader = MessageReader(self.handlers)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's socket until it is closed."""
@@ -88,9 +89,7 @@ class PanelSockets:
             if PAGE_ID_PARAM in socket.query_params and not page_id(scope):
                 await socket.close(1008, "expected a page id of 8 to 64 letters, digits and -")
                 return
-            await _Connection(
-                socket, self._context, page_id(scope), self._handlers, self._reader, self._options
-            ).serve()
+            await _Connection(socket, self, page_id(scope)).serve()
 
 
 class _Connection:
@@ -100,19 +99,11 @@ class _Connection:
     :meth:`send`.
     """
 
-    def __init__(
-        self,
-        socket: WebSocket,
-        context: PanelContext,
-        page_id: str,
-        handlers: Mapping[type[Command], Handler],
-        reader: MessageReader,
-        options: Sequence[PanelOption],
-    ) -> None:
-        self._socket, self._context = socket, context
-        self._handlers, self._reader, self._options = handlers, reader, options
+    def __init__(self, socket: WebSocket, panel: PanelSockets, page_id: str) -> None:
+        self._socket, self._panel = socket, panel
+        self._context = context = panel.context
         agent = _first_agent(context.runner, socket.query_params.get("agent"))
-        agent_parts = {name for option in options for name in option.agent_parts}
+        agent_parts = {name for option in panel.options for name in option.agent_parts}
         self._view = PageView(context.pictures, page_id, agent, self, agent_parts)
         upload = Upload(context.timeouts.upload)
         self._page = Page(context, self._view, self._note, upload)
@@ -186,7 +177,7 @@ class _Connection:
 
     def _read(self, data: str | bytes) -> bytes | Show | Command:
         """Return the message in a text, or a part of a file, which is binary."""
-        return data if isinstance(data, bytes) else self._reader.read(data)
+        return data if isinstance(data, bytes) else self._panel.reader.read(data)
 
     def _add_part(self, part: bytes) -> None:
         """Keep a part of a file."""
@@ -203,7 +194,7 @@ class _Connection:
 
     async def _carry_out(self, command: Command) -> None:
         try:
-            answer: Answer = await self._handlers[type(command)](self._page, command)
+            answer: Answer = await self._panel.handlers[type(command)](self._page, command)
         except asyncio.CancelledError:
             task = asyncio.current_task()
             if task is not None and task.cancelling():
@@ -251,7 +242,7 @@ class _Connection:
 
     def _due_parts(self) -> Parts:
         yield from due_parts(self._context, self._view)
-        for option in self._options:
+        for option in self._panel.options:
             yield from option.panel_parts(self._context, self._view)
 
     def _settle(self) -> None:

@@ -69,7 +69,7 @@ class ViewerClient:
         self.is_motion_reduced = False
         """True if its user prefers pictures without motion that nothing in the world makes."""
         self.choices: dict[str, object] = {}
-        """What its user has chosen to see of options, by option; its panel has the same."""
+        """Choices about options, by option; the page's panel has the same."""
         self.snap_m = 0.0
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)

@@ -20,7 +20,7 @@ RayWeights = Mapping[str, npt.NDArray[np.float64]]
 
 
 class PictureOption(Protocol):
-    """What an option adds to the pictures of all pages; the viewer's thread calls it."""
+    """Parts that an option adds to the pictures of all pages; the viewer's thread calls it."""
 
     def picture_parts(self, pages: ViewerClients) -> Sequence[tuple[Part, float]]:
         """Return what is drawn, and how many times a second at most."""
