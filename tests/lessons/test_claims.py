@@ -106,7 +106,7 @@ def test_the_posts_of_06_have_their_colours_and_names() -> None:
 def test_what_a_lesson_names_in_the_panel_is_there(number: str) -> None:
     (text,) = (cell.source for cell in lesson(number).cells if "**Details**" in cell.source)
     named = set(re.findall(r"\*\*(\w+)\*\*", text.partition("anel")[2]))
-    page = "".join(path.read_text() for path in WEB.glob("panel*.js"))
+    page = "".join(path.read_text() for path in (WEB / "panel").rglob("*.js"))
     assert {"Details", "Action"} <= named
     assert {name for name in named if f'"{name}"' not in page} == set()
 
