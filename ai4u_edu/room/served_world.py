@@ -10,9 +10,9 @@ from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel import PanelContext, PanelSockets
 from ai4u_edu.page.server import LOOPBACK, Rules, ServerThread, lock_viser_port, room_app
 from ai4u_edu.page.server.class_feed import ClassFeed
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.scripts import Report
 from ai4u_edu.page.server.start_page import Lesson
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.recording import Ghosts

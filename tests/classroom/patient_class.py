@@ -31,7 +31,7 @@ def be_patient() -> None:
     import functools
 
     from ai4u_edu.classroom import gateway, local_rooms, room_watch
-    from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS
+    from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
     from tests.waiting import LIMIT_S
 
     connections = ("request", "linger", "stall", "handshake", "ping", "close")
@@ -46,7 +46,7 @@ def be_patient() -> None:
         ("ai4u_edu.classroom.link_endpoint", ["HELLO_TIMEOUT_S"]),
         ("ai4u_edu.classroom.open_limits", ["STRANGER_SOCKET_S"]),
         ("ai4u_edu.classroom.room_proxy", ["OPEN_TIMEOUT_S", "ANSWER_TIMEOUT_S"]),
-        ("ai4u_edu.classroom.tournament.played", ["END_TIMEOUT_S"]),
+        ("ai4u_edu.classroom.tournament.runner", ["END_TIMEOUT_S"]),
     ):
         for name in names:
             replace(module, name, LIMIT_S)

@@ -11,7 +11,7 @@ import msgspec
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel.page_view import Pictures
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.recording import Ghosts
 from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.replay_player import ReplayPlayer

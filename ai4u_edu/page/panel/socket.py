@@ -25,7 +25,7 @@ from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.parts.due import Parts, due_parts
 from ai4u_edu.page.panel.upload import MAX_PART_BYTES, Upload
 from ai4u_edu.page.server.bindings import choose_agent
-from ai4u_edu.page.server.keepalive import keepalives
+from ai4u_edu.page.server.limits.keepalive import keepalives
 from ai4u_edu.page.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.page.server.proxy import PAGE_ID_PARAM, page_id
 from ai4u_edu.runtime.runner import Runner

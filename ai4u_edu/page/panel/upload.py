@@ -3,7 +3,7 @@
 import asyncio
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.recording.episode import MAX_FILE_BYTES
 
 MAX_PART_BYTES = 2**19
