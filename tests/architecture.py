@@ -14,8 +14,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "ai4u_edu"
 PICTURE = ROOT / "docs" / "architecture.svg"
-LEFT_OUT = {"__main__", "errors", "cycle", "runner", "bootstrap", "registration"}
-"""Modules beside the packages: entry points and aliases."""
+LEFT_OUT = {"__main__", "bootstrap", "registration"}
+"""Modules beside the packages: entry points."""
 WIDTH, ROW, BOX_HEIGHT, GAP, LINE = 1000, 92, 62, 20, 15
 MAX_LINE_CHARS = {1: 100, 2: 62, 3: 42, 4: 30}
 """Length of a line in a box, by the number of boxes in its row."""

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 from weakref import ReferenceType, ref
 
 from pydantic import Field, field_validator
@@ -13,7 +13,6 @@ from ai4u_edu.agent.events import Event
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
 from ai4u_edu.agent.options import set_action_handler
 from ai4u_edu.agent.table import table
-from ai4u_edu.base.deprecation import RenamedAttribute
 from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest
 from ai4u_edu.base.parameters import Count, Name, Number, WholeNumber
 from ai4u_edu.blocks import (
@@ -119,12 +118,6 @@ class BasicAgent(Parameterized):
         self.percept_ready = Event("percept_ready")
         """Our own event, for recorders and connections: percept, reward and end of a decision are
         final. It also comes once after each reset."""
-
-    if not TYPE_CHECKING:  # a type checker is to report the old names
-        fitting = RenamedAttribute("bound_blocks")
-        companions = RenamedAttribute("other_agents")
-        see = RenamedAttribute("replace_percept")
-        obey = RenamedAttribute("apply_command")
 
     # -- state -----------------------------------------------------------------------------------
 

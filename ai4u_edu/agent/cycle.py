@@ -51,12 +51,10 @@ episode's first one does, is shorter: it ends at its own agent's slot.
 
 import time
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.decision_cycle import DecisionCycle, Phase
 from ai4u_edu.agent.members import check_members
-from ai4u_edu.base.deprecation import RenamedAttribute
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Command, Percept
@@ -128,10 +126,6 @@ class ControlRequestor:
             agent.setup(world)
         self._cycles = [DecisionCycle(agent) for agent in self.agents]
         self._respawning: list[DecisionCycle] = []
-
-    if not TYPE_CHECKING:  # a type checker is to report the old names
-        leap = RenamedAttribute("step_decision")
-        held = RenamedAttribute("waiting_for_brain")
 
     def agent(self, agent_id: str) -> BasicAgent:
         """Return the agent of an id.

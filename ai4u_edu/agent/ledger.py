@@ -2,9 +2,7 @@
 
 from collections import deque
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
-
-from ai4u_edu.base.deprecation import RenamedAttribute
+from typing import NamedTuple
 
 HANDLERS = "handlers"
 """Default term of ``agent.add_reward``."""
@@ -58,9 +56,6 @@ class Ledger:
     >>> ledger.total, ledger.episode_total
     (1.0, 100.5)
     """
-
-    if not TYPE_CHECKING:  # a type checker is to report the old name
-        remember = RenamedAttribute("keep_history")
 
     def __init__(self) -> None:
         self.terms: dict[str, float] = {}

@@ -1,8 +1,5 @@
 """Recording, exact replay and export of episodes."""
 
-import warnings
-from typing import Any
-
 from ai4u_edu.recording.archive import Archive, ArchiveEntry
 from ai4u_edu.recording.episode import AgentRecord, Decision, Episode
 from ai4u_edu.recording.errors import RecordingError
@@ -27,10 +24,3 @@ __all__ = [
     "ghost_of",
     "recorder_into",
 ]
-
-
-def __getattr__(name: str) -> Any:
-    if name == "Entry":
-        warnings.warn(f"{__name__}.Entry is now ArchiveEntry", DeprecationWarning, stacklevel=2)
-        return ArchiveEntry
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

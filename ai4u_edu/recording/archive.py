@@ -1,7 +1,6 @@
 """Archive of recent episodes, by number."""
 
 import re
-import warnings
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -134,12 +133,6 @@ class Archive(Sequence[Episode]):
             if not entry.source:
                 alike[entry.episode.scene.name, entry.is_person].append(entry)
         return frozenset(max(each, key=_rank).number for each in alike.values() if len(each) > 1)
-
-    @property
-    def best(self) -> ArchiveEntry | None:
-        """Return the best entry of all scenes and drivers; deprecated."""
-        warnings.warn("use Archive.bests", DeprecationWarning, stacklevel=2)
-        return max((each for each in self.entries if not each.source), key=_rank, default=None)
 
     def find(self, number: int) -> ArchiveEntry | None:
         """Return the entry of a number; None if it was dropped."""

@@ -2,7 +2,6 @@
 
 import logging
 import sys
-import warnings
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -96,16 +95,6 @@ class Recorder:
                 (agent.percept_ready, self._on_percept),
             ):
                 (event.connect if enabled else event.disconnect)(handler)
-
-    def switch(self, on: bool) -> None:
-        """Call :meth:`set_enabled`; deprecated."""
-        warnings.warn("use Recorder.set_enabled", DeprecationWarning, stacklevel=2)
-        self.set_enabled(on)
-
-    def now(self) -> Episode | None:
-        """Return :meth:`current_episode`; deprecated."""
-        warnings.warn("use Recorder.current_episode", DeprecationWarning, stacklevel=2)
-        return self.current_episode()
 
     def current_episode(self) -> Episode | None:
         """Return the present episode so far; None if none is being recorded."""

@@ -1,6 +1,5 @@
 """Exact replay of a recorded episode."""
 
-import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -130,11 +129,6 @@ class Replay:
             ticks = player.sim.world.ticks
             if ticks > before and (ticks % every == 0 or ticks == until):
                 yield self._snapshot()
-
-    def pictures(self, every: int = 1) -> Iterator[Snapshot]:
-        """Yield :meth:`snapshots`; deprecated."""
-        warnings.warn("use Replay.snapshots", DeprecationWarning, stacklevel=2)
-        return self.snapshots(every)
 
     def percepts(self, agent: str | None = None) -> list[list[Percept]]:
         """Return all percepts of an agent, by its own episodes.

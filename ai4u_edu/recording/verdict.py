@@ -1,6 +1,5 @@
 """Comparison of a recorded episode with its replay."""
 
-import warnings
 from dataclasses import dataclass
 
 from ai4u_edu.recording.episode import ENDED, AgentRecord, Episode
@@ -17,12 +16,6 @@ class Verdict:
     """Tick up to which the replay is exact; later moments can't be shown."""
     why: str
     """Sentence about the first difference; empty if there is none."""
-
-    @property
-    def until(self) -> int:
-        """The value of :attr:`exact_until`; deprecated."""
-        warnings.warn("use Verdict.exact_until", DeprecationWarning, stacklevel=2)
-        return self.exact_until
 
 
 def compare(there: Episode, here: Episode, problem: str) -> Verdict:

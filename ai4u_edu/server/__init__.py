@@ -1,8 +1,5 @@
 """The web server: one port for page, viser, keys, scripts and API."""
 
-import warnings
-from typing import Any
-
 from ai4u_edu.server.address import AddressError, PortTakenError
 from ai4u_edu.server.app import RoomMount, room_app
 from ai4u_edu.server.desktop import open_on_desktop
@@ -33,13 +30,3 @@ __all__ = [
     "token_for",
     "with_token",
 ]
-
-_RENAMED = {"announcement": startup_banner, "shut_side_door": lock_viser_port}
-
-
-def __getattr__(name: str) -> Any:
-    if name in _RENAMED:
-        now = _RENAMED[name]
-        warnings.warn(f"use {__name__}.{now.__name__}", DeprecationWarning, stacklevel=2)
-        return now
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -211,33 +211,6 @@ def test_both_paths_into_memory_give_the_same_bits(
     assert percepts(name) == direct
 
 
-def test_a_sensor_may_still_define_the_old_name_of_is_sentinel() -> None:
-    with pytest.warns(DeprecationWarning, match=r"Old.says_nothing is now Old.is_sentinel"):
-
-        class Old(Constant):
-            """Reads a sentinel."""
-
-            def read(self, body: Any, view: Any) -> float:
-                return 0.5
-
-            def says_nothing(self, reading: Any) -> bool:
-                return bool(reading[0] == 0.5)
-
-    assert readings(Old(normalized=True), 1) == [[0.5], [0.5]]
-    with pytest.warns(DeprecationWarning, match="Sensor.says_nothing is now Sensor.is_sentinel"):
-        assert not Constant().says_nothing([5.0])
-
-    with pytest.warns(DeprecationWarning, match="is_sentinel"):
-
-        class Older(Old):
-            """Asks its base by the old name."""
-
-            def says_nothing(self, reading: Any) -> bool:
-                return super().says_nothing(reading)
-
-    assert Older().is_sentinel([0.5])
-
-
 # -- choices and texts -----------------------------------------------------------------------------
 
 

@@ -1,4 +1,4 @@
-"""What happens in the scenes of the library stays the same, bit for bit, from commit to commit."""
+"""Drives in the scenes of the library stay the same, bit for bit, from commit to commit."""
 
 import sys
 import sysconfig

@@ -2,11 +2,10 @@
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field
 
-from ai4u_edu.base.deprecation import RenamedAttribute
 from ai4u_edu.base.errors import ActionError, SetupError, shown
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
@@ -71,13 +70,6 @@ class RemoteBrain(Brain):
     on_missing: OnMissing = "hold"
     """Substitute for a missing action: ``hold`` repeats the last one, ``coast`` takes none,
     ``stop`` gives zeros."""
-
-    if not TYPE_CHECKING:
-        over = RenamedAttribute("with_link")
-        is_given = RenamedAttribute("has_own_link")
-        hand = RenamedAttribute("override")
-        lend = RenamedAttribute("begin_override")
-        take_back = RenamedAttribute("end_override")
 
     def __post_init__(self) -> None:
         self.override: Brain | None = None

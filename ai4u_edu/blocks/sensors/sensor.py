@@ -1,7 +1,6 @@
 """Base class of sensors: key, space, and the path from a raw reading to the percept."""
 
 import math
-import warnings
 from collections import deque
 from collections.abc import Callable
 from operator import truediv
@@ -102,13 +101,6 @@ class Sensor(Block):
     def __post_init__(self) -> None:
         self.perception_key = self.perception_key or default_name(type(self), "Sensor")
 
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "says_nothing" in vars(cls) and "is_sentinel" not in vars(cls):
-            text = f"{cls.__name__}.says_nothing is now {cls.__name__}.is_sentinel"
-            warnings.warn(text, DeprecationWarning, stacklevel=2)
-            setattr(cls, "is_sentinel", vars(cls)["says_nothing"])  # noqa: B010 - mypy: a method
-
     def fixed_at_setup(self) -> dict[str, object]:
         """Return what decides on the reading's place and on its path to the percept."""
         return {
@@ -154,17 +146,6 @@ class Sensor(Block):
 
     def is_sentinel(self, reading: Any) -> bool:
         """Return True for a raw reading that means "nothing there" and is not normalised."""
-        return False
-
-    def says_nothing(self, reading: Any) -> bool:
-        """Return :meth:`is_sentinel`; deprecated name, kept for one release."""
-        warnings.warn(
-            "Sensor.says_nothing is now Sensor.is_sentinel", DeprecationWarning, stacklevel=2
-        )
-        for cls in type(self).__mro__:
-            found = vars(cls).get("is_sentinel")
-            if found is not None and found is not vars(cls).get("says_nothing"):
-                return bool(found(self, reading))
         return False
 
     def slots(self) -> tuple[str, ...]:
