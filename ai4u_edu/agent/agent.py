@@ -7,12 +7,9 @@ from weakref import ReferenceType, ref
 
 from pydantic import Field, field_validator
 
-from ai4u_edu.agent.as_brain import as_brain, can_drive
 from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.agent.events import Event
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
-from ai4u_edu.agent.options import set_action_handler
-from ai4u_edu.agent.table import table
 from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest
 from ai4u_edu.base.parameters import Count, Name, Number, WholeNumber
 from ai4u_edu.blocks import (
@@ -22,17 +19,25 @@ from ai4u_edu.blocks import (
     Answer,
     Brain,
     Command,
+    ContinuousActuator,
     Controller,
+    DiscreteActuator,
     Keyboard,
+    LocalBrain,
     Percept,
     RewardFunc,
     Sensor,
+    TruncatedSensor,
 )
+from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.command import Accepted
 from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]
+
+DEFAULT_ACTION = "defaultAction"
+"""AI4U's name for the action that goes to ``agent.action_handler``."""
 
 
 class BasicAgent(Parameterized):
@@ -80,7 +85,7 @@ class BasicAgent(Parameterized):
     def _with_brains(cls, brains: Any) -> Any:
         if not isinstance(brains, list | tuple):
             return brains
-        return [as_brain(each) if can_drive(each) else each for each in brains]
+        return [_as_brain(each) if _can_drive(each) else each for each in brains]
 
     def __post_init__(self) -> None:
         self.keyboard = Keyboard()
@@ -105,17 +110,17 @@ class BasicAgent(Parameterized):
         self._done_requested = False
         self._status_read = (0.0, False, False)
         """Reward, terminated and truncated when the sensors last read."""
-        self.agent_start = Event("agent_start")
-        self.before_the_reset = Event("before_the_reset")
-        self.begin_of_episode = Event("begin_of_episode")
-        self.begin_of_update_state = Event("begin_of_update_state")
-        self.end_of_update_state = Event("end_of_update_state")
-        self.begin_of_step = Event("begin_of_step")
-        self.begin_of_apply_action = Event("begin_of_apply_action")
-        self.end_of_apply_action = Event("end_of_apply_action")
-        self.end_of_step = Event("end_of_step")
-        self.end_of_episode = Event("end_of_episode")
-        self.percept_ready = Event("percept_ready")
+        self.agent_start: Event[BasicAgent] = Event("agent_start")
+        self.before_the_reset: Event[BasicAgent] = Event("before_the_reset")
+        self.begin_of_episode: Event[BasicAgent] = Event("begin_of_episode")
+        self.begin_of_update_state: Event[BasicAgent] = Event("begin_of_update_state")
+        self.end_of_update_state: Event[BasicAgent] = Event("end_of_update_state")
+        self.begin_of_step: Event[BasicAgent] = Event("begin_of_step")
+        self.begin_of_apply_action: Event[BasicAgent] = Event("begin_of_apply_action")
+        self.end_of_apply_action: Event[BasicAgent] = Event("end_of_apply_action")
+        self.end_of_step: Event[BasicAgent] = Event("end_of_step")
+        self.end_of_episode: Event[BasicAgent] = Event("end_of_episode")
+        self.percept_ready: Event[BasicAgent] = Event("percept_ready")
         """Our own event, for recorders and connections: percept, reward and end of a decision are
         final. It also comes once after each reset."""
 
@@ -164,7 +169,9 @@ class BasicAgent(Parameterized):
                 f"agent.action_handler = lambda body, numbers: ..., got {handler!r}"
             )
         self._action_handler = handler
-        set_action_handler(self)
+        for actuator in self.actuators:
+            if actuator.action_name == DEFAULT_ACTION and hasattr(actuator, "handler"):
+                actuator.handler = handler
 
     @property
     def body(self) -> Body:
@@ -209,7 +216,7 @@ class BasicAgent(Parameterized):
         return dict(self.ledger.terms)
 
     def __str__(self) -> str:
-        return table(self)
+        return _table(self)
 
     # -- methods for users ------------------------------------------------------------------------
 
@@ -239,6 +246,7 @@ class BasicAgent(Parameterized):
         Raises:
             SetupError: something does not fit.
         """
+        self._add_optional_blocks()
         bound = BoundBlocks(self, world)
         self._bound_blocks = bound  # blocks ask the agent for body and view while they are set up
         bound.set_up(ready_brain=ready_brain)
@@ -297,7 +305,7 @@ class BasicAgent(Parameterized):
         Raises:
             SetupError: the value is none of these, or the brain does not fit the agent.
         """
-        self.bound_blocks.swap_brain(as_brain(brain))
+        self.bound_blocks.swap_brain(_as_brain(brain))
 
     # -- steps of a decision, called by ControlRequestor -----------------------------------------
 
@@ -404,6 +412,32 @@ class BasicAgent(Parameterized):
         if self.percept_ready.handlers:
             self.percept_ready.fire(self)
 
+    def _add_optional_blocks(self) -> None:
+        """Add the blocks that options ask for, as AI4U's RLAgent does, except for names in use."""
+        sensors = list[Sensor]()
+        if self.array_input_size:
+            sensors.append(
+                AgentArraySensor(
+                    size=self.array_input_size, range_min=self.range_min, range_max=self.range_max
+                )
+            )
+        if self.check_episode_truncated:
+            sensors.append(TruncatedSensor())
+        keys = {sensor.perception_key for sensor in self.sensors}
+        self.sensors += [sensor for sensor in sensors if sensor.perception_key not in keys]
+        size = self.action_size or int(self._action_handler is not None)
+        if not size or any(each.action_name == DEFAULT_ACTION for each in self.actuators):
+            return
+        made: ContinuousActuator | DiscreteActuator
+        if self.action_is_continuous:
+            made = ContinuousActuator(action_name=DEFAULT_ACTION, size=size)
+        else:
+            # the default table of a DiscreteActuator would drive the body without a handler
+            still = [(0.0, 0.0, 0.0, 0.0)]
+            made = DiscreteActuator(action_name=DEFAULT_ACTION, size=size, table=still)
+        made.handler = self._action_handler
+        self.actuators.append(made)
+
     def _is_end_asked(self) -> bool:
         return (
             self._done_requested
@@ -425,3 +459,56 @@ class BasicAgent(Parameterized):
             f"agent {self.id!r}: expected an action by actuator name, such as {example}, "
             f"got {action!r}"
         ) from None
+
+
+def _as_brain(given: object) -> Brain:
+    """Return a brain unchanged, or a LocalBrain for a controller or a function.
+
+    Raises:
+        SetupError: the value is none of these.
+    """
+    if isinstance(given, Brain):
+        return given
+    if _can_drive(given):
+        return LocalBrain(controller=given)  # type: ignore[arg-type]  # _can_drive checked it
+    problem = f"the class {given.__name__}" if isinstance(given, type) else repr(given)
+    raise SetupError(
+        f"expected a brain, a controller or a function from percept to action, got {problem}; "
+        "a brain is made as in LocalBrain(controller=WASDRBMoveController())"
+    )
+
+
+def _can_drive(given: object) -> bool:
+    """Return True for a controller or a function, which a LocalBrain can hold."""
+    if isinstance(given, Controller):
+        return True
+    return callable(given) and not isinstance(given, type | Parameterized)
+
+
+def _table(agent: BasicAgent) -> str:
+    """Return a line for each block: kind, class, name and parameters other than the default."""
+    rows = [("", "block", "name", "parameters")]
+    for kind, blocks in (
+        ("sensor", agent.sensors),
+        ("actuator", agent.actuators),
+        ("reward", agent.rewards),
+        ("brain", agent.brains),
+    ):
+        rows += [(kind, *_row(block)) for block in blocks]
+    widths = [max(len(row[column]) for row in rows) for column in range(3)]
+    lines = [
+        "  ".join(cell.ljust(width) for cell, width in zip(row, [*widths, 0], strict=True)).rstrip()
+        for row in rows
+    ]
+    return "\n".join([f"agent {agent.id!r} on body {agent.body_name!r}", *lines])
+
+
+def _row(block: Block) -> tuple[str, str, str]:
+    values = block.values()
+    name = str(values.get("perception_key") or values.get("action_name") or values.get("name", ""))
+    hidden = {"perception_key", "action_name", "name", "is_active", "enabled", "sensors"}
+    shown = ", ".join(
+        f"{key}={value!r}" for key, value in block.given().items() if key not in hidden
+    )
+    off = values.get("is_active") is False or values.get("enabled") is False
+    return type(block).__name__, name, "off; " * off + shown

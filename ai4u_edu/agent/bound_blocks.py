@@ -1,20 +1,29 @@
-"""An agent's blocks, bound to its body in one world."""
+"""An agent's blocks, bound to its body in one world.
+
+A block belongs to one agent at a time, since it keeps state for its agent, such as the best
+distance so far. Two agents that share a block would silently corrupt it. So an agent claims its
+blocks when they are set up:
+
+- If another agent of the same ControlRequestor has the block, that is an error.
+- If an agent of another ControlRequestor has it, as when a notebook cell runs again, the block
+  changes its owner, and the agent that had it can neither decide nor be reset any more.
+
+A block refers to its owner weakly.
+"""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
+from weakref import ref
 
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
-from ai4u_edu.agent.options import add_optional_blocks
-from ai4u_edu.agent.ownership import LostBrain, check_each_once, claim, owner_of, walk_blocks
-from ai4u_edu.agent.raw_values import as_amount, read_text, read_texts, refuse_amount
-from ai4u_edu.agent.setup_checks import check_unique, enabled_brain
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
 from ai4u_edu.blocks import (
     Actuator,
+    Answer,
     Brain,
     DoneSensor,
     IDSensor,
@@ -23,13 +32,36 @@ from ai4u_edu.blocks import (
     RewardFunc,
     Sensor,
 )
+from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.blocks.percept import TEXTS
+from ai4u_edu.blocks.percept import TEXTS, Texts
 from ai4u_edu.blocks.sensors.sensor_state import depends_on_status, read_status_again
-from ai4u_edu.world import World, WorldView
+from ai4u_edu.world import BodyView, World, WorldView
 
-if TYPE_CHECKING:
-    from ai4u_edu.agent.agent import BasicAgent
+_OWNER = "_owner_ref"
+"""Attribute of a block that refers to the agent that claimed it last."""
+
+
+class Owner(AgentView, Protocol):
+    """Protocol of an agent whose blocks are bound (BasicAgent is one)."""
+
+    body_name: str
+    sensors: list[Sensor]
+    actuators: list[Actuator]
+    rewards: list[RewardFunc]
+    brains: list[Brain]
+
+    @property
+    def requestor(self) -> object | None:
+        """The ControlRequestor that the agent belongs to."""
+
+    @property
+    def bound_blocks(self) -> "BoundBlocks":
+        """The blocks bound to its body."""
+
+    @property
+    def bound_blocks_or_none(self) -> "BoundBlocks | None":
+        """The blocks bound to its body; None before it is set up."""
 
 
 class BoundBlocks:
@@ -43,29 +75,28 @@ class BoundBlocks:
         SetupError: something does not fit; the message names it.
     """
 
-    def __init__(self, agent: "BasicAgent", world: World) -> None:
+    def __init__(self, agent: Owner, world: World) -> None:
         self._agent = agent
         self.world = world
-        add_optional_blocks(agent)
         with self._error_context(None):
             self.body = world[agent.body_name]
         self.view = WorldView(world)
         world.contacts.watch(self.body)
-        self.brain = enabled_brain(agent, agent.brains)
+        self.brain = _enabled_brain(agent, agent.brains)
         self._remember_switches()
         self.rewards = [reward for reward in agent.rewards if reward.is_active]
         self.sensors = [sensor for sensor in self._with_standard_sensors() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
-        check_each_once(agent, [*self.rewards, *self.sensors, *active, self.brain])
-        check_unique(agent, "reward function", "name", self.rewards)
-        check_unique(agent, "sensor", "perception_key", self.sensors)
-        check_unique(agent, "actuator", "action_name", active)
+        _check_each_once(agent, [*self.rewards, *self.sensors, *active, self.brain])
+        _check_unique(agent, "reward function", "name", self.rewards)
+        _check_unique(agent, "sensor", "perception_key", self.sensors)
+        _check_unique(agent, "actuator", "action_name", active)
         self.actuators = {actuator.action_name: actuator for actuator in active}
         self.tick_actuators = [
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
         ]
         self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
-        claim(agent, self.blocks)
+        _claim(agent, self.blocks)
 
     def set_up(self, *, ready_brain: Brain | None = None) -> None:
         """Set up reward functions, then sensors, actuators and the brain.
@@ -100,11 +131,11 @@ class BoundBlocks:
         Raises:
             SetupError: the brain does not fit, or the agent has lost other blocks.
         """
-        if isinstance(self.brain, LostBrain) and not self.brain.is_replaceable:
+        if isinstance(self.brain, _LostBrain) and not self.brain.is_replaceable:
             raise SetupError(self.brain.problem)
         others = [each for each in self.blocks if each is not self.brain]
-        check_each_once(self._agent, [*others, brain])
-        claim(self._agent, [brain])
+        _check_each_once(self._agent, [*others, brain])
+        _claim(self._agent, [brain])
         was_enabled, brain.enabled = brain.enabled, True
         try:
             self._set_up(brain)
@@ -130,13 +161,13 @@ class BoundBlocks:
         brains = self._agent.brains
         if brains == self._known_brains and [each.enabled for each in brains] == self._switches:
             return
-        if isinstance(self.brain, LostBrain):
+        if isinstance(self.brain, _LostBrain):
             return
         agent = self._agent
         try:
             # a brain that was lent to another agent is switched for that one
-            brain = enabled_brain(
-                agent, [each for each in agent.brains if owner_of(each) in (None, agent)]
+            brain = _enabled_brain(
+                agent, [each for each in agent.brains if _owner_of(each) in (None, agent)]
             )
         except SetupError as error:
             raise SetupError(f"{error}; or call agent.use_brain(brain)") from None
@@ -210,7 +241,7 @@ class BoundBlocks:
                 )
 
     def _remember_fixed(self) -> None:
-        self._fixed = [(block, block.fixed_at_setup()) for block in walk_blocks(self.blocks)]
+        self._fixed = [(block, block.fixed_at_setup()) for block in _walk_blocks(self.blocks)]
 
     def _check_fixed(self) -> None:
         for block, before in self._fixed:
@@ -260,10 +291,10 @@ class BoundBlocks:
                 if reward.is_active:
                     amount = reward.on_update(body, view)
                     if type(amount) is not float:
-                        amount = as_amount(amount)
+                        amount = _as_amount(amount)
                     paid = amount * scale
                     if not math.isfinite(paid):
-                        refuse_amount(paid)
+                        _refuse_amount(paid)
                     ledger.pay(reward.name, paid)
                     if reward.cause_episode_to_end and reward.ends(amount):
                         ends = True
@@ -292,7 +323,7 @@ class BoundBlocks:
         ordered = sorted(self.sensors, key=lambda sensor: not sensor.is_input)
         kinds = {id(sensor): self._kind_of(sensor) for sensor in ordered}
         self._text_sensors = [
-            (each, read_texts if kinds[id(each)] == "sstrings" else read_text)
+            (each, _read_texts if kinds[id(each)] == "sstrings" else _read_text)
             for each in ordered
             if kinds[id(each)] in TEXTS
         ]
@@ -334,7 +365,7 @@ class BoundBlocks:
         try:
             yield
         except AI4UError as error:
-            if isinstance(block, LostBrain):
+            if isinstance(block, _LostBrain):
                 raise
             who = f"agent {self._agent.id!r}"
             problem = BlockError(
@@ -345,3 +376,201 @@ class BoundBlocks:
         except Exception as error:
             add_context(error, self._agent, block, doing)
             raise
+
+
+class _LostBrain(Brain):
+    """Placeholder for the brain of an agent whose block another agent has claimed.
+
+    It refuses to decide and to be reset, since the block writes to another agent's memory now.
+    The agent can still be inspected.
+    """
+
+    abstract = True  # nothing for a scene file
+
+    def replace_brain(self, brain: Brain, block: Block, problem: str) -> None:
+        """Set the brain that it replaces and the reason."""
+        self._title = brain.title()
+        self.is_replaceable = any(block is each for each in _walk_blocks([brain]))
+        """True if only the brain was lost, so that another brain can replace it."""
+        self.problem = problem
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002 - refuses any
+        """Refuse.
+
+        Raises:
+            SetupError: always.
+        """
+        raise SetupError(self.problem)
+
+    def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - refuses any
+        """Refuse.
+
+        Raises:
+            SetupError: always.
+        """
+        raise SetupError(self.problem)
+
+    def title(self) -> str:
+        """Return the title of the brain that it replaces."""
+        return self._title
+
+
+def _walk_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Yield blocks, each followed by the blocks inside it."""
+    for block in blocks:
+        yield block
+        yield from _walk_blocks(block.inner_blocks())
+
+
+def _check_each_once(agent: Owner, blocks: Iterable[Block]) -> None:
+    """Check that no block, nor a block inside one, occurs in an agent twice.
+
+    Raises:
+        SetupError: one does.
+    """
+    known: set[int] = set()
+    for block in _walk_blocks(blocks):
+        if id(block) in known:
+            raise SetupError(
+                f"agent {agent.id!r}: the same {block_label(block)} stands in it twice; "
+                f"make one for each place, as in {type(block).__name__}(...) there as well"
+            )
+        known.add(id(block))
+
+
+def _claim(agent: Owner, blocks: Iterable[Block]) -> None:
+    """Make an agent the owner of blocks and of the blocks inside them.
+
+    Raises:
+        SetupError: another agent of the same ControlRequestor owns one of them.
+    """
+    claimed = list(_walk_blocks(blocks))
+    for block in claimed:
+        owner = _owner_of(block)
+        if owner is None or owner is agent:
+            continue
+        if _are_together(agent, owner):
+            raise SetupError(
+                f"agents {owner.id!r} and {agent.id!r} share the same {block_label(block)}; "
+                f"make one for each agent, as in {type(block).__name__}(...) for each"
+            )
+        _take_away(owner, block, agent)
+    for block in claimed:
+        setattr(block, _OWNER, ref(agent))
+
+
+def _owner_of(block: Block) -> Owner | None:
+    """Return the agent that uses a block now."""
+    reference: Any = getattr(block, _OWNER, None)
+    owner: Owner | None = reference() if reference is not None else None
+    bound = owner.bound_blocks_or_none if owner is not None else None
+    if bound is None or not any(each is block for each in _walk_blocks(bound.blocks)):
+        return None
+    return owner
+
+
+def _are_together(one: Owner, other: Owner) -> bool:
+    return one.requestor is not None and one.requestor is other.requestor
+
+
+def _take_away(owner: Owner, block: Block, agent: Owner) -> None:
+    bound = owner.bound_blocks
+    if isinstance(bound.brain, _LostBrain) and not bound.brain.is_replaceable:
+        return
+    lost = _LostBrain(skip_frame=bound.brain.skip_frame, repeat_action=bound.brain.repeat_action)
+    lost.replace_brain(
+        bound.brain,
+        block,
+        f"agent {owner.id!r} has lost its {block_label(block)} to agent {agent.id!r} of another "
+        "ControlRequestor, which was made later; make one for each agent, or make the "
+        f"ControlRequestor of agent {owner.id!r} anew",
+    )
+    bound.brain = lost
+
+
+def _enabled_brain(agent: Owner, brains: Sequence[Brain]) -> Brain:
+    """Return the one enabled brain of an agent.
+
+    Args:
+        agent: for the message.
+        brains: its brains.
+
+    Raises:
+        SetupError: none or several are enabled.
+    """
+    enabled = [brain for brain in brains if brain.enabled]
+    who = f"agent {agent.id!r}"
+    if not enabled:
+        problem = SetupError(
+            f"{who}: expected exactly one enabled brain, got none"
+            + (f" ({len(brains)} are switched off)" if brains else "")
+            + "; add one, such as brains=[LocalBrain(controller=WASDRBMoveController())]"
+        )
+        problem.where = (agent, "brains")
+        raise problem
+    if len(enabled) > 1:
+        names = " and ".join(brain.title() for brain in enabled)
+        problem = SetupError(
+            f"{who}: expected exactly one enabled brain, got {len(enabled)}: {names}; "
+            "set enabled=False on the others"
+        )
+        problem.where = (agent, enabled[1])
+        raise problem
+    return enabled[0]
+
+
+def _check_unique(agent: Owner, what: str, field: str, blocks: Sequence[Block]) -> None:
+    """Raise a SetupError if two blocks of an agent have the same name.
+
+    Args:
+        agent: the owner of the blocks.
+        what: their kind, for the message.
+        field: the parameter that holds the name.
+        blocks: all blocks of that kind.
+    """
+    names: set[str] = set()
+    for block in blocks:
+        name = getattr(block, field)
+        if name in names:
+            problem = SetupError(
+                f"agent {agent.id!r}: two {what}s have the {field} {name!r}; "
+                f"give one of them another, as in {field}='{name}_2'"
+            )
+            problem.where = (agent, block)
+            raise problem
+        names.add(name)
+
+
+def _read_text(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
+    """Return the reading of a sensor of type sstring."""
+    return str(sensor.read(body, view)) if sensor.is_active else ""
+
+
+def _read_texts(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
+    """Return the reading of a sensor of type sstrings.
+
+    Raises:
+        ReadingError: the reading is not a list of texts.
+    """
+    if not sensor.is_active:
+        return ()
+    texts = sensor.read(body, view)
+    if not isinstance(texts, list | tuple) or not all(isinstance(each, str) for each in texts):
+        raise ReadingError(f"expected a list of texts, got {texts!r}")
+    return tuple(texts)
+
+
+def _refuse_amount(amount: float) -> None:
+    raise ReadingError(f"expected a finite number, got {amount}")
+
+
+def _as_amount(value: object) -> float:
+    """Return an amount that a reward function paid as a float.
+
+    Raises:
+        ReadingError: the amount is no number.
+    """
+    try:
+        return float(value)  # type: ignore[arg-type]  # anything may come; the next line says so
+    except (TypeError, ValueError):
+        raise ReadingError(f"expected a number from on_update, got {value!r}") from None

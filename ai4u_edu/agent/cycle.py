@@ -51,17 +51,28 @@ episode's first one does, is shorter: it ends at its own agent's slot.
 
 import time
 from collections.abc import Sequence
+from typing import NamedTuple
 
-from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.decision_cycle import DecisionCycle, Phase
-from ai4u_edu.agent.members import check_members
-from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, suggest
+from ai4u_edu.agent.agent import BasicAgent, Numbers
+from ai4u_edu.agent.error_context import add_context
+from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
-from ai4u_edu.blocks import Command, Percept
-from ai4u_edu.world import World
+from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
+from ai4u_edu.world import Body, World
 
 HOLD_LIMIT_S = 660.0
 """Time (s) for which a step waits for another agent's brain; a script may be silent for 600 s."""
+
+
+class Phase(NamedTuple):
+    """Progress of an agent's decision."""
+
+    tick: int = 0
+    """Ticks of the decision that have passed; 0 before the first decision."""
+    ticks: int = 1
+    """Ticks that the decision takes."""
+    repeats: bool = True
+    """True if the actuators act at every tick, False if only at the first."""
 
 
 class ControlRequestor:
@@ -105,7 +116,7 @@ class ControlRequestor:
         spread_decisions: bool = False,
         wait_for_key: bool = True,
     ) -> None:
-        check_members(world, agents)
+        _check_members(world, agents)
         self.world = world
         self.agents = tuple(sorted(agents, key=lambda agent: -agent.priority))
         self.default_time_scale = default_time_scale
@@ -124,8 +135,8 @@ class ControlRequestor:
             agent.set_requestor(self)
         for agent in self.agents:
             agent.setup(world)
-        self._cycles = [DecisionCycle(agent) for agent in self.agents]
-        self._respawning: list[DecisionCycle] = []
+        self._cycles = [_DecisionCycle(agent) for agent in self.agents]
+        self._respawning: list[_DecisionCycle] = []
 
     def agent(self, agent_id: str) -> BasicAgent:
         """Return the agent of an id.
@@ -266,7 +277,7 @@ class ControlRequestor:
             # after the tick, so that their first percept is not older than the one they decide on
             self._restart(self._respawning)
 
-    def _restart(self, cycles: list[DecisionCycle]) -> None:
+    def _restart(self, cycles: "list[_DecisionCycle]") -> None:
         for cycle in cycles:
             if cycle.agent.before_the_reset.handlers:
                 cycle.agent.before_the_reset.fire(cycle.agent)
@@ -274,7 +285,7 @@ class ControlRequestor:
             self.world.put_back(cycle.agent.body_name)
         self._begin(cycles)
 
-    def _begin(self, cycles: list[DecisionCycle]) -> None:
+    def _begin(self, cycles: "list[_DecisionCycle]") -> None:
         """Begin the agents' episodes, once the bodies are in their places."""
         for cycle in cycles:
             cycle.refresh_binding()
@@ -289,7 +300,7 @@ class ControlRequestor:
         for cycle in cycles:
             cycle.agent.settle_reset()
 
-    def _cycle_of(self, agent: BasicAgent) -> DecisionCycle:
+    def _cycle_of(self, agent: BasicAgent) -> "_DecisionCycle":
         return self._cycles[self.agents.index(agent)]
 
 
@@ -299,3 +310,193 @@ def _settle(agents: Sequence[BasicAgent]) -> None:
         agent.end_while_sensing()
     for agent in agents:
         agent.settle()
+
+
+class _DecisionCycle:
+    """The state of one agent between its decisions.
+
+    Args:
+        agent: it has been set up.
+
+    Attributes:
+        under_way: True from the decision until the end of its last tick.
+    """
+
+    def __init__(self, agent: BasicAgent) -> None:
+        self.agent = agent
+        self.under_way = False
+        self._tick = 0
+        self._ticks = 1
+        self._repeat = True
+        self._action: list[tuple[Actuator, Numbers]] = []
+        self._bound = agent.bound_blocks
+
+    def decide(self) -> Command | None:
+        """Ask the brain: return its command, or begin a step with its action."""
+        agent = self.agent
+        if agent.stopped:
+            return None
+        bound = agent.bound_blocks
+        if bound is not self._bound:
+            self.refresh_binding()
+        bound.follow_switches()
+        brain = bound.brain
+        try:
+            answer = brain.decide(agent.percept)
+        except Exception as error:
+            add_context(error, agent, brain, "was deciding")
+            raise
+        if isinstance(answer, Command):
+            if answer is not Command.HOLD:
+                agent.apply_command(answer)
+            return answer
+        if agent.terminated or agent.truncated or agent.paused:
+            return None
+        self._action = agent.accept(answer)
+        self._tick, self._ticks = 0, brain.skip_frame + 1
+        self._repeat = brain.repeat_action
+        self.under_way = True
+        agent.begin_step()
+        return None
+
+    def refresh_binding(self) -> None:
+        """Use the agent's present blocks.
+
+        Raises:
+            SetupError: the agent has been set up in another world.
+        """
+        bound = self.agent.bound_blocks
+        if bound.world is not self._bound.world:
+            raise SetupError(
+                f"agent {self.agent.id!r} was set up in another world since; make one for each"
+            )
+        self._bound = bound
+
+    def align_to_slot(self, ticks: int) -> None:
+        """Shorten a decision that has just begun, so that it ends at the agent's time slot.
+
+        Args:
+            ticks: ticks since any earlier slot of the agent.
+        """
+        if self.under_way:
+            self._ticks -= ticks % self._ticks
+
+    def apply(self) -> None:
+        """Let the actuators act, if they do at this tick."""
+        if self._tick and not self._repeat:
+            return
+        agent, body = self.agent, self._bound.body
+        if agent.begin_of_apply_action.handlers:
+            agent.begin_of_apply_action.fire(agent)
+        self._act(body)
+        if agent.end_of_apply_action.handlers:
+            agent.end_of_apply_action.fire(agent)
+
+    def _act(self, body: Body) -> None:
+        actuator: Actuator | None = None
+        try:
+            for actuator, numbers in self._action:
+                actuator.act(body, numbers)
+        except Exception as error:
+            add_context(error, self.agent, actuator, "was acting")
+            raise
+
+    def advance(self) -> bool:
+        """Count a tick and run the blocks' on_tick; after the last tick end the step and sense.
+
+        Returns:
+            True if it was the last tick.
+        """
+        bound = self._bound
+        self._tick += 1
+        block: Actuator | RewardFunc | None = None
+        try:
+            for block in bound.tick_actuators:
+                block.on_tick(bound.body, bound.view)
+            for block in bound.tick_rewards:
+                block.on_tick(bound.body, bound.view)
+        except Exception as error:
+            add_context(error, self.agent, block, "was in its on_tick")
+            raise
+        is_last = self._tick >= self._ticks or bound.body.fallen
+        if is_last:
+            self._end()
+        return is_last
+
+    def phase(self) -> Phase:
+        """Return the progress of the decision under way, or of the last one."""
+        if self.under_way or self.agent.steps:
+            return Phase(self._tick, self._ticks, self._repeat)
+        brain = self._bound.brain
+        return Phase(0, brain.skip_frame + 1, brain.repeat_action)
+
+    def can_run_to_end(self) -> bool:
+        """Return True if nothing but acting and ticking happens until the step's end."""
+        agent, bound = self.agent, self._bound
+        return self.under_way and not (
+            bound.tick_actuators
+            or bound.tick_rewards
+            or agent.begin_of_apply_action.handlers
+            or agent.end_of_apply_action.handlers
+        )
+
+    def run_to_end(self, world: World) -> int:
+        """Run the rest of the step, with the same result as tick by tick; return the ticks."""
+        began = world.ticks
+        body, tick = self._bound.body, world.tick
+        for index in range(self._tick, self._ticks):
+            if self._repeat or not index:
+                self._act(body)
+            tick()
+            if body.fallen:
+                break
+        ticks = world.ticks - began
+        self._end()
+        return ticks
+
+    def _end(self) -> None:
+        self.under_way = False
+        self.agent.end_step()
+        self.agent.sense()
+
+
+def _check_members(world: object, agents: object) -> None:
+    """Check the arguments of a ControlRequestor.
+
+    Raises:
+        SetupError: no world or no list of agents, or two agents with the same id or body.
+    """
+    example = "as in ControlRequestor(world, [agent])"
+    if not isinstance(world, World):
+        raise SetupError(f"expected a World first, {example}, got {_shown(world)}")
+    if not isinstance(agents, Sequence) or isinstance(agents, str):
+        raise SetupError(f"expected a list of agents, {example}, got {_shown(agents)}")
+    for agent in agents:
+        if not isinstance(agent, BasicAgent):
+            raise SetupError(f"expected agents in the list, {example}, got {_shown(agent)}")
+    if not agents:
+        raise SetupError("expected at least one agent, got none")
+    _check_unique(agents)
+
+
+def _check_unique(agents: Sequence[BasicAgent]) -> None:
+    """Raise SetupError if two agents have the same id or the same body."""
+    for index, agent in enumerate(agents):
+        for other in agents[:index]:
+            if agent.id == other.id:
+                problem = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                problem.where = (agent, "id")
+                raise problem
+            if agent.body_name == other.body_name:
+                problem = SetupError(
+                    f"agents {other.id!r} and {agent.id!r} have the same body "
+                    f"{agent.body_name!r}; expected a body for each"
+                )
+                problem.where = (agent, "body")
+                raise problem
+
+
+def _shown(value: object) -> str:
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    return f"{type(value).__name__} {shown(value)}"

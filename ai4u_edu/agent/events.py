@@ -1,15 +1,13 @@
 """Events of an agent and the handlers connected to them."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Generic, TypeVar
 
-from ai4u_edu.agent.error_context import add_context
+from ai4u_edu.agent.error_context import HasId, add_context
 from ai4u_edu.base.errors import SetupError
 
-if TYPE_CHECKING:
-    from ai4u_edu.agent.agent import BasicAgent
-
-Handler = Callable[["BasicAgent"], None]
+A = TypeVar("A", bound=HasId)
+"""The class of agents that a handler gets."""
 
 EVENTS = (
     "agent_start",
@@ -26,7 +24,7 @@ EVENTS = (
 """All events, by the names that AI4U's guide gives them (``agent_start`` came later)."""
 
 
-class Event:
+class Event(Generic[A]):
     """An event; it calls its handlers with the agent, in the order of connection.
 
     >>> event = Event("end_of_step")
@@ -40,10 +38,10 @@ class Event:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self.handlers: list[Handler] = []
+        self.handlers: list[Callable[[A], None]] = []
         """Connected handlers; callers test it before :meth:`fire`, since most events have none."""
 
-    def connect(self, handler: Handler) -> Handler:
+    def connect(self, handler: Callable[[A], None]) -> Callable[[A], None]:
         """Call the handler at this event from now on; also a decorator.
 
         Raises:
@@ -57,13 +55,13 @@ class Event:
         self.handlers.append(handler)
         return handler
 
-    def disconnect(self, handler: Handler) -> None:
+    def disconnect(self, handler: Callable[[A], None]) -> None:
         """Stop calling the handler."""
         self.handlers.remove(handler)
 
-    def fire(self, agent: "BasicAgent") -> None:
+    def fire(self, agent: A) -> None:
         """Call all handlers; an error of a handler names the handler, the event and the agent."""
-        handler: Handler | None = None
+        handler: Callable[[A], None] | None = None
         try:
             for handler in tuple(self.handlers):
                 handler(agent)

@@ -3,8 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.agent.decision_cycle import Phase
+from ai4u_edu.agent.cycle import ControlRequestor, Phase
 from ai4u_edu.blocks import (
     ArrowController,
     DiscreteArrowController,

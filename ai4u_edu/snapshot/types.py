@@ -6,7 +6,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ai4u_edu.agent import Entry
-from ai4u_edu.agent.decision_cycle import Phase
+from ai4u_edu.agent.cycle import Phase
 from ai4u_edu.blocks import (
     Legend,
     Percept,
