@@ -5,11 +5,16 @@ from typing import Any
 
 from ai4u_edu.base.errors import ActionError
 from ai4u_edu.blocks import Actuator
-from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options, format_error
-from ai4u_edu.check.ineffective import warn_of_groups
+from ai4u_edu.check.block_check import (
+    DEFAULT_DECISIONS,
+    BlockCheck,
+    Options,
+    format_error,
+    run_static_checks,
+    warn_of_groups,
+)
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Pose, Rollout, Script, fresh, title_of
-from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 

@@ -1,21 +1,33 @@
 """The checks that are the same for every kind of block."""
 
+import json
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
+from ai4u_edu.blocks.groups import missing_groups, names_groups
+from ai4u_edu.blocks.rewards.eval_value import EvalValue
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Record, Rollout, Script, standard_scene
 from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.serialization import from_plain, is_serializable, to_plain
+from ai4u_edu.world import WorldView
 
 DEFAULT_DECISIONS = 120
 """Default length of a run."""
 
 MAX_VALUE_CHARS = 120
 """Maximum length of a value in a message."""
+
+
+_KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
+
+_HINT = "are all parameters declared as annotated fields, and left as they were given?"
 
 
 @dataclass
@@ -66,7 +78,7 @@ class BlockCheck:
         Args:
             reset_exemption: why the block may keep state across a reset; empty if it may not.
         """
-        before = global_generator_states()
+        before = _global_generator_states()
         try:
             rollout = self._make()
         except Exception as error:  # whatever it is, the report says it
@@ -85,7 +97,9 @@ class BlockCheck:
             self.report.add("runs", text)
             return False
         self.report.add("runs")
-        drawn = [name for name, state in global_generator_states().items() if state != before[name]]
+        drawn = [
+            name for name, state in _global_generator_states().items() if state != before[name]
+        ]
         self.report.add(
             "global chance",
             f"expected no draw from a global generator, got one from {' and '.join(drawn)}; "
@@ -177,7 +191,96 @@ class BlockCheck:
         return "" if len(others) == len(self.records) else "episodes of other lengths"
 
 
-def global_generator_states() -> dict[str, str]:
+def run_static_checks(report: Report, block: Block, says: str) -> None:
+    """Check that a block has a docstring and survives being written to a scene file and read back.
+
+    Args:
+        report: receives the findings.
+        block: the block.
+        says: what its docstring should say, for the message.
+    """
+    cls = type(block)
+    written = (cls.__dict__.get("__doc__") or "").strip()
+    report.add(
+        "documented",
+        ""
+        if written
+        else f"expected a docstring that says {says}, got none; write one under the class line",
+    )
+    plain = to_plain(block)
+    if not is_serializable(cls) or _holds_a_function(plain):
+        why = "it holds a Python function, which no file can say"
+        report.add("scene file", why, outcome=Outcome.NOT_APPLICABLE)
+        return
+    report.add("scene file", _lost(block, plain))
+
+
+def _lost(block: Block, plain: Any) -> str:
+    """Return the difference after writing and reading a block; empty if there is none."""
+    kind = next(kind for kind in _KINDS if isinstance(block, kind))
+    try:
+        again = to_plain(from_plain(kind, json.loads(json.dumps(plain))))
+    except (AI4UError, TypeError, ValueError) as error:
+        return f"expected {plain} to make the same block, got {error}; {_HINT}"
+    return "" if again == plain else f"expected {plain} back, got {again}; {_HINT}"
+
+
+def _holds_a_function(plain: Any) -> bool:
+    if isinstance(plain, dict):
+        return any(map(_holds_a_function, plain.values()))
+    if isinstance(plain, list):
+        return any(map(_holds_a_function, plain))
+    return callable(plain)
+
+
+def warn_of_groups(report: Report, blocks: Iterable[tuple[str, Block]], view: WorldView) -> None:
+    """Add a warning for groups that no body carries; add nothing if no block names a group.
+
+    Args:
+        report: receives the finding.
+        blocks: pairs of a prefix that names the block (may be empty) and the block.
+        view: the blocks' world.
+    """
+    looking = [(words, block) for words, block in blocks if names_groups(block)]
+    if not looking:
+        return
+    missing = [words + text for words, block in looking for text in missing_groups(block, view)]
+    report.add("groups", "; ".join(missing), outcome=Outcome.WARNING if missing else None)
+
+
+def warn_of_no_end(report: Report, rewards: Iterable[tuple[str, RewardFunc]]) -> None:
+    """Add a warning for rewards that are meant to end the episode and cannot.
+
+    Args:
+        report: receives the finding; nothing is added if no reward is meant to end the episode.
+        rewards: pairs of a prefix that names the reward (may be empty) and the reward.
+    """
+    ending = [(words, reward) for words, reward in rewards if reward.cause_episode_to_end]
+    if not ending:
+        return
+    vain = [words + why for words, reward in ending if (why := _why_it_never_ends(reward))]
+    report.add("ends", "; ".join(vain), outcome=Outcome.WARNING if vain else None)
+
+
+def _why_it_never_ends(reward: RewardFunc) -> str:
+    """Return why a reward can't end an episode, as a sentence; empty if it can."""
+    if isinstance(reward, EvalValue):
+        return (
+            "expected a condition inside an AndRewardFunc or OrRewardFunc, with "
+            "cause_episode_to_end there: alone it pays nothing, so the episode never ends by it"
+        )
+    if type(reward).ends is not RewardFunc.ends:  # the class overrides when it ends the episode
+        return ""
+    amounts = [name for name in reward.parameters() if ("_" + name).endswith("_reward")]
+    if not amounts or any(getattr(reward, name) for name in amounts):
+        return ""
+    return (
+        f"expected an amount other than 0 in {' or '.join(amounts)}, got 0: the episode ends "
+        "only where something is paid, so it never ends by it"
+    )
+
+
+def _global_generator_states() -> dict[str, str]:
     """Return the states of Python's and numpy's global random generators."""
     _, state, *rest = np.random.get_state(legacy=True)
     return {

@@ -4,10 +4,14 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, LocalBrain
-from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options
+from ai4u_edu.check.block_check import (
+    DEFAULT_DECISIONS,
+    BlockCheck,
+    Options,
+    run_static_checks,
+)
 from ai4u_edu.check.report import Report
 from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
-from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 

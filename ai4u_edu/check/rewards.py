@@ -1,11 +1,16 @@
 """The check of a reward function."""
 
 from ai4u_edu.blocks import RewardFunc
-from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options
-from ai4u_edu.check.ineffective import warn_of_groups, warn_of_no_end
+from ai4u_edu.check.block_check import (
+    DEFAULT_DECISIONS,
+    BlockCheck,
+    Options,
+    run_static_checks,
+    warn_of_groups,
+    warn_of_no_end,
+)
 from ai4u_edu.check.report import Report
 from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
-from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 

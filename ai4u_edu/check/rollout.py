@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
+from zlib import crc32
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from ai4u_edu.blocks import (
     RewardFunc,
     Sensor,
 )
-from ai4u_edu.check.drive import RandomDrive
 from ai4u_edu.scenes import Scene
 
 Script = Callable[[BasicAgent, int], None]
@@ -25,14 +25,20 @@ Script = Callable[[BasicAgent, int], None]
 
 Pose = tuple[float, float, float, float]
 
-KEY_NAMES = np.array(
+_KEY_NAMES = np.array(
     [
         *("ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Space", "Enter"),
         *("KeyW", "KeyA", "KeyS", "KeyD", "KeyU", "KeyJ", "KeyG", "KeyR"),
     ]
 )
-KEY_HELD_PROBABILITY = 0.1
+_KEY_HELD_PROBABILITY = 0.1
 """Probability that a key is held during a decision."""
+
+_MEAN_DECISIONS_HELD = 6
+"""Mean number of decisions for which an action is kept: new ones each time would cancel out."""
+
+_ZERO_PROBABILITY = 0.4
+"""Probability that a component of an action is 0."""
 
 NAMES = {Sensor: "perception_key", Actuator: "action_name", RewardFunc: "name"}
 
@@ -81,16 +87,16 @@ class Rollout:
         self._script = script
         self._answer: Answer | None = None
         if without is not None:
-            take_off(self.agent, without)
+            _take_off(self.agent, without)
         for each in actuators:
-            put_on(self.agent, each)
+            _put_on(self.agent, each)
         self._drives = [RandomDrive(agent) for agent in self.sim.agents]
         for agent, drive in zip(self.sim.agents, self._drives, strict=True):
             # a clock that stands still: no key times out because the check is slow
             agent.keyboard = Keyboard(clock=lambda: 0.0)
             agent.brains[:] = [LocalBrain(controller=drive)]
         if block is not None:
-            put_on(self.agent, block)
+            _put_on(self.agent, block)
         for agent in self.sim.agents:
             agent.setup(self.sim.world)
         self._record_answers(self.agent.brain)
@@ -108,7 +114,7 @@ class Rollout:
             if self._script is not None:
                 self._script(agent, number)
             agent.keyboard.hold(
-                KEY_NAMES[keys.random(len(KEY_NAMES)) < KEY_HELD_PROBABILITY].tolist()
+                _KEY_NAMES[keys.random(len(_KEY_NAMES)) < _KEY_HELD_PROBABILITY].tolist()
             )
             sim.step()
             records.append(self._record())
@@ -138,6 +144,45 @@ class Rollout:
         brain.decide = recorded
 
 
+class RandomDrive:
+    """A random controller; one actuator's actions don't depend on which others there are.
+
+    Args:
+        agent: the agent whose actuators it drives.
+    """
+
+    def __init__(self, agent: BasicAgent) -> None:
+        self._agent = agent
+        self.restart(0)
+
+    def restart(self, seed: int) -> None:
+        """Start again from a seed."""
+        self._seed = seed
+        self._rngs: dict[str, np.random.Generator] = {}
+        self._held: dict[str, Any] = {}
+
+    def __call__(self, _percept: Percept) -> dict[str, Any]:
+        """Return an action for every actuator that takes one."""
+        for name, actuator in self._agent.bound_blocks.actuators.items():
+            if actuator.is_output:
+                rng = self._rngs.setdefault(
+                    name, np.random.default_rng([self._seed, crc32(name.encode())])
+                )
+                if name not in self._held or rng.random() < 1 / _MEAN_DECISIONS_HELD:
+                    self._held[name] = _drawn(actuator, rng)
+        return dict(self._held)
+
+
+def _drawn(actuator: Actuator, rng: np.random.Generator) -> Any:
+    low, high = actuator.limits()
+    if not actuator.is_continuous:
+        return int(rng.integers(int(low[0]), int(high[0]) + 1))
+    rests = rng.random(len(low)) < _ZERO_PROBABILITY
+    # an unbounded component is drawn from -10..10
+    numbers = rng.uniform(np.maximum(low, -10.0), np.minimum(high, 10.0))
+    return np.where(rests, np.clip(0.0, low, high), numbers).tolist()
+
+
 def standard_scene() -> Scene:
     """Load the small world in which blocks are checked."""
     return Scene.load(Path(__file__).with_name("standard_world.yaml"))
@@ -158,13 +203,13 @@ def fresh(value: Any) -> Any:
     return value
 
 
-def put_on(agent: BasicAgent, block: Block) -> None:
+def _put_on(agent: BasicAgent, block: Block) -> None:
     """Give an agent a block, replacing one of the same name."""
-    take_off(agent, block)
+    _take_off(agent, block)
     _row_for(agent, block).append(block)
 
 
-def take_off(agent: BasicAgent, block: Block) -> None:
+def _take_off(agent: BasicAgent, block: Block) -> None:
     """Remove an agent's blocks of the same kind and name; for a brain, all brains."""
     row = _row_for(agent, block)
     row[:] = [each for each in row if name_of(each) != name_of(block)]

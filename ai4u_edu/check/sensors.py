@@ -7,11 +7,16 @@ import numpy as np
 from gymnasium import spaces
 
 from ai4u_edu.blocks import Sensor
-from ai4u_edu.check.block_check import DEFAULT_DECISIONS, BlockCheck, Options, short
-from ai4u_edu.check.ineffective import warn_of_groups
+from ai4u_edu.check.block_check import (
+    DEFAULT_DECISIONS,
+    BlockCheck,
+    Options,
+    run_static_checks,
+    short,
+    warn_of_groups,
+)
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
-from ai4u_edu.check.static_checks import run_static_checks
 from ai4u_edu.scenes import Scene
 
 

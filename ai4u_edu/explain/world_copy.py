@@ -14,7 +14,6 @@ from ai4u_edu.explain.policy import Policy
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.description import make_agents
 from ai4u_edu.world import World
-from ai4u_edu.world.overlap import find_overlap
 
 DEFAULT_COLUMNS = 12
 """Columns of a grid of poses; rows follow from the shape of the world."""
@@ -126,7 +125,7 @@ class WorldCopy:
         if self.sim.world.ground(x, y) is None:
             return None
         self.agent.body.move_to(x, y, heading=heading)
-        if find_overlap(self.sim.world, self.agent.body) is not None:
+        if self.sim.world.find_overlap(self.agent.body) is not None:
             return None
         self._begin_here()
         return self.agent.sense()

@@ -6,6 +6,7 @@ from ai4u_edu.world.descriptions import (
     BodyDescription,
     FloorDescription,
     RegionDescription,
+    Variation,
     WorldSettings,
 )
 from ai4u_edu.world.edit import (
@@ -16,8 +17,7 @@ from ai4u_edu.world.edit import (
     reorder,
     sampled_region,
 )
-from ai4u_edu.world.ray_grid import RayGrid
-from ai4u_edu.world.rays import Cast, RayFan
+from ai4u_edu.world.rays import Cast, RayFan, RayGrid
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import (
     BoxShape,
@@ -27,7 +27,6 @@ from ai4u_edu.world.shapes import (
     RingShape,
     SegmentShape,
 )
-from ai4u_edu.world.variation import Variation
 from ai4u_edu.world.view import WorldView
 from ai4u_edu.world.world import World
 

@@ -1,24 +1,52 @@
 """Bodies of a world: read access for sensors and rewards, and the methods that move them."""
 
 import math
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn, Protocol
 
 import pymunk
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.grasp import held_by, hold, release
 from ai4u_edu.world.native import MOTION
 
-if TYPE_CHECKING:
-    from ai4u_edu.world.world import World
-
-TAU = 2 * math.pi
+_TAU = 2 * math.pi
 
 # looked up once: they are called several times a tick
 _position, _angle, _apply_force = MOTION.position, MOTION.angle, MOTION.apply_force
 _set_velocity, _set_angular_velocity = MOTION.set_velocity, MOTION.set_angular_velocity
 _CENTRE = MOTION.vector()
+
+
+class _Physics(Protocol):
+    """Protocol of what moves and joins bodies (Physics does)."""
+
+    def launch(self, body: "Body", speed: float) -> None:
+        """Give a body an upward speed, m/s."""
+
+    def place(self, body: "Body", x: float, y: float, angle: float, z: float | None) -> None:
+        """Put a body somewhere, at rest."""
+
+    def drop(self, body: "Body") -> None:
+        """Take a body out of the space until it is placed again."""
+
+    def hold(self, holder: "BodyView", other: "BodyView") -> None:
+        """Fix a body to a holder."""
+
+    def held_by(self, holder: "BodyView") -> "BodyView | None":
+        """Return the body that a holder holds."""
+
+    def release(self, holder: "BodyView") -> None:
+        """Release the body that a holder holds."""
+
+
+class _World(Protocol):
+    """Protocol of the world that a body is in (World is one)."""
+
+    @property
+    def _physics(self) -> _Physics: ...
+
+    def put_back(self, name: str) -> None:
+        """Put a body back to its described place."""
 
 
 class BodyView:
@@ -28,7 +56,7 @@ class BodyView:
     heading 0 looks along +x and grows counter-clockwise.
     """
 
-    def __init__(self, world: "World", description: BodyDescription) -> None:
+    def __init__(self, world: _World, description: BodyDescription) -> None:
         self._world = world
         self.description = description
         """The body as described by a scene file or when it was added."""
@@ -71,7 +99,7 @@ class BodyView:
     @property
     def heading(self) -> float:
         """Heading in radians, in [-pi, pi)."""
-        return (_angle(self._handle) + math.pi) % TAU - math.pi
+        return (_angle(self._handle) + math.pi) % _TAU - math.pi
 
     @property
     def velocity(self) -> tuple[float, float]:
@@ -92,7 +120,7 @@ class BodyView:
     @property
     def held(self) -> "BodyView | None":
         """The body that this one holds; None if it holds none."""
-        return held_by(self._world._physics, self)
+        return self._world._physics.held_by(self)
 
     def distance(self, other: "BodyView") -> float:
         """Return the metres between the two centres, height included."""
@@ -103,7 +131,7 @@ class BodyView:
         """Return the direction of another body: radians, 0 ahead, positive to the left."""
         here, there = _position(self._handle), _position(other._handle)
         direction = math.atan2(there.y - here.y, there.x - here.x)
-        return (direction - _angle(self._handle) + math.pi) % TAU - math.pi
+        return (direction - _angle(self._handle) + math.pi) % _TAU - math.pi
 
     def to_local(self, x: float, y: float) -> tuple[float, float]:
         """Return a point of the world in this body's frame: (forward, left) in metres."""
@@ -146,7 +174,7 @@ class Body(BodyView):
         """Leave the ground with an upward speed in m/s."""
         if not math.isfinite(speed):
             self._refuse("jump speed", (speed,))
-        self._world._physics.height.launch(self, speed)
+        self._world._physics.launch(self, speed)
 
     def hold(self, other: BodyView) -> None:
         """Fix another body to this one at its present place, until :meth:`release`.
@@ -156,11 +184,11 @@ class Body(BodyView):
         Raises:
             WorldError: this body holds one already, or the other one can't move.
         """
-        hold(self._world._physics, self, other)
+        self._world._physics.hold(self, other)
 
     def release(self) -> None:
         """Release the body that this one holds."""
-        release(self._world._physics, self)
+        self._world._physics.release(self)
 
     def move_to(
         self, x: float, y: float, *, heading: float | None = None, z: float | None = None

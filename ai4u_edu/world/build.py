@@ -17,9 +17,9 @@ from ai4u_edu.world.shapes import (
     SegmentShape,
 )
 
-Corner = tuple[float, float]
+_Corner = tuple[float, float]
 
-STICK_CORE_RADIUS_M = 1e-9
+_STICK_CORE_RADIUS_M = 1e-9
 """Half the thickness of a stick's polygon, metres; the polygon's radius adds the rest."""
 
 _IDENTITY = pymunk.Transform.identity()
@@ -68,7 +68,7 @@ def make_shape(
     return FastPoly(pm, corners, _IDENTITY, radius + more)
 
 
-def core(shape: BodyShape) -> tuple[Sequence[Corner], float]:
+def core(shape: BodyShape) -> tuple[Sequence[_Corner], float]:
     """Return corners and radius: the shape is the corners' convex hull, grown by the radius."""
     match shape:
         case CircleShape():
@@ -82,14 +82,14 @@ def core(shape: BodyShape) -> tuple[Sequence[Corner], float]:
             a, b, radius = _ends(shape)
             length = math.dist(a, b)
             x, y = (
-                STICK_CORE_RADIUS_M * (a[1] - b[1]) / length,
-                STICK_CORE_RADIUS_M * (b[0] - a[0]) / length,
+                _STICK_CORE_RADIUS_M * (a[1] - b[1]) / length,
+                _STICK_CORE_RADIUS_M * (b[0] - a[0]) / length,
             )
             corners = [(px + s * x, py + s * y) for (px, py) in (a, b) for s in (1, -1)]
-            return corners, max(radius - STICK_CORE_RADIUS_M, 0.0)
+            return corners, max(radius - _STICK_CORE_RADIUS_M, 0.0)
 
 
-def _ends(shape: CapsuleShape | SegmentShape) -> tuple[Corner, Corner, float]:
+def _ends(shape: CapsuleShape | SegmentShape) -> tuple[_Corner, _Corner, float]:
     if isinstance(shape, CapsuleShape):
         return (-shape.length / 2, 0.0), (shape.length / 2, 0.0), shape.radius
     return shape.a, shape.b, shape.thickness / 2

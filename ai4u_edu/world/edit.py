@@ -2,32 +2,28 @@
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from ai4u_edu.base.errors import WorldError
-from ai4u_edu.world.construction import add_now, update_heights
+from ai4u_edu.world.body import Body
 from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
-from ai4u_edu.world.overlap import find_overlap
-
-if TYPE_CHECKING:
-    from ai4u_edu.world.body import Body
-    from ai4u_edu.world.world import World
+from ai4u_edu.world.world import World
 
 Pose = tuple[float, float, float]
 """x, y (metres), heading (radians)."""
 
 
-def insert_body(world: "World", description: BodyDescription) -> "Body":
+def insert_body(world: World, description: BodyDescription) -> Body:
     """Add a body at a free place; unlike ``World.add``, never sample or reset anything else.
 
     Raises:
         WorldError: its name or its place is blocker, or the world is full.
     """
-    add_now(world, description)
+    world._add_now(description)
     return world[description.name]
 
 
-def edit_body(world: "World", description: BodyDescription, pose: Pose | None = None) -> "Body":
+def edit_body(world: World, description: BodyDescription, pose: Pose | None = None) -> Body:
     """Give the body of a name another description; references to it stay valid.
 
     It is not held and touches nothing then.
@@ -52,9 +48,9 @@ def edit_body(world: "World", description: BodyDescription, pose: Pose | None = 
     if pose is not None:
         height.set_height(body, description.z)
         height.update_support(body)
-        blocker = find_overlap(world, body)
+        blocker = world.find_overlap(body)
     else:
-        blocker = None if fallen else find_overlap(world, body)
+        blocker = None if fallen else world.find_overlap(body)
         _restore_motion(world, body, speed, z, fallen=fallen)
     if blocker is not None:
         then = drawn.model_copy(
@@ -71,7 +67,7 @@ def edit_body(world: "World", description: BodyDescription, pose: Pose | None = 
     return body
 
 
-def sampled_region(world: "World", name: str) -> FloorDescription | AreaDescription:
+def sampled_region(world: World, name: str) -> FloorDescription | AreaDescription:
     """Return a floor or an area as sampled for this episode."""
     registry = world._registry
     sampled = registry.floors[name][0] if name in registry.floors else None
@@ -81,7 +77,7 @@ def sampled_region(world: "World", name: str) -> FloorDescription | AreaDescript
 
 
 def put_region(
-    world: "World",
+    world: World,
     name: str,
     description: FloorDescription | AreaDescription | None,
     sampled: FloorDescription | AreaDescription | None,
@@ -107,18 +103,18 @@ def put_region(
         registry.replace(description)
         registry.put_region(sampled)
     if is_floor:
-        update_heights(world)
+        world._update_heights()
     world._physics.generation += 1
 
 
-def reorder(world: "World", names: Iterable[str]) -> None:
+def reorder(world: World, names: Iterable[str]) -> None:
     """Put all things into this order; from the next reset on, the physics is built in it."""
     world._registry.reorder(names)
     world._physics.generation += 1
 
 
 def _replace_body(
-    world: "World", body: "Body", description: BodyDescription, drawn: BodyDescription
+    world: World, body: Body, description: BodyDescription, drawn: BodyDescription
 ) -> None:
     world._physics.remove(body)
     body.description, body.sampled = description, drawn
@@ -128,8 +124,8 @@ def _replace_body(
 
 
 def _restore_motion(
-    world: "World",
-    body: "Body",
+    world: World,
+    body: Body,
     speed: tuple[tuple[float, float], float, float],
     z: float,
     *,

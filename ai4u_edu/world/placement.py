@@ -1,6 +1,7 @@
 """Search for free places."""
 
 import math
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -10,18 +11,23 @@ import pymunk
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.base.seeding import Seeds
 from ai4u_edu.world.build import core, make_shape, set_material
-from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
-from ai4u_edu.world.ground import Ground
+from ai4u_edu.world.descriptions import (
+    AreaDescription,
+    BodyDescription,
+    FloorDescription,
+    Variation,
+)
 from ai4u_edu.world.native import FastBody, contact_distances
-from ai4u_edu.world.overlap import is_overlap
-from ai4u_edu.world.region import Region
+from ai4u_edu.world.region import Ground, Region
 from ai4u_edu.world.shapes import BodyShape, CircleShape, RingShape
-from ai4u_edu.world.variation import Variation
 
-MAX_SAMPLES = 1000
+_MAX_SAMPLES = 1000
 """Samples for each thing: where 1 in 50 is free, one episode in 10^8 fails."""
 
-RECTANGLE_MARGIN_M = 1e-6
+MAX_OVERLAP_M = 1e-3
+"""Depth (metres) to which bodies may be put into each other: touching is no overlap."""
+
+_RECTANGLE_MARGIN_M = 1e-6
 """Margin of a rectangle around a form, metres: more than any rounding error."""
 
 Thing = BodyDescription | FloorDescription | AreaDescription
@@ -140,8 +146,8 @@ class Places:
             return described
         rng = self._seeds.child(f"random/{described.name}")
         obstacles: dict[str, int] = {}
-        for _ in range(MAX_SAMPLES):
-            sampled = sample(described, vary, rng)
+        for _ in range(_MAX_SAMPLES):
+            sampled = _sample(described, vary, rng)
             if isinstance(sampled, FloorDescription):
                 self.occupy(sampled)
                 return sampled
@@ -199,7 +205,7 @@ class Places:
         reasons = ", ".join(f"{words} ({count} times)" for words, count in most)
         kind = "body" if isinstance(thing, BodyDescription) else "area"
         return WorldError(
-            f"{kind} {thing.name!r}: found no free place in {MAX_SAMPLES} draws ({vary}; seed "
+            f"{kind} {thing.name!r}: found no free place in {_MAX_SAMPLES} draws ({vary}; seed "
             f"{self._seeds.seed}); in the way: {reasons}; give it wider ranges or less clearance, "
             "or make it smaller",
             thing=thing.name,
@@ -212,7 +218,7 @@ def _around(thing: Thing, shape: BodyShape) -> tuple[float, float, float, float]
     (x, y), heading, more = (
         thing.position,
         math.radians(thing.heading_deg),
-        radius + RECTANGLE_MARGIN_M,
+        radius + _RECTANGLE_MARGIN_M,
     )
     cos, sin = math.cos(heading), math.sin(heading)
     xs = [cos * cx - sin * cy for cx, cy in corners]
@@ -220,7 +226,7 @@ def _around(thing: Thing, shape: BodyShape) -> tuple[float, float, float, float]
     return x + min(xs) - more, y + min(ys) - more, x + max(xs) + more, y + max(ys) + more
 
 
-def sample(described: ThingT, vary: Variation, rng: np.random.Generator) -> ThingT:
+def _sample(described: ThingT, vary: Variation, rng: np.random.Generator) -> ThingT:
     """Return a thing with its random values sampled once."""
     x, y = described.position
     if vary.places:
@@ -243,3 +249,57 @@ def _uniform(limits: tuple[float, float], rng: np.random.Generator) -> float:
     # the same numbers as Generator.uniform, which takes three times as long
     low, high = limits
     return low + (high - low) * rng.random()
+
+
+def randomize(seed: int, things: Iterable[Thing]) -> dict[str, Thing]:
+    """Return everything as sampled for an episode, by name.
+
+    Args:
+        seed: the episode's seed; the same seed gives the same result.
+        things: everything in the world, in its order; without ``random`` a thing stays as it is.
+
+    Raises:
+        WorldError: there is no room for something.
+    """
+    places = Places(seed)
+    return {thing.name: places.find(thing) for thing in sorted(things, key=_placing_order)}
+
+
+def _placing_order(thing: Thing) -> int:
+    """Return the rank of placing: floors first, then things with a fixed place."""
+    if isinstance(thing, FloorDescription):
+        return 0
+    if isinstance(thing, AreaDescription):
+        return 2
+    return 1 if thing.random is None else 3
+
+
+def is_overlap(
+    shape: pymunk.Shape,
+    pm: pymunk.Body,
+    other: pymunk.Shape,
+    other_pm: pymunk.Body,
+    found: Sequence[float],
+) -> bool:
+    """Return True if two shapes overlap by more than :data:`MAX_OVERLAP_M`.
+
+    Args:
+        shape: a shape.
+        pm: its body.
+        other: another shape.
+        other_pm: its body.
+        found: distances at pymunk's contact points of the two.
+    """
+    if not found:
+        return False
+    # for some pairs of shapes pymunk's distance has the wrong sign, and it is 0 for two shapes in
+    # exactly the same place
+    return (
+        max(map(abs, found)) > MAX_OVERLAP_M
+        or _depth(other, pm.local_to_world(shape.center_of_gravity)) > MAX_OVERLAP_M
+        or _depth(shape, other_pm.local_to_world(other.center_of_gravity)) > MAX_OVERLAP_M
+    )
+
+
+def _depth(shape: pymunk.Shape, place: tuple[float, float]) -> float:
+    return -shape.point_query(place).distance

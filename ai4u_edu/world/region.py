@@ -1,7 +1,7 @@
-"""Floors and areas in world coordinates."""
+"""Floors and areas in world coordinates, and the ground that the floors form."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -9,6 +9,9 @@ import numpy.typing as npt
 
 from ai4u_edu.world.descriptions import RegionDescription
 from ai4u_edu.world.shapes import BoxShape
+
+SAME_HEIGHT_M = 1e-9
+"""Heights closer than this (metres) count as equal."""
 
 
 class Region:
@@ -63,3 +66,23 @@ class Region:
     def _to_local(self, x: Any, y: Any) -> tuple[Any, Any]:
         dx, dy = x - self.x, y - self.y
         return self.cos * dx + self.sin * dy, self.cos * dy - self.sin * dx
+
+
+class Ground:
+    """Floors sorted by height; without any, the ground is endless at height 0.
+
+    Args:
+        floors: top (metres) and region of each.
+    """
+
+    def __init__(self, floors: Iterable[tuple[float, Region]] = ()) -> None:
+        self.floors = sorted(floors, key=lambda pair: -pair[0])
+
+    def at(self, x: float, y: float, below: float = float("inf")) -> float | None:
+        """Return the highest floor at a place that is not above ``below``; None over the void."""
+        if not self.floors:
+            return 0.0 if below >= -SAME_HEIGHT_M else None
+        for top, region in self.floors:
+            if top <= below + SAME_HEIGHT_M and region.contains(x, y):
+                return top
+        return None

@@ -1,16 +1,26 @@
 """The things in a world by name: descriptions, bodies, floors and areas."""
 
+import math
 from collections.abc import Iterable
+from itertools import product
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.body import Body
-from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.descriptions import (
+    AreaDescription,
+    BodyDescription,
+    FloorDescription,
+    RegionDescription,
+)
 from ai4u_edu.world.placement import Thing
 from ai4u_edu.world.region import Region
 
 MAX_BODIES = 500
 
-KIND_NAMES = {BodyDescription: "a body", FloorDescription: "a floor", AreaDescription: "an area"}
+Rectangle = tuple[tuple[float, float], tuple[float, float]]
+_EMPTY_WORLD: Rectangle = (-5.0, -5.0), (5.0, 5.0)
+
+_KIND_NAMES = {BodyDescription: "a body", FloorDescription: "a floor", AreaDescription: "an area"}
 
 
 class Registry:
@@ -67,7 +77,7 @@ class Registry:
         known = self.described.get(thing.name)
         problem = ""
         if known is not None:
-            kind = KIND_NAMES[type(known)]
+            kind = _KIND_NAMES[type(known)]
             problem = f"{thing.name!r} is already the name of {kind}; names are unique"
         elif isinstance(thing, BodyDescription) and len(self.bodies) >= MAX_BODIES:
             problem = (
@@ -77,5 +87,39 @@ class Registry:
         if problem:
             raise WorldError(problem, thing=thing.name)
 
+    def bounds(self) -> Rectangle:
+        """Return ((x0, y0), (x1, y1)), metres, around all bodies and floors in any episode."""
+        things = [each for each in self.described.values() if not isinstance(each, AreaDescription)]
+        corners = [corner for thing in things for corner in _corners(thing)]
+        if not corners:
+            return _EMPTY_WORLD
+        xs, ys = zip(*corners, strict=True)
+        return (min(xs), min(ys)), (max(xs), max(ys))
+
     def _update_has_random(self) -> None:
         self.has_random = any(thing.random for thing in self.described.values())
+
+
+def _corners(thing: BodyDescription | RegionDescription) -> list[tuple[float, float]]:
+    return [(x + dx, y + dy) for x, y in _places(thing) for dx, dy in _outline(thing)]
+
+
+def _places(thing: BodyDescription | RegionDescription) -> Iterable[tuple[float, float]]:
+    x, y = thing.position
+    vary = thing.random
+    if vary is None:
+        return [(x, y)]
+    return vary.places or product(vary.x or (x,), vary.y or (y,))
+
+
+def _outline(thing: BodyDescription | RegionDescription) -> list[tuple[float, float]]:
+    """Return corners around a thing's place, of its smallest and largest scale and any heading."""
+    vary = thing.random
+    scales = (vary and vary.scale) or (1.0,)
+    if vary is not None and vary.heading_deg is not None:
+        reach = thing.shape.reach * max(scales)
+        return [(-reach, -reach), (reach, reach)]
+    angle = math.radians(thing.heading_deg)
+    cos, sin = math.cos(angle), math.sin(angle)
+    points = [point for scale in scales for point in thing.shape.scaled(scale).outline()]
+    return [(cos * x - sin * y, sin * x + cos * y) for x, y in points]

@@ -2,20 +2,16 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
-from ai4u_edu.world.line_of_sight import line_of_sight
-from ai4u_edu.world.ray_grid import RayGrid
-from ai4u_edu.world.rays import GROUND_TAGS, CodeOf, RayFan
+from ai4u_edu.world.rays import GROUND_TAGS, CodeOf, RayFan, RayGrid
 from ai4u_edu.world.region import Region
-
-if TYPE_CHECKING:
-    from ai4u_edu.world.world import World
+from ai4u_edu.world.world import World
 
 
 class WorldView:
@@ -32,7 +28,7 @@ class WorldView:
     ('box',)
     """
 
-    def __init__(self, world: "World") -> None:
+    def __init__(self, world: World) -> None:
         self._world = world
 
     def __getitem__(self, name: str) -> BodyView:
@@ -147,7 +143,14 @@ class WorldView:
             target: the other one.
             up: height of each one's eye above its underside, metres.
         """
-        return line_of_sight(self._world, looker, target, up)
+        world = self._world
+        start, rise = looker.z + up, target.z - looker.z
+        accept = world.filter_for(looker, 0xFFFFFFFF)
+        for hit in world.space.segment_query(looker.position, target.position, 0.0, accept):
+            other, height = world.owners[hit.shape], start + hit.alpha * rise
+            if other is not target and other.z <= height <= other.z + other.height:
+                return False
+        return True
 
     def random(self, name: str) -> np.random.Generator:
         """Return the random generator of a block's name, made from the world's seed."""

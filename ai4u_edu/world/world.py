@@ -9,19 +9,18 @@ import pymunk
 
 from ai4u_edu.base.errors import NameNotFoundError, WorldError, suggest
 from ai4u_edu.base.seeding import Seeds
-from ai4u_edu.world import construction
 from ai4u_edu.world.body import Body, BodyView
-from ai4u_edu.world.bounds import Rectangle, bounds_of
 from ai4u_edu.world.descriptions import (
     AreaDescription,
     BodyDescription,
     FloorDescription,
     WorldSettings,
 )
+from ai4u_edu.world.native import IS_NATIVE, contact_distances
 from ai4u_edu.world.physics import Physics
-from ai4u_edu.world.placement import Thing
+from ai4u_edu.world.placement import MAX_OVERLAP_M, Places, Thing, ThingT, is_overlap, randomize
 from ai4u_edu.world.region import Region
-from ai4u_edu.world.registry import Registry
+from ai4u_edu.world.registry import Rectangle, Registry
 from ai4u_edu.world.shapes import BodyShape, RegionShape
 
 
@@ -143,11 +142,21 @@ class World:
         Raises:
             WorldError: a name or a place is taken, or the world is full.
         """
-        construction.add_all(self, things)
+        things = list(things)
+        if self.ticks == 0 and (self._registry.has_random or any(each.random for each in things)):
+            self._add_and_rebuild(things)
+            return
+        for each in things:
+            self._add_now(each)
 
     def remove(self, name: str) -> None:
-        """Remove a body for good."""
-        construction.remove(self, name)
+        """Remove a body for good.
+
+        Raises:
+            NameNotFoundError: no body has that name.
+        """
+        self._physics.remove(self[name])
+        self._registry.forget(name)
 
     def put_back(self, name: str) -> None:
         """Put one body back to its described place, as a reset does; all others stay.
@@ -158,7 +167,13 @@ class World:
         Raises:
             WorldError: there is no room for something random; then nothing changes.
         """
-        construction.put_back(self, name)
+        body, physics = self[name], self._physics
+        rng = self.seeds.child(f"put back/{name}")
+        body.sampled = self._place_now(body.description, int(rng.integers(2**63)))
+        physics.remove(body)
+        physics.add(body)
+        physics.height.set_height(body, body.sampled.z)
+        physics.height.update_support(body)
 
     def rebuild(self) -> None:
         """Build the physics anew, with all bodies in their places of this episode.
@@ -166,7 +181,122 @@ class World:
         Raises:
             WorldError: there is no room for something random; then nothing changes.
         """
-        construction.rebuild(self)
+        registry = self._registry
+        if registry.has_random:
+            self._sample_all()
+        self.ticks = 0
+        self._physics.start_over()
+        for body in registry.bodies.values():
+            if not registry.has_random:
+                body.sampled = body.description  # an edit may have changed it in its place
+            self._physics.add(body)
+        self._update_heights()
+
+    def _add_now(self, thing: Thing) -> None:
+        """Add one thing; everything else stays where it is now.
+
+        Raises:
+            WorldError: its name or its place is taken, or the world is full.
+        """
+        registry = self._registry
+        registry.check_name(thing)
+        if isinstance(thing, BodyDescription):
+            self._add_body(thing, self._place_now(thing))
+        else:
+            registry.put_region(self._place_now(thing))
+            if isinstance(thing, FloorDescription):
+                self._update_heights()
+            self._physics.generation += 1
+        registry.register(thing)
+
+    def _add_body(self, description: BodyDescription, sampled: BodyDescription) -> None:
+        body, physics = Body(self, description), self._physics
+        body.sampled = sampled
+        physics.add(body)
+        physics.height.set_height(body, sampled.z)
+        try:
+            self._check_place(body)
+        except WorldError:
+            physics.remove(body)
+            raise
+        self._registry.bodies[body.name] = body
+        physics.height.update_support(body)
+
+    def _add_and_rebuild(self, things: list[Thing]) -> None:
+        """Add things before the first tick, and find places for everything random."""
+        registry, added = self._registry, []
+        try:
+            for thing in things:
+                registry.check_name(thing)
+                added.append(thing.name)
+                if isinstance(thing, BodyDescription):
+                    registry.bodies[thing.name] = Body(self, thing)
+                registry.register(thing)
+            self.rebuild()
+            for name in added:
+                if name in registry.bodies:
+                    self._check_place(registry.bodies[name])
+        except WorldError:
+            for name in added:
+                registry.forget(name)
+            self.rebuild()
+            raise
+
+    def _sample_all(self) -> None:
+        """Sample everything random for this episode."""
+        registry = self._registry
+        for thing in randomize(self.seeds.seed, registry.described.values()).values():
+            if isinstance(thing, BodyDescription):
+                registry.bodies[thing.name].sampled = thing
+            else:
+                registry.put_region(thing)
+        self._physics.generation += 1
+
+    def _place_now(self, thing: ThingT, seed: int | None = None) -> ThingT:
+        """Return a thing as sampled now, at a free place among the others.
+
+        Args:
+            thing: its description.
+            seed: seed of the samples; by default the episode's.
+
+        Raises:
+            WorldError: there is no room for it.
+        """
+        if thing.random is None:
+            return thing
+        places = Places(self.seeds.seed if seed is None else seed)
+        for floor in self.floors:
+            places.occupy(floor)
+        for other in self.bodies.values():
+            if not other.fallen and other.name != thing.name:
+                x, y, z, heading = other.pose
+                now = {"position": (x, y), "z": z, "heading_deg": math.degrees(heading)}
+                places.occupy(other.sampled.model_copy(update=now), _clearance(other.description))
+        for name, area in self.areas.items():
+            if isinstance(area.description, AreaDescription):
+                places.occupy(area.description, _clearance(self._registry.described[name]))
+        return places.find(thing)
+
+    def _update_heights(self) -> None:
+        """Find out what every body stands on, after the floors have changed."""
+        height = self._physics.height
+        height.rebuild(self._registry.floors.values())
+        bodies = [body for body in self._registry.bodies.values() if not body.fallen]
+        if self.ticks == 0:  # later, a new floor lifts no body
+            for body in bodies:
+                height.set_height(body, body.description.z)
+        for body in bodies:
+            height.update_support(body)
+
+    def _check_place(self, body: Body) -> None:
+        """Raise a WorldError if a body overlaps another one."""
+        other = self.find_overlap(body)
+        if other is not None:
+            raise WorldError(
+                f"body {body.name!r}: its place {body.sampled.position} overlaps body "
+                f"{other.name!r} at {other.sampled.position}; move one of them",
+                thing=body.name,
+            )
 
     # -- running ---------------------------------------------------------------------------------
 
@@ -217,8 +347,43 @@ class World:
 
         It covers all places that they may be given in any episode.
         """
-        things = self._registry.described.values()
-        return bounds_of(each for each in things if not isinstance(each, AreaDescription))
+        return self._registry.bounds()
+
+    def find_overlap(self, body: BodyView) -> Body | None:
+        """Return a body that overlaps a given one, or None; two that can't move may overlap."""
+        if not body.moves and IS_NATIVE:
+            return self._find_overlapping_mover(body)
+        for shape in body._shapes:
+            for hit in self.space.shape_query(shape):
+                other = self.owners.get(hit.shape)
+                if other is None or other is body or not (body.moves or other.moves):
+                    continue
+                found = [point.distance for point in hit.contact_point_set.points]
+                if _level(body, other) and is_overlap(shape, body._pm, hit.shape, other._pm, found):
+                    return other
+        return None
+
+    def _find_overlapping_mover(self, body: BodyView) -> Body | None:
+        """Return a body that can move and overlaps a given one that can't.
+
+        A query of the space would also return all bodies that can't move: with hundreds of
+        overlapping walls, that took seconds (``python -m tests.benchmarks.many_walls``).
+        """
+        x, y = body.position
+        for other in self._registry.bodies.values():
+            if not other.moves or other is body or other.fallen:
+                continue
+            reach = body.sampled.shape.reach + other.sampled.shape.reach + MAX_OVERLAP_M
+            if math.dist((x, y), other.position) > reach or not _level(body, other):
+                continue
+            for shape in body._shapes:
+                for its in other._shapes:
+                    if _pass_through(shape.filter, its.filter):
+                        continue
+                    found = contact_distances(shape, its, other._pm)
+                    if is_overlap(shape, body._pm, its, other._pm, found):
+                        return other
+        return None
 
     def count_contacts(self) -> int:
         """Return the approximate number of touching pairs of bodies; slow where there are many."""
@@ -240,3 +405,17 @@ class World:
                     f"body {body.name!r} is at ({x}, {y}): the physics went out of range; "
                     "are masses or speeds extreme?"
                 )
+
+
+def _clearance(described: Thing) -> float:
+    return described.random.clearance if described.random else 0.0
+
+
+def _level(body: BodyView, other: BodyView) -> bool:
+    """Return True if neither of two bodies is above the other one."""
+    return body.z < other.z + other.height and other.z < body.z + body.height
+
+
+def _pass_through(one: pymunk.ShapeFilter, other: pymunk.ShapeFilter) -> bool:
+    """Return True if the physics lets two shapes pass through each other."""
+    return not (one.categories & other.mask and other.categories & one.mask)

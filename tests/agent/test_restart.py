@@ -23,7 +23,7 @@ from ai4u_edu import (
     TouchSensor,
     World,
 )
-from ai4u_edu.world.variation import Variation
+from ai4u_edu.world import Variation
 from tests.agent.tracing import Log, traced_agent, traced_world
 from tests.builders import still
 

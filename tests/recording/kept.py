@@ -10,7 +10,7 @@ from typing import Any
 
 from ai4u_edu import BasicAgent, LocalBrain, Percept, Scene
 from ai4u_edu.agent.driving_keys import keys_of
-from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.check.rollout import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
 from tests.scenes.solvers import solver_of
 

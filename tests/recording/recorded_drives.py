@@ -16,7 +16,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.check.rollout import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.snapshot import capture_bodies
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.check.rollout import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot, capture_static_scene

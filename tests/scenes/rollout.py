@@ -5,7 +5,7 @@ import struct
 import sys
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.check.rollout import RandomDrive
 
 
 def trajectory(name: str, seed: int, decisions: int = 300) -> str:

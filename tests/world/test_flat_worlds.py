@@ -9,7 +9,7 @@ import pytest
 
 from ai4u_edu.world import Body, BoxShape, CircleShape, World
 from ai4u_edu.world.contacts import Contacts
-from ai4u_edu.world.height import Height
+from ai4u_edu.world.physics import Height
 
 Handler = Callable[[pymunk.Arbiter, pymunk.Space, Any], None]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.check.drive import RandomDrive
+from ai4u_edu.check.rollout import RandomDrive
 from ai4u_edu.world import native
 
 ROOT = Path(__file__).parents[2]

@@ -44,8 +44,8 @@ def test_a_world_without_anything_random_pays_nothing(monkeypatch: pytest.Monkey
         raise AssertionError("somebody looked for a place")
 
     world = World()
-    monkeypatch.setattr("ai4u_edu.world.construction.randomize", refuse)
-    monkeypatch.setattr("ai4u_edu.world.randomize.Places", refuse)
+    monkeypatch.setattr("ai4u_edu.world.world.randomize", refuse)
+    monkeypatch.setattr("ai4u_edu.world.world.Places", refuse)
     world.add_floor("plate", BoxShape(size=(9, 9)))
     ball = world.add_body("ball", CircleShape())
     world.reset()
@@ -58,5 +58,5 @@ def test_once_the_last_random_thing_is_gone_it_pays_nothing_again(
     world = World()
     world.add_body("ball", CircleShape(), random={"x": (0, 1)})
     world.remove("ball")
-    monkeypatch.setattr("ai4u_edu.world.construction.randomize", lambda *_args: 1 / 0)
+    monkeypatch.setattr("ai4u_edu.world.world.randomize", lambda *_args: 1 / 0)
     world.reset()

@@ -1,8 +1,8 @@
-"""The compiled form of the perspective ray grid; same bits as ray_grid.py, cell by cell."""
+"""The compiled form of the perspective ray grid; same bits as RayGrid in rays.py, cell by cell."""
 
 from collections.abc import Mapping, Sequence
 from struct import Struct
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -19,13 +19,21 @@ from ai4u_edu.world.shapes import (
     RingShape,
 )
 
-if TYPE_CHECKING:
-    from ai4u_edu.world.body import BodyView
-
 _GRID, _FLOOR = Struct("=4q10Qd3Q"), Struct("=2q8dQ")  # Grid and Floor in rays.c
 _LOOK = "long long (*)(void *, double, double, double, double, double)"
 
 Floats = npt.NDArray[np.float64]
+
+
+class _Solid(Protocol):
+    """Protocol of a body that rays may meet."""
+
+    z: float
+    height: float
+
+    @property
+    def moves(self) -> bool:
+        """True if it may have another height at the next cast."""
 
 
 class GridArrays(NamedTuple):
@@ -71,11 +79,11 @@ class CompiledGrid:
     ) -> None:
         self._arrays, self._columns, self._miss, self._look = arrays, columns, miss, look
         self.undecided = np.zeros(arrays.codes.shape, np.bool_)
-        self._movers: list[tuple[int, BodyView]] = []
+        self._movers: list[tuple[int, _Solid]] = []
 
     def update(
         self,
-        bodies: "Mapping[int, BodyView]",
+        bodies: Mapping[int, _Solid],
         codes: Mapping[int, float],
         grounds: Sequence[tuple[float, Region | None, float]],
     ) -> None:
