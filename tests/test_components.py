@@ -34,7 +34,7 @@ def test_none_of_ai4us_is_forgotten() -> None:
 def test_what_is_said_to_be_missing_is() -> None:
     rows = parity_rows()
     here = [name for name in [*MISSING, *rows] if not rows.get(name) and _is_here(name)]
-    assert here == [], "they are there: say so in tests/components.py or blocks/ai4u_names.py"
+    assert here == [], "they are there: say so in tests/components.py or blocks/docs.py"
 
 
 def _is_here(name: str) -> bool:

@@ -30,13 +30,13 @@ from ai4u_edu.blocks import (
     TruncatedSensor,
 )
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.blocks.brains.command import Accepted
+from ai4u_edu.blocks.brains.brain import Accepted
 from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]
 
-DEFAULT_ACTION = "defaultAction"
+_DEFAULT_ACTION = "defaultAction"
 """AI4U's name for the action that goes to ``agent.action_handler``."""
 
 
@@ -170,7 +170,7 @@ class BasicAgent(Parameterized):
             )
         self._action_handler = handler
         for actuator in self.actuators:
-            if actuator.action_name == DEFAULT_ACTION and hasattr(actuator, "handler"):
+            if actuator.action_name == _DEFAULT_ACTION and hasattr(actuator, "handler"):
                 actuator.handler = handler
 
     @property
@@ -426,15 +426,15 @@ class BasicAgent(Parameterized):
         keys = {sensor.perception_key for sensor in self.sensors}
         self.sensors += [sensor for sensor in sensors if sensor.perception_key not in keys]
         size = self.action_size or int(self._action_handler is not None)
-        if not size or any(each.action_name == DEFAULT_ACTION for each in self.actuators):
+        if not size or any(each.action_name == _DEFAULT_ACTION for each in self.actuators):
             return
         made: ContinuousActuator | DiscreteActuator
         if self.action_is_continuous:
-            made = ContinuousActuator(action_name=DEFAULT_ACTION, size=size)
+            made = ContinuousActuator(action_name=_DEFAULT_ACTION, size=size)
         else:
             # the default table of a DiscreteActuator would drive the body without a handler
             still = [(0.0, 0.0, 0.0, 0.0)]
-            made = DiscreteActuator(action_name=DEFAULT_ACTION, size=size, table=still)
+            made = DiscreteActuator(action_name=_DEFAULT_ACTION, size=size, table=still)
         made.handler = self._action_handler
         self.actuators.append(made)
 

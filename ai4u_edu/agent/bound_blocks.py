@@ -42,7 +42,7 @@ _OWNER = "_owner_ref"
 """Attribute of a block that refers to the agent that claimed it last."""
 
 
-class Owner(AgentView, Protocol):
+class _Owner(AgentView, Protocol):
     """Protocol of an agent whose blocks are bound (BasicAgent is one)."""
 
     body_name: str
@@ -75,7 +75,7 @@ class BoundBlocks:
         SetupError: something does not fit; the message names it.
     """
 
-    def __init__(self, agent: Owner, world: World) -> None:
+    def __init__(self, agent: _Owner, world: World) -> None:
         self._agent = agent
         self.world = world
         with self._error_context(None):
@@ -422,7 +422,7 @@ def _walk_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
         yield from _walk_blocks(block.inner_blocks())
 
 
-def _check_each_once(agent: Owner, blocks: Iterable[Block]) -> None:
+def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:
     """Check that no block, nor a block inside one, occurs in an agent twice.
 
     Raises:
@@ -438,7 +438,7 @@ def _check_each_once(agent: Owner, blocks: Iterable[Block]) -> None:
         known.add(id(block))
 
 
-def _claim(agent: Owner, blocks: Iterable[Block]) -> None:
+def _claim(agent: _Owner, blocks: Iterable[Block]) -> None:
     """Make an agent the owner of blocks and of the blocks inside them.
 
     Raises:
@@ -459,21 +459,21 @@ def _claim(agent: Owner, blocks: Iterable[Block]) -> None:
         setattr(block, _OWNER, ref(agent))
 
 
-def _owner_of(block: Block) -> Owner | None:
+def _owner_of(block: Block) -> _Owner | None:
     """Return the agent that uses a block now."""
     reference: Any = getattr(block, _OWNER, None)
-    owner: Owner | None = reference() if reference is not None else None
+    owner: _Owner | None = reference() if reference is not None else None
     bound = owner.bound_blocks_or_none if owner is not None else None
     if bound is None or not any(each is block for each in _walk_blocks(bound.blocks)):
         return None
     return owner
 
 
-def _are_together(one: Owner, other: Owner) -> bool:
+def _are_together(one: _Owner, other: _Owner) -> bool:
     return one.requestor is not None and one.requestor is other.requestor
 
 
-def _take_away(owner: Owner, block: Block, agent: Owner) -> None:
+def _take_away(owner: _Owner, block: Block, agent: _Owner) -> None:
     bound = owner.bound_blocks
     if isinstance(bound.brain, _LostBrain) and not bound.brain.is_replaceable:
         return
@@ -488,7 +488,7 @@ def _take_away(owner: Owner, block: Block, agent: Owner) -> None:
     bound.brain = lost
 
 
-def _enabled_brain(agent: Owner, brains: Sequence[Brain]) -> Brain:
+def _enabled_brain(agent: _Owner, brains: Sequence[Brain]) -> Brain:
     """Return the one enabled brain of an agent.
 
     Args:
@@ -519,7 +519,7 @@ def _enabled_brain(agent: Owner, brains: Sequence[Brain]) -> Brain:
     return enabled[0]
 
 
-def _check_unique(agent: Owner, what: str, field: str, blocks: Sequence[Block]) -> None:
+def _check_unique(agent: _Owner, what: str, field: str, blocks: Sequence[Block]) -> None:
     """Raise a SetupError if two blocks of an agent have the same name.
 
     Args:

@@ -1,16 +1,64 @@
 """The part of an agent that its blocks may use."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, ClassVar, Protocol
 
-if TYPE_CHECKING:
-    from ai4u_edu.blocks.actuators.actuator import Actuator
-    from ai4u_edu.blocks.brains.brain import Brain
-    from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
-    from ai4u_edu.blocks.percept import Percept
-    from ai4u_edu.blocks.rewards.reward_func import RewardFunc
-    from ai4u_edu.blocks.sensors.sensor import Sensor
-    from ai4u_edu.world import BodyView
+from gymnasium import spaces
+
+from ai4u_edu.blocks.keyboard import Keyboard
+from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.world import BodyView
+
+
+class SensorView(Protocol):
+    """A sensor as other blocks of its agent see it."""
+
+    perception_key: str
+    is_active: bool
+    is_input: bool
+    unit: ClassVar[str]
+
+    def reading_kind(self) -> str:
+        """Return AI4U's type of the reading."""
+
+    def observation_space(self) -> spaces.Space[Any]:
+        """Return the space of the reading in the percept."""
+
+
+class ActuatorView(Protocol):
+    """An actuator as other blocks of its agent see it."""
+
+    action_name: str
+    is_active: bool
+    is_output: bool
+    is_continuous: ClassVar[bool]
+    clipped: int
+
+    def space(self) -> spaces.Space[Any]:
+        """Return the space of its action."""
+
+    def slots(self) -> tuple[str, ...]:
+        """Return display names of the numbers of its action."""
+
+    def limits(self) -> tuple[list[float], list[float]]:
+        """Return the lowest and the highest numbers of its action."""
+
+    def accept(self, values: Any) -> tuple[float, ...]:
+        """Check the numbers of an action, and clip them."""
+
+
+class _RewardView(Protocol):
+    """A reward function as other blocks of its agent see it."""
+
+    name: str
+    is_active: bool
+
+
+class _BrainView(Protocol):
+    """A brain as other blocks of its agent see it."""
+
+    skip_frame: int
+    repeat_action: bool
 
 
 class Event(Protocol):
@@ -33,9 +81,18 @@ class AgentView(Protocol):
     other_agents: int
     """Number of other agents in its world."""
     paused: bool
-    actuators: list["Actuator"]
-    sensors: list["Sensor"]
-    rewards: list["RewardFunc"]
+
+    @property
+    def sensors(self) -> Sequence[SensorView]:
+        """Its sensors."""
+
+    @property
+    def actuators(self) -> Sequence[ActuatorView]:
+        """Its actuators."""
+
+    @property
+    def rewards(self) -> Sequence[_RewardView]:
+        """Its reward functions."""
 
     @property
     def begin_of_episode(self) -> Event:
@@ -50,19 +107,19 @@ class AgentView(Protocol):
         """The event after a decision or a reset, when percept, reward and end are final."""
 
     @property
-    def body(self) -> "BodyView":
+    def body(self) -> BodyView:
         """The agent's body."""
 
     @property
-    def brain(self) -> "Brain":
+    def brain(self) -> _BrainView:
         """The enabled brain."""
 
     @property
-    def keyboard(self) -> "Keyboard":
+    def keyboard(self) -> Keyboard:
         """The keys that a person holds for this agent."""
 
     @property
-    def percept(self) -> "Percept":
+    def percept(self) -> Percept:
         """The latest percept."""
 
     @property

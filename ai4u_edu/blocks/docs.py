@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import is_open
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.blocks.ai4u_names import CLASSES
 from ai4u_edu.blocks.block import Block, is_built_in
 from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
@@ -63,7 +62,7 @@ def differences(cls: type[Block]) -> str:
     return text[:1].upper() + text[1:]
 
 
-def ai4u_sources() -> dict[str, type[Block]]:
+def _ai4u_sources() -> dict[str, type[Block]]:
     """Return the blocks that come from AI4U, by their names there."""
     found = {}
     for cls in (cls for members in built_in_blocks().values() for cls in members):
@@ -77,9 +76,9 @@ def coming_from_ai4u() -> str:
     """Return a Markdown table of AI4U's classes and their counterparts here."""
     rows = [
         (theirs, cls.__name__, summary(cls).split(" Source:")[0], differences(cls))
-        for theirs, cls in ai4u_sources().items()
+        for theirs, cls in _ai4u_sources().items()
     ]
-    rows += [(*each, "") for each in CLASSES]
+    rows += [(*each, "") for each in _AI4U_CLASSES]
     lines = ["| AI4U | here | what it is | what differs |", "|---|---|---|---|"]
     for theirs, here, what, differs in sorted(rows, key=lambda row: row[0].lower()):
         lines.append(f"| `{theirs}` | {f'`{here}`' if here else '-'} | {what} | {differs} |")
@@ -134,10 +133,10 @@ def schema_rows(schema: dict[str, Any]) -> list[ParameterRow]:
 
 def _hint_from_ai4u(name: str) -> str:
     """Return a clause on the counterpart of a class of AI4U; empty for any other name."""
-    source = ai4u_sources().get(name)
+    source = _ai4u_sources().get(name)
     if source is not None:
         return f"AI4U's {name} is {source.__name__} here"
-    for each in CLASSES:
+    for each in _AI4U_CLASSES:
         if each.ai4u == name:
             there = f"is {each.here} here" if each.here else "has no class of its own here"
             return f"AI4U's {name} {there}. {each.words}".replace("``", "")
@@ -163,3 +162,99 @@ def _show(bound: float | None) -> str:
     if bound is None or is_open(bound):
         return ""
     return f"{bound}" if isinstance(bound, int) else f"{bound:g}"
+
+
+class _Counterpart(NamedTuple):
+    """A class of AI4U that no block here names as its source, and its counterpart here."""
+
+    ai4u: str
+    here: str
+    """Name that ``ai4u_edu`` exports; empty if there is none."""
+    words: str
+
+
+_AI4U_CLASSES = (
+    _Counterpart("Actuator", "Actuator", "The base of all actuators."),
+    _Counterpart(
+        "AgentRewardFunc",
+        "BasicAgent",
+        "No block: ``agent.add_reward(amount, request_done)``, from any event's handler.",
+    ),
+    _Counterpart(
+        "ArrowPhysicsMoveController2D",
+        "ArrowController",
+        "One controller for all bodies; ``components`` and the lists of keys adapt it.",
+    ),
+    _Counterpart(
+        "BasicAgent", "BasicAgent", "A body with sensors, actuators, rewards and a brain."
+    ),
+    _Counterpart("Brain", "Brain", "The base of all brains."),
+    _Counterpart(
+        "Camera",
+        "LocalGridSensor",
+        "There is no camera, but an image from above, for image policies.",
+    ),
+    _Counterpart("Camera3DSensor", "LocalGridSensor", "Like Camera; grayScale doesn't exist here."),
+    _Counterpart(
+        "CBMoveActuator2D",
+        "CBMoveActuator",
+        "The world is seen from above: flipWhenTurn and lerpFactor don't exist here.",
+    ),
+    _Counterpart(
+        "CBRespawnActuator",
+        "RespawnActuator",
+        "radomizeDirection is ``randomise_heading``, and off by default.",
+    ),
+    _Counterpart(
+        "CBRespawnActuator2D", "RespawnActuator", "flipWhenTurn and randomize don't exist here."
+    ),
+    _Counterpart("Controller", "Controller", "The base of all controllers of a LocalBrain."),
+    _Counterpart(
+        "ControlRequestor",
+        "ControlRequestor",
+        "The decision cycle of a world and its agents: ``ControlRequestor(world, [agent])``.",
+    ),
+    _Counterpart(
+        "LinearRayCastingSensor2D",
+        "LinearRayCastingSensor",
+        "groupCode and groupName are one table, ``group_code``; shift is ``horizontal_shift``.",
+    ),
+    _Counterpart("LocalBrain", "LocalBrain", "A brain in this process, which asks its controller."),
+    _Counterpart("MinDistReward2D", "MinDistReward", "One block for both."),
+    _Counterpart("RaycastMapping", "", "No class: a ray sensor's ``group_code`` is a dictionary."),
+    _Counterpart(
+        "RBMoveActuator2D", "RBMoveActuator", "One block for both; here it moves the body."
+    ),
+    _Counterpart(
+        "RestlessnessRewardFunc",
+        "RestlessnessRewardFunc",
+        "The 3D version, with increseRate and decreaseRate, punishes moving: ours is the 2D one.",
+    ),
+    _Counterpart("RewardFunc", "RewardFunc", "The base of all reward functions."),
+    _Counterpart(
+        "RLAgent",
+        "BasicAgent",
+        "The later name of BasicAgent; ``done_at_negative_reward`` is off by default, there on.",
+    ),
+    _Counterpart(
+        "ScreenSensor",
+        "LocalGridSensor",
+        "Like Camera. To watch a world, open its page or render it.",
+    ),
+    _Counterpart(
+        "Sensor", "Sensor", "The base of all sensors; ``normalized`` is off by default, there on."
+    ),
+    _Counterpart(
+        "TouchRewardFunc2D",
+        "TouchRewardFunc",
+        "One block for both; a target may be an area. The cool-down is 0, there 0.2 s.",
+    ),
+    _Counterpart(
+        "Trainer", "Trainer", "A script that gets each percept of a TrainController and directs it."
+    ),
+    _Counterpart(
+        "Utils",
+        "",
+        "No class: percepts and actions are dictionaries with numbers in them.",
+    ),
+)

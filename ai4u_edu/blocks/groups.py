@@ -7,7 +7,7 @@ from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.world import WorldView
 
-PARAMETERS = ("group", "target_group", "group_code", "channels", "blocked_by")
+_PARAMETERS = ("group", "target_group", "group_code", "channels", "blocked_by")
 """Names of the parameters that hold groups, in any block."""
 
 
@@ -27,18 +27,18 @@ def check_groups(block: Block, parameter: str, view: WorldView) -> None:
 
 def missing_groups(block: Block, view: WorldView) -> list[str]:
     """Return a sentence for each group that a block (or one inside it) names and nothing has."""
-    own = [parameter for parameter in PARAMETERS if parameter in block.parameters()]
+    own = [parameter for parameter in _PARAMETERS if parameter in block.parameters()]
     found = [text for parameter in own for text in _missing(block, parameter, view)]
     return found + [text for part in _parts(block) for text in missing_groups(part, view)]
 
 
 def names_groups(block: Block) -> bool:
     """Return True if a block, or a block inside it, names groups."""
-    own = any(_names(getattr(block, parameter, None)) for parameter in PARAMETERS)
+    own = any(_names(getattr(block, parameter, None)) for parameter in _PARAMETERS)
     return own or any(map(names_groups, _parts(block)))
 
 
-def known_groups(block: Block, view: WorldView) -> set[str]:
+def _known_groups(block: Block, view: WorldView) -> set[str]:
     """Return the tags of everything that a block can perceive.
 
     The class attribute ``looks_at`` names the kinds of things (by default all), ``own_groups`` the
@@ -49,7 +49,7 @@ def known_groups(block: Block, view: WorldView) -> set[str]:
 
 def _missing(block: Block, parameter: str, view: WorldView) -> list[str]:
     by_default = _names(block.parameters()[parameter].get_default(call_default_factory=True))
-    known = known_groups(block, view)
+    known = _known_groups(block, view)
     return [
         f"{parameter}: nothing that it could find carries the tag {name!r}; {suggest(name, known)}"
         for name in _names(getattr(block, parameter))

@@ -4,9 +4,11 @@ The constructor and its checks, the JSON Schema, the form in the browser and the
 from the declaration.
 """
 
+import ast
 from collections.abc import Callable, Mapping
-from functools import wraps
+from functools import cache, wraps
 from inspect import signature
+from itertools import pairwise
 from typing import Any, Self, dataclass_transform
 
 from pydantic import ConfigDict, Field, GetCoreSchemaHandler, TypeAdapter, ValidationError
@@ -16,7 +18,7 @@ from pydantic_core import ArgsKwargs, core_schema
 
 from ai4u_edu.base.errors import ParameterError, shown
 from ai4u_edu.base.parameters import explain, format_problems
-from ai4u_edu.blocks.field_docs import field_docs
+from ai4u_edu.base.syntax import parsed_class
 
 _CONFIG = ConfigDict(
     extra="forbid",
@@ -162,3 +164,28 @@ def _explained(construct: Callable[..., None], cls: type[Parameterized]) -> Call
 
     explained._inner = inner  # type: ignore[attr-defined]  # so that a subclass wraps it only once
     return explained
+
+
+@cache
+def field_docs(cls: type) -> dict[str, str]:
+    """Return the text under each annotated field of a class and its bases; {} without source.
+
+    It parses the source on demand, not when the class is made: most runs need no descriptions.
+    """
+    docs: dict[str, str] = {}
+    for each in reversed(cls.__mro__[:-1]):
+        try:
+            tree = parsed_class(each)
+        except (OSError, TypeError, SyntaxError):
+            continue  # defined in a console, or built into Python
+        body = tree.body[0].body if isinstance(tree.body[0], ast.ClassDef) else []
+        for field, text in pairwise(body):
+            if (
+                isinstance(field, ast.AnnAssign)
+                and isinstance(field.target, ast.Name)
+                and isinstance(text, ast.Expr)
+                and isinstance(text.value, ast.Constant)
+                and isinstance(text.value.value, str)
+            ):
+                docs[field.target.id] = " ".join(text.value.value.split())
+    return docs

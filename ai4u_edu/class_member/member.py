@@ -28,7 +28,7 @@ from ai4u_edu.class_member.room_state import RoomState
 from ai4u_edu.class_member.thumbnail import Thumbnail
 from ai4u_edu.editing import SceneEditor
 from ai4u_edu.recording import Recorder
-from ai4u_edu.recording.file import encode
+from ai4u_edu.recording.episode import encode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.class_link import (
     HEARTBEAT_S,

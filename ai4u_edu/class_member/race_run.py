@@ -12,7 +12,7 @@ from ai4u_edu.class_member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.class_member.holds import Holds
 from ai4u_edu.class_member.room_state import WINS
 from ai4u_edu.recording import Episode, RecordingError
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.scene_export import export_scene, without_brains
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.class_link import Applied, Race

@@ -11,7 +11,7 @@ from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.jobs import Job
 from ai4u_edu.jobs.isolated import IsolatedJobs
 from ai4u_edu.recording import Episode, Replay
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot.outcome import outcome
 

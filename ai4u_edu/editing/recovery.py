@@ -1,7 +1,7 @@
 """Scenes that were left unsaved, and the autosave of the one that runs."""
 
 from concurrent.futures import Future
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.editing.autosave import Autosave
@@ -10,8 +10,20 @@ from ai4u_edu.editing.state import EditState
 from ai4u_edu.editing.unsaved import Unsaved
 from ai4u_edu.scenes import Scene, SceneDescription
 
-if TYPE_CHECKING:
-    from ai4u_edu.editing.editor import SceneEditor
+
+class _Editor(Protocol):
+    """Protocol of the editor whose scene is saved (SceneEditor is one)."""
+
+    @property
+    def is_as_opened(self) -> bool: ...
+
+    @property
+    def opened(self) -> EditState: ...
+
+    @property
+    def state(self) -> EditState: ...
+
+    def open(self, scene: Scene) -> Future[ChangeResult]: ...
 
 
 class Recovery:
@@ -23,7 +35,7 @@ class Recovery:
         editor: opens the scene that is restored.
     """
 
-    def __init__(self, editor: "SceneEditor") -> None:
+    def __init__(self, editor: _Editor) -> None:
         self._editor = editor
         self.unsaved: Unsaved | None = None
         """An unsaved scene to offer; it was left by a server that was killed."""

@@ -3,7 +3,7 @@
 import asyncio
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_FILE_BYTES
 
 MAX_PART_BYTES = 2**19
 UPLOAD_IDLE_S = 30.0

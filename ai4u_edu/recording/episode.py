@@ -1,17 +1,42 @@
-"""Recorded episodes as data, from which they can be replayed."""
+"""Recorded episodes as data, from which they can be replayed, and their files.
 
-from collections.abc import Iterator
+A file has a header line, then msgpack compressed with zlib. Files are untrusted: reading executes
+nothing, limits the decompressed size, and validates everything before it is used.
+"""
+
+import json
+import zlib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self, TypeVar
 
+import msgpack
 import numpy as np
 import numpy.typing as npt
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import NameNotFoundError, suggest
-from ai4u_edu.recording.table import Table
-from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.base.parameters import Problem, explain
+from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.recording.columns import check_finite, pack_column, unpack_column, unpack_table
+from ai4u_edu.recording.errors import RecordingError
+from ai4u_edu.recording.table import MAX_FORMS, Table
+from ai4u_edu.scenes import Scene, SceneDescription
+
+HEADER = b"ai4u-edu episode 1\n"
+MAX_FILE_BYTES = 16 * 2**20
+"""Size of a file."""
+MAX_UNPACKED_MB = 24
+"""Size of its decompressed content."""
+MAX_ENTRIES = 100_000
+"""Entries of a list or a mapping in a file."""
+MAX_TICK = 2_000_000
+"""Last tick that is recorded: nine hours at 60 ticks per second."""
+_MAX_SKIP_FRAME = 10_000
+"""The largest skip_frame that a brain may have."""
 
 REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED = 1, 2, 4, 8, 16
 """Bits of a decision's flags."""
@@ -188,9 +213,9 @@ class Episode:
         Args:
             path: of the file; ``.episode`` is the usual suffix.
         """
-        from ai4u_edu.recording.file import save
-
-        return save(self, Path(path))
+        path = Path(path)
+        write_atomically(path, encode(self))
+        return path
 
     @classmethod
     def load(cls, path: str | Path) -> Self:
@@ -199,10 +224,330 @@ class Episode:
         Raises:
             RecordingError: it is no episode file, or something in it is wrong.
         """
-        from ai4u_edu.recording.file import load
-
-        return load(cls, Path(path))
+        path = Path(path)
+        try:
+            with path.open("rb") as file:
+                data = file.read(MAX_FILE_BYTES + 1)
+        except OSError as error:
+            raise RecordingError(f"{path}: can't be read: {error.strerror}") from None
+        return decode(cls, data, path.name)
 
     def __str__(self) -> str:
         told = ", ".join(f"agent {r.id}: {len(r)} decisions, {r.total:g}" for r in self.agents)
         return f"{self.scene.name}, seed {self.seed}, {self.seconds:.1f} s; {told}"
+
+
+E = TypeVar("E", bound=Episode)
+
+
+class _Agent(BaseModel):
+    """One agent's columns in a file."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    id: str = Field(max_length=80)
+    begin: bytes
+    end: bytes
+    skip: bytes
+    flags: bytes
+    action_forms: list[list[tuple[str, int]]] = Field(max_length=MAX_FORMS)
+    action_form: bytes
+    action_numbers: bytes
+    term_forms: list[list[str]] = Field(max_length=MAX_FORMS)
+    term_form: bytes
+    term_numbers: bytes
+    rewards: bytes
+    percepts: bytes
+    worlds: bytes
+    starts: bytes
+    firsts: bytes
+    driver: str = Field(default="", max_length=MAX_DRIVER_CHARS)
+    carried_forms: list[list[str]] = Field(default=[], max_length=MAX_FORMS)
+    carried_form: bytes = b""
+    carried_numbers: bytes = b""
+
+
+class _File(BaseModel):
+    """Content of a file."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    versions: dict[str, str]
+    scene: dict[str, Any]
+    seed: int = Field(ge=0, le=MAX_SEED)
+    ticks: int = Field(ge=0, le=2 * MAX_TICK)
+    changed: int | None = Field(ge=0, le=2 * MAX_TICK)
+    cut: bool
+    agents: list[_Agent] = Field(min_length=1, max_length=64)
+    order: bytes
+    restarts: list[tuple[int, list[int]]]
+
+
+def encode(episode: Episode) -> bytes:
+    """Return an episode as a file's bytes; equal episodes give equal bytes."""
+    plain = {
+        "versions": episode.versions,
+        "scene": Scene(episode.scene).plain(),
+        "seed": episode.seed,
+        "ticks": episode.ticks,
+        "changed": episode.changed,
+        "cut": episode.cut,
+        "agents": [
+            {
+                "id": record.id,
+                "begin": pack_column(record.begin),
+                "end": pack_column(record.end),
+                "skip": pack_column(record.skip),
+                "flags": pack_column(record.flags),
+                "action_forms": record.actions.forms,
+                "action_form": pack_column(record.actions.form),
+                "action_numbers": pack_column(record.actions.numbers),
+                **_packed_terms("term", record.terms),
+                "rewards": pack_column(record.rewards),
+                "percepts": pack_column(record.percepts),
+                "worlds": pack_column(record.worlds),
+                "starts": pack_column(record.starts),
+                "firsts": pack_column(record.firsts),
+                "driver": record.driver,
+                **(_packed_terms("carried", record.carried) if len(record.carried) else {}),
+            }
+            for record in episode.agents
+        ],
+        "order": pack_column(episode.order),
+        "restarts": episode.restarts,
+    }
+    return HEADER + zlib.compress(msgpack.packb(plain), 9)
+
+
+def decode(cls: type[E], data: bytes, name: str) -> E:
+    """Return the episode in a file's bytes.
+
+    Args:
+        cls: Episode, or a subclass.
+        data: the content of the file.
+        name: of the file, for messages.
+
+    Raises:
+        RecordingError: something is wrong in it.
+    """
+    try:
+        return _read(cls, data)
+    except RecordingError as error:
+        raise RecordingError(f"{name}: {error}") from None
+
+
+def _read(cls: type[E], data: bytes) -> E:
+    if not data.startswith(HEADER):
+        if data.startswith(HEADER[:16]):
+            raise RecordingError(
+                "an episode of another version of this package; expected "
+                f"{HEADER.decode().strip()!r}, got {data[: len(HEADER)].split()[-1]!r}"
+            )
+        raise RecordingError(
+            "expected a recorded episode, as ai4u-edu record writes it, and this is none"
+        )
+    if len(data) > MAX_FILE_BYTES:
+        raise RecordingError(f"expected at most {MAX_FILE_BYTES // 2**20} MB")
+    file = _validated(_unpacked(data[len(HEADER) :]))
+    episode = cls(
+        scene=_scene(file.scene),
+        seed=file.seed,
+        agents=tuple(_record(agent) for agent in file.agents),
+        order=unpack_column(file.order, np.int32, "order"),
+        restarts=tuple(Restart(tick, tuple(agents)) for tick, agents in file.restarts),
+        ticks=file.ticks,
+        changed=file.changed,
+        cut=file.cut,
+        versions=file.versions,
+    )
+    _validate(episode)
+    return episode
+
+
+def _unpacked(packed: bytes) -> Any:
+    unpacker = zlib.decompressobj()
+    try:
+        plain = unpacker.decompress(packed, MAX_UNPACKED_MB * 2**20 + 1)
+    except zlib.error as error:
+        raise RecordingError(f"damaged: it can't be unpacked ({error})") from None
+    if len(plain) > MAX_UNPACKED_MB * 2**20:
+        raise RecordingError(f"expected at most {MAX_UNPACKED_MB} MB when it is unpacked")
+    if not unpacker.eof:
+        raise RecordingError("damaged: its end is missing")
+    if unpacker.unused_data:
+        raise RecordingError("damaged: something follows after its end")
+    try:
+        return msgpack.unpackb(
+            plain,
+            raw=False,
+            strict_map_key=True,
+            use_list=True,
+            max_array_len=MAX_ENTRIES,
+            max_map_len=MAX_ENTRIES,
+            max_str_len=2**20,
+            max_ext_len=0,
+        )
+    except (ValueError, TypeError, RecursionError, OverflowError) as error:
+        raise RecordingError(f"damaged: its contents can't be read ({error})") from None
+
+
+def _validated(data: Any) -> _File:
+    try:
+        # strict models want tuples, and msgpack has lists only
+        return _File.model_validate(_tuples(data))
+    except ValidationError as error:
+        found = explain(error.errors(include_input=True), _File)
+        raise RecordingError(_message(found)) from None
+
+
+def _tuples(data: Any) -> Any:
+    if not isinstance(data, Mapping):
+        return data
+    agents = data.get("agents")
+    return {
+        **data,
+        "restarts": _each_tuple(data.get("restarts")),
+        "agents": [_agent_tuples(agent) for agent in agents]
+        if isinstance(agents, list)
+        else agents,
+    }
+
+
+def _agent_tuples(agent: Any) -> Any:
+    if not isinstance(agent, Mapping) or not isinstance(agent.get("action_forms"), list):
+        return agent
+    return {**agent, "action_forms": [_each_tuple(form) for form in agent["action_forms"]]}
+
+
+def _each_tuple(entries: Any) -> Any:
+    if not isinstance(entries, list):
+        return entries
+    return [tuple(each) if isinstance(each, list) else each for each in entries]
+
+
+def _scene(plain: dict[str, Any]) -> SceneDescription:
+    try:
+        json.dumps(plain)
+    except (TypeError, ValueError, RecursionError) as error:
+        # msgpack can have bytes, and deeper nesting than a scene file
+        raise RecordingError(f"scene: expected what a scene's file can hold, got {error}") from None
+    try:
+        return SceneDescription.model_validate(plain)
+    except ValidationError as error:
+        found = explain(error.errors(), SceneDescription)
+        raise RecordingError(
+            _message([Problem(("scene", *each.path), each.text) for each in found])
+        ) from None
+
+
+def _message(problems: list[Problem]) -> str:
+    more = f" (and {len(problems) - 3} more)" if len(problems) > 3 else ""
+    return "; ".join(map(str, problems[:3])) + more
+
+
+def _record(agent: _Agent) -> AgentRecord:
+    return AgentRecord(
+        id=agent.id,
+        begin=unpack_column(agent.begin, np.uint32, "begin"),
+        end=unpack_column(agent.end, np.uint32, "end"),
+        skip=unpack_column(agent.skip, np.uint16, "skip"),
+        flags=unpack_column(agent.flags, np.uint8, "flags"),
+        actions=unpack_table(
+            [[(name, width) for name, width in form] for form in agent.action_forms],
+            agent.action_form,
+            agent.action_numbers,
+            "action",
+        ),
+        terms=_terms(agent.term_forms, agent.term_form, agent.term_numbers, "term"),
+        rewards=check_finite(unpack_column(agent.rewards, np.float64, "rewards"), "rewards"),
+        percepts=unpack_column(agent.percepts, np.uint32, "percepts"),
+        worlds=unpack_column(agent.worlds, np.uint32, "worlds"),
+        starts=unpack_column(agent.starts, np.uint32, "starts"),
+        firsts=unpack_column(agent.firsts, np.uint32, "firsts"),
+        driver=agent.driver,
+        carried=_terms(agent.carried_forms, agent.carried_form, agent.carried_numbers, "carried"),
+    )
+
+
+def _packed_terms(what: str, terms: Table) -> dict[str, Any]:
+    """Return the columns of a table of reward terms by name."""
+    return {
+        f"{what}_forms": [[name for name, _ in form] for form in terms.forms],
+        f"{what}_form": pack_column(terms.form),
+        f"{what}_numbers": pack_column(terms.numbers),
+    }
+
+
+def _terms(forms: list[list[str]], form: bytes, numbers: bytes, what: str) -> Table:
+    """Return a table of reward terms from its columns."""
+    return unpack_table([[(name, 1) for name in each] for each in forms], form, numbers, what)
+
+
+def _validate(episode: Episode) -> None:
+    """Check that all parts of an episode fit together.
+
+    Raises:
+        RecordingError: they do not; the message names the part.
+    """
+    ids = [str(agent.get("id", "0")) for agent in episode.scene.agents]
+    if list(episode.ids) != ids:
+        raise RecordingError(f"agents: expected those of the scene, {ids}, got {list(episode.ids)}")
+    for record in episode.agents:
+        _check_agent(record, episode.ticks)
+    _check_order(episode)
+    _check_time(episode)
+
+
+def _check_agent(record: AgentRecord, ticks: int) -> None:
+    who, count = f"agent {record.id!r}", len(record)
+    for name in ("end", "skip", "flags", "actions", "terms", "rewards", "percepts", "worlds"):
+        if len(getattr(record, name)) != count:
+            raise RecordingError(
+                f"{who}: expected {count} {name}, one for each decision, "
+                f"got {len(getattr(record, name))}"
+            )
+    if len(record.carried) not in (0, count):
+        raise RecordingError(
+            f"{who}: expected {count} carried, one for each decision, or none, "
+            f"got {len(record.carried)}"
+        )
+    if (record.skip > _MAX_SKIP_FRAME).any():
+        raise RecordingError(f"{who}: skip: expected at most {_MAX_SKIP_FRAME}")
+    if (record.end < record.begin).any() or (record.end > ticks).any():
+        raise RecordingError(f"{who}: end: expected decisions that end after they begin")
+    ended = (record.flags & ENDED) > 0
+    if (record.end[ended] == record.begin[ended]).any():
+        raise RecordingError(f"{who}: end: expected each decision to take a tick at least")
+    starts = record.starts
+    if not len(starts) or len(record.firsts) != len(starts) or starts[0] != 0:
+        raise RecordingError(f"{who}: starts: expected one for each of the agent's episodes")
+    if (np.diff(starts.astype(np.int64)) < 0).any() or (starts > count).any():
+        raise RecordingError(f"{who}: starts: expected numbers of decisions, in order")
+
+
+def _check_order(episode: Episode) -> None:
+    order = episode.order
+    for index, record in enumerate(episode.agents):
+        if int((order == index).sum()) != len(record):
+            raise RecordingError(f"order: expected all decisions of agent {record.id!r} once each")
+    if order[order < 0].tolist() != [-1 - i for i in range(len(episode.restarts))]:
+        raise RecordingError("order: expected all restarts once each, in order")
+    if len(order) and int(order.max()) >= len(episode.agents):
+        raise RecordingError("order: expected numbers of agents")
+    for restart in episode.restarts:
+        known = all(0 <= index < len(episode.agents) for index in restart.agents)
+        if not restart.agents or len(set(restart.agents)) < len(restart.agents) or not known:
+            raise RecordingError("restarts: expected numbers of agents")
+
+
+def _check_time(episode: Episode) -> None:
+    """Check that ticks do not decrease; a replay would wait forever for an earlier one."""
+    restarts = [restart.tick for restart in episode.restarts]
+    # other values may not fit into the array
+    known = all(0 <= tick <= episode.ticks for tick in restarts)
+    ticks = np.zeros(len(episode.order), np.int64)
+    for places, record in zip(episode.places, episode.agents, strict=True):
+        ticks[places] = record.begin
+    ticks[episode.restart_places] = restarts if known else -1
+    if not known or (np.diff(ticks) < 0).any() or (ticks > episode.ticks).any():
+        raise RecordingError("order: expected what happened later to come later")

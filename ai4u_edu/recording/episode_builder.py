@@ -15,6 +15,7 @@ from ai4u_edu.recording.episode import (
     DONE_REQUESTED,
     ENDED,
     MAX_DRIVER_CHARS,
+    MAX_TICK,
     NO_ROWS,
     REPEAT,
     TERMINATED,
@@ -28,8 +29,6 @@ from ai4u_edu.scenes import SceneDescription
 
 MAX_EPISODE_BYTES = 6_000_000
 """Approximate memory of an episode; what happens after it is reached is not recorded."""
-MAX_TICK = 2_000_000
-"""Last tick that is recorded: nine hours at 60 ticks per second."""
 
 VERSIONS = {"ai4u-edu": __version__} | {name: version(name) for name in ("pymunk", "numpy")}
 

@@ -6,8 +6,7 @@ from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.recording.archive import Archive
-from ai4u_edu.recording.episode import Episode
-from ai4u_edu.recording.file import encode
+from ai4u_edu.recording.episode import Episode, encode
 from ai4u_edu.recording.recorder import Recorder
 from ai4u_edu.scenes import Scene
 

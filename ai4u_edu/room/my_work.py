@@ -28,7 +28,7 @@ from ai4u_edu.editing.errors import ChangeError
 from ai4u_edu.editing.permissions import Permissions
 from ai4u_edu.editing.scene_store import DEVICES, MAX_SCENES
 from ai4u_edu.editing.scene_store import NAME as SCENE_NAME
-from ai4u_edu.recording.file import MAX_FILE_BYTES as MAX_EPISODE_BYTES
+from ai4u_edu.recording.episode import MAX_FILE_BYTES as MAX_EPISODE_BYTES
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS, YamlFile
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 

@@ -6,7 +6,7 @@ from concurrent.futures import Future
 from typing import Protocol
 
 from ai4u_edu.blocks import Keyboard
-from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
+from ai4u_edu.blocks.keyboard import CENTERED, Stick
 
 
 class Override(Protocol):

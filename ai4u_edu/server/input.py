@@ -17,7 +17,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
 from ai4u_edu.base.errors import NameNotFoundError
-from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
+from ai4u_edu.blocks.keyboard import CENTERED, Stick
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import messages, page_events
 from ai4u_edu.server.bindings import choose_agent

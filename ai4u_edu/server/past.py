@@ -12,10 +12,10 @@ from starlette.responses import PlainTextResponse, Response, StreamingResponse
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import ArchiveEntry, Episode, Replay
+from ai4u_edu.recording.episode import encode
 from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
-from ai4u_edu.recording.file import encode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.api import Number
 from ai4u_edu.server.exports import RETRY_AFTER_S, BusyError, Exports

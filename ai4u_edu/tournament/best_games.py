@@ -1,13 +1,10 @@
 """Games of a tournament that are worth watching."""
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from ai4u_edu.tournament.contest import ContestResult
 from ai4u_edu.tournament.standings import Standing
-
-if TYPE_CHECKING:
-    from ai4u_edu.tournament.run import Tournament
 
 
 class BestGame(NamedTuple):
@@ -21,16 +18,19 @@ class BestGame(NamedTuple):
     """Index of the game in the contest."""
 
 
-def best_games(done: "Tournament", order: Sequence[Standing], count: int) -> list[BestGame]:
+Ended = Mapping[int, ContestResult]
+
+
+def best_games(ended: Ended, order: Sequence[Standing], count: int) -> list[BestGame]:
     """Return finished games between strong entries, a different pair each, the best first.
 
     Args:
-        done: the tournament so far.
+        ended: results of the contests so far, by place in the schedule.
         order: its standings.
         count: number of games, or fewer.
     """
     found: dict[tuple[str, ...], BestGame] = {}
-    for each in _candidates(done, order):
+    for each in _candidates(ended, order):
         names, contest = each.result.contest.names, each.result.contest
         key = (names[each.game], str(contest.seed)) if contest.is_race else names
         found.setdefault(key, each)
@@ -39,9 +39,9 @@ def best_games(done: "Tournament", order: Sequence[Standing], count: int) -> lis
     return [*found.values()]
 
 
-def _candidates(done: "Tournament", order: Sequence[Standing]) -> Iterator[BestGame]:
+def _candidates(ended: Ended, order: Sequence[Standing]) -> Iterator[BestGame]:
     strength = {each.name: each.mu for each in order}
-    clean = [(place, done.ended[place]) for place in sorted(done.ended)]
+    clean = [(place, ended[place]) for place in sorted(ended)]
     clean = [(place, each) for place, each in clean if not each.error and _is_clean(each)]
     clean.sort(
         key=lambda found: (

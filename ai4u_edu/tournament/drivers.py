@@ -22,11 +22,11 @@ from ai4u_edu.blocks import (
     Percept,
 )
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Action
+from ai4u_edu.blocks.brains.brain import Action
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.controllers.replay import ReplayController
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.tournament.entry import Driver
 from ai4u_edu.tournament.limits import LOAD_CPU_S, OverTimeError, over_load_time

@@ -12,7 +12,7 @@ from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Block, Controller
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES, ZOO_PREFIX, find_network
-from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_FILE_BYTES
 from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.tournament.sides import Sides
 

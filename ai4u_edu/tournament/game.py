@@ -13,7 +13,7 @@ from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.recording.file import encode
+from ai4u_edu.recording.episode import encode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_data import scene_from
 from ai4u_edu.tournament.drivers import driver_for, make

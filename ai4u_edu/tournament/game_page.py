@@ -4,8 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from ai4u_edu.recording import Episode, Replay
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.exports.html_page import html_of
-from ai4u_edu.recording.file import decode
 
 PROJECTED = """<style>
 main { display: block; max-width: none; text-align: center; }

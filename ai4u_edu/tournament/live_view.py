@@ -29,7 +29,7 @@ def live_view(done: Tournament) -> dict[str, Any]:
         "standings": [_standing(each) for each in order],
         "latest": [_contest(done, place) for place in latest],
         "best": [
-            _game(done, each.place, each.game) for each in best_games(done, order, BEST_GAMES)
+            _game(done, each.place, each.game) for each in best_games(done.ended, order, BEST_GAMES)
         ],
         "refused": done.refused,
     }

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from ai4u_edu.base.html_report import html_page, html_table
 from ai4u_edu.recording import Episode, Replay
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.exports.html_page import html_of
-from ai4u_edu.recording.file import decode
 from ai4u_edu.tournament.best_games import best_games
 from ai4u_edu.tournament.standings import MAX_SURE_SIGMA, Standing
 
@@ -111,7 +111,7 @@ def _cross_table(order: list[Standing]) -> str:
 
 def _best_games(done: "Tournament", order: list[Standing]) -> Iterator[str]:
     """Yield players for the best games."""
-    found = best_games(done, order, EMBEDDED_GAMES)
+    found = best_games(done.ended, order, EMBEDDED_GAMES)
     for _, result, game in found:
         contest, told = result.contest, result.games[game]
         episode = decode(Episode, base64.b64decode(told["episode"]), "game")

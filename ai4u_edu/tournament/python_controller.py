@@ -17,7 +17,7 @@ from ai4u_edu.base.errors import BlockError
 from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.blocks import Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Action
+from ai4u_edu.blocks.brains.brain import Action
 from ai4u_edu.tournament.limits import CHECK_INTERVAL_S, DECISION_CPU_S, GAME_CPU_S, over_time
 from ai4u_edu.tournament.line_reader import LineReader
 from ai4u_edu.world import WorldView

@@ -13,7 +13,7 @@ from ai4u_edu.jobs import Engine, Job, Outcome, run_jobs
 from ai4u_edu.jobs.journal import FILE as JOURNAL
 from ai4u_edu.jobs.journal import line_of, read_line
 from ai4u_edu.recording import Episode, Replay
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.tournament.drivers import ANSWERS
 from ai4u_edu.tournament.game import result_fault
 from ai4u_edu.tournament.limits import is_over_time

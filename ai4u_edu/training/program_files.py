@@ -7,7 +7,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import BlockError, SetupError
 from ai4u_edu.blocks import Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Action
+from ai4u_edu.blocks.brains.brain import Action
 from ai4u_edu.program import Program, ProgramError, obstacle_in
 from ai4u_edu.world import WorldView
 

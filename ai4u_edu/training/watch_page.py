@@ -17,7 +17,7 @@ from stable_baselines3.common.base_class import BaseAlgorithm
 
 from ai4u_edu.base.process_signals import ask_to_end, has_ended
 from ai4u_edu.blocks import LocalBrain, Percept
-from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.panel import PanelSockets
 from ai4u_edu.runtime.runner import Runner

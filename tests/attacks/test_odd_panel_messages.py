@@ -15,7 +15,7 @@ from ai4u_edu.panel.messages.base import MAX_NAME_CHARS
 from ai4u_edu.panel.messages.reader import NAMES
 from ai4u_edu.panel.socket import MAX_PENDING_COMMANDS as MAX_PENDING
 from ai4u_edu.panel.upload import MAX_PART_BYTES
-from ai4u_edu.recording.file import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_FILE_BYTES
 from ai4u_edu.server import page_receiver
 from tests.attacks.test_odd_input_messages import ODD
 from tests.panel.rooms import PanelPage, PanelRoom, panel_room

@@ -115,7 +115,7 @@ def test_of_many_worlds_none_begins_anew_with_a_refused_seed(seed: Any) -> None:
 
 def test_the_largest_seed_can_be_recorded_and_read_again() -> None:
     from ai4u_edu.recording import Episode
-    from ai4u_edu.recording.file import decode, encode
+    from ai4u_edu.recording.episode import decode, encode
 
     env = SceneEnv("box_chase")
     recorder = Recorder(env.sim)

@@ -29,7 +29,7 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.ai4u import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner

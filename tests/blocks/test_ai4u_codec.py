@@ -14,7 +14,7 @@ from ai4u_edu import (
     RBMoveActuator,
     StepSensor,
 )
-from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.ai4u import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import (
     Observation,
     describe_agent,

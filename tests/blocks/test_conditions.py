@@ -23,7 +23,7 @@ from ai4u_edu import (
     TouchSensor,
 )
 from ai4u_edu.base.errors import BlockError, ReadingError
-from ai4u_edu.blocks.rewards.properties import BODY_PROPERTIES
+from ai4u_edu.blocks.rewards.eval_value import BODY_PROPERTIES
 from tests.builders import small_sim, small_world
 
 

@@ -19,7 +19,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.rebind import sense_again
 from ai4u_edu.base.errors import BlockError
-from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.ai4u import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
 from ai4u_edu.check.rollout import RandomDrive
 from tests.builders import small_sim

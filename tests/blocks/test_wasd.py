@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu import Command, Keyboard, WASDRBMoveController
 from ai4u_edu.base.errors import ParameterError
-from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
+from ai4u_edu.blocks.keyboard import KEY_TIMEOUT_S
 from tests.builders import small_sim
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import viser
 from playwright.sync_api import Browser, Locator, Page
 
-from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
+from ai4u_edu.blocks.keyboard import CENTERED, Stick
 from tests.browser.plain_page import ASKED, ROOT, PlainPage
 from tests.chromium import close_page, quick_page
 from tests.server.rooms import Room

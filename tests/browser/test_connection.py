@@ -8,7 +8,7 @@ from playwright.sync_api import Browser, Page, expect
 from starlette.applications import Starlette
 
 from ai4u_edu import ControlRequestor
-from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+from ai4u_edu.blocks.keyboard import Keyboard
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import RoomMount, ServerThread, room_app
 from tests.browser.kept_port import kept_port

@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from ai4u_edu import BasicAgent
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.keyboard import Stick
 from tests.browser.served_viser import (
     SPEED,
     TURN,

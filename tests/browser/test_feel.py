@@ -18,7 +18,7 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.keyboard import Stick
 from tests.browser.served_viser import (
     SPEED,
     ServedViser,

@@ -7,7 +7,7 @@ from playwright.sync_api import CDPSession, Locator, Page, expect
 
 from ai4u_edu import DiscreteActuator, DiscreteArrowController, LocalBrain
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.keyboard import Stick
 from tests.browser.served_viser import (
     ServedViser,
     centre,

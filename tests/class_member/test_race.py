@@ -7,7 +7,7 @@ from typing import Literal
 from ai4u_edu import Scene
 from ai4u_edu.class_member.member import MIN_RESULT_INTERVAL_S
 from ai4u_edu.recording import Episode, Replay
-from ai4u_edu.recording.file import decode, encode
+from ai4u_edu.recording.episode import decode, encode
 from ai4u_edu.wire.class_link import Applied, EpisodeResult, Race, RaceRow, State
 from tests.class_member.fake_link import Joined, joined
 from tests.waiting import LIMIT_S, until

@@ -14,7 +14,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.classroom.commands import MAX_COUNTDOWN_S
 from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck, find_fault
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.recording.file import decode, encode
+from ai4u_edu.recording.episode import decode, encode
 from ai4u_edu.wire.class_link import Ack, Assignment, EpisodeResult, Race, race_assignment
 from tests.classroom.link_client import RawLink, TeacherSocket, key
 from tests.classroom.served_class import ServedClass, served_class

@@ -12,8 +12,7 @@ from pydantic import BaseModel
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks.docs import ParameterRow, built_in_blocks, schema_rows
-from ai4u_edu.blocks.field_docs import field_docs
-from ai4u_edu.blocks.parameterized import Parameterized
+from ai4u_edu.blocks.parameterized import Parameterized, field_docs
 from tests.docs_site import rst
 from tests.docs_site.staging import ROOT, Staging
 

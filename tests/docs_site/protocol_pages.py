@@ -5,7 +5,7 @@ from typing import Any
 
 import msgspec
 
-from ai4u_edu.blocks.field_docs import field_docs
+from ai4u_edu.blocks.parameterized import field_docs
 from ai4u_edu.wire import native
 from tests.docs_site import rst
 from tests.docs_site.staging import Staging

@@ -12,7 +12,7 @@ from ruamel.yaml import YAML
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block
 from ai4u_edu.recording import Episode, Recorder, RecordingError
-from ai4u_edu.recording.file import HEADER, MAX_FILE_BYTES, decode, encode
+from ai4u_edu.recording.episode import HEADER, MAX_FILE_BYTES, decode, encode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from tests.fuzz.mutate import ODD, bent, bent_and_packed, mangled

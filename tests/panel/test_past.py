@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from ai4u_edu.recording.file import encode
+from ai4u_edu.recording.episode import encode
 from tests.panel.rooms import Message, PanelPage, PanelRoom, panel_room
 from tests.waiting import until
 

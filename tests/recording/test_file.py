@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, file
-from ai4u_edu.recording.file import HEADER, decode, encode
+from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay
+from ai4u_edu.recording.episode import HEADER, MAX_UNPACKED_MB, decode, encode
 from tests.recording.recorded_drives import take
 
 EPISODE = take("tag", decisions=20).episode
@@ -93,10 +93,10 @@ def test_one_wrong_byte_anywhere_is_an_error() -> None:
 
 
 def test_too_large(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    bomb = HEADER + zlib.compress(bytes(file.MAX_UNPACKED_MB * 2**20 + 1), 9)
+    bomb = HEADER + zlib.compress(bytes(MAX_UNPACKED_MB * 2**20 + 1), 9)
     assert len(bomb) < 30_000
     assert error(bomb) == "mine.episode: expected at most 24 MB when it is unpacked"
-    monkeypatch.setattr(file, "MAX_FILE_BYTES", 1000)
+    monkeypatch.setattr("ai4u_edu.recording.episode.MAX_FILE_BYTES", 1000)
     path = tmp_path / "big.episode"
     path.write_bytes(BYTES)
     with pytest.raises(RecordingError, match=r"big\.episode: expected at most 0 MB"):

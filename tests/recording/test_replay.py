@@ -11,7 +11,7 @@ from ai4u_edu.blocks import Layout
 from ai4u_edu.envs import SceneEnv
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay, ghost_of
 from ai4u_edu.recording.checksum import percept_checksum
-from ai4u_edu.recording.file import decode, encode
+from ai4u_edu.recording.episode import decode, encode
 from ai4u_edu.recording.player import Player
 from tests.recording.recorded_drives import (
     GO,

@@ -10,7 +10,7 @@ import pytest
 
 from ai4u_edu import ControlRequestor, RemoteBrain, Scene
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.links.ai4u import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import describe_agent
 from ai4u_edu.remote import LostError, RefusedError
 from ai4u_edu.remote.bridge import KEEPALIVE_INTERVAL_S, Bridge

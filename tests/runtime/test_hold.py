@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import WASDRBMoveController
 from ai4u_edu.base.errors import NoDecisionError
-from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+from ai4u_edu.blocks.keyboard import Keyboard
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
 

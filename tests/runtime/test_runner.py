@@ -14,7 +14,7 @@ from ai4u_edu import (
     ReplayController,
     Scene,
 )
-from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+from ai4u_edu.blocks.keyboard import Keyboard
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
+from ai4u_edu.blocks.keyboard import Keyboard
 
 
 @pytest.fixture(autouse=True)

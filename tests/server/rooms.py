@@ -19,7 +19,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from ai4u_edu import ControlRequestor, WASDRBMoveController
 from ai4u_edu.base.log_limit import LOG_INTERVAL_S
-from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S, Keyboard
+from ai4u_edu.blocks.keyboard import KEY_TIMEOUT_S, Keyboard
 from ai4u_edu.runtime import tick_monitor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import ServerThread, Timeouts, room_app

@@ -17,8 +17,8 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.agent.driving_keys import keys_of
-from ai4u_edu.blocks.brains.command import Answer
-from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S
+from ai4u_edu.blocks.brains.brain import Answer
+from ai4u_edu.blocks.keyboard import KEY_TIMEOUT_S
 from tests.builders import small_sim, still
 from tests.server.rooms import Clock, Room, served
 from tests.waiting import LIMIT_S, until

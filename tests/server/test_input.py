@@ -16,7 +16,7 @@ from ai4u_edu import (
     WASDRBMoveController,
     World,
 )
-from ai4u_edu.blocks.brains.controllers.keyboard import KEY_TIMEOUT_S, Stick
+from ai4u_edu.blocks.keyboard import KEY_TIMEOUT_S, Stick
 from tests.builders import small_sim
 from tests.server import http_client
 from tests.server.rooms import Clock, Room, served

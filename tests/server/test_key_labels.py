@@ -8,7 +8,7 @@ import pytest
 from ai4u_edu import BasicAgent, Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART
-from ai4u_edu.blocks.brains.controllers.keyboard import Stick
+from ai4u_edu.blocks.keyboard import Stick
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server.bindings import has_stick
 from ai4u_edu.server.human_override import HumanOverride

@@ -15,7 +15,7 @@ from PIL import Image
 
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.server import Rules, ServerThread, exports, past, room_app
 from ai4u_edu.server.past import WRITERS

@@ -11,7 +11,7 @@ from ai4u_edu import Scene
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.tournament import python_controller
 from ai4u_edu.tournament.entry import parse_entry, with_names
 from ai4u_edu.tournament.game import game

@@ -1,9 +1,15 @@
 """Brains, and their answers."""
 
-from ai4u_edu.blocks.brains.brain import Brain
-from ai4u_edu.blocks.brains.command import Action, Command
+from ai4u_edu.blocks.brains.brain import Action, Brain, Command
 from ai4u_edu.blocks.brains.local import LocalBrain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.blocks.brains.trained import trained_brain
 
-__all__ = ["Action", "Brain", "Command", "LocalBrain", "RemoteBrain", "trained_brain"]
+__all__ = [
+    "Action",
+    "Brain",
+    "Command",
+    "LocalBrain",
+    "RemoteBrain",
+    "trained_brain",
+]

@@ -1,13 +1,46 @@
-"""The base class of brains."""
+"""The base class of brains, and their answers: actions and commands."""
 
-from typing import Annotated
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.blocks.brains.command import Answer
 from ai4u_edu.blocks.percept import Percept
+
+__all__ = ["Action", "Brain", "Command"]
+
+
+class Command(StrEnum):
+    """An answer that is not an action."""
+
+    RESTART = "restart"
+    """Begin a new episode, for the world and all its agents."""
+    RESPAWN = "respawn"
+    """Begin a new episode for this agent alone; the world and the others go on."""
+    PAUSE = "pause"
+    """Take no more decisions until resume."""
+    RESUME = "resume"
+    """Go on."""
+    STOP = "stop"
+    """Take no more decisions until the next reset."""
+    WAIT = "wait"
+    """No answer yet: ask again at the next tick."""
+    HOLD = "hold"
+    """No answer yet, and the world waits for it: ask again before the next tick."""
+
+
+Action = Mapping[str, Any]
+"""Numbers by the actuator's name; actuators that are left out get no action."""
+
+
+class Accepted(dict[str, tuple[float, ...]]):
+    """An action whose numbers the agent's actuators have checked already."""
+
+
+Answer = Action | Command
 
 
 class Brain(Block):

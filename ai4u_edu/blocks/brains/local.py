@@ -8,8 +8,7 @@ from pydantic import field_validator
 from ai4u_edu.base.errors import shown
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.blocks.brains.brain import Brain
-from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.brain import Answer, Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
 from ai4u_edu.blocks.percept import Percept

@@ -2,15 +2,14 @@
 
 import time
 from collections.abc import Callable
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, assert_never
 
 from pydantic import Field
 
-from ai4u_edu.base.errors import ActionError, SetupError, shown
+from ai4u_edu.base.errors import ActionError, SetupError, shown, suggest
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.brain import Brain
-from ai4u_edu.blocks.brains.command import Action, Answer, Command
+from ai4u_edu.blocks.brains.brain import Accepted, Action, Answer, Brain, Command
 from ai4u_edu.blocks.brains.links.link import (
     Link,
     LinkState,
@@ -20,10 +19,11 @@ from ai4u_edu.blocks.brains.links.link import (
     describe_agent,
 )
 from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
-from ai4u_edu.blocks.brains.remote_actions import OnMissing, RemoteActions
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus, StatusTracker
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView
+
+OnMissing = Literal["hold", "coast", "stop"]
 
 
 class RemoteBrain(Brain):
@@ -132,7 +132,7 @@ class RemoteBrain(Brain):
         self.close("the agent is set up anew")
         self.override = None
         self._agent, self._view = agent, view
-        self._actions = RemoteActions(agent)
+        self._actions = _RemoteActions(agent)
         link = self._own_link or self._make_link()
         link.open(
             describe_agent(
@@ -404,3 +404,52 @@ class RemoteBrain(Brain):
             receive_timeout=self.receive_timeout / 1000,
             threaded=self.mode == "realtime",
         )
+
+
+class _RemoteActions:
+    """The actions that a remote script can give to an agent.
+
+    Args:
+        agent: the agent, set up.
+    """
+
+    def __init__(self, agent: AgentView) -> None:
+        self._agent = agent
+        self._actuators = {each.action_name: each for each in agent.actuators if each.is_active}
+
+    def accept(self, action: Action) -> tuple[Accepted, int]:
+        """Return an action as the actuators take it, and how many of its numbers were clipped.
+
+        Raises:
+            ActionError: no actuator has the name, or it can't carry out the numbers.
+        """
+        accepted, clipped = Accepted(), 0
+        for name, numbers in action.items():
+            actuator = self._actuators.get(name)
+            if actuator is None:
+                raise ActionError(
+                    f"agent {self._agent.id!r} has no actuator {shown(name)}; "
+                    f"{suggest(str(name), self._actuators)}"
+                )
+            before = actuator.clipped
+            accepted[name] = actuator.accept(numbers)
+            clipped += actuator.clipped - before
+        return accepted, clipped
+
+    def substitute(self, on_missing: OnMissing) -> Action:
+        """Return what the agent does in place of an action that is missing."""
+        match on_missing:
+            case "hold":
+                return dict(self._agent.last_action)
+            case "coast":
+                return {}
+            case "stop":
+                return {
+                    name: [
+                        min(max(0.0, low), high) for low, high in zip(*each.limits(), strict=True)
+                    ]
+                    for name, each in self._actuators.items()
+                    if each.is_output
+                }
+            case _:
+                assert_never(on_missing)

@@ -10,9 +10,8 @@ from ai4u_edu.base.errors import BlockError
 from ai4u_edu.base.parameters import Name, PositiveMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
-from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend
-from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.blocks.sensors.sensor import Array, Sensor, check_memory
 from ai4u_edu.blocks.sensors.top_view import VOID, TopView
 from ai4u_edu.world import BodyView, WorldView
 

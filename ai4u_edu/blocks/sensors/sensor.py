@@ -16,13 +16,12 @@ from ai4u_edu.base.errors import BlockError, ReadingError, suggest
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.blocks.percept import DTYPES, TEXTS
-from ai4u_edu.blocks.sensors.memory import check_memory
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
 from ai4u_edu.world import BodyView, WorldView
 
 Array = npt.NDArray[Any]
 
-SPACES = (
+_SPACES = (
     spaces.Box,
     spaces.Discrete,
     spaces.MultiBinary,
@@ -32,10 +31,13 @@ SPACES = (
 """Spaces that a reading may have, besides a Tuple or a Sequence of Text."""
 KINDS = (*DTYPES, *TEXTS)
 """AI4U's types of readings."""
-ARRAY_KINDS = {"sfloat": "sfloatarray", "sint": "sintarray", "sbool": "sintarray"}
+_ARRAY_KINDS = {"sfloat": "sfloatarray", "sint": "sintarray", "sbool": "sintarray"}
 """Types of several readings of a type of one number."""
 NEUTRAL = {"stacked_observations": 1, "normalized": False, "noise": 0, "delay": 0, "dropout": 0}
 """Values with which these attributes of a sensor change nothing."""
+
+_MAX_KEPT_NUMBERS = 2**23
+"""Maximum count of numbers that a sensor may keep, over all readings for stack and delay."""
 
 
 class Sensor(Block):
@@ -173,7 +175,7 @@ class Sensor(Block):
         self._check_attributes(kind)
         if self._is_normalized() and kind in DTYPES and DTYPES[kind] is not np.float32:
             kind = "sfloatarray" if self.space().shape else "sfloat"
-        return ARRAY_KINDS.get(kind, kind) if self.stacked_observations > 1 else kind
+        return _ARRAY_KINDS.get(kind, kind) if self.stacked_observations > 1 else kind
 
     def _declared_kind(self) -> str:
         """Return AI4U's type of one reading as it is."""
@@ -397,4 +399,20 @@ def _can_be_read(space: object) -> bool:
         return all(isinstance(each, spaces.Text) for each in space.spaces)
     if isinstance(space, spaces.Sequence):
         return isinstance(space.feature_space, spaces.Text)
-    return isinstance(space, SPACES)
+    return isinstance(space, _SPACES)
+
+
+def check_memory(sensor: Sensor, shape: tuple[int, ...]) -> None:
+    """Raise a BlockError if a sensor's readings would need too much memory.
+
+    Args:
+        sensor: the sensor.
+        shape: shape of one reading.
+    """
+    size, kept = math.prod(shape), sensor.stacked_observations + sensor.delay
+    if size * kept > _MAX_KEPT_NUMBERS:
+        raise BlockError(
+            f"{type(sensor).__name__} {sensor.perception_key!r}: expected at most "
+            f"{_MAX_KEPT_NUMBERS} numbers in the readings that it keeps, got {kept} of {size}; "
+            "choose a lower resolution, or less of stacked_observations and delay"
+        )

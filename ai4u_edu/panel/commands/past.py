@@ -13,7 +13,7 @@ from ai4u_edu.panel.messages import play as m
 from ai4u_edu.panel.messages.base import Command
 from ai4u_edu.panel.page import Page
 from ai4u_edu.recording import Archive, Episode
-from ai4u_edu.recording.file import decode
+from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.viewer.replay.replay_player import RUNNING_EPISODE
 

@@ -7,7 +7,6 @@ from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.discrete_arrow import DiscreteArrowController
 from ai4u_edu.blocks.brains.controllers.flee import FleeController
 from ai4u_edu.blocks.brains.controllers.keeper import KeeperController
-from ai4u_edu.blocks.brains.controllers.keyboard import Keyboard
 from ai4u_edu.blocks.brains.controllers.neural import NeuralNetController
 from ai4u_edu.blocks.brains.controllers.push_out import PushOutController
 from ai4u_edu.blocks.brains.controllers.replay import ReplayController
@@ -25,7 +24,6 @@ __all__ = [
     "DiscreteArrowController",
     "FleeController",
     "KeeperController",
-    "Keyboard",
     "NeuralNetController",
     "PushOutController",
     "ReplayController",

@@ -2,7 +2,7 @@
 
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.brain import Answer
 from ai4u_edu.blocks.percept import Percept
 
 

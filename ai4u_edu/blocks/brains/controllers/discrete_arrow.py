@@ -3,7 +3,7 @@
 from pydantic import Field
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.brains.controllers.arrow import limits_of
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.wasd import Keys

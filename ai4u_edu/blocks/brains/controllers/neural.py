@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.errors import BlockError, shorten, suggest
-from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.agent_view import AgentView, SensorView
+from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.network import (
     VALUE_OUTPUT,
@@ -18,7 +18,6 @@ from ai4u_edu.blocks.brains.network import (
     folder_of_files,
 )
 from ai4u_edu.blocks.percept import Percept
-from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.world import WorldView
 
 TRAINED_IN = "it was trained in the scene "
@@ -125,7 +124,7 @@ class NeuralNetController(Controller):
         return BlockError(f"{type(self).__name__} {self.model_path!r}: {error}")
 
 
-def _misfit(port: Port, sensors: dict[str, Sensor], about: dict[str, Any]) -> str:
+def _misfit(port: Port, sensors: dict[str, SensorView], about: dict[str, Any]) -> str:
     """Return why an input does not fit its sensor, as a clause; empty if it fits."""
     sensor = sensors.get(port.name)
     if sensor is None:

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import WithJsonSchema
 
-from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.brain import Answer
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
 

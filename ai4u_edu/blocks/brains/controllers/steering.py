@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.base.parameters import Count, quantity
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.brain import Answer
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.wasd import Amount
 from ai4u_edu.blocks.percept import Percept

@@ -7,7 +7,7 @@ import numpy as np
 
 from ai4u_edu.base.errors import ActionError, suggest
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Answer, Command
+from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.world import WorldView

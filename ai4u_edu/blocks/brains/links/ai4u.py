@@ -6,11 +6,11 @@ import weakref
 from collections.abc import Callable
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.blocks.brains.command import Command
-from ai4u_edu.blocks.brains.links.ai4u_codec import AI4UCodec
+from ai4u_edu.blocks.brains.brain import Command
 from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.blocks.brains.links.udp import UdpSocket
+from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, ReplyKind, State
 from ai4u_edu.wire.validation import WireError, shown
 
@@ -344,3 +344,44 @@ def _resolve(host: str, port: int) -> tuple[str, int]:
         ) from None
     address = found[0][4]
     return str(address[0]), int(address[1])
+
+
+class AI4UCodec(AgentCodec):
+    """Converts observations to AI4U's states, and replies to actions.
+
+    Args:
+        spec: of the agent.
+
+    Raises:
+        SetupError: AI4U's protocol can't express what a sensor reads.
+    """
+
+    def __init__(self, spec: AgentSpec) -> None:
+        try:
+            super().__init__(spec.readings, spec.outputs)
+        except WireError as error:
+            raise SetupError(str(error)) from None
+        self._last: Observation | None = None
+
+    def begin(self) -> None:
+        """Forget what was sent: another session begins."""
+        self._last = None
+
+    def state(self, observation: Observation) -> State:
+        """Return what the script is sent; its reward is that of all decisions since the last."""
+        last, self._last = self._last, observation
+        reward = observation.reward
+        if last is not None and last.episode == observation.episode:
+            if observation.steps > last.steps + 1:
+                reward = observation.episode_reward - last.episode_reward
+        elif observation.steps > 1:
+            reward = observation.episode_reward
+        return State(
+            sensors=self.sensors(observation.percept),
+            reward=reward,
+            steps=observation.steps,
+            done=observation.done,
+            truncated=observation.truncated,
+            paused=observation.paused,
+            stopped=observation.stopped,
+        )

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Protocol
 from gymnasium import spaces
 
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.brains.command import Answer
+from ai4u_edu.blocks.brains.brain import Answer
 from ai4u_edu.blocks.percept import Percept
 
 

@@ -6,8 +6,6 @@ import time
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-__all__ = ["Keyboard"]
-
 KEY_TIMEOUT_S = 0.3
 """Time (s) without a message after which keys count as released. A page that holds keys sends about
 ten messages a second."""
