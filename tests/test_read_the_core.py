@@ -1,14 +1,11 @@
 """The page "Read the core" names files that are there, all that they need, in an order."""
 
-import ast
 import re
-from collections.abc import Iterator
-from functools import cache
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from tests.imports import ROOT, needed_by
+
 PAGE = (ROOT / "docs" / "read-the-core.md").read_text(encoding="utf-8")
 SPINE = re.findall(r"^### \d+\. `(\S+)`$", PAGE, re.MULTILINE)
 GIVEN = re.findall(r"^\| `(\S+)` \|", PAGE, re.MULTILINE)
@@ -20,60 +17,6 @@ WAYS: list[tuple[str, int, list[str]]] = [
 ]
 MAX_FILES, MAX_LINES = 26, 5200
 """Limits of what is read in an afternoon; both may only fall."""
-
-
-def module_path(name: str) -> Path | None:
-    """Return the file of a module of the package; None if there is no such module."""
-    path = ROOT / Path(*name.split("."))
-    return next(
-        (file for file in (path.with_suffix(".py"), path / "__init__.py") if file.is_file()), None
-    )
-
-
-@cache
-def imported_names(file: Path) -> tuple[tuple[str, str], ...]:
-    """Return (module, name) of all that a file imports from this package, wherever it does so."""
-    return tuple(
-        (node.module, alias.name)
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("ai4u_edu")
-        for alias in node.names
-        if node.module
-    )
-
-
-def definers(module: str, name: str) -> Iterator[str]:
-    """Yield the file that defines an imported name, through the packages that pass it on."""
-    inner = module_path(f"{module}.{name}")
-    if inner is not None:
-        yield str(inner.relative_to(ROOT))
-        return
-    file = module_path(module)
-    assert file is not None, module
-    passed_on = file.name == "__init__.py"
-    for origin, known in imported_names(file) if passed_on else ():
-        if known == name or (known == "*" and name in exports_of(origin)):
-            yield from definers(origin, name)
-            return
-    yield str(file.relative_to(ROOT))
-
-
-@cache
-def exports_of(package: str) -> frozenset[str]:
-    file = module_path(package)
-    assert file is not None, package
-    return frozenset(known for _, known in imported_names(file))
-
-
-def needed_by(path: str) -> set[str]:
-    """Return the files of this package whose names a file uses."""
-    found = {
-        file
-        for module, name in imported_names(ROOT / path)
-        for file in definers(module, name)
-        if not file.endswith("__init__.py")
-    }
-    return found - {path}
 
 
 @pytest.mark.parametrize("path", SPINE)
