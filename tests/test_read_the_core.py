@@ -16,7 +16,7 @@ WAYS: list[tuple[str, int, list[str]]] = [
     )
 ]
 MAX_FILES, MAX_LINES = 26, 5200
-"""How much there is to read in an afternoon; both may only fall."""
+"""Limits of what is read in an afternoon; both may only fall."""
 
 
 @pytest.mark.parametrize("path", SPINE)
