@@ -46,10 +46,12 @@ def ensure(root: Path) -> dict[str, list[str]]:
     web = root / "web"
     install(web)
     tools = web / "node_modules"
+    tsc = [node, str(tools / "typescript" / "bin" / "tsc"), "--project"]
     eslint = [str(tools / "eslint" / "bin" / "eslint.js"), "--config", "web/eslint.config.js"]
     tests = sorted(str(path) for path in (root / "tests" / "web").rglob("*.test.mjs"))
     return {
-        "web types": [node, str(tools / "typescript" / "bin" / "tsc"), "--project", "web"],
+        "web types": [*tsc, "web"],
+        "web all types": [*tsc, "web/tsconfig.typed.json"],
         "web lint": [node, *eslint, "--max-warnings=0", "web", "tests/web"],
         "web tests": [node, "--test", "--test-reporter=dot", *tests],
     }

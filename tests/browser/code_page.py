@@ -50,17 +50,14 @@ PATIENT = {
     "openMs": LIMIT_MS,
     "silenceMs": LIMIT_MS,
 }
-"""Time limits of programs that only a fault reaches; see web/code/limits.js."""
+"""Time limits of programs that only a fault reaches; see web/shared/limits.js."""
 SET_LIMITS = """async (limits) => {
     const scripts = [...document.scripts].map((each) => each.src);
     const own = scripts.filter((each) => each.endsWith("/main.js"));
     // modules that a test imports have another address than those of the page itself
     for (const base of [new URL("./web/page/main.js", document.baseURI), ...own]) {
-        const { codeLimits } = await import(new URL("../code/limits.js", base));
-        const { pageLimits } = await import(new URL("../shared/limits.js", base));
-        for (const kinds of [codeLimits, pageLimits]) {
-            for (const name of Object.keys(kinds)) kinds[name] = limits[name] ?? kinds[name];
-        }
+        const module = await import(new URL("../shared/limits.js", base));
+        Object.assign(module.limits, limits);
     }
 }"""
 WORLD_WAITS = (
@@ -92,7 +89,7 @@ def code_page(chromium: Browser, url: str) -> Page:
         """async () => {
             Object.assign(window, await import("./web/code/engine.js"));
             Object.assign(window, await import("./web/remote/client.js"));
-            Object.assign(window, await import("./web/code/limits.js"));
+            Object.assign(window, await import("./web/shared/limits.js"));
             window.engine = new CodeEngine();
         }"""
     )

@@ -98,9 +98,9 @@ def test_a_program_that_is_loaded_while_another_is_stuck_runs_after_it(page: Pag
     load(page, "def decide(percept):\n    10**10**8")
     page.evaluate(
         """([limit, patient]) => {
-            codeLimits.callMs = limit;
+            limits.callMs = limit;
             // the next program has the time that it needs
-            const after = () => (codeLimits.callMs = patient);
+            const after = () => (limits.callMs = patient);
             window.stuck = engine.decide({}, 1).finally(after);
         }""",
         [CALL_MS, LIMIT_MS],

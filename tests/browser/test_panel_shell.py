@@ -219,8 +219,8 @@ def test_a_tab_whose_script_failed_to_load_tries_again(chromium: Browser, room: 
         page.page.evaluate(
             """async () => {
                 const own = [...document.scripts].find(({ src }) => src.endsWith("/main.js")).src;
-                const { pageLimits } = await import(new URL("../shared/limits.js", own));
-                pageLimits.retryMs = 1;
+                const { limits } = await import(new URL("../shared/limits.js", own));
+                limits.retryMs = 1;
             }"""
         )
         asked: list[str] = []

@@ -1,8 +1,8 @@
 /** A program of blocks in the tab "Code": the switch to blocks and back, and the Python that they mean. */
 
+import { freeId } from "../shared/ids.js";
 import { joinProgram, splitProgram } from "./text.js";
 import { button, element, setText } from "../shared/dom.js";
-import { freeId } from "../panel/widgets/parts.js";
 import { retried } from "../shared/retry.js";
 
 const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";

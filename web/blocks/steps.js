@@ -1,7 +1,7 @@
 /** Five steps from one block to a program that follows walls: each is done when the robot does it. */
 
+import { roomOfPage } from "../shared/room.js";
 import { CHECKS, seen } from "./checks.js";
-import { roomOfPage } from "../classroom/student/programs.js";
 import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { section } from "../panel/widgets/parts.js";
 import { recall, remember } from "../shared/storage.js";

@@ -5,11 +5,13 @@ const VERSION = 1;
 
 /**
  * Return a program's Python and its blocks.
+ * @param {string} text
  * @returns {{python: string, blocks: object|null, isOfBlocks: boolean}} isOfBlocks is true if the Python is still the
  *   one that the blocks mean, and nobody went on in Python
  */
 export function splitProgram(text) {
   const at = text.lastIndexOf(MARK);
+  /** @type {{python: string, blocks: object | null, isOfBlocks: boolean}} */
   const none = { python: text, blocks: null, isOfBlocks: false };
   if (at < 0) return none;
   const [line, ...rest] = text.slice(at + MARK.length).split("\n");
@@ -24,14 +26,22 @@ export function splitProgram(text) {
   }
 }
 
-/** Return the text of a program with blocks; `isOfBlocks` as in splitProgram(). */
+/**
+ * Return the text of a program with blocks.
+ * @param {string} python
+ * @param {object | null} blocks
+ * @param {boolean} isOfBlocks as in splitProgram()
+ */
 export function joinProgram(python, blocks, isOfBlocks) {
   if (blocks === null) return python;
   const kept = { version: VERSION, of: isOfBlocks ? checksum(python) : "", blocks };
   return `${python}${MARK}${JSON.stringify(kept)}\n`;
 }
 
-/** Return a number for a text, in hexadecimal digits (FNV-1a, 32 bits). */
+/**
+ * Return a number for a text, in hexadecimal digits (FNV-1a, 32 bits).
+ * @param {string} text
+ */
 function checksum(text) {
   let sum = 0x811c9dc5;
   for (let at = 0; at < text.length; at += 1) sum = Math.imul(sum ^ text.charCodeAt(at), 0x01000193);

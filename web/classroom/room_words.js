@@ -38,12 +38,6 @@ export function roomName(room, state) {
   return names.length > 2 ? `${names[0]} and ${names.length - 1} others` : names.join(" and ");
 }
 
-/** Return a time such as 1:05. */
-export function clock(seconds) {
-  const whole = Math.max(0, Math.ceil(seconds));
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
-}
-
 /** Return a count with its noun: "1 fall", "6 falls". */
 export function counted(count, noun) {
   return `${count} ${noun}${count === 1 ? "" : "s"}`;

@@ -1,9 +1,9 @@
 /** Strips below the toolbar that say what holds for the whole class now: attention, and a race. */
 
+import { clock } from "../shared/numbers.js";
 import { HELD, isHeld } from "./teacher/attention_dialog.js";
 import { commandOrTell } from "./teacher/command.js";
 import { element, setText } from "../shared/dom.js";
-import { clock } from "./room_words.js";
 
 const TICK_MS = 250;
 const MAX_PLACES = 3;

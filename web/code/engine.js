@@ -1,6 +1,6 @@
 /** Python in the browser: starts the worker of a student's program, and ends it if it does not answer. */
 
-import { codeLimits } from "./limits.js";
+import { limits } from "../shared/limits.js";
 
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
@@ -84,7 +84,7 @@ export class CodeEngine {
     if (isOver()) return problem("ended", NOT_LOADED);
     this.#runtime.isUsed = true;
     const dtypes = Object.fromEntries(readings.map(({ key, dtype }) => [key, dtype]));
-    const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: codeLimits.programS }));
+    const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: limits.programS }));
     this.#isLoaded = answer.ok;
     clearTimeout(this.#timer);
     if (answer.ok && !isOver()) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), spareDelay);
@@ -191,10 +191,10 @@ class Runtime {
     this.#line = 0;
     let timer;
     const late = new Promise((resolve) => {
-      timer = setTimeout(resolve, codeLimits.beginMs, "");
+      timer = setTimeout(resolve, limits.beginMs, "");
       this.#onbegun = () => {
         clearTimeout(timer);
-        timer = setTimeout(resolve, codeLimits.callMs, "");
+        timer = setTimeout(resolve, limits.callMs, "");
       };
     });
     const answer = await Promise.race([this.#ask({ method, text }), late]);

@@ -1,6 +1,6 @@
 /** Programs that this browser keeps: the present one of each agent and scene, and those of its latest runs. */
 
-import { roomOfPage } from "../classroom/student/programs.js";
+import { roomOfPage } from "../shared/room.js";
 import { forget, recall, remember } from "../shared/storage.js";
 
 /** Most runs whose programs are kept, for each agent and scene. */

@@ -3,9 +3,10 @@
 import { splitProgram } from "../blocks/text.js";
 import { handoutFor, handouts } from "../classroom/student/handout.js";
 import { ClassPrograms } from "../classroom/student/programs.js";
+import { freeId } from "../shared/ids.js";
 import { downloadText, KeptPrograms } from "./keep.js";
 import { button, element } from "../shared/dom.js";
-import { freeId, section } from "../panel/widgets/parts.js";
+import { section } from "../panel/widgets/parts.js";
 import { fileButton } from "../panel/world/scene_files.js";
 import { copyLink } from "../scenes/share.js";
 import { SharedOffer, sharedFor, sharedPrograms } from "../scenes/shared_program.js";

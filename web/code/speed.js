@@ -1,6 +1,6 @@
 /** The world's speed during a test, and how it comes back to what it was. */
 
-import { codeLimits } from "./limits.js";
+import { limits } from "../shared/limits.js";
 
 export class WorldSpeed {
   #panel;
@@ -48,7 +48,7 @@ export function outcomeOf(panel, { step }, seed) {
       const { result, decision, seed: present } = panel.part("run") ?? {};
       if (result && decision === step && present === String(seed)) end(result);
     };
-    const timer = setTimeout(end, codeLimits.outcomeMs, "over");
+    const timer = setTimeout(end, limits.outcomeMs, "over");
     panel.addEventListener("part:run", check);
     check();
   });

@@ -1,6 +1,7 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
 import { BlocksMode } from "../blocks/mode.js";
+import { freeId } from "../shared/ids.js";
 import { CodeConsole } from "./console.js";
 import { CodeEditor } from "./editor.js";
 import { NameList, VariableList } from "./facts.js";
@@ -15,7 +16,6 @@ import { CodeTimeline } from "./timeline.js";
 import { TestTable, testWords } from "./test_table.js";
 import { runWords } from "./words.js";
 import { button, element, setAttributes, setText } from "../shared/dom.js";
-import { freeId } from "../panel/widgets/parts.js";
 import { retried } from "../shared/retry.js";
 import { ProgramReports } from "../classroom/student/program_reports.js";
 

@@ -1,7 +1,7 @@
 /** The results of a test: a sentence, and a table of its starts. */
 
 import { averageDecisions, STARTS } from "./test.js";
-import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
+import { button, element, keyed, setAttributes, setText, tableHead } from "../shared/dom.js";
 import { seconds } from "../shared/numbers.js";
 import { section } from "../panel/widgets/parts.js";
 
@@ -33,8 +33,7 @@ export class TestTable {
    */
   constructor(onChoose, onWatch) {
     this.#watch = button("Watch the first failure", onWatch, { icon: "play" });
-    const heads = element("tr", {}, ...HEADS.map((textContent) => element("th", { scope: "col", textContent })));
-    const table = element("table", { className: "ai4u-code-test" }, this.#sentence, element("thead", {}, heads), this.#body);
+    const table = element("table", { className: "ai4u-code-test" }, this.#sentence, tableHead(...HEADS), this.#body);
     this.#body.addEventListener("click", ({ target }) => {
       const row = target.closest("tr"); // the button in it is for the keyboard
       if (row !== null) onChoose(Number(row.dataset.key));

@@ -1,9 +1,10 @@
 /** Key bindings: the scene's, with the person's own choices over them, kept in local storage. */
 
+import { forget, recall, remember } from "../shared/storage.js";
 import { dpadActions } from "./dpad.js";
 import { caption, label } from "./labels.js";
 
-const STORAGE_KEY = "ai4u-keys";
+const STORAGE_KEY = "keys";
 /** A KeyboardEvent.code; stored choices are checked against it. */
 const CODE = /^[A-Za-z0-9]{1,24}$/;
 /** Codes of keys that the browser, the page or the keyboard itself needs. */
@@ -90,20 +91,11 @@ export class KeyMap {
 }
 
 function loadChoices() {
-  try {
-    const stored = JSON.parse(localStorage.getItem(STORAGE_KEY) ?? "{}");
-    const areCodes = (keys) => Array.isArray(keys) && keys.every((key) => CODE.test(key));
-    return Object.fromEntries(Object.entries(stored).filter(([, keys]) => areCodes(keys)));
-  } catch {
-    return {}; // storage is blocked here, or another program wrote the entry
-  }
+  const areCodes = (keys) => Array.isArray(keys) && keys.every((key) => CODE.test(key));
+  return Object.fromEntries(Object.entries(recall(STORAGE_KEY, {}) ?? {}).filter(([, keys]) => areCodes(keys)));
 }
 
 function storeChoices(chosen) {
-  try {
-    if (Object.keys(chosen).length) localStorage.setItem(STORAGE_KEY, JSON.stringify(chosen));
-    else localStorage.removeItem(STORAGE_KEY);
-  } catch {
-    // storage is blocked here: the choice lasts as long as the page
-  }
+  if (Object.keys(chosen).length) remember(STORAGE_KEY, chosen);
+  else forget(STORAGE_KEY);
 }

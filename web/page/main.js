@@ -1,11 +1,11 @@
 /** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
 
 import "../panel/shortcuts.js"; // the first one: its listener comes before the one that drives
+import { roomOfPage } from "../shared/room.js";
 import { Banners } from "./banners.js";
 import { ClassBar } from "../classroom/student/bar.js";
 import { noteHandout } from "../classroom/student/handout.js";
 import { showLeft } from "../classroom/student/overlay.js";
-import { roomOfPage } from "../classroom/student/programs.js";
 import { element } from "../shared/dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";

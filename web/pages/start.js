@@ -2,7 +2,7 @@
 
 import { syncStars } from "../classroom/student/stars.js";
 import { element } from "../shared/dom.js";
-import { ask, tell } from "../shared/question.js";
+import { ask, tell } from "../shared/dialog.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
 import { watchSharedScene } from "../scenes/share.js";

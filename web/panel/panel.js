@@ -88,7 +88,7 @@ export class Panel extends EventTarget {
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
     returnFocus(this.element);
     this.#setDetails(this.details);
-    this.addEventListener("part:scene", (/** @type {CustomEvent} */ { detail }) => this.#onScene(detail));
+    this.addEventListener("part:scene", (event) => this.#onScene(/** @type {CustomEvent} */ (event).detail));
   }
 
   /** Put the panel into the page and connect it. */

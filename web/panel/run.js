@@ -1,7 +1,8 @@
 /** The run of the world: goal, time, score, stages, and the buttons to pause and start again. */
 
 import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
-import { fact, freeId, toggle } from "./widgets/parts.js";
+import { freeId } from "../shared/ids.js";
+import { fact, toggle } from "./widgets/parts.js";
 import { number, seconds } from "../shared/numbers.js";
 
 /** Most characters of a goal, as a scene's file takes. */

@@ -3,8 +3,9 @@
 import { syncStars } from "../classroom/student/stars.js";
 import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { icon } from "../shared/icons.js";
-import { freeId, tile, tiles } from "./widgets/parts.js";
-import { ask } from "../shared/question.js";
+import { freeId } from "../shared/ids.js";
+import { tile, tiles } from "./widgets/parts.js";
+import { ask } from "../shared/dialog.js";
 import { unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
 import { starRow, starsOf } from "../scenes/stars.js";

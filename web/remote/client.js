@@ -1,10 +1,10 @@
 /** An agent of the page's own world, driven from the page over the protocol for scripts. */
 
+import { randomId } from "../shared/ids.js";
 import { ConnectionLostError, Dialogue, RemoteError } from "./dialogue.js";
 import { SUBPROTOCOL } from "./messages.js";
 
 const PATH = "../../ws/remote";
-const SECRET_BYTES = 16;
 
 export { RemoteError };
 
@@ -15,13 +15,15 @@ export { RemoteError };
 export class RemoteClient {
   #dialogue;
   #connection = new Connection();
-  /** The end of the method that was called last. */
+  /**
+   * The end of the method that was called last.
+   * @type {Promise<any>}
+   */
   #last = Promise.resolve();
 
+  /** @param {{agent: string, mode: string, onMissing: string}} options */
   constructor(options) {
-    const bytes = crypto.getRandomValues(new Uint8Array(SECRET_BYTES));
-    const secret = Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
-    this.#dialogue = new Dialogue({ ...options, secret });
+    this.#dialogue = new Dialogue({ ...options, secret: randomId() });
   }
 
   /**
@@ -46,7 +48,7 @@ export class RemoteClient {
 
   /** Lowest and highest values by actuator, as CodeEngine.load takes them. */
   get outputs() {
-    return Object.fromEntries(this.welcome.outputs.map(({ name, low, high }) => [name, [low, high]]));
+    return Object.fromEntries(this.welcome.outputs.map((/** @type {any} */ { name, low, high }) => [name, [low, high]]));
   }
 
   /**
@@ -88,13 +90,23 @@ export class RemoteClient {
     await this.#run(this.#dialogue.end(reason));
   }
 
-  /** Carry out a dialogue's steps, after those of the method before, and return the result. */
+  /**
+   * Carry out a dialogue's steps, after those of the method before, and return the result.
+   * @template Result
+   * @param {import("./dialogue.js").Flow<Result>} flow
+   * @returns {Promise<Result>}
+   */
   #run(flow) {
     const result = this.#last.then(() => this.#carryOut(flow));
     this.#last = result.catch(() => {}); // the caller is told
     return result;
   }
 
+  /**
+   * @template Result
+   * @param {import("./dialogue.js").Flow<Result>} flow
+   * @returns {Promise<Result>}
+   */
   async #carryOut(flow) {
     let step = flow.next();
     while (!step.done) {
@@ -113,15 +125,24 @@ export class RemoteClient {
 
 /** A WebSocket to the world that carries out the steps of a dialogue. */
 class Connection {
+  /** @type {WebSocket | null} */
   #socket = null;
-  /** Frames that came and were not asked for yet. */
+  /**
+   * Frames that came and were not asked for yet.
+   * @type {Uint8Array[]}
+   */
   #frames = [];
   /** The reason why the socket closed. */
   #lost = new ConnectionLostError("there is no connection");
+  /** @type {Error | null} */
   #interruption = null;
   /** Called when anything has happened. */
   #wake = () => {};
 
+  /**
+   * @param {import("./dialogue.js").Step} step
+   * @returns {Promise<any>}
+   */
   async carryOut({ open, send, receive, pause, close }) {
     if (send) return this.#send(send);
     if (close) return this.#close();
@@ -131,12 +152,16 @@ class Connection {
     return undefined;
   }
 
-  /** Reject the step that waits, and all that would wait later. */
+  /**
+   * Reject the step that waits, and all that would wait later.
+   * @param {Error} error
+   */
   interrupt(error) {
     this.#interruption = error;
     this.#wake();
   }
 
+  /** @param {number} timeout (ms) */
   async #open(timeout) {
     this.#close();
     const url = new URL(PATH, import.meta.url);
@@ -159,6 +184,7 @@ class Connection {
     if (socket.readyState !== WebSocket.OPEN) throw new ConnectionLostError("no answer");
   }
 
+  /** @param {any} frame */
   #send(frame) {
     if (this.#socket?.readyState !== WebSocket.OPEN) {
       throw this.#lost ?? new ConnectionLostError("the connection is closing");
@@ -166,6 +192,7 @@ class Connection {
     this.#socket.send(frame);
   }
 
+  /** @param {number} timeout (ms) */
   async #receive(timeout) {
     await this.#happened(() => this.#frames.length || this.#lost, timeout);
     if (this.#frames.length) return this.#frames.shift();
@@ -181,11 +208,13 @@ class Connection {
 
   /**
    * Wait until something has happened, or for a time; reject if interrupted.
+   * @param {() => unknown} has returns something if it has happened
+   * @param {number} timeout (ms)
    * @returns {Promise<void>}
    */
   #happened(has, timeout) {
     return new Promise((resolve, reject) => {
-      let timer;
+      let timer = 0;
       const check = () => {
         if (!this.#interruption && !has()) return;
         clearTimeout(timer);

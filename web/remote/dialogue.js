@@ -6,7 +6,7 @@
  * last frame; if the connection is lost, it reconnects, as long as the world keeps the agent for it.
  */
 
-import { codeLimits } from "../code/limits.js";
+import { limits } from "../shared/limits.js";
 import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./messages.js";
 
 /** Time after which a frame is repeated for the first time; it doubles with each repetition. */
@@ -21,8 +21,18 @@ const MIN_OPEN_TIMEOUT_MS = 100;
 /** Close code of a server in front of the world that refuses. */
 const CLOSE_REFUSED = 1008;
 
+/** @typedef {{open?: number, send?: Uint8Array, receive?: number, pause?: number, close?: true}} Step */
+/**
+ * @template Result
+ * @typedef {Generator<Step, Result, Uint8Array | null>} Flow
+ */
+
 /** An error of the dialogue; `code` is a problem's of the protocol, "lost", "refused" or "closed". */
 export class RemoteError extends Error {
+  /**
+   * @param {string} text
+   * @param {string} code
+   */
   constructor(text, code) {
     super(text);
     this.name = "RemoteError";
@@ -32,6 +42,7 @@ export class RemoteError extends Error {
 
 /** There is no connection, or it was lost; only connections throw it. */
 export class ConnectionLostError extends Error {
+  /** @param {string} reason */
   constructor(reason, closeCode = 0) {
     super(reason);
     this.closeCode = closeCode;
@@ -39,38 +50,62 @@ export class ConnectionLostError extends Error {
 }
 
 export class Dialogue {
-  /** The world's description of the agent. */
+  /**
+   * The world's description of the agent.
+   * @type {any}
+   */
   welcome = null;
-  /** The latest percept; null before the first. */
+  /**
+   * The latest percept; null before the first.
+   * @type {any}
+   */
   percept = null;
 
+  /** @type {string} */
   #agent;
+  /** @type {string} */
   #mode;
+  /** @type {string} */
   #onMissing;
+  /** @type {string} */
   #secret;
-  /** The frame that is repeated if no answer arrives. */
+  /**
+   * The frame that is repeated if no answer arrives.
+   * @type {any}
+   */
   #lastFrame = null;
+  /** @type {Uint8Array | null} */
   #lastHello = null;
   /** The latest percept has an answer. */
   #isAnswered = true;
   /** Number of the percept whose answer the world may still refuse. */
   #refusableSeq = -1;
-  /** The error that ended the session; every method throws it from then on. */
+  /**
+   * The error that ended the session; every method throws it from then on.
+   * @type {Error | null}
+   */
   #ended = null;
 
+  /** @param {{agent: string, mode: string, onMissing: string, secret: string}} options */
   constructor({ agent, mode, onMissing, secret }) {
     [this.#agent, this.#mode, this.#onMissing, this.#secret] = [agent, mode, onMissing, secret];
   }
 
-  /** Connect, and get the agent. */
+  /**
+   * Connect, and get the agent.
+   * @returns {Flow<void>}
+   */
   *begin() {
-    const lost = yield* this.#connect(performance.now() + codeLimits.connectMs);
+    const lost = yield* this.#connect(performance.now() + limits.connectMs);
     if (lost === null) return;
     yield { close: true };
     throw new RemoteError(`The world does not answer (${lost.message}). Is it still running?`, "lost");
   }
 
-  /** Return the percept that has no answer yet, as soon as it is there. */
+  /**
+   * Return the percept that has no answer yet, as soon as it is there.
+   * @returns {Flow<any>}
+   */
   *sense() {
     this.#checkOpen();
     let timeout = FIRST_TIMEOUT_MS;
@@ -92,7 +127,11 @@ export class Dialogue {
     return this.percept;
   }
 
-  /** Answer the latest percept with an action; if it has an answer, wait for the next one. */
+  /**
+   * Answer the latest percept with an action; if it has an answer, wait for the next one.
+   * @param {Record<string, number[]>} values by actuator
+   * @returns {Flow<void>}
+   */
   *act(values) {
     const percept = yield* this.sense();
     if (percept.terminated || percept.truncated) {
@@ -101,7 +140,11 @@ export class Dialogue {
     yield* this.#answer(actionFrame(percept, values), percept.seq);
   }
 
-  /** Begin an episode, and return its first percept. */
+  /**
+   * Begin an episode, and return its first percept.
+   * @param {number | null} [seed]
+   * @returns {Flow<any>}
+   */
   *reset(seed = null) {
     const { episode, seq } = yield* this.sense();
     let next = seq;
@@ -112,7 +155,10 @@ export class Dialogue {
     return this.percept;
   }
 
-  /** Ask a world in lockstep for more time, if the latest percept has no answer yet. */
+  /**
+   * Ask a world in lockstep for more time, if the latest percept has no answer yet.
+   * @returns {Flow<void>}
+   */
   *wait() {
     if (this.percept === null || this.#isAnswered) return;
     try {
@@ -122,7 +168,11 @@ export class Dialogue {
     }
   }
 
-  /** Say goodbye, which gives the agent back, and close the connection. */
+  /**
+   * Say goodbye, which gives the agent back, and close the connection.
+   * @param {string} reason
+   * @returns {Flow<void>}
+   */
   *end(reason) {
     if (this.#ended !== null) return;
     this.#ended = new RemoteError("The connection was closed.", "closed");
@@ -134,7 +184,11 @@ export class Dialogue {
     yield { close: true };
   }
 
-  /** Connect, with a growing pause between two attempts; return null on success, else the last error. */
+  /**
+   * Connect, with a growing pause between two attempts; return null on success, else the last error.
+   * @param {number} deadline (ms, performance.now)
+   * @returns {Flow<Error | null>}
+   */
   *#connect(deadline) {
     const isFirst = this.welcome === null;
     let backoff = FIRST_BACKOFF_MS;
@@ -154,7 +208,11 @@ export class Dialogue {
     return lost;
   }
 
-  /** Open a connection, and send the hello until there is a welcome. */
+  /**
+   * Open a connection, and send the hello until there is a welcome.
+   * @param {number} deadline (ms, performance.now)
+   * @returns {Flow<void>}
+   */
   *#attempt(deadline) {
     yield { open: Math.max(deadline - performance.now(), MIN_OPEN_TIMEOUT_MS) };
     const session = this.welcome?.session ?? "";
@@ -175,7 +233,11 @@ export class Dialogue {
     throw new ConnectionLostError("no answer");
   }
 
-  /** Resume the session over a new connection, within the world's grace time. */
+  /**
+   * Resume the session over a new connection, within the world's grace time.
+   * @param {any} lost what was thrown
+   * @returns {Flow<void>}
+   */
   *#reconnect(lost) {
     this.#throwUnlessLost(lost);
     this.#checkOpen();
@@ -187,6 +249,11 @@ export class Dialogue {
     throw this.#ended;
   }
 
+  /**
+   * @param {Uint8Array} frame
+   * @param {number} seq number of the percept that it answers
+   * @returns {Flow<void>}
+   */
   *#answer(frame, seq) {
     [this.#lastFrame, this.#isAnswered, this.#refusableSeq] = [frame, true, seq];
     try {
@@ -196,7 +263,10 @@ export class Dialogue {
     }
   }
 
-  /** Handle a frame that may be the welcome; return true if it is. */
+  /**
+   * Handle a frame that may be the welcome; return true if it is.
+   * @param {Uint8Array} frame
+   */
   #handleWelcome(frame) {
     const message = messageIn(frame);
     if (message.type === "problem") this.#end(new RemoteError(message.text, message.code));
@@ -205,7 +275,10 @@ export class Dialogue {
     return true;
   }
 
-  /** Handle a frame of the session; old percepts and repeated problems are ignored. */
+  /**
+   * Handle a frame of the session; old percepts and repeated problems are ignored.
+   * @param {Uint8Array} frame
+   */
   #handle(frame) {
     const message = messageIn(frame);
     const latest = this.percept?.seq ?? 0;
@@ -220,7 +293,10 @@ export class Dialogue {
     }
   }
 
-  /** @param {{[field: string]: any}} problem */
+  /**
+   * @param {{[field: string]: any}} problem
+   * @param {number} latest number of the latest percept
+   */
   #handleProblem({ code, text, seq }, latest) {
     const error = new RemoteError(text, code);
     if ([...PROBLEMS.values()].includes(code)) this.#end(error);
@@ -238,13 +314,17 @@ export class Dialogue {
     if (this.#ended !== null) throw this.#ended;
   }
 
-  /** Throw what is no lost connection, or one that the world closed on purpose. */
+  /**
+   * Throw what is no lost connection, or one that the world closed on purpose.
+   * @param {any} lost what was thrown
+   */
   #throwUnlessLost(lost) {
     if (!(lost instanceof ConnectionLostError)) throw lost;
     const code = PROBLEMS.get(lost.closeCode) ?? (lost.closeCode === CLOSE_REFUSED && "refused");
     if (code) this.#end(new RemoteError(lost.message, code)); // the frame that said why may have been lost
   }
 
+  /** @param {Error} error */
   #end(error) {
     this.#ended = error;
     throw error;

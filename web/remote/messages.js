@@ -40,9 +40,23 @@ export const FIELDS = {
   problem: ["code", "text", "seq"],
   bye: ["reason"],
 };
+/**
+ * @typedef {object} Reading
+ * @property {string} key
+ * @property {string} kind
+ * @property {string | number} sensorType
+ * @property {keyof typeof NUMBERS} dtype
+ * @property {number[]} shape
+ * @property {number} offset
+ * @property {any} low
+ * @property {any} high
+ */
 export const READING = ["key", "kind", "sensorType", "dtype", "shape", "offset", "low", "high", "unit", "isInput"];
 export const OUTPUT = ["name", "kind", "low", "high", "isOutput"];
-/** Bytes of a number, and the list of numbers in a buffer, by dtype. */
+/**
+ * Bytes of a number, and the list of numbers in a buffer, by dtype.
+ * @type {Record<"<f4" | "<i4" | "|u1" | "|b1", [number, (buffer: ArrayBuffer) => (number | boolean)[]]>}
+ */
 const NUMBERS = {
   "<f4": [4, (buffer) => Array.from(new Float32Array(buffer))],
   "<i4": [4, (buffer) => Array.from(new Int32Array(buffer))],
@@ -54,12 +68,20 @@ const plain = new Encoder();
 /** An action's numbers are floats, also 1 and -0. */
 const floats = new Encoder({ forceIntegerToFloat: true });
 
-/** Return the frame of a message: its kind and fields. */
+/**
+ * Return the frame of a message: its kind and fields.
+ * @param {any[]} fields
+ * @returns {Uint8Array}
+ */
 export function frameOf(...fields) {
   return plain.encode(fields);
 }
 
-/** Return the frame of an action. */
+/**
+ * Return the frame of an action.
+ * @param {{episode: number, step: number, seq: number}} percept that it answers
+ * @param {Record<string, number[]>} values by actuator
+ */
 export function actionFrame({ episode, step, seq }, values) {
   const head = ["action", episode, step, seq].map((each) => plain.encode(each));
   return joined([new Uint8Array([ARRAY + head.length + 1]), ...head, floats.encode(values)]);
@@ -68,6 +90,7 @@ export function actionFrame({ episode, step, seq }, values) {
 /**
  * Return the message in a frame, with its fields by name and its type.
  *
+ * @param {Uint8Array} frame
  * @returns {{type: string, [field: string]: any}}
  * @throws {Error} there is no message in it
  */
@@ -75,25 +98,40 @@ export function messageIn(frame) {
   const [type, ...fields] = decode(frame);
   if (!Object.hasOwn(FIELDS, type)) throw new Error(`a message of an unknown type, ${String(type).slice(0, 40)}`);
   /** @type {{type: string, [field: string]: any}} */
-  const message = { type, ...named(FIELDS[type], fields) };
+  const message = { type, ...named(FIELDS[/** @type {keyof typeof FIELDS} */ (type)], fields) };
   if (type === "welcome") {
-    message.readings = message.readings.map((each) => readingOf(named(READING, each)));
-    message.outputs = message.outputs.map((each) => named(OUTPUT, each));
+    message.readings = message.readings.map((/** @type {any[]} */ values) => readingOf(named(READING, values)));
+    message.outputs = message.outputs.map((/** @type {any[]} */ values) => named(OUTPUT, values));
   }
   return message;
 }
 
-/** Return a percept's readings by key: numbers, booleans, texts, and nested arrays of them. */
+/**
+ * Return a percept's readings by key: numbers, booleans, texts, and nested arrays of them.
+ * @param {Reading[]} readings
+ * @param {{data: Uint8Array<ArrayBuffer>, texts: string[]}} percept
+ */
 export function valuesOf(readings, { data, texts }) {
   return Object.fromEntries(readings.map((reading) => [reading.key, valueOf(reading, data, texts)]));
 }
 
+/**
+ * @param {Reading} reading
+ * @param {Uint8Array<ArrayBuffer>} data
+ * @param {string[]} texts
+ */
 function valueOf({ kind, sensorType, dtype, shape, offset }, data, texts) {
   if (kind === "text") return sensorType === SEVERAL_TEXTS ? JSON.parse(texts[offset]) : texts[offset];
   const count = shape.reduce((product, length) => product * length, 1);
   return nested(numbersIn(data, dtype, offset, count), shape);
 }
 
+/**
+ * @param {Uint8Array<ArrayBuffer>} data
+ * @param {keyof typeof NUMBERS} dtype
+ * @param {number} offset
+ * @param {number} count
+ */
 function numbersIn(data, dtype, offset, count) {
   const [size, list] = NUMBERS[dtype];
   const bytes = data.slice(offset, offset + count * size); // a copy, at an address that is a multiple of size
@@ -101,6 +139,11 @@ function numbersIn(data, dtype, offset, count) {
   return list(bytes.buffer);
 }
 
+/**
+ * @param {(number | boolean)[]} flat
+ * @param {number[]} shape
+ * @returns {any}
+ */
 function nested(flat, shape) {
   if (shape.length === 0) return flat[0];
   if (shape.length === 1) return flat;
@@ -109,18 +152,27 @@ function nested(flat, shape) {
   return Array.from({ length: count }, (_, row) => nested(flat.slice(row * size, (row + 1) * size), rest));
 }
 
-/** Return a reading whose lowest and highest values are numbers: one for all entries, or one for each. */
+/**
+ * Return a reading whose lowest and highest values are numbers: one for all entries, or one for each.
+ * @param {Reading} reading
+ */
 function readingOf(reading) {
   if (reading.kind === "text") return { ...reading, low: [], high: [] };
   const [size] = NUMBERS[reading.dtype];
-  const numbers = (bytes) => numbersIn(bytes, reading.dtype, 0, bytes.length / size);
+  const numbers = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => numbersIn(bytes, reading.dtype, 0, bytes.length / size);
   return { ...reading, low: numbers(reading.low), high: numbers(reading.high) };
 }
 
+/**
+ * @param {string[]} names
+ * @param {any[]} fields
+ * @returns {any}
+ */
 function named(names, fields) {
   return Object.fromEntries(names.map((name, place) => [name, fields[place]]));
 }
 
+/** @param {Uint8Array[]} pieces */
 function joined(pieces) {
   const all = new Uint8Array(pieces.reduce((length, piece) => length + piece.length, 0));
   let end = 0;

@@ -6,7 +6,8 @@ import { icon } from "../shared/icons.js";
 /**
  * Return a frame with a scene's picture, which is loaded when it comes into view. If the picture is
  * missing or can't be loaded, the frame has an icon.
- * @param address of the picture; empty if there is none
+ * @param {string} address of the picture; empty if there is none
+ * @param {string} title of the scene
  */
 export function scenePicture(address, title) {
   const frame = element("span", { className: "ai4u-scene-picture" });

@@ -15,7 +15,11 @@ const MAX_AGENT_CHARS = 100;
 const DAMAGED = "The link's program is damaged: a part of it is missing or was changed.";
 const TOO_LARGE = "This program is too large for a link. Download it, and share its file.";
 
-/** Return a link's fragment with a program in it. Rejects with a sentence. */
+/**
+ * Return a link's fragment with a program in it. Rejects with a sentence.
+ * @param {string} fragment
+ * @param {{agent: string, source: string}} program
+ */
 export async function withProgram(fragment, { agent, source }) {
   const data = base64(await piped(new TextEncoder().encode(source), new CompressionStream("deflate")));
   const found = `${fragment}&program=${data}&agent=${encodeURIComponent(agent)}`;
@@ -23,7 +27,10 @@ export async function withProgram(fragment, { agent, source }) {
   return found;
 }
 
-/** Return the program in a link: {agent, source}; null if there is none. Rejects with a sentence. */
+/**
+ * Return the program in a link: {agent, source}; null if there is none. Rejects with a sentence.
+ * @param {string} link
+ */
 export async function programIn(link) {
   const fields = new URLSearchParams(link.replaceAll(/\s/g, "").split("#").pop());
   const [data, agent] = [fields.get("program"), fields.get("agent") ?? ""];
@@ -40,12 +47,19 @@ export async function programIn(link) {
   return { agent, source };
 }
 
-/** Return a link without its program, for the server. */
+/**
+ * Return a link without its program, for the server.
+ * @param {string} link
+ */
 export function withoutProgram(link) {
   return link.replaceAll(/&(program|agent)=[^&]*/g, "");
 }
 
-/** Return the bytes that come out of a stream; rejects as soon as they are too many. */
+/**
+ * Return the bytes that come out of a stream; rejects as soon as they are too many.
+ * @param {Uint8Array<ArrayBuffer>} bytes
+ * @param {CompressionStream | DecompressionStream} stream
+ */
 async function piped(bytes, stream) {
   const parts = [];
   let size = 0;
@@ -57,7 +71,10 @@ async function piped(bytes, stream) {
   return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
-/** Yield the parts of a stream: not all browsers iterate over one. */
+/**
+ * Yield the parts of a stream: not all browsers iterate over one.
+ * @param {ReadableStream<Uint8Array<ArrayBuffer>>} stream
+ */
 async function* chunksOf(stream) {
   const reader = stream.getReader();
   try {
@@ -67,6 +84,7 @@ async function* chunksOf(stream) {
   }
 }
 
+/** @param {Uint8Array} bytes */
 function base64(bytes) {
   let text = "";
   for (const byte of bytes) text += String.fromCharCode(byte);

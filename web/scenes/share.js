@@ -3,7 +3,7 @@
  */
 
 import { element } from "../shared/dom.js";
-import { ask, tell } from "../shared/question.js";
+import { ask, tell } from "../shared/dialog.js";
 import { programIn, withoutProgram, withProgram } from "./program_link.js";
 import { request, unsavedSentence } from "./api.js";
 import { keepShared } from "./shared_program.js";
@@ -43,6 +43,10 @@ export function isThisComputer() {
   return /^(localhost|127(\.\d+){3}|\[::1\])$/.test(location.hostname);
 }
 
+/**
+ * @param {string} title of the scene
+ * @param {string} link
+ */
 async function showLink(title, link) {
   const box = element("textarea", { readOnly: true, value: link, ariaLabel: "Link", spellcheck: false });
   box.addEventListener("focus", () => box.select());
@@ -63,11 +67,15 @@ async function showLink(title, link) {
  * @param {() => void} [onopen] called after the scene was opened
  */
 export function watchSharedScene(onopen = () => {}) {
-  const look = (fragment) => fragment.startsWith(PREFIX) && offerSharedScene(fragment, onopen);
+  const look = (/** @type {string} */ fragment) => fragment.startsWith(PREFIX) && offerSharedScene(fragment, onopen);
   addEventListener("hashchange", () => look(location.hash));
   look(document.documentElement.dataset.ai4uFragment || location.hash);
 }
 
+/**
+ * @param {string} link
+ * @param {() => void} onopen
+ */
 async function offerSharedScene(link, onopen) {
   if (isAsking) return;
   isAsking = true;

@@ -1,8 +1,8 @@
 /** A program that came with a link to a scene: kept until the person takes it or does not want it. */
 
 import { splitProgram } from "../blocks/text.js";
-import { roomOfPage } from "../classroom/student/programs.js";
 import { button, element, setText } from "../shared/dom.js";
+import { roomOfPage } from "../shared/room.js";
 import { forget, recall, remember } from "../shared/storage.js";
 
 /** Students of a class may use one device in turn. */
@@ -11,13 +11,21 @@ const KEY = `shared-program-${roomOfPage()}`;
 /** Tells with the event "change" that a program has come or is gone. */
 export const sharedPrograms = new EventTarget();
 
-/** Keep a program for the tab "Code": {scene, agent, source}. */
+/**
+ * Keep a program for the tab "Code".
+ * @param {{scene: string, agent: string, source: string}} program
+ */
 export function keepShared(program) {
   remember(KEY, program);
   sharedPrograms.dispatchEvent(new Event("change"));
 }
 
-/** Return the program for an agent in a scene; null if there is none. */
+/**
+ * Return the program for an agent in a scene; null if there is none.
+ * @param {string} scene
+ * @param {string} agent
+ * @returns {string | null}
+ */
 export function sharedFor(scene, agent) {
   const found = recall(KEY, null);
   const isFor = found !== null && found.scene === scene && found.agent === agent && typeof found.source === "string";
@@ -33,10 +41,11 @@ export function forgetShared() {
 export class SharedOffer {
   #words = element("p");
   #text = element("pre", { tabIndex: 0, ariaLabel: "The shared program" });
+  /** @type {string | null} */
   #source = null;
   element = element("div", { className: "ai4u-code-shared", role: "group", ariaLabel: "A shared program", hidden: true });
 
-  /** @param onTake called with the program that the person takes */
+  /** @param {(source: string) => void} onTake called with the program that the person takes */
   constructor(onTake) {
     const take = button("Take it", () => this.#end(onTake), { kind: "main" });
     const refuse = button("No, thanks", () => this.#end(() => {}), {});
@@ -44,7 +53,10 @@ export class SharedOffer {
     this.element.append(this.#words, details, element("div", { className: "ai4u-inline" }, take, refuse));
   }
 
-  /** Show the offer of a program; null hides it. */
+  /**
+   * Show the offer of a program; null hides it.
+   * @param {string | null} source
+   */
   update(source) {
     this.#source = source;
     this.element.hidden = source === null;
@@ -55,6 +67,7 @@ export class SharedOffer {
     setText(this.#text, python);
   }
 
+  /** @param {(source: string) => void} then */
   #end(then) {
     const source = this.#source;
     forgetShared();

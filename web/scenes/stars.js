@@ -1,7 +1,7 @@
 /** Stars that a person's programs have earned in the scenes of the library; this browser keeps them. */
 
-import { roomOfPage } from "../classroom/student/programs.js";
 import { element, setAttributes, setText } from "../shared/dom.js";
+import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
 
 export const MAX_STARS = 3;
@@ -18,13 +18,20 @@ export function allStars() {
   return isMap ? Object.fromEntries(Object.entries(kept).filter(([, count]) => isCount(count))) : {};
 }
 
-/** Return the stars of a scene, from 0. */
+/**
+ * Return the stars of a scene, from 0.
+ * @param {string} scene
+ */
 export function starsOf(scene) {
   const all = allStars();
   return Object.hasOwn(all, scene) ? all[scene] : 0;
 }
 
-/** Note that a program has earned stars in a scene; returns true if these are more than before. */
+/**
+ * Note that a program has earned stars in a scene; returns true if these are more than before.
+ * @param {string} scene
+ * @param {number} count
+ */
 export function earn(scene, count) {
   if (!isCount(count) || count <= starsOf(scene)) return false;
   const all = { ...allStars(), [scene]: count };
@@ -37,7 +44,7 @@ export function earn(scene, count) {
 /** Stars in a row, those that are earned filled. `set` shows other numbers; it is hidden where there is none to earn. */
 export function starRow(earned = 0, total = 0) {
   const made = element("span", { className: "ai4u-stars", role: "img" });
-  const set = (count, of) => {
+  const set = (/** @type {number} */ count, /** @type {number} */ of) => {
     const filled = Math.min(count, of);
     setText(made, "★".repeat(filled) + "☆".repeat(of - filled));
     setAttributes(made, { "aria-label": `${filled} of ${of} stars`, "data-earned": filled > 0 });
@@ -48,6 +55,7 @@ export function starRow(earned = 0, total = 0) {
   return { element: made, set };
 }
 
+/** @param {any} value */
 function isCount(value) {
   return Number.isInteger(value) && value >= 1 && value <= MAX_STARS;
 }

@@ -11,6 +11,7 @@ import { icon as iconNamed } from "./icons.js";
  * @returns {any} of the tag's own type
  */
 export function element(tag, properties = {}, ...children) {
+  /** @type {any} */
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
     if (name === "dataset") Object.assign(made.dataset, value);
@@ -22,12 +23,20 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
-/** Set an element's text if it differs: screen readers announce every assignment. */
+/**
+ * Set an element's text if it differs: screen readers announce every assignment.
+ * @param {Node} target
+ * @param {string} text
+ */
 export function setText(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }
 
-/** Set attributes that differ. null and false remove one, true sets it to "". */
+/**
+ * Set attributes that differ. null and false remove one, true sets it to "".
+ * @param {Element} target
+ * @param {Record<string, unknown>} attributes
+ */
 export function setAttributes(target, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
     const wanted = value === true ? "" : value === false || value === null || value === undefined ? null : String(value);
@@ -56,6 +65,15 @@ export function button(text, onClick, { icon = "", label = "", kind = "", ...pro
   if (icon && !text) made.toggleAttribute("data-icon-only", true);
   made.addEventListener("click", onClick);
   return made;
+}
+
+/**
+ * Return a table's head: one row with the names of the columns.
+ * @param {string[]} names
+ */
+export function tableHead(...names) {
+  const cells = names.map((textContent) => element("th", { scope: "col", textContent }));
+  return element("thead", {}, element("tr", {}, ...cells));
 }
 
 /**

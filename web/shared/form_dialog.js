@@ -1,8 +1,7 @@
 /** A modal dialog with a form, which stays open and says why if what it asks for can't be done. */
 
+import { showDialog } from "./dialog.js";
 import { element } from "./dom.js";
-
-let count = 0;
 
 /**
  * Show a form until it is sent or closed.
@@ -13,9 +12,8 @@ let count = 0;
  *   the form stays
  * @returns {Promise<boolean>} true if it was sent
  */
-export function showForm({ title, text = "", content, yes = "", no = "Cancel", isDanger = false }, send = async () => {}) {
-  count += 1;
-  const heading = element("h2", { id: `ai4u-form-${count}`, textContent: title });
+export async function showForm({ title, text = "", content, yes = "", no = "Cancel", isDanger = false }, send = async () => {}) {
+  const heading = element("h2", { textContent: title });
   const problem = element("p", { className: "ai4u-problem", role: "alert" });
   const accept = yes && element("button", { className: "ai4u-button", textContent: yes });
   if (accept && isDanger) accept.dataset.kind = "danger";
@@ -30,9 +28,8 @@ export function showForm({ title, text = "", content, yes = "", no = "Cancel", i
     element("div", { className: "ai4u-answers" }, cancel, accept || null),
   );
   const dialog = element("dialog", { className: "ai4u-question ai4u-form" }, form);
-  dialog.setAttribute("aria-labelledby", heading.id);
   cancel.addEventListener("click", () => dialog.close());
-  form.addEventListener("submit", async (event) => {
+  form.addEventListener("submit", async (/** @type {SubmitEvent} */ event) => {
     event.preventDefault();
     accept.disabled = true;
     problem.textContent = "";
@@ -43,35 +40,46 @@ export function showForm({ title, text = "", content, yes = "", no = "Cancel", i
     }
     accept.disabled = false;
   });
-  dialog.addEventListener("keydown", (event) => event.stopPropagation()); // else a world behind it is driven
-  document.body.append(dialog);
-  dialog.showModal();
+  const closed = showDialog(dialog, heading);
   dialog.scrollTop = 0;
-  return new Promise((resolve) =>
-    dialog.addEventListener("close", () => {
-      dialog.remove();
-      resolve(dialog.returnValue === "sent");
-    }),
-  );
+  return (await closed) === "sent";
 }
 
-/** Close the dialog that an element is in. */
+/**
+ * Close the dialog that an element is in.
+ * @param {Element} target
+ */
 export function closeDialogOf(target) {
   target.closest("dialog")?.close();
 }
 
-/** Return a control with its label above it. */
+/**
+ * Return a control with its label above it.
+ * @param {string} label
+ * @param {HTMLElement} control
+ */
 export function field(label, control, hint = "") {
   const words = element("span", { className: "ai4u-label", textContent: label });
   return element("label", { className: "ai4u-field" }, words, control, hint && element("small", { textContent: hint }));
 }
 
-/** Return a checkbox or radio button with its label beside it. */
+/**
+ * Return a checkbox or radio button with its label beside it.
+ * @param {string} label
+ * @param {HTMLInputElement} input
+ * @param {any[]} rest more children
+ */
 export function choice(label, input, ...rest) {
   return element("label", { className: "ai4u-choice" }, input, element("span", { textContent: label }), ...rest);
 }
 
-/** Return a group of radio buttons: {value: label}. */
+/**
+ * Return a group of radio buttons.
+ * @param {string} legend
+ * @param {string} name
+ * @param {Record<string, string>} options labels by value
+ * @param {string} chosen its value
+ */
 export function choices(legend, name, options, chosen) {
   const inputs = Object.entries(options).map(([value, label]) =>
     choice(label, element("input", { type: "radio", name, value, checked: value === chosen })),
@@ -79,13 +87,20 @@ export function choices(legend, name, options, chosen) {
   return element("fieldset", {}, element("legend", { textContent: legend }), ...inputs);
 }
 
-/** Return a list to choose from: [value, label] pairs. */
+/**
+ * Return a list to choose from.
+ * @param {string[][]} options pairs of value and label
+ * @param {string} [chosen] its value
+ */
 export function select(options, chosen) {
   const items = options.map(([value, label]) => element("option", { value, textContent: label, selected: value === chosen }));
   return element("select", {}, ...items);
 }
 
-/** Return the value of the chosen radio button in a group. */
+/**
+ * Return the value of the chosen radio button in a group.
+ * @param {Element} group
+ */
 export function chosenIn(group) {
-  return group.querySelector("input:checked")?.value ?? "";
+  return /** @type {HTMLInputElement | null} */ (group.querySelector("input:checked"))?.value ?? "";
 }

@@ -2,9 +2,13 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** @type {(x: number, y: number, radius: number) => string} */
 const circle = (x, y, radius) => `M${x - radius} ${y}a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0`;
 
-/** Path data by name. The first part is for blocks: ai4u_edu/page/panel/block_words.py names them. */
+/**
+ * Path data by name. The first part is for blocks: ai4u_edu/page/panel/block_words.py names them.
+ * @type {Record<string, string>}
+ */
 const PATHS = {
   bearing: `${circle(6, 18, 3)}M8.5 15.5L19 5M13 5h6v6`,
   smell: "M4 18c3-6 3 2 6-4s3 2 6-4 2 0 4-2M4 11c3-6 3 2 6-4s3 2 6-3",
@@ -77,7 +81,10 @@ const PATHS = {
   agent: `${circle(12, 12, 8)}M12 12l7-1M9 9h.1M9 15h.1`,
 };
 
-/** Return an icon. It says nothing to screen readers: the control that has it has a name. */
+/**
+ * Return an icon. It says nothing to screen readers: the control that has it has a name.
+ * @param {string} name one of PATHS; another one gets the icon for blocks of one's own
+ */
 export function icon(name, size = 18) {
   const svg = document.createElementNS(SVG, "svg");
   const attributes = { viewBox: "0 0 24 24", width: size, height: size, "aria-hidden": "true", class: "ai4u-icon" };

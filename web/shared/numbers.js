@@ -1,6 +1,9 @@
 /** Numbers as text for people. */
 
-/** Return a number with at most three digits that matter; "–" if there is none. */
+/**
+ * Return a number with at most three digits that matter; "–" if there is none.
+ * @param {any} value
+ */
 export function number(value) {
   if (value === null || value === undefined) return "–";
   if (!Number.isFinite(Number(value))) return String(value);
@@ -10,10 +13,20 @@ export function number(value) {
   return (value < 0 && Number(text) !== 0 ? "−" : "") + text;
 }
 
-/** Return a duration (s) as "12.3 s" or "2:05 min". */
+/**
+ * Return a duration (s) as "12.3 s" or "2:05 min"; "–" if there is none.
+ * @param {number | null | undefined} value
+ */
 export function seconds(value) {
   if (value === null || value === undefined) return "–";
-  if (value < 60) return `${value.toFixed(1)} s`;
-  const whole = Math.floor(value);
-  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")} min`;
+  return value < 60 ? `${value.toFixed(1)} s` : `${clock(Math.floor(value))} min`;
+}
+
+/**
+ * Return the time (s) that is left, or has passed, as a clock shows it: "1:05". It rounds up, and never runs below zero.
+ * @param {number} seconds
+ */
+export function clock(seconds) {
+  const whole = Math.max(0, Math.ceil(seconds));
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
 }

@@ -1,6 +1,6 @@
 /** A WebSocket for JSON messages that reconnects with backoff: of the keys and of the panel. */
 
-import { pageLimits } from "./limits.js";
+import { limits } from "./limits.js";
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
@@ -20,6 +20,7 @@ export class JsonSocket {
 
   /** Relative to the page, so it works behind any path prefix. */
   path;
+  /** @type {WebSocket | null} */
   #socket = null;
   #reconnectMs = MIN_RECONNECT_MS;
   #timer = 0;
@@ -39,7 +40,7 @@ export class JsonSocket {
     url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
     const socket = (this.#socket = new WebSocket(url));
     this.#hasKeepalives = false;
-    this.#giveUpAfter(pageLimits.openMs);
+    this.#giveUpAfter(limits.openMs);
     socket.onopen = () => {
       this.#reconnectMs = MIN_RECONNECT_MS;
       clearTimeout(this.#silence);
@@ -53,23 +54,34 @@ export class JsonSocket {
     return this.#socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Send a message if connected, else drop it. */
+  /**
+   * Send a message if connected, else drop it.
+   * @param {object} message
+   */
   send(message) {
     if (this.isOpen) this.#socket.send(JSON.stringify(message));
   }
 
-  /** Send bytes if connected, else drop them. */
+  /**
+   * Send bytes if connected, else drop them.
+   * @param {Uint8Array<ArrayBuffer>} bytes
+   */
   sendBytes(bytes) {
     if (this.isOpen) this.#socket.send(bytes);
   }
 
+  /** @param {{type: string}} message */
   #receive(message) {
     const isKeepalive = message.type === "keepalive";
     this.#hasKeepalives ||= isKeepalive;
-    if (this.#hasKeepalives) this.#giveUpAfter(pageLimits.silenceMs);
+    if (this.#hasKeepalives) this.#giveUpAfter(limits.silenceMs);
     if (!isKeepalive) this.onmessage(message);
   }
 
+  /**
+   * @param {number} code
+   * @param {string} reason
+   */
   #closed(code, reason) {
     clearTimeout(this.#silence);
     this.#socket = null;
@@ -81,7 +93,10 @@ export class JsonSocket {
     this.#reconnectMs = Math.min(2 * this.#reconnectMs, MAX_RECONNECT_MS);
   }
 
-  /** Take the connection for lost after some time (ms). Without an answer the browser's own close would wait too. */
+  /**
+   * Take the connection for lost after some time (ms). Without an answer the browser's own close would wait too.
+   * @param {number} time
+   */
   #giveUpAfter(time) {
     const socket = this.#socket;
     clearTimeout(this.#silence);

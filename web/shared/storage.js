@@ -3,7 +3,12 @@
 const PREFIX = "ai4u-";
 const unstored = new Map();
 
-/** Return a remembered value; `fallback` if there is none. */
+/**
+ * Return a remembered value; `fallback` if there is none.
+ * @param {string} key
+ * @param {any} fallback
+ * @returns {any} another page, or an earlier version, may have kept anything
+ */
 export function recall(key, fallback) {
   try {
     const text = localStorage.getItem(PREFIX + key);
@@ -13,7 +18,11 @@ export function recall(key, fallback) {
   }
 }
 
-/** Remember a value that JSON can hold. */
+/**
+ * Remember a value that JSON can hold.
+ * @param {string} key
+ * @param {any} value
+ */
 export function remember(key, value) {
   unstored.set(key, value);
   try {
@@ -23,7 +32,10 @@ export function remember(key, value) {
   }
 }
 
-/** Forget a value. */
+/**
+ * Forget a value.
+ * @param {string} key
+ */
 export function forget(key) {
   unstored.delete(key);
   try {

@@ -11,6 +11,7 @@ export function isToneOn() {
   return recall(STORAGE_KEY, false) === true;
 }
 
+/** @param {boolean} isOn */
 export function setTone(isOn) {
   remember(STORAGE_KEY, isOn);
 }
@@ -20,7 +21,10 @@ export function playTone() {
   if (isToneOn()) playNotes(NOTES_HZ);
 }
 
-/** Play notes (Hz) one after another. */
+/**
+ * Play notes (Hz) one after another.
+ * @param {number[]} notes
+ */
 export function playNotes(notes) {
   if (typeof AudioContext === "undefined") return;
   const audio = new AudioContext();

@@ -20,3 +20,17 @@ test("a statement joins others, a value has an output, and a hat begins", () => 
   assert.deepEqual([kinds.compare.output, kinds.number.output, "nextStatement" in kinds.number], ["Boolean", "Number", false]);
   assert.deepEqual(["nextStatement" in kinds.on_begin, "previousStatement" in kinds.on_begin], [true, false]);
 });
+
+test("inputs stand in one line, and what can be chosen differs in words and value", () => {
+  for (const { type, style, inputsInline, args0 } of KINDS) {
+    assert.equal(inputsInline, style === "events" ? undefined : true, type);
+    for (const { options = [] } of args0) {
+      for (const column of [0, 1]) assert.equal(new Set(options.map((option) => option[column])).size, options.length, type);
+    }
+  }
+});
+
+test("a repetition is a whole number, three at first", () => {
+  const [times] = KINDS.find(({ type }) => type === "repeat").args0;
+  assert.deepEqual([times.value, times.min, times.max, times.precision], [3, 0, 1000, 1]);
+});

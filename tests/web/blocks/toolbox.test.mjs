@@ -45,3 +45,12 @@ test("blocks that change a variable appear with the first one, for the latest", 
   assert.deepEqual(blocks.map(({ type }) => type), [undefined, "variables_set", "math_change", "variables_get", "variables_get", "print"]);
   assert.deepEqual(blocks[1].fields.VAR, { id: "id b", name: "b" });
 });
+
+test("blocks of numbers hold values to begin with", () => {
+  const held = Object.fromEntries(group(AGENT, "Numbers").map(({ type, inputs }) => [type, Object.values(inputs).map(({ shadow }) => shadow.fields.NUM)]));
+  assert.deepEqual([held.compare, held.arithmetic, held.of_two, held.absolute, held.random], [[0, 0], [1, 1], [1, 2], [0], [-1, 1]]);
+});
+
+test("a group has the blocks of its style alone", () => {
+  assert.deepEqual(group(AGENT, "Control").map(({ type }) => type), ["if", "if_else", "repeat"]);
+});

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { identifier } from "../../../web/blocks/words.js";
+import { AND, ANY, ATOM, COMPARISON, identifier, NOT, OR, PRODUCT, SIGN, SUM } from "../../../web/blocks/words.js";
 
 const named = (words, taken = []) => identifier(words, new Set(taken));
 
@@ -16,4 +16,9 @@ test("Python's own words get a mark", () => {
 test("a name that is taken gets a number, and takes it", () => {
   const taken = new Set(["count", "count_2"]);
   assert.deepEqual([identifier("count", taken), identifier("count", taken)], ["count_3", "count_4"]);
+});
+
+test("operators bind in Python's order", () => {
+  const orders = [ATOM, SIGN, PRODUCT, SUM, COMPARISON, NOT, AND, OR, ANY];
+  assert.deepEqual(orders.map((order, index) => order > (orders[index - 1] ?? -1)), orders.map(() => true));
 });

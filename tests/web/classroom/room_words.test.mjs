@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { clock, counted, needsHelp, roomName, seatsOf, statusOf } from "../../../web/classroom/room_words.js";
+import { counted, needsHelp, roomName, seatsOf, statusOf } from "../../../web/classroom/room_words.js";
 
 const SEATS = ["Red Fox", "Calm Owl", "Blue Jay", "Old Elk"].map((name, index) => ({ number: index, name, state: index === 3 ? "out" : "in" }));
 const room = (...seats) => ({ seats });
@@ -21,10 +21,6 @@ test("a status has a word and a sign, an unknown one its own", () => {
 
 test("a card is marked from a need of 30 on", () => {
   assert.deepEqual([{ help: 30 }, { help: 29 }, {}].map(needsHelp), [true, false, false]);
-});
-
-test("a clock rounds up, and never runs below zero", () => {
-  assert.deepEqual([-1, 0, 0.1, 59, 59.5, 125].map(clock), ["0:00", "0:00", "0:01", "0:59", "1:00", "2:05"]);
 });
 
 test("one of a thing has no s", () => {

@@ -5,8 +5,9 @@ import { answerWith, openWindow, send, settle } from "../browser.mjs";
 
 mock.timers.enable({ apis: ["setTimeout"] });
 openWindow("http://class.example/r/a1/");
-const { ClassPrograms, roomOfPage } = await import("../../../web/classroom/student/programs.js");
+const { ClassPrograms } = await import("../../../web/classroom/student/programs.js");
 const { handoutFor, handouts, noteHandout } = await import("../../../web/classroom/student/handout.js");
+const { roomOfPage } = await import("../../../web/shared/room.js");
 const { forget } = await import("../../../web/shared/storage.js");
 const NONE = { body: { source: null, version: 0, is_of_device: false } };
 const ofClass = (source, version, isOfDevice = false) => ({ body: { source, version, is_of_device: isOfDevice } });
@@ -116,6 +117,27 @@ test("a teacher who looks in saves nothing", async () => {
   mock.timers.tick(60_000);
   await settle();
   assert.equal(puts(asked).length, 0);
+});
+
+test("a device has one id, which the class sees again and again", async () => {
+  const asked = answerWith(NONE, { body: { version: 1 } });
+  programs.open("sumo", "0");
+  await settle();
+  programs.ran("a");
+  mock.timers.tick(0);
+  await settle();
+  const { device } = puts(asked)[0];
+  assert.match(device, /^[0-9a-f]{24}$/);
+  assert.equal(new URL(asked[0].url, "http://class.example/r/a1/").searchParams.get("device"), device);
+  assert.equal(programs.element.hidden, false);
+});
+
+test("a place that was only opened takes the class's program again, one that was changed keeps its own", async () => {
+  answerWith(ofClass("theirs", 4), { body: { version: 5 } });
+  programs.open("sumo", "0");
+  programs.changed("mine");
+  await settle();
+  assert.deepEqual(log, ["keep theirs"]);
 });
 
 test("a page that is closed sends what waits", async () => {

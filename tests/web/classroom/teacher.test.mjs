@@ -6,7 +6,7 @@ import { answerWith, openWindow } from "../browser.mjs";
 const { kept } = openWindow();
 const { parseNames, RealNames } = await import("../../../web/classroom/teacher/real_names.js");
 const { command } = await import("../../../web/classroom/teacher/command.js");
-const { ago } = await import("../../../web/classroom/teacher/room_programs.js");
+const { ago, programFacts, programsOf } = await import("../../../web/classroom/teacher/room_programs.js");
 
 test("a table of names may have commas, semicolons, tabs and quotes", () => {
   const text = '\ufeff3,Ada Lovelace\r\nRed  Fox;"Hopper, Grace ""Amazing"""\n Calm Owl \t Alan\n\nOnly a seat,\n,Only a name';
@@ -51,4 +51,21 @@ test("the age of a program is in the largest unit that fits", () => {
   assert.deepEqual([0, 59, 60, 119, 7200, 86_400].map(ago), [
     "changed just now", "changed just now", "changed 1 minute ago", "changed 1 minute ago", "changed 2 hours ago", "changed 1 day ago",
   ]);
+});
+
+test("a program is told with its scene, with its robot where there are several, and with its age", () => {
+  const scenes = [{ name: "soccer", title: "Soccer" }, { name: "sumo", title: "Sumo" }];
+  assert.equal(programFacts({ scene: "sumo", agent: "0", age: 0 }, { scenes }), "Sumo · changed just now");
+  assert.equal(programFacts({ scene: "mine", agent: "2", age: 60 }, {}), "mine · robot 2 · changed 1 minute ago");
+});
+
+test("programs are asked for by room, and a failure has a sentence", async () => {
+  const asked = answerWith({ body: [{ seat: 1 }] });
+  assert.deepEqual(await programsOf("a b"), [{ seat: 1 }]);
+  assert.equal(asked[0].url, "./teacher/programs?room=a%20b");
+  answerWith({ status: 404, body: { problem: "There is no such room." } });
+  await assert.rejects(programsOf("a"), { message: "There is no such room." });
+  await assert.rejects(programsOf(""), (error) => !/no such room/.test(error.message));
+  answerWith(new TypeError("offline"));
+  await assert.rejects(programsOf("a"), /can't be reached/);
 });

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { codeLimits } from "../../../web/code/limits.js";
 import { outcomeOf, WorldSpeed } from "../../../web/code/speed.js";
+import { limits } from "../../../web/shared/limits.js";
 import { settle } from "../browser.mjs";
 
 class FakePanel extends EventTarget {
@@ -73,7 +73,7 @@ test("without a word in time the episode is just over", async () => {
   mock.timers.enable({ apis: ["setTimeout"] });
   let word = null;
   outcomeOf(panel, { step: 7 }, 3).then((outcome) => (word = outcome));
-  mock.timers.tick(codeLimits.outcomeMs - 1);
+  mock.timers.tick(limits.outcomeMs - 1);
   await settle();
   assert.equal(word, null);
   mock.timers.tick(1);

@@ -1,13 +1,13 @@
 import assert from "node:assert/strict";
 import { mock, test } from "node:test";
 
-import { pageLimits } from "../../../web/shared/limits.js";
+import { limits } from "../../../web/shared/limits.js";
 import { retried } from "../../../web/shared/retry.js";
 import { settle } from "../browser.mjs";
 
 test("it tries again after pauses that double, and then gives up", async () => {
   mock.timers.enable({ apis: ["setTimeout"] });
-  pageLimits.retryMs = 10;
+  limits.retryMs = 10;
   let tries = 0;
   const end = assert.rejects(retried(() => Promise.reject(new Error(`try ${(tries += 1)}`))), /try 5/);
   const seen = [];

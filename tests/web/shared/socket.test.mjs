@@ -28,7 +28,7 @@ globalThis.WebSocket = class {
   }
 };
 const { JsonSocket } = await import("../../../web/shared/socket.js");
-const { pageLimits } = await import("../../../web/shared/limits.js");
+const { limits } = await import("../../../web/shared/limits.js");
 let socket;
 let log;
 
@@ -99,7 +99,7 @@ test("a network that comes back is tried at once, and only once", () => {
 });
 
 test("a connection that does not open is given up", () => {
-  mock.timers.tick(pageLimits.openMs - 1);
+  mock.timers.tick(limits.openMs - 1);
   assert.deepEqual(log, []);
   mock.timers.tick(1);
   assert.deepEqual(log, ["close"]);
@@ -108,11 +108,11 @@ test("a connection that does not open is given up", () => {
 test("silence counts only after a keepalive, which is no message", () => {
   sockets[0].connect();
   sockets[0].onmessage({ data: '{"type":"state"}' });
-  mock.timers.tick(10 * pageLimits.silenceMs);
+  mock.timers.tick(10 * limits.silenceMs);
   sockets[0].onmessage({ data: '{"type":"keepalive"}' });
-  mock.timers.tick(pageLimits.silenceMs - 1);
+  mock.timers.tick(limits.silenceMs - 1);
   sockets[0].onmessage({ data: '{"type":"state"}' });
-  mock.timers.tick(pageLimits.silenceMs - 1);
+  mock.timers.tick(limits.silenceMs - 1);
   assert.deepEqual(log, ["open", { type: "state" }, { type: "state" }]);
   mock.timers.tick(1);
   assert.deepEqual(log.at(-1), "close");

@@ -1,6 +1,7 @@
 /** The page on which a student joins a class. */
 
 import { element } from "../../shared/dom.js";
+import { randomId } from "../../shared/ids.js";
 
 const find = (selector) => document.querySelector(selector);
 const code = find("#code");
@@ -85,10 +86,4 @@ function requestId() {
   } catch {
     return randomId(); // storage is blocked here
   }
-}
-
-/** crypto.randomUUID() is missing on pages that come by http. */
-function randomId() {
-  const bytes = crypto.getRandomValues(new Uint8Array(16));
-  return Array.from(bytes, (each) => each.toString(16).padStart(2, "0")).join("");
 }

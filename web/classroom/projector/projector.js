@@ -1,10 +1,11 @@
 /** The projector page: what the teacher shows to all. */
 
+import { clock } from "../../shared/numbers.js";
 import { openClassSocket } from "../socket.js";
 import { Countdown } from "../strips.js";
 import { element, keyed, setText } from "../../shared/dom.js";
 import { Podium, soundButton } from "./podium.js";
-import { clock, counted } from "../room_words.js";
+import { counted } from "../room_words.js";
 import { ProjectedTournament } from "./tournament.js";
 import { Wall } from "../wall/wall.js";
 

@@ -4,11 +4,12 @@
  * The page of a world without a class never makes one.
  */
 
-import { BlankScreen, clockText, RaceCountdown } from "./overlay.js";
+import { clock } from "../../shared/numbers.js";
+import { BlankScreen, RaceCountdown } from "./overlay.js";
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { showHandIn } from "./hand_in_dialog.js";
 import { icon } from "../../shared/icons.js";
-import { ask, tell } from "../../shared/question.js";
+import { ask, tell } from "../../shared/dialog.js";
 
 /** Interval at which countdowns are drawn (ms). */
 const TICK_MS = 200;
@@ -95,7 +96,7 @@ export class ClassBar {
     const { attention, role, race } = this.#event;
     const now = performance.now();
     const isOver = now >= this.#attentionEndsAt;
-    const left = Number.isFinite(this.#attentionEndsAt) && !isOver ? clockText(this.#attentionEndsAt - now) : "";
+    const left = Number.isFinite(this.#attentionEndsAt) && !isOver ? clock((this.#attentionEndsAt - now) / 1000) : "";
     const isAny = Boolean(attention.kind || attention.message) && !isOver;
     if (isOver) setText(this.#message, "");
     setText(this.#time, isAny && left ? `${attention.kind ? "Goes on in " : ""}${left}` : "");

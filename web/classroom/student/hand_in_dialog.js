@@ -2,7 +2,7 @@
 
 import { element, keyed, setText } from "../../shared/dom.js";
 import { field, select, showForm } from "../../shared/form_dialog.js";
-import { tell } from "../../shared/question.js";
+import { tell } from "../../shared/dialog.js";
 
 const ADDRESS = "../../api/network";
 /** Interval at which the class is asked for the verdict on a network (ms). */

@@ -7,12 +7,6 @@ const GO_MS = 900;
 /** How long its words are there for screen readers (ms). */
 const GO_WORDS_MS = 3000;
 
-/** Return a time in milliseconds as a countdown, such as "1:05". */
-export function clockText(ms) {
-  const seconds = Math.ceil(ms / 1000);
-  return `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
-}
-
 /** A screen that hides the page, and keeps focus and keys, until the teacher ends it. */
 export class BlankScreen {
   #message = element("p", { className: "ai4u-blank-message", id: "ai4u-blank-message" });

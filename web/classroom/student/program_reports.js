@@ -1,6 +1,6 @@
 /** Tells the class how the person's program runs, and which mistake stopped it: the teacher sees who needs help. */
 
-import { roomOfPage } from "./programs.js";
+import { roomOfPage } from "../../shared/room.js";
 
 const ADDRESS = "../../api/program/run";
 /** Delay before the class is told again if it can't be reached (ms). */

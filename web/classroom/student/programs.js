@@ -7,6 +7,8 @@
  */
 
 import { element, setText } from "../../shared/dom.js";
+import { randomId } from "../../shared/ids.js";
+import { roomOfPage } from "../../shared/room.js";
 import { recall, remember } from "../../shared/storage.js";
 
 /** Pause in typing after which a program is saved (ms). */
@@ -19,11 +21,6 @@ const MAX_SCENE_NAME_CHARS = 200;
 const ADDRESS = "../../api/program";
 const NEWER = "The class has a newer program of yours, from another device. It is among the earlier runs.";
 const UNREACHABLE = "The class can't be reached. Your program is kept in this browser, and saved there later.";
-
-/** Return the id of the room in the page's address; "" for a page without a class. */
-export function roomOfPage() {
-  return /\/r\/([\w-]+)\//.exec(location.pathname)?.[1] ?? "";
-}
 
 export class ClassPrograms {
   /** Where the present program is kept, in words. */
@@ -240,7 +237,7 @@ function deviceId() {
   const key = `code-device-${roomOfPage()}`;
   const known = recall(key, "");
   if (typeof known === "string" && /^[\w-]{1,64}$/.test(known)) return known;
-  const made = [...crypto.getRandomValues(new Uint8Array(12))].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+  const made = randomId(12);
   remember(key, made);
   return made;
 }

@@ -4,8 +4,8 @@
  * Only a page of a class does this; elsewhere nothing is sent. Where the two differ, the larger number counts.
  */
 
-import { roomOfPage } from "./programs.js";
 import { allStars, earn, stars } from "../../scenes/stars.js";
+import { roomOfPage } from "../../shared/room.js";
 
 const ADDRESS = "../../api/stars";
 /** Delay before the class is asked again if it can't be reached (ms). */

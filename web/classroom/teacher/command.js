@@ -1,6 +1,6 @@
 /** Commands of the teacher's page. */
 
-import { tell } from "../../shared/question.js";
+import { tell } from "../../shared/dialog.js";
 
 const UNREACHABLE = "The class can't be reached. Is its program still running?";
 

@@ -3,7 +3,7 @@
 import { commandOrTell } from "./command.js";
 import { element, keyed, setText } from "../../shared/dom.js";
 import { showMoveCode } from "./move_code_dialog.js";
-import { ask } from "../../shared/question.js";
+import { ask } from "../../shared/dialog.js";
 
 /** Words by a seat's state; "in" needs none. */
 const STATES = { left: "left", kicked: "sent out; may join again", banned: "may not come back" };

@@ -1,7 +1,7 @@
 /** The dialog with the code for a seat whose browser has lost it, or that was sent out. */
 
 import { command } from "./command.js";
-import { ask, tell } from "../../shared/question.js";
+import { ask, tell } from "../../shared/dialog.js";
 
 export async function showMoveCode(seat) {
   try {

@@ -1,6 +1,6 @@
 /** The tables of progress: students by exercises, and the stars of their programs by scenes. */
 
-import { element, setText } from "../../shared/dom.js";
+import { element, setText, tableHead } from "../../shared/dom.js";
 import { counted } from "../room_words.js";
 import { starRow } from "../../scenes/stars.js";
 
@@ -52,8 +52,7 @@ export class ProgressTable {
     const shown = scenes.filter(({ name }) => begun.has(name));
     const rows = students.filter(({ number }) => stars[number]);
     if (shown.length === 0 || rows.length === 0) return null;
-    const heads = shown.map(({ title }) => element("th", { scope: "col", textContent: title }));
-    const head = element("tr", {}, element("th", { scope: "col", textContent: "Stars of programs" }), ...heads);
+    const head = tableHead("Stars of programs", ...shown.map(({ title }) => title));
     const body = rows.map((seat) => {
       const note = element("span", { className: "ai4u-facts", textContent: this.#realNames.of(seat) });
       const cells = shown.map(({ name, stars: total }) => {
@@ -63,7 +62,7 @@ export class ProgressTable {
       const title = element("span", { className: "ai4u-name", textContent: seat.name });
       return element("tr", {}, element("th", { scope: "row" }, title, note), ...cells);
     });
-    const table = element("table", { className: "ai4u-progress" }, element("thead", {}, head), element("tbody", {}, ...body));
+    const table = element("table", { className: "ai4u-progress" }, head, element("tbody", {}, ...body));
     return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Stars of programs" }, table);
   }
 

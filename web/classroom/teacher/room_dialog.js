@@ -1,13 +1,14 @@
 /** The dialog of one room: how it goes, and what the teacher can do about it. */
 
+import { clock } from "../../shared/numbers.js";
 import { showAssign } from "./assign_dialog.js";
 import { command, commandOrTell } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choices, chosenIn, closeDialogOf, showForm } from "../../shared/form_dialog.js";
 import { showMoveCode } from "./move_code_dialog.js";
-import { ask, tell } from "../../shared/question.js";
+import { ask, tell } from "../../shared/dialog.js";
 import { showPrograms } from "./room_programs.js";
-import { clock, counted, roomName, seatsOf, statusOf } from "../room_words.js";
+import { counted, roomName, seatsOf, statusOf } from "../room_words.js";
 
 export function showRoom(room, state, realNames) {
   const seats = seatsOf(room, state);

@@ -1,7 +1,7 @@
 /** The tournament on the teacher's page: who handed in what, its start and end, and its results. */
 
 import { commandOrTell } from "../teacher/command.js";
-import { element } from "../../shared/dom.js";
+import { element, tableHead } from "../../shared/dom.js";
 import { counted } from "../room_words.js";
 import { showBegin, showStart } from "./dialogs.js";
 import { contestLine, dot, standingsTable } from "./tables.js";
@@ -90,9 +90,9 @@ export class TournamentBoard {
     const names = without.map((seat) => this.#nameOf(seat)).join(", ");
     const rest = element("p", { className: "ai4u-facts", textContent: without.length ? `Nothing yet from ${counted(without.length, "student")}: ${names}` : "" });
     if (rows.length === 0) return [rest];
-    const heads = ["Student", "Network", "Check"].map((text) => element("th", { scope: "col", textContent: text }));
     const caption = element("caption", { textContent: "Handed in" });
-    return [element("table", { className: "ai4u-networks" }, caption, element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...rows)), rest];
+    const head = tableHead("Student", "Network", "Check");
+    return [element("table", { className: "ai4u-networks" }, caption, head, element("tbody", {}, ...rows)), rest];
   }
 
   #row(seat, { part, file, verdict, reason }) {

@@ -1,9 +1,8 @@
 /** The rewards of an agent: each term's last and summed reward, and the curve of the episode. */
 
-import { element, keyed, setText } from "../../shared/dom.js";
+import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { Curve } from "../widgets/curve.js";
 import { number } from "../../shared/numbers.js";
-
 
 export class RewardTable {
   #help = element("p", { className: "ai4u-soft" });
@@ -14,14 +13,8 @@ export class RewardTable {
   element;
 
   constructor() {
-    const heads = ["Reward", "Last decision", "Episode"].map((text) => element("th", { scope: "col", textContent: text }));
-    const table = element(
-      "table",
-      { className: "ai4u-table" },
-      element("thead", {}, element("tr", {}, ...heads)),
-      this.#rows,
-      element("tfoot", {}, this.#total),
-    );
+    const head = tableHead("Reward", "Last decision", "Episode");
+    const table = element("table", { className: "ai4u-table" }, head, this.#rows, element("tfoot", {}, this.#total));
     this.#curve.element.classList.add("ai4u-details-only");
     this.element = element("div", {}, this.#help, table, this.#latest, this.#curve.element);
   }

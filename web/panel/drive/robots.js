@@ -1,6 +1,6 @@
 /** All robots of the world, and the script that drives one of them. */
 
-import { element, keyed, setText } from "../../shared/dom.js";
+import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { number } from "../../shared/numbers.js";
 
 const HEADS = ["Robot", "Decisions", "Score", "State"];
@@ -17,12 +17,7 @@ const COUNTS = {
 /** A table of the robots, with what each of them has done in its episode. */
 export class RobotTable {
   #rows = element("tbody");
-  element = element(
-    "table",
-    { className: "ai4u-table" },
-    element("thead", {}, element("tr", {}, ...HEADS.map((text) => element("th", { scope: "col", textContent: text })))),
-    this.#rows,
-  );
+  element = element("table", { className: "ai4u-table" }, tableHead(...HEADS), this.#rows);
 
   /** @param robots [{id, title, colour, decision, score, state}] */
   update(robots) {

@@ -1,9 +1,10 @@
 /** Two drivers on the chosen episode: where they first disagree, by how much, and because of what. */
 
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow } from "../widgets/bars.js";
 import { Curve } from "../widgets/curve.js";
-import { choice, freeId, section } from "../widgets/parts.js";
+import { choice, section } from "../widgets/parts.js";
 
 export class Comparison {
   #panel;

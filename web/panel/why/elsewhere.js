@@ -1,8 +1,9 @@
 /** "If it stood here": another pose, dragged in the world or entered, and the action that would follow. */
 
 import { button, element, setText } from "../../shared/dom.js";
+import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow } from "../widgets/bars.js";
-import { freeId, toggle } from "../widgets/parts.js";
+import { toggle } from "../widgets/parts.js";
 
 /** Time without a change after which the action is asked for. */
 const PAUSE_MS = 40;

@@ -1,9 +1,10 @@
 /** "What if": other values for the numbers that an agent senses, and the action that would follow. */
 
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow } from "../widgets/bars.js";
 import { number } from "../../shared/numbers.js";
-import { choice, freeId } from "../widgets/parts.js";
+import { choice } from "../widgets/parts.js";
 
 /** Time without a change after which the action is asked for. */
 const PAUSE_MS = 40;

@@ -2,7 +2,7 @@
 
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { icon } from "../../shared/icons.js";
-import { freeId } from "./parts.js";
+import { freeId } from "../../shared/ids.js";
 
 export class Card {
   #onToggle;

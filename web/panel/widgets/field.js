@@ -1,7 +1,7 @@
 /** One field of a form: label, control, unit, hint and problem. */
 
 import { element, setAttributes, setText } from "../../shared/dom.js";
-import { freeId } from "./parts.js";
+import { freeId } from "../../shared/ids.js";
 
 /** A text of more characters, or of several lines, gets a text area. */
 const MAX_LINE_CHARS = 40;

@@ -2,15 +2,8 @@
 
 import { element, setAttributes, setText } from "../../shared/dom.js";
 import { icon } from "../../shared/icons.js";
+import { freeId } from "../../shared/ids.js";
 import { recall, remember } from "../../shared/storage.js";
-
-let lastId = 0;
-
-/** Return an id that no other element has. */
-export function freeId() {
-  lastId += 1;
-  return `ai4u-${lastId}`;
-}
 
 /** A section that folds, and remembers it. Put more children into `.content`. */
 export function section(key, title, { isOpen = true, detailsOnly = false } = {}, ...children) {

@@ -1,7 +1,7 @@
 /** Buttons to save, download and open a scene, and the offer of an unsaved one. */
 
 import { button, element, setText } from "../../shared/dom.js";
-import { freeId } from "../widgets/parts.js";
+import { freeId } from "../../shared/ids.js";
 import { section } from "../widgets/parts.js";
 import { copyLink, isThisComputer } from "../../scenes/share.js";
 
