@@ -6,9 +6,9 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from ai4u_edu import Scene
-from ai4u_edu.recording.snapshot import capture_snapshot
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
-from ai4u_edu.recording.snapshot.theme import VOID
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot.theme import VOID
 
 PICTURE = Path(__file__).parent / "pictures" / "scenes.png"
 COLUMNS = 5

@@ -1,9 +1,9 @@
 import numpy as np
 
 from ai4u_edu import Scene
-from ai4u_edu.recording.snapshot import capture_snapshot
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
-from ai4u_edu.recording.snapshot.theme import SPOT_LIT, SPOT_UNLIT
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_UNLIT
 from tests.gallery import COLUMNS, GAP_PX, TILE_PX, contact_sheet
 
 

@@ -12,8 +12,8 @@ from ai4u_edu.games.jobs import Job
 from ai4u_edu.games.jobs.isolated import IsolatedJobs
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
-from ai4u_edu.recording.snapshot.outcome import outcome
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot.outcome import outcome
 
 MAX_CHECK_CPU_S = 30.0
 """Processor time in which an episode must be replayed; a longer one is refused. Wall time does not

@@ -13,7 +13,7 @@ from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, middle_of_infos, parts_of
 from ai4u_edu.explain.occlusion import occlusion
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.sentence import Axis, axes_of, sentence
-from ai4u_edu.recording.snapshot import AgentState
+from ai4u_edu.snapshot import AgentState
 
 
 class Comparison(NamedTuple):

@@ -15,8 +15,8 @@ from ai4u_edu.explain.map_maker import SceneOf
 from ai4u_edu.explain.moment import Moment
 from ai4u_edu.explain.sentence import Axis, axes_of
 from ai4u_edu.explain.world_copy import WorldCopy
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.snapshot import Snapshot
 
 
 class Pose(NamedTuple):

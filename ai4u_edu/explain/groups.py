@@ -9,7 +9,7 @@ import numpy.typing as npt
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import CodeLegend, RayPicture, SpotPicture
-from ai4u_edu.recording.snapshot.block_info import SensorInfo, block_info_of, sensor_pictures_of
+from ai4u_edu.snapshot.block_info import SensorInfo, block_info_of, sensor_pictures_of
 
 Kind = Literal["slot", "sensor"]
 KINDS = ("slot", "sensor")

@@ -26,8 +26,8 @@ from ai4u_edu.explain.sentence import (
     shares_of,
 )
 from ai4u_edu.explain.what_if import Changes, WhatIf, what_if
-from ai4u_edu.recording.snapshot import AgentState, Snapshot
-from ai4u_edu.recording.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot.block_info import SensorInfo
 
 EXPLANATIONS_PER_S = 5.0
 """Explanations of each agent that a page asks about."""

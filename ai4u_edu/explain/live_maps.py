@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ai4u_edu.explain.live import INTEREST_S, LiveExplainer
 from ai4u_edu.explain.map_maker import LiveMap, MapMaker, MapRequest, SceneOf
 from ai4u_edu.explain.pacing import Pacing, StoppedError
-from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot
 
 RUNNING_SHARE = 0.08
 """Share of one processor that maps may take while the world runs."""

@@ -17,8 +17,8 @@ from ai4u_edu.explain.pacing import StoppedError
 from ai4u_edu.explain.policy import Floats
 from ai4u_edu.explain.value_map import source_of, value_at
 from ai4u_edu.explain.world_copy import Poses, WorldCopy
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.snapshot import Snapshot
 
 CELLS, ROLLOUT_CELLS = 200, 100
 """Places of a map, about; of one whose values are rollouts, each of which takes long."""

@@ -9,8 +9,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Brain
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.snapshot import Snapshot
 
 
 class Place(NamedTuple):

@@ -9,8 +9,8 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.explain.groups import Group
 from ai4u_edu.explain.occlusion import Occlusion
-from ai4u_edu.recording.snapshot.block_info import ActuatorInfo, block_info_of
-from ai4u_edu.recording.snapshot.numbers import number
+from ai4u_edu.snapshot.block_info import ActuatorInfo, block_info_of
+from ai4u_edu.snapshot.numbers import number
 
 MIN_SHARE = 0.05
 """Share of a component's range that a movement needs to be told."""

@@ -13,8 +13,8 @@ from ai4u_edu.explain.groups import groups_of
 from ai4u_edu.explain.occlusion import changed_percept
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.sentence import Axis, axes_of
-from ai4u_edu.recording.snapshot import AgentState
-from ai4u_edu.recording.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot import AgentState
+from ai4u_edu.snapshot.block_info import SensorInfo
 
 MAX_DIALS = 128
 """Most numbers of one percept that can be changed by hand; those of larger readings can't."""

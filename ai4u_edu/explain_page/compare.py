@@ -24,7 +24,7 @@ from ai4u_edu.page.panel.commands.past import chosen_episode
 from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.recording.frame_cache import FrameCache
-from ai4u_edu.recording.snapshot import AgentState
+from ai4u_edu.snapshot import AgentState
 
 NOT_COMPARED = ("recording:", "ai4u://", "Keyboard: ")
 """Beginnings of the names and titles of drivers that are no policies."""

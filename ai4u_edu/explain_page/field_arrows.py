@@ -11,7 +11,7 @@ from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot.theme import Rgb
 
 MIN_TURN_RAD = 0.02
 """Turn of a decision from which an arrow has the colour of its side."""

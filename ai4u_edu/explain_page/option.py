@@ -27,11 +27,11 @@ from ai4u_edu.page.viewer.backend.part import Part
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.snapshot import Snapshot
 
 EXPORT_TIMEOUT_S = 2.0
 """Time that the world's thread has to describe its world."""

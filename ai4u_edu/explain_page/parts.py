@@ -9,7 +9,7 @@ from ai4u_edu.explain.live import Why
 from ai4u_edu.explain.map_colours import CIVIDIS, value_range
 from ai4u_edu.explain.map_maker import LiveMap
 from ai4u_edu.explain.sentence import MIN_SHARE
-from ai4u_edu.recording.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.world import AreaDescription, BodyDescription
 
 TOP_SLOTS = 6

@@ -22,8 +22,8 @@ from ai4u_edu.page.viewer.scene.light import line_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.world import BodyDescription
 
 INK = rgb("purple")

@@ -12,8 +12,8 @@ from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives, obse
 from ai4u_edu.lessons.student_errors import mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 
 def film(

@@ -8,8 +8,8 @@ from PIL import Image, ImageDraw
 
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.recording import Episode, Replay
-from ai4u_edu.recording.snapshot import Snapshot
-from ai4u_edu.recording.snapshot.raster import MARGIN_M, draw_snapshot
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.raster import MARGIN_M, draw_snapshot
 
 PICTURE_SIZE_PX = 320
 """Longer side of a picture, pixels."""

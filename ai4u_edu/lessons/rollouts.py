@@ -12,8 +12,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, Controller, LocalBrain
 from ai4u_edu.lessons.exercise import NotYet, named
 from ai4u_edu.lessons.pictures import picture
-from ai4u_edu.recording.snapshot import Snapshot, capture_agent, capture_snapshot
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import Snapshot, capture_agent, capture_snapshot
 
 DEFAULT_MAX_DECISIONS = 600
 """Decisions after which an episode is truncated in a scene without a limit."""

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.snapshot import AgentState, capture_agent
-from ai4u_edu.recording.snapshot.agent_words import driver_title
-from ai4u_edu.recording.snapshot.outcome import outcome
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import AgentState, capture_agent
+from ai4u_edu.snapshot.agent_words import driver_title
+from ai4u_edu.snapshot.outcome import outcome
 
 logger = logging.getLogger(__name__)
 

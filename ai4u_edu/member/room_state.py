@@ -11,8 +11,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.member.episode_watch import driver_of
-from ai4u_edu.recording.snapshot import Snapshot
-from ai4u_edu.recording.snapshot.outcome import outcome
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.outcome import outcome
 from ai4u_edu.wire.class_link import State, Status
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 

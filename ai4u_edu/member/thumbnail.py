@@ -3,8 +3,8 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.marks import (
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import (
     DARK,
     EYES,
     LIGHT,
@@ -14,7 +14,7 @@ from ai4u_edu.recording.snapshot.marks import (
     RING_CENTRE,
     half_width,
 )
-from ai4u_edu.recording.snapshot.theme import FLOOR, Rgb, area_fill, body_colour, floor_colour
+from ai4u_edu.snapshot.theme import FLOOR, Rgb, area_fill, body_colour, floor_colour
 from ai4u_edu.wire.class_link import BodyDrawing, Drawing, Poses, Shape
 from ai4u_edu.wire.validation import MAX_ENTRIES
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape

@@ -10,7 +10,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.recording.snapshot import (
+from ai4u_edu.snapshot import (
     AgentState,
     BodyState,
     Snapshot,

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot import Snapshot, StaticScene
 
 
 @dataclass(frozen=True, eq=False)

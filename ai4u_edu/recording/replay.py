@@ -13,13 +13,13 @@ from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.recorder import Recorder
 from ai4u_edu.recording.scene_export import export_scene, without_brains
-from ai4u_edu.recording.snapshot import (
+from ai4u_edu.recording.verdict import Verdict, compare
+from ai4u_edu.snapshot import (
     Snapshot,
     StaticScene,
     capture_snapshot,
     capture_static_scene,
 )
-from ai4u_edu.recording.verdict import Verdict, compare
 
 CACHED_MOMENTS = 100
 """Moments that are cached before one that was stepped back to."""

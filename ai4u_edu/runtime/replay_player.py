@@ -6,8 +6,8 @@ from concurrent.futures import Future, wait
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.recording import Archive, ArchiveEntry, RecordingError
 from ai4u_edu.recording.frame_cache import FrameCache
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 
 RUNNING_EPISODE = 0
 """Number of the episode that is still running."""

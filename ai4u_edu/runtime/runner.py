@@ -16,7 +16,6 @@ from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.recording.scene_export import without_unknown_brains
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.runtime.clock import Clock, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
 from ai4u_edu.runtime.episode_clock import EpisodeClock
@@ -27,6 +26,7 @@ from ai4u_edu.runtime.start_wait import StartWait
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 T = TypeVar("T")
 logger = logging.getLogger(__name__)

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene, capture_static_scene
 from ai4u_edu.runtime.frame_budget import FrameBudget
+from ai4u_edu.snapshot import Snapshot, StaticScene, capture_static_scene
 
 
 class SnapshotPublisher:

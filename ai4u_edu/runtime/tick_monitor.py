@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_frames import Place, calls_of_thread, find_place
-from ai4u_edu.recording.snapshot import SlowTick
+from ai4u_edu.snapshot import SlowTick
 
 logger = logging.getLogger(__name__)
 

@@ -36,10 +36,10 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.page.viewer import Viewer
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.load.clients import is_picture
 
 AGENTS, BODIES, RAYS = 8, 30, 64

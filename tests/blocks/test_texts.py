@@ -14,9 +14,9 @@ from ai4u_edu.blocks.brains.links.link import ReadingSpec
 from ai4u_edu.learn.envs.spaces_of import Observer
 from ai4u_edu.page.server.scripts.welcome import ObservationSubset
 from ai4u_edu.recording.checksum import percept_checksum
-from ai4u_edu.recording.snapshot import capture_snapshot
 from ai4u_edu.remote import connect
 from ai4u_edu.remote.spaces import reading_space
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.wire import native
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.texts import unpack_texts

@@ -10,8 +10,8 @@ from playwright.sync_api import Browser, Page, expect
 from ai4u_edu import Scene
 from ai4u_edu.page.viewer.scene.arena import camera_bounds
 from ai4u_edu.page.viewer.scene.framing import frame_arena
-from ai4u_edu.recording.snapshot import capture_static_scene
-from ai4u_edu.recording.snapshot.theme import SPOT_LIT
+from ai4u_edu.snapshot import capture_static_scene
+from ai4u_edu.snapshot.theme import SPOT_LIT
 from tests.browser.keys import where
 from tests.browser.served_viser import record_texts
 from tests.browser.whole import (

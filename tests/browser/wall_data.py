@@ -10,8 +10,8 @@ from ai4u_edu.classroom.names import COLOURS, words_of
 from ai4u_edu.classroom.teacher import join_code
 from ai4u_edu.member.thumbnail import drawing_of, poses_of
 from ai4u_edu.page.server.library_pictures import picture_address
-from ai4u_edu.recording.snapshot import capture_snapshot
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.wire.class_link import Drawing, Poses
 
 CODE = "KVBTM"

@@ -31,7 +31,7 @@ PACKAGES = (
     "ai4u_edu.remote",
     "ai4u_edu.room",
     "ai4u_edu.scenes",
-    "ai4u_edu.recording.snapshot",
+    "ai4u_edu.snapshot",
     "ai4u_edu.learn.training",
     "ai4u_edu.world",
 )

@@ -12,7 +12,7 @@ from ai4u_edu.base.errors import NameNotFoundError
 from ai4u_edu.blocks.docs import KINDS, built_in_blocks, parameter_rows, summary
 from ai4u_edu.check import standard_scene
 from ai4u_edu.page.panel.gallery import words_of
-from ai4u_edu.recording.snapshot.block_info import block_info_of
+from ai4u_edu.snapshot.block_info import block_info_of
 from tests.check.samples import INSIDE_OTHERS, sample_of
 from tests.docs_site import block_pictures, rst
 from tests.docs_site.block_pictures import units_of

@@ -13,10 +13,10 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import ChannelLegend, Legend
 from ai4u_edu.check.rollout import fresh
 from ai4u_edu.lessons.pictures import picture
-from ai4u_edu.recording.snapshot import capture_snapshot, theme
-from ai4u_edu.recording.snapshot.block_info import SensorInfo, block_info_of
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
-from ai4u_edu.recording.snapshot.reading_cells import GREYS, shaded, split_stack
+from ai4u_edu.snapshot import capture_snapshot, theme
+from ai4u_edu.snapshot.block_info import SensorInfo, block_info_of
+from ai4u_edu.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot.reading_cells import GREYS, shaded, split_stack
 
 WORLD_PX, PANEL_PX, GAP_PX = 360, 300, 16
 """Longer side of the world's picture, width of the reading's, space between them."""

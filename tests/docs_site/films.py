@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from PIL import Image
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.scenes.solvers import solver_of
 
 SIDE_PX = 320

@@ -13,7 +13,7 @@ from ai4u_edu.explain import groups_of_agent, mean_of, middle_of, occlusion
 from ai4u_edu.explain import live as live_explainer
 from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, Driver, LiveExplainer, Why
 from ai4u_edu.explain.occlusion import changed_percept
-from ai4u_edu.recording.snapshot import AgentState, capture_snapshot, capture_static_scene
+from ai4u_edu.snapshot import AgentState, capture_snapshot, capture_static_scene
 from tests.explain.test_sentence import turns_for_ray
 from tests.explain.worlds import robot_and_box
 from tests.waiting import until

@@ -18,8 +18,8 @@ from ai4u_edu.explain.moment import Moment
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.world_copy import WorldCopy
 from ai4u_edu.recording.scene_export import export_scene
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot, capture_static_scene
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.snapshot import Snapshot, capture_snapshot, capture_static_scene
 from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
 from tests.waiting import until

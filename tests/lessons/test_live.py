@@ -179,7 +179,7 @@ def test_a_film_moves_and_says_how_it_ended(shown: list[tuple[str, str, str]]) -
 
 def test_a_film_shows_the_end_of_a_long_episode() -> None:
     from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, moving
-    from ai4u_edu.recording.snapshot import capture_snapshot
+    from ai4u_edu.snapshot import capture_snapshot
 
     (done,) = drives("box_chase", drive, [1], limit=1)
     one = capture_snapshot(done.sim)

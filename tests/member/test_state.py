@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.member.room_state import DRIVING_S, IDLE_S, RoomState
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.wire.class_link import HEARTBEAT_S, Drawing, EpisodeResult, Poses, State, Work
 from tests.member.fake_link import Clock, Joined, joined
 from tests.waiting import LIMIT_S, until

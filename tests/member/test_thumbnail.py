@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import BoxShape, CircleShape, ControlRequestor, RingShape, Scene, World
 from ai4u_edu.member.thumbnail import MAX_BODIES, Thumbnail, drawing_of, poses_of
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.wire.class_link import Drawing, Poses, decode_from_room, encode_from_room
 from tests.builders import small_sim, small_world
 

@@ -18,7 +18,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.check.rollout import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
-from ai4u_edu.recording.snapshot import capture_bodies
+from ai4u_edu.snapshot import capture_bodies
 
 
 @dataclass

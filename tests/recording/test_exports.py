@@ -17,7 +17,7 @@ from ai4u_edu.recording import Recorder, RecordingError, Replay
 from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.recording.recorded_drives import Take, take
 
 pytestmark = pytest.mark.needs("video")

@@ -9,7 +9,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.check.rollout import RandomDrive
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.frame_cache import FrameCache
-from ai4u_edu.recording.snapshot import AgentState, Snapshot, capture_snapshot, capture_static_scene
+from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot, capture_static_scene
 from tests.recording.recorded_drives import GO, HOLD, LEFT, RESPAWN, WAIT, driver, field_of, take
 
 

@@ -12,9 +12,9 @@ from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.viewer.backend.part import Part
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot, StaticScene
 
 KEY = "greeting"
 made: "list[Greeting]" = []

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from ai4u_edu.blocks.keyboard import Keyboard
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.waiting import LIMIT_S, Deadline
 
 

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, Scene, World
-from ai4u_edu.recording.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.runtime.clock import MAX_LAG_S
 from ai4u_edu.runtime.runner import DECISION_WAIT_S, Runner
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.builders import small_sim
 from tests.runtime.clocks import ManualClock
 from tests.runtime.running import running, wait_for_tick

@@ -8,10 +8,10 @@ import pytest
 
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.recording import Archive, Recorder
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime import replay_player
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE, ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.waiting import LIMIT_S, until
 
 

@@ -19,8 +19,8 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.recording import Recorder
-from ai4u_edu.recording.snapshot import capture_bodies
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import capture_bodies
 from tests.builders import small_sim, still
 from tests.page.server.rooms import NOWHERE
 from tests.runtime.running import running, wait_for_tick

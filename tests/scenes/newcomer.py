@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ai4u_edu import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.recording.snapshot import capture_agent
+from ai4u_edu.snapshot import capture_agent
 
 REACTION_S = 0.2
 HOLD_S = 0.15

@@ -8,8 +8,8 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError
-from ai4u_edu.recording.snapshot import capture_bodies, capture_static_scene
 from ai4u_edu.scenes.serialization import OWN
+from ai4u_edu.snapshot import capture_bodies, capture_static_scene
 
 GOOD = """
 name: small

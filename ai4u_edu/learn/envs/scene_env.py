@@ -12,9 +12,9 @@ from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning, warn_of_default_agent
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.recording.snapshot import capture_snapshot
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 if TYPE_CHECKING:
     from ai4u_edu.learn.envs.live_page import LivePage

@@ -12,8 +12,8 @@ from ai4u_edu.learn.envs.env_warnings import RangeWarning
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
-from ai4u_edu.recording.snapshot import capture_snapshot
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 
 class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no types

@@ -19,7 +19,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, drive
-from ai4u_edu.recording.snapshot import capture_snapshot
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 TOP_SPEED = 8.0

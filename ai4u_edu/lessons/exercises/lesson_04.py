@@ -23,7 +23,7 @@ from ai4u_edu.lessons.numeric import chance_for, finite_number, finite_numbers, 
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
-from ai4u_edu.recording.snapshot import capture_snapshot
+from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 STATUS = ("done", "id")

@@ -14,8 +14,8 @@ from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, drive, drives, seeds_of
-from ai4u_edu.recording.snapshot import capture_snapshot
 from ai4u_edu.scenes import Scene
+from ai4u_edu.snapshot import capture_snapshot
 
 MIN_SPREAD_M, MIN_SPREAD_DEG = 0.5, 20
 """Difference of two beginnings from which on they count as different."""

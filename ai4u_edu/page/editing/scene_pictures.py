@@ -10,13 +10,13 @@ from typing import NamedTuple
 from PIL import Image
 
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
-from ai4u_edu.recording.snapshot import capture_snapshot
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import star_goals
 from ai4u_edu.scenes.yaml.file import YamlFile
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 PALETTE_SIZE = 64
 """Number of colours in a picture: scenes have few, so a picture takes 3 kB."""

@@ -13,9 +13,9 @@ from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel.page_view import Pictures
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.recording import Ghosts
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 
 MAX_CACHED = 200
 """Most texts that a cache holds; it is emptied then."""

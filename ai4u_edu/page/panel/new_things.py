@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
-from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.world import BodyDescription
 
 

@@ -12,9 +12,9 @@ from typing_extensions import TypeAliasType
 
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import RemoteStatus
-from ai4u_edu.recording.snapshot import AgentState, BodyState, Snapshot
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.runtime.training_progress import TrainingProgress
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
 
 
 def finite(value: float) -> float | None:

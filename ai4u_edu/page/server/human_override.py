@@ -8,8 +8,8 @@ from ai4u_edu.agent.driving_keys import RESTART, active_brain, keys_of
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.page.server.bindings import keyboard_brain
-from ai4u_edu.recording.snapshot.agent_words import driver_title
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.agent_words import driver_title
 
 
 class HumanOverride:

@@ -20,8 +20,8 @@ from ai4u_edu.page.server.api import finite
 from ai4u_edu.page.server.bindings import has_stick
 from ai4u_edu.page.server.control_lock import ControlLock
 from ai4u_edu.page.server.human_override import HumanOverride
-from ai4u_edu.recording.snapshot import Snapshot
-from ai4u_edu.recording.snapshot.outcome import outcome
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.outcome import outcome
 
 CODE = r"^[A-Za-z0-9]{1,24}$"
 Code = Annotated[str, Field(pattern=CODE)]

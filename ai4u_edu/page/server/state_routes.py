@@ -20,8 +20,8 @@ from ai4u_edu.page.server.scene_routes import (
     SharedView,
 )
 from ai4u_edu.page.server.start_page import LessonsView, ScenesView
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 
 _ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/healthz": ("Whether the room is well.", Health),

@@ -21,9 +21,9 @@ from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption, SenseOverlay
 from ai4u_edu.page.viewer.scene.trails import Trails
 from ai4u_edu.page.viewer.viewer_client import ViewerClients
 from ai4u_edu.recording import Ghosts
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot, StaticScene
 
 MAX_PLOTTED_DECISIONS = 240
 """Decisions of an agent whose rewards the panel plots."""

@@ -11,7 +11,7 @@ from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.framing import ground_at_center
 from ai4u_edu.page.viewer.scene.view import Mode, View
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot import Snapshot, StaticScene
 
 AGENT_HEADER = "X-AI4U-Edu-Agent"
 """Request header from our proxy: id of the agent that a page is about, percent-encoded."""

@@ -10,7 +10,7 @@ import numpy as np
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.blocks import Percept
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene, theme
+from ai4u_edu.snapshot import Snapshot, StaticScene, theme
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
 TEMPLATE = Path(__file__).parent / "player.html"

@@ -15,7 +15,7 @@ from ai4u_edu.base.atomic_write import partial_file, reason
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.replay import Replay
-from ai4u_edu.recording.snapshot.raster import draw_snapshot
+from ai4u_edu.snapshot.raster import draw_snapshot
 
 Frame = npt.NDArray[np.uint8]
 

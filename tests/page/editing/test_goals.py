@@ -8,8 +8,8 @@ from ai4u_edu import Scene
 from ai4u_edu.page.editing.goals import KINDS, with_goal_values
 from ai4u_edu.page.editing.scene_pictures import EMPTY_SCENE, TEMPLATES
 from ai4u_edu.page.editing.suggestion import suggest_block
-from ai4u_edu.recording.snapshot import capture_snapshot
-from ai4u_edu.recording.snapshot.outcome import outcome
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.outcome import outcome
 from tests.page.editing.harness import EditorHarness
 
 TARGET = {

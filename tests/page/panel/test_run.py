@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from ai4u_edu.recording.snapshot.agent_words import ending
+from ai4u_edu.snapshot.agent_words import ending
 from tests.page.panel.rooms import PanelPage, PanelRoom, panel_room
 from tests.waiting import LIMIT_S
 

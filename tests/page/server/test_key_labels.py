@@ -12,8 +12,8 @@ from ai4u_edu.blocks.keyboard import Stick
 from ai4u_edu.page.server.bindings import has_stick
 from ai4u_edu.page.server.human_override import HumanOverride
 from ai4u_edu.page.server.messages import key_labels, usable_keys
-from ai4u_edu.recording.snapshot import BodyState, capture_bodies
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import BodyState, capture_bodies
 from tests.scenes.few import FEW
 
 pytestmark = pytest.mark.slow

@@ -18,7 +18,7 @@ from ai4u_edu.page.viewer.scene.geometry import (
     segments,
     soft_shadow,
 )
-from ai4u_edu.recording.snapshot.marks import half_width
+from ai4u_edu.snapshot.marks import half_width
 
 OUTLINES = {
     "circle": CircleShape(radius=0.4).outline(),

@@ -10,9 +10,9 @@ from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.labels import Labels
 from ai4u_edu.page.viewer.scene.view import Mode
-from ai4u_edu.recording.snapshot import Snapshot
-from ai4u_edu.recording.snapshot.agent_words import script_problem
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.agent_words import script_problem
 from tests.page.viewer.pages import page, part_of
 
 

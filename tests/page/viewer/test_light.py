@@ -3,7 +3,7 @@ import pytest
 
 from ai4u_edu.base.colors import PALETTE, rgb
 from ai4u_edu.page.viewer.scene.light import line_colours, shown_colour, surface_colours, tone_map
-from ai4u_edu.recording.snapshot.theme import FLOOR, VOID, WALL, Rgb
+from ai4u_edu.snapshot.theme import FLOOR, VOID, WALL, Rgb
 
 GREYS = {"floor": FLOOR, "void": VOID, "wall": WALL}
 

@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 from ai4u_edu.page.viewer import Viewer
-from ai4u_edu.recording.snapshot.theme import FLOOR, VOID
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.theme import FLOOR, VOID
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

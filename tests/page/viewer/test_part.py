@@ -5,7 +5,7 @@ import pytest
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.page.viewer.backend import part
 from ai4u_edu.page.viewer.backend.part import RatedPart
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from tests.page.viewer.worlds import busy_sim, picture
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.poses import SHADOW_OFFSET_M, Poses, compute_poses
-from ai4u_edu.recording.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.worlds import busy_sim, picture
 
 

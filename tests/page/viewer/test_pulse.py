@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from ai4u_edu.page.viewer.scene.pulse import PULSE_S, Pulse, reached_target
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 
 
 def ended(snapshot: Snapshot, x: float, *, succeeded: bool = True) -> Snapshot:

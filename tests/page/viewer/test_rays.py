@@ -6,8 +6,8 @@ from ai4u_edu.blocks import RayPicture
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.light import line_colours, surface_colours
 from ai4u_edu.page.viewer.scene.rays import Rays, RayStyle, ray_dots, ray_lines, weight_colours
-from ai4u_edu.recording.snapshot.theme import RAY_MISS, WALL, group_colours
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.theme import RAY_MISS, WALL, group_colours
 
 PICTURE = RayPicture(
     origin=(0.0, 0.0, 0.5),

@@ -21,8 +21,8 @@ from ai4u_edu import (
 )
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.pointers import RING_RADIUS, pointer
-from ai4u_edu.recording.snapshot.block_info import SensorInfo
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot.block_info import SensorInfo
 from tests.page.viewer.pages import Page, page, publish, shown
 from tests.waiting import until
 

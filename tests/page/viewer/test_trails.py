@@ -10,8 +10,8 @@ import pytest
 from ai4u_edu import BasicAgent, ControlRequestor, LocalBrain, RBMoveActuator, WASDRBMoveController
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.trails import MAX_DOTS, TRAIL_S, Trail, Trails
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.pages import page, part_of, publish, seen, shown
 from tests.page.viewer.worlds import busy_sim, busy_world
 

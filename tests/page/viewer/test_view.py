@@ -9,8 +9,8 @@ from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.arena import camera_bounds
 from ai4u_edu.page.viewer.scene.framing import Frame, frame_arena, frame_point
 from ai4u_edu.page.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.pages import Page, page
 from tests.waiting import until
 

@@ -9,8 +9,8 @@ import pytest
 from ai4u_edu import BoxShape
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.bodies import Bodies
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.pages import page, publish
 from tests.page.viewer.worlds import busy_sim
 from tests.waiting import LIMIT_S, until

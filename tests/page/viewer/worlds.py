@@ -17,7 +17,7 @@ from ai4u_edu import (
     TouchRewardFunc,
     World,
 )
-from ai4u_edu.recording.snapshot import (
+from ai4u_edu.snapshot import (
     Snapshot,
     StaticScene,
     capture_agent,

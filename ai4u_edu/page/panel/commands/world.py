@@ -18,7 +18,7 @@ from ai4u_edu.page.panel.messages import edit as m
 from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.new_things import TEMPLATES, Template, free_position
 from ai4u_edu.page.panel.page import Page
-from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import BodyDescription, Pose
 
 COPY_OFFSET_M = 0.5

@@ -14,10 +14,10 @@ from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.colours import hex_colour
 from ai4u_edu.page.panel.parts.sensor_slots import sensor_slots
 from ai4u_edu.page.panel.parts.sensors import sensor_json
-from ai4u_edu.recording.snapshot import AgentState, Need, Snapshot
-from ai4u_edu.recording.snapshot.agent_words import ending, script_problem, title
-from ai4u_edu.recording.snapshot.block_info import ActuatorInfo
-from ai4u_edu.recording.snapshot.theme import body_colour, group_colours
+from ai4u_edu.snapshot import AgentState, Need, Snapshot
+from ai4u_edu.snapshot.agent_words import ending, script_problem, title
+from ai4u_edu.snapshot.block_info import ActuatorInfo
+from ai4u_edu.snapshot.theme import body_colour, group_colours
 
 MAX_PAID_DECISIONS = 6
 """Most decisions in the list of the latest rewards; those without a reward are left out."""

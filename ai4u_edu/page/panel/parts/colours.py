@@ -1,6 +1,6 @@
 """Colours as CSS has them."""
 
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot.theme import Rgb
 
 
 def hex_colour(colour: Rgb) -> str:

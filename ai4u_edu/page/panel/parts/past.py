@@ -7,8 +7,8 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.recording import ArchiveEntry
-from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
+from ai4u_edu.snapshot import Snapshot
 
 FORMATS = {
     "html": "Web page",

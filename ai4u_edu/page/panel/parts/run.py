@@ -5,9 +5,9 @@ from typing import Any
 
 from ai4u_edu.blocks.rewards.reward_func import Stages
 from ai4u_edu.page.panel.context import PanelContext
-from ai4u_edu.recording.snapshot import AgentState, Snapshot
-from ai4u_edu.recording.snapshot.agent_words import ending
-from ai4u_edu.recording.snapshot.outcome import outcome
+from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot.agent_words import ending
+from ai4u_edu.snapshot.outcome import outcome
 
 MAX_STAGES = 12
 """Most stages that are told one by one."""

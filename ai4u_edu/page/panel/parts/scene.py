@@ -8,17 +8,17 @@ from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.blocks import changes_json
 from ai4u_edu.page.panel.parts.colours import hex_colour
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.agent_words import driver_title, title
-from ai4u_edu.recording.snapshot.theme import (
+from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.scenes.star_goals import StarGoals
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.agent_words import driver_title, title
+from ai4u_edu.snapshot.theme import (
     RAY_MISS,
     UNKNOWN_GROUP,
     Rgb,
     body_colour,
     group_colours,
 )
-from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.scenes.star_goals import StarGoals
 
 MAX_LEGEND_GROUPS = 12
 """Most groups in the legend."""

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.page.panel.gallery import words_of
-from ai4u_edu.recording.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot.block_info import SensorInfo
 
 MAX_NAMED_SLOTS = 32
 """Longest reading of which each number has a name; of longer ones a program takes the smallest,

@@ -12,10 +12,10 @@ from PIL import Image
 from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
 from ai4u_edu.page.panel.gallery import hint_of, words_of
 from ai4u_edu.page.panel.parts.colours import hex_colour
-from ai4u_edu.recording.snapshot.block_info import SensorInfo
-from ai4u_edu.recording.snapshot.numbers import number
-from ai4u_edu.recording.snapshot.reading_cells import GREYS, Cells, shaded, split_stack
-from ai4u_edu.recording.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, VOID, Rgb
+from ai4u_edu.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot.numbers import number
+from ai4u_edu.snapshot.reading_cells import GREYS, Cells, shaded, split_stack
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, VOID, Rgb
 
 MAX_UNNAMED_LINES = 8
 """Longest reading without names that gets a line for each number; longer ones are strips."""

@@ -4,8 +4,8 @@ import time
 from typing import Protocol
 
 from ai4u_edu.base.log_limit import ErrorLog
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
 from ai4u_edu.runtime.frame_budget import EARLY_FRACTION, PART_SHARE
+from ai4u_edu.snapshot import Snapshot, StaticScene
 
 
 class Part(Protocol):

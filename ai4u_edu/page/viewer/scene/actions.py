@@ -18,9 +18,9 @@ from ai4u_edu.page.viewer.scene.geometry import (
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.recording.snapshot import AgentState, Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.marks import half_width
-from ai4u_edu.recording.snapshot.theme import ACTION
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.theme import ACTION
 
 ACTION_NAME = "move"
 """Name of the drawn action: [forward, turn, jump, forward jump], as AI4U's actuator orders it."""

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ai4u_edu.page.viewer.scene.geometry import Array, circle, rotate
-from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import CircleShape, RegionDescription, RingShape
 
 CIRCLE_CORNERS = 160

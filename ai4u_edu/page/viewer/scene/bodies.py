@@ -23,9 +23,9 @@ from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.poses import Poses, compute_poses
 from ai4u_edu.page.viewer.scene.pulse import Pulse
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.marks import DARK, LIGHT, half_width
-from ai4u_edu.recording.snapshot.theme import VOID, Rgb, body_colour, label_text, mix_colours
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import DARK, LIGHT, half_width
+from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, label_text, mix_colours
 from ai4u_edu.world import CircleShape
 
 BLACK: Rgb = (0, 0, 0)

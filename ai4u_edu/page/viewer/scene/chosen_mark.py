@@ -13,8 +13,8 @@ from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.resize import corner_of, outline_of
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.viewer_client import ViewerClient
-from ai4u_edu.recording.snapshot import StaticScene
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot import StaticScene
+from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.world import BodyDescription
 from ai4u_edu.world.shapes import Shape
 

@@ -6,7 +6,7 @@ import numpy as np
 from viser import SceneApi
 
 from ai4u_edu.page.viewer.scene.layers import Layers
-from ai4u_edu.recording.snapshot import AgentState, BodyState, StaticScene
+from ai4u_edu.snapshot import AgentState, BodyState, StaticScene
 
 EYE_FIELD_OF_VIEW_RAD = math.radians(65)
 """Vertical field of view."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ai4u_edu.page.viewer.scene.geometry import Mesh, cap, circle, flat_mesh, join_meshes
-from ai4u_edu.recording.snapshot.marks import EYES, NOSE, PUPILS, RING, RING_CENTRE
+from ai4u_edu.snapshot.marks import EYES, NOSE, PUPILS, RING, RING_CENTRE
 
 
 def face(radius: float, z: float) -> Mesh:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.recording.snapshot.marks import edge_normals
+from ai4u_edu.snapshot.marks import edge_normals
 
 Array = npt.NDArray[np.float64]
 Outline = Sequence[tuple[float, float]] | Array

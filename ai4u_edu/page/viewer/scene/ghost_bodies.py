@@ -10,9 +10,9 @@ from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.recording.ghosts import GhostDrive, Ghosts
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.marks import half_width
-from ai4u_edu.recording.snapshot.theme import Rgb, body_colour, mix_colours
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.theme import Rgb, body_colour, mix_colours
 from ai4u_edu.world import BodyDescription
 
 PALE: Rgb = (255, 255, 255)

@@ -15,9 +15,9 @@ from ai4u_edu.page.viewer.scene.grid import grid_in
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.marks import half_width
-from ai4u_edu.recording.snapshot.theme import (
+from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.theme import (
     FLOOR,
     GRID,
     VOID,

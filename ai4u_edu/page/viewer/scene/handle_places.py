@@ -8,7 +8,7 @@ from ai4u_edu.page.viewer.scene.drags import Thing
 from ai4u_edu.page.viewer.scene.geometry import Array
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.resize import outline_of
-from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import AreaDescription, FloorDescription
 
 Region = FloorDescription | AreaDescription

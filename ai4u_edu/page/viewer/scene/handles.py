@@ -27,8 +27,8 @@ from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient
-from ai4u_edu.recording.snapshot import BodyState, Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.world import BodyDescription
 
 HANDLE_MARGIN = 0.015

@@ -15,9 +15,9 @@ from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
-from ai4u_edu.recording.snapshot import BodyState, Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.agent_words import script_problem
-from ai4u_edu.recording.snapshot.theme import label_text
+from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
+from ai4u_edu.snapshot.agent_words import script_problem
+from ai4u_edu.snapshot.theme import label_text
 
 HIDDEN_AFTER_DRIVING_S = 1.0
 """World time (s) for which the label of an agent stays hidden after the last key is released: who

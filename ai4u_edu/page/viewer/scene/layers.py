@@ -7,7 +7,7 @@ which gets coarser with the camera's distance and so with the arena's size.
 from dataclasses import dataclass
 
 from ai4u_edu.page.viewer.scene.arena import arena_size
-from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.snapshot import StaticScene
 
 
 @dataclass(frozen=True)

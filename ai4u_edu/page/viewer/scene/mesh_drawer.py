@@ -7,7 +7,7 @@ from viser import BatchedMeshHandle, LabelHandle, LineSegmentsHandle, SceneApi
 
 from ai4u_edu.page.viewer.scene.geometry import Array, Mesh
 from ai4u_edu.page.viewer.scene.light import line_colours, surface_colours
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot.theme import Rgb
 
 
 class MeshDrawer:

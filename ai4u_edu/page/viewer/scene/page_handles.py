@@ -6,8 +6,8 @@ from functools import partial
 from ai4u_edu.page.editing import ChangeResult, SceneEditor
 from ai4u_edu.page.viewer.scene.handles import Handles
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
-from ai4u_edu.recording.snapshot import Snapshot, StaticScene
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
+from ai4u_edu.snapshot import Snapshot, StaticScene
 
 
 class PageHandles:

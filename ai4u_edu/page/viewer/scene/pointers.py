@@ -10,9 +10,9 @@ from ai4u_edu.page.viewer.scene.arena import region_outlines
 from ai4u_edu.page.viewer.scene.geometry import Array, circle, rotate, segments
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours
-from ai4u_edu.recording.snapshot import BodyState, Snapshot
-from ai4u_edu.recording.snapshot.block_info import SensorInfo, Window
-from ai4u_edu.recording.snapshot.theme import SPOT_LIT, Rgb
+from ai4u_edu.snapshot import BodyState, Snapshot
+from ai4u_edu.snapshot.block_info import SensorInfo, Window
+from ai4u_edu.snapshot.theme import SPOT_LIT, Rgb
 
 RING_RADIUS = 1.25
 """Radius of the ring around a body, as a multiple of the body's reach."""

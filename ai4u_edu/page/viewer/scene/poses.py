@@ -6,7 +6,7 @@ import numpy as np
 
 from ai4u_edu.page.viewer.scene.geometry import Array
 from ai4u_edu.page.viewer.scene.layers import Layers
-from ai4u_edu.recording.snapshot import BodyState, Snapshot
+from ai4u_edu.snapshot import BodyState, Snapshot
 
 SHADOW_DIRECTION = np.array([0.6, -0.8])
 """Unit vector along which shadows fall."""

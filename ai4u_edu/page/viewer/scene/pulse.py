@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ai4u_edu.page.viewer.scene.geometry import Array
-from ai4u_edu.recording.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot import AgentState, Snapshot
 
 PULSE_S = 1.0
 """Duration of a pulse, wall time (s)."""

@@ -14,8 +14,8 @@ from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours, surface_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.recording.snapshot import StaticScene
-from ai4u_edu.recording.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
+from ai4u_edu.snapshot import StaticScene
+from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, group_colours
 
 Points = npt.NDArray[np.float32]
 Weights = npt.NDArray[np.float64]

@@ -12,8 +12,8 @@ from ai4u_edu.page.viewer.scene.pointers import Pointers
 from ai4u_edu.page.viewer.scene.rays import Rays, RayStyle
 from ai4u_edu.page.viewer.scene.spots import Spots
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
-from ai4u_edu.recording.snapshot import AgentState, Snapshot, StaticScene
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
+from ai4u_edu.snapshot import AgentState, Snapshot, StaticScene
 
 RayWeights = Mapping[str, npt.NDArray[np.float64]]
 """Weight of each ray of a sensor, 0..1, by perception key."""

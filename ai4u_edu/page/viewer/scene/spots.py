@@ -10,7 +10,7 @@ from ai4u_edu.page.viewer.scene.geometry import cap, circle
 from ai4u_edu.page.viewer.scene.light import surface_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.recording.snapshot.theme import SPOT_LIT, SPOT_RADIUS_M, SPOT_UNLIT
+from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_RADIUS_M, SPOT_UNLIT
 
 
 class Spots:

@@ -10,10 +10,10 @@ from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
-from ai4u_edu.recording.snapshot import AgentState, BodyState, Snapshot, StaticScene
-from ai4u_edu.recording.snapshot.marks import half_width
-from ai4u_edu.recording.snapshot.theme import Rgb, body_colour
 from ai4u_edu.runtime.frame_budget import TRAILS_PER_S, PageTurns
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
+from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.theme import Rgb, body_colour
 
 TRAIL_S = 2.4
 """World time (s) that a trail goes back."""

@@ -26,7 +26,7 @@ from ai4u_edu.page.viewer.scene.framing import (
     visible_height,
 )
 from ai4u_edu.page.viewer.scene.geometry import Array
-from ai4u_edu.recording.snapshot import AgentState, BodyState, Snapshot
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
 
 FOLLOW_HEIGHT_IN_RADII = 22.0
 """Height of the window that follows an agent, as a multiple of the agent's radius."""

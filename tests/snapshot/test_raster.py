@@ -8,10 +8,10 @@ import numpy.typing as npt
 import pytest
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.recording.snapshot import Snapshot
-from ai4u_edu.recording.snapshot.marks import DARK, LIGHT
-from ai4u_edu.recording.snapshot.raster import MARGIN_M, draw_snapshot
-from ai4u_edu.recording.snapshot.theme import FLOOR, VOID, mix_colours
+from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.marks import DARK, LIGHT
+from ai4u_edu.snapshot.raster import MARGIN_M, draw_snapshot
+from ai4u_edu.snapshot.theme import FLOOR, VOID, mix_colours
 from tests.page.viewer.worlds import busy_sim, picture
 
 Picture = npt.NDArray[np.uint8]

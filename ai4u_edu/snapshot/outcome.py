@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from ai4u_edu.recording.snapshot.types import AgentState
+from ai4u_edu.snapshot.types import AgentState
 
 
 def outcome(agent: AgentState, agents: Iterable[AgentState], success: str) -> str:

@@ -16,7 +16,7 @@ from ai4u_edu.blocks import (
     SpotPicture,
     Stages,
 )
-from ai4u_edu.recording.snapshot.block_info import ActuatorInfo, SensorInfo
+from ai4u_edu.snapshot.block_info import ActuatorInfo, SensorInfo
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, Region, WorldSettings
 
 NOWHERE = Phase()

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.blocks import ChannelLegend, Legend
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot.theme import Rgb
 
 SHADES = 8
 """Number of greys for distances."""

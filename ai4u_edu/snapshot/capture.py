@@ -14,8 +14,8 @@ from ai4u_edu.blocks import (
     Stages,
     WASDRBMoveController,
 )
-from ai4u_edu.recording.snapshot.block_info import block_info_of, sensor_pictures_of
-from ai4u_edu.recording.snapshot.types import (
+from ai4u_edu.snapshot.block_info import block_info_of, sensor_pictures_of
+from ai4u_edu.snapshot.types import (
     NOWHERE,
     AgentState,
     BodyState,

@@ -1,5 +1,5 @@
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.recording.snapshot.theme import WALL, body_colour, group_colours, mix_colours
+from ai4u_edu.snapshot.theme import WALL, body_colour, group_colours, mix_colours
 from ai4u_edu.world import BodyDescription
 from tests.page.viewer.worlds import busy_world, static_scene_of
 

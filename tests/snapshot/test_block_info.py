@@ -19,7 +19,7 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.recording.snapshot import capture_snapshot
+from ai4u_edu.snapshot import capture_snapshot
 
 SENSORS: list[Callable[[], Sensor]] = [
     lambda: LinearRayCastingSensor(group_code={"box": 1}, number_of_rays=5, perception_key="eyes"),

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.recording.snapshot.theme import Rgb
+from ai4u_edu.snapshot.theme import Rgb
 
 Disc = tuple[float, float, float]
 """A disc's centre, ahead (+x) and to the left (+y), and its radius."""

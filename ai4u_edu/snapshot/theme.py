@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.recording.snapshot import StaticScene
+from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 
 Rgb = tuple[int, int, int]

@@ -4,7 +4,7 @@ import pytest
 
 from ai4u_edu import BasicAgent, CircleShape, ControlRequestor, LocalBrain, Scene, World
 from ai4u_edu.page.server.api import SnapshotView
-from ai4u_edu.recording.snapshot import AgentState, Stages, capture_snapshot
+from ai4u_edu.snapshot import AgentState, Stages, capture_snapshot
 
 
 def first_of(sim: ControlRequestor) -> AgentState:

@@ -2,7 +2,7 @@
 
 from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.recording.snapshot.types import AgentState
+from ai4u_edu.snapshot.types import AgentState
 
 DRIVERS = {
     NeuralNetController: "A network",

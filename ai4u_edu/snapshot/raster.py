@@ -9,8 +9,8 @@ import numpy.typing as npt
 from PIL import Image, ImageChops, ImageDraw, ImageFont
 
 from ai4u_edu.blocks import RayPicture, SpotPicture
-from ai4u_edu.recording.snapshot import BodyState, Snapshot, StaticScene, theme
-from ai4u_edu.recording.snapshot.marks import (
+from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene, theme
+from ai4u_edu.snapshot.marks import (
     DARK,
     EYES,
     LIGHT,

@@ -1,13 +1,13 @@
 """Immutable snapshots of a world, for the page, the API and the recorder."""
 
 from ai4u_edu.blocks import Stages
-from ai4u_edu.recording.snapshot.capture import (
+from ai4u_edu.snapshot.capture import (
     capture_agent,
     capture_bodies,
     capture_snapshot,
     capture_static_scene,
 )
-from ai4u_edu.recording.snapshot.types import (
+from ai4u_edu.snapshot.types import (
     AgentState,
     BodyState,
     Need,
