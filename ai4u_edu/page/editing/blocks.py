@@ -19,13 +19,16 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.page.editing.errors import ChangeError
-from ai4u_edu.page.editing.input_checks import MAX_DEPTH, check_name, check_number, check_plain
-from ai4u_edu.page.editing.plain import BlockPath, Plain
-from ai4u_edu.page.editing.type_checks import (
+from ai4u_edu.page.editing.input_checks import (
+    MAX_DEPTH,
+    check_name,
+    check_number,
+    check_plain,
     check_typed,
     check_typed_and,
     schema_of,
 )
+from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.scenes.serialization import from_plain, is_serializable
 
 KINDS: dict[str, type[Block]] = {

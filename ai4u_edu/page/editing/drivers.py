@@ -1,6 +1,8 @@
 """Drivers that can replace an agent's own brain, by names that a page can send."""
 
 import ast
+import runpy
+import traceback
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,8 +18,8 @@ from ai4u_edu.blocks import (
     NeuralNetController,
     ReplayController,
 )
+from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.blocks.brains.address import brain_at
-from ai4u_edu.page.editing.script import run_file
 from ai4u_edu.recording import Episode
 
 SCRIPT, RECORDING, NETWORK, REMOTE = "script:", "recording:", "network:", "ai4u://"
@@ -125,8 +127,8 @@ class DriverRegistry:
             raise SetupError(
                 f"{path.name} has no driver {function!r}; {suggest(function, _driver_names(path))}"
             )
-        found = run_file(path)[function]
-        controller = found() if isinstance(found, type) else found
+        driver = _run(path)[function]
+        controller = driver() if isinstance(driver, type) else driver
         return LocalBrain(controller=controller, **rhythm)
 
     def _files(self, ending: str) -> list[Path]:
@@ -157,6 +159,39 @@ def _checked(place: Path) -> Path:
         "(.onnx), a folder of such files, or an AI4U script's address (ai4u://HOST:PORT), got "
         f"{got}"
     )
+
+
+def _run(path: Path) -> dict[str, Any]:
+    """Run a file without any sandbox, and return its globals by name.
+
+    Raises:
+        SetupError: it can't be run, or gives a block the name of a built-in one.
+    """
+    before = dict(Block.types)
+    problem = ""
+    names: dict[str, Any] = {}
+    try:
+        names = runpy.run_path(str(path))
+    except (Exception, SystemExit) as error:  # a user's code may raise anything
+        lines = [
+            frame.lineno
+            for frame in traceback.extract_tb(error.__traceback__)
+            if frame.filename == str(path)
+        ]
+        line = f", line {lines[-1]}" if lines else ""
+        problem = f"{path.name}{line}: {type(error).__name__}: {error}"
+    taken = [
+        name
+        for name, cls in Block.types.items()
+        if before.get(name, cls) is not cls and is_built_in(before[name])
+    ]
+    if taken:
+        problem = f"{path.name}: {taken[0]} is the name of a built-in block; expected another name"
+    if problem:
+        Block.types.clear()
+        Block.types.update(before)
+        raise SetupError(problem)
+    return names
 
 
 def _driver_names(path: Path) -> list[str]:

@@ -6,9 +6,11 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ai4u_edu.page.editing import agents, blocks, settings, things
+from ai4u_edu.base.parameters import Problem
+from ai4u_edu.page.editing import blocks, settings, things
 from ai4u_edu.page.editing.driver_options import with_driver
 from ai4u_edu.page.editing.drivers import DriverRegistry
+from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.input_checks import check_name, check_plain
 from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.page.editing.state import EditState
@@ -32,7 +34,7 @@ class Proposal(NamedTuple):
     restarts: bool = False
     """True if the world has to be built anew at once, which begins another episode."""
     merge_key: str = ""
-    """Key of the step, as in :class:`~ai4u_edu.page.editing.history.Step`."""
+    """Changes with the same key that follow each other within a second are undone as one."""
 
 
 def change_block(
@@ -115,7 +117,7 @@ def change_thing(state: EditState, name: str, values: Mapping[str, Any]) -> Prop
 def add_agent(state: EditState, body: Mapping[str, Any], like: str) -> Proposal:
     """Propose another agent with a new body and copies of another agent's blocks."""
     added = things.with_thing(state, things.checked_description(body))
-    agent = agents.copy_of(state.agent(like), state, str(body["name"]))
+    agent = _copy_of(state.agent(like), state, str(body["name"]))
     proposed = added.describing(agents=(*state.description.agents, agent))
     return Proposal(proposed, f"add {body['name']}", restarts=True)
 
@@ -123,7 +125,7 @@ def add_agent(state: EditState, body: Mapping[str, Any], like: str) -> Proposal:
 def remove_agent(state: EditState, agent_id: str) -> Proposal:
     """Propose the scene without an agent and its body."""
     name = str(state.agent(agent_id)["body"])
-    return Proposal(agents.without(state, agent_id), f"remove {name}", restarts=True)
+    return Proposal(_without_agent(state, agent_id), f"remove {name}", restarts=True)
 
 
 def change_scene(state: EditState, values: Mapping[str, Any]) -> Proposal:
@@ -142,3 +144,30 @@ def change_settings(state: EditState, values: Plain) -> Proposal:
 
 def _path(state: EditState, agent_id: str, path: BlockPath) -> BlockPath:
     return ("agents", state.agent_index(agent_id), *path)
+
+
+def _copy_of(agent: Plain, state: EditState, body: str) -> Plain:
+    """Return a copy of an agent with an unused id, for another body."""
+    taken = {str(other.get("id", "0")) for other in state.description.agents}
+    agent_id = next(str(n) for n in range(len(taken) + 1) if str(n) not in taken)
+    copy: dict[str, Any] = {**agent, "id": agent_id, "body": body}
+    if "actuators" in copy:  # a copied RespawnActuator would put it where the other agent begins
+        copy["actuators"] = [
+            actuator for actuator in copy["actuators"] if actuator["type"] != "RespawnActuator"
+        ]
+    return copy
+
+
+def _without_agent(state: EditState, agent_id: str) -> EditState:
+    """Remove an agent and its body.
+
+    Raises:
+        ChangeError: it is the last one.
+    """
+    index = state.agent_index(agent_id)
+    agents = state.description.agents
+    others = (*agents[:index], *agents[index + 1 :])
+    if not others:
+        raise ChangeError([Problem((), "it is the only agent; a scene needs one")])
+    without = state.driven(agent_id, "").describing(agents=others)
+    return things.without_thing(without, str(agents[index]["body"]))

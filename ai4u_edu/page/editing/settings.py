@@ -13,12 +13,18 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.page.editing import blocks
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.forms import Field, field_of
+from ai4u_edu.page.editing.input_checks import check_typed, schema_of
 from ai4u_edu.page.editing.plain import BlockPath, Plain
-from ai4u_edu.page.editing.state_difference import RUNTIME_PARAMETERS
-from ai4u_edu.page.editing.type_checks import check_typed, schema_of
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import WorldSettings
 
+RUNTIME_PARAMETERS = (
+    "max_steps_per_episode",
+    "done_at_negative_reward",
+    "done_at_positive_reward",
+    "reward_scale",
+)
+"""Parameters of an agent, besides its blocks, that can change at run time."""
 RHYTHM = ("skip_frame", "repeat_action")
 """Parameters that are shown with the agent, and belong to its brain."""
 TEXTS = ("title", "goal")

@@ -9,12 +9,14 @@ from pydantic import ValidationError
 from ai4u_edu.base.errors import NameNotFoundError, shown, suggest
 from ai4u_edu.base.parameters import MAX_NUMBER, Problem, explain
 from ai4u_edu.page.editing.errors import ChangeError
-from ai4u_edu.page.editing.input_checks import check_name, check_number, check_plain
-from ai4u_edu.page.editing.state import EditState
-from ai4u_edu.page.editing.type_checks import (
+from ai4u_edu.page.editing.input_checks import (
+    check_name,
+    check_number,
+    check_plain,
     check_typed,
     check_typed_and,
 )
+from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 
 MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0

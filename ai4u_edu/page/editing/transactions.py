@@ -1,28 +1,96 @@
 """Changes that are checked, applied and recorded one after another, and undone."""
 
 import math
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future
+from dataclasses import dataclass, replace
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import Problem
 from ai4u_edu.page.editing import things
-from ai4u_edu.page.editing.apply import RunningScene
 from ai4u_edu.page.editing.change_result import ChangeResult, When
 from ai4u_edu.page.editing.drivers import DriverRegistry
 from ai4u_edu.page.editing.dry_run import dry_run
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.goals import with_goal
-from ai4u_edu.page.editing.history import History, Step
-from ai4u_edu.page.editing.move_warnings import move_warnings
 from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.editing.proposals import Poses, Proposal
+from ai4u_edu.page.editing.running_scene import RunningScene
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.scene import RANDOM_RESETS
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.world import Pose
+
+MAX_UNDO_STEPS = 200
+"""Changes that can be undone."""
+MERGE_S = 1.0
+"""Time within which a nudge is joined to the one before it."""
+
+
+@dataclass(frozen=True)
+class _Step:
+    """One change that was made."""
+
+    label: str
+    before: EditState
+    after: EditState
+    poses_before: Poses
+    """Earlier poses of the bodies that the change moved, by name."""
+    poses_after: Poses
+    """Poses to which the change moved them."""
+    replaces_world: bool = False
+    """True if the change opened another scene, or other agents made a new world necessary."""
+    opened_before: EditState | None = None
+    """The state that had been opened last, if the change opened another scene."""
+    merge_key: str = ""
+    """Key of :class:`~ai4u_edu.page.editing.proposals.Proposal`; empty for none."""
+
+    @property
+    def opens(self) -> bool:
+        """True if the change opened another scene."""
+        return self.opened_before is not None
+
+
+class _History:
+    """Changes that can be undone, and undone changes that can be redone."""
+
+    def __init__(self) -> None:
+        self._merge_until = 0.0
+        self._done: list[_Step] = []
+        self._undone: list[_Step] = []
+
+    @property
+    def last(self) -> _Step | None:
+        """The change that undo takes back; None if there is none."""
+        return self._done[-1] if self._done else None
+
+    @property
+    def next(self) -> _Step | None:
+        """The change that redo makes again; None if there is none."""
+        return self._undone[-1] if self._undone else None
+
+    def add(self, step: _Step) -> None:
+        """Add a new change, or join it to the last one; forget all undone ones."""
+        now, last = time.monotonic(), self.last
+        is_same = last is not None and step.merge_key and step.merge_key == last.merge_key
+        if last is not None and is_same and now < self._merge_until:
+            step = replace(step, before=last.before, poses_before=last.poses_before)
+            self._done.pop()
+        self._done = [*self._done, step][-MAX_UNDO_STEPS:]
+        self._undone, self._merge_until = [], now + MERGE_S
+
+    def move_back(self) -> None:
+        """Mark the last change as undone."""
+        self._merge_until = 0.0
+        self._undone.append(self._done.pop())
+
+    def move_forward(self) -> None:
+        """Mark the change that was undone last as done again."""
+        self._done.append(self._undone.pop())
 
 
 class Transactions:
@@ -42,7 +110,7 @@ class Transactions:
         self._running = RunningScene(runner, state, drivers)
         self._dragged: dict[str, Pose] = {}
         self.permissions = Permissions(state.description.agents)
-        self.history = History()
+        self._history = _History()
         self.listeners: list[Callable[[EditState], object]] = []
         """Called with the state after each change."""
         self.state = state
@@ -60,6 +128,18 @@ class Transactions:
         """True while some body is dragged."""
         return bool(self._dragged)
 
+    @property
+    def undo_label(self) -> str:
+        """A few words about the change that undo takes back; empty if there is none."""
+        step = self._history.last
+        return step.label if step else ""
+
+    @property
+    def redo_label(self) -> str:
+        """A few words about the change that redo makes again; empty if there is none."""
+        step = self._history.next
+        return step.label if step else ""
+
     def submit(
         self, propose: Callable[[], Proposal], *, whole: bool = False, driver_of: str = ""
     ) -> "Future[ChangeResult]":
@@ -76,7 +156,7 @@ class Transactions:
     def undo(self) -> ChangeResult:
         """Take back the last change."""
         self._adopt_other_world()
-        step = self.history.last
+        step = self._history.last
         if step is None:
             raise ChangeError([Problem((), "there is nothing to undo")])
         when = self._apply(
@@ -84,14 +164,14 @@ class Transactions:
         )
         if step.opened_before is not None:
             self.opened = step.opened_before
-        self.history.move_back()
+        self._history.move_back()
         self._set_state(step.before)
         return ChangeResult(when, f"undo: {step.label}")
 
     def redo(self) -> ChangeResult:
         """Make the change again that was undone last."""
         self._adopt_other_world()
-        step = self.history.next
+        step = self._history.next
         if step is None:
             raise ChangeError([Problem((), "there is nothing to do again")])
         when = self._apply(
@@ -99,7 +179,7 @@ class Transactions:
         )
         if step.opens:
             self.opened = step.after
-        self.history.move_forward()
+        self._history.move_forward()
         self._set_state(step.after)
         return ChangeResult(when, f"redo: {step.label}")
 
@@ -157,7 +237,7 @@ class Transactions:
             raise
         self._dragged = {name: pose for name, pose in self._dragged.items() if name not in poses}
         opened_before = self.opened if whole else None
-        step = Step(
+        step = _Step(
             proposal.label,
             before,
             after,
@@ -167,7 +247,7 @@ class Transactions:
             opened_before,
             proposal.merge_key,
         )
-        self.history.add(step)
+        self._history.add(step)
         if whole:
             self.opened = after
             self._runner.resume()  # who opens a scene does not think of a pause in another one
@@ -200,7 +280,7 @@ class Transactions:
         state = EditState(description, before.folder, source=before.source)
         self._running = RunningScene(self._runner, state, self._drivers)
         self._dragged = {}
-        self.history.add(Step("go on in another world", before, state, {}, {}, True))
+        self._history.add(_Step("go on in another world", before, state, {}, {}, True))
         self._set_state(state)
 
 
@@ -215,13 +295,27 @@ def _checked(propose: Callable[[], Proposal]) -> Proposal:
         raise ChangeError([Problem((), text)]) from error
 
 
-def _warnings(step: Step) -> str:
+def _warnings(step: _Step) -> str:
+    """Return what a person may not expect of a change; usually empty."""
     before, after = step.before.description, step.after.description
-    warnings = [move_warnings(after, step.poses_after)]
+    warnings = [*_warnings_of_moved(after, step.poses_after)]
     if before.success and not after.success and not step.replaces_world:
         warnings.append(f"nothing pays {before.success!r} any more: no goal is left")
     if not step.replaces_world and not before.floors and after.floors:
         warnings.append("the ground was endless; now there is ground on the floors only")
     if not step.replaces_world and before.floors and not after.floors:
         warnings.append("without a floor the ground is endless")
-    return "; ".join(filter(None, warnings))
+    return "; ".join(warnings)
+
+
+def _warnings_of_moved(description: SceneDescription, names: Iterable[str]) -> Iterator[str]:
+    """Yield why moved bodies will not stay where they are at the next reset."""
+    bodies = {body.name: body for body in description.bodies}
+    for name in names:
+        random = bodies[name].random
+        if random is not None and (random.x or random.y or random.places):
+            yield f"chance finds another place for {name!r} at each reset"
+        for agent in description.agents:
+            actuators = agent.get("actuators", ()) if agent.get("body") == name else ()
+            if any(actuator.get("type") == "RespawnActuator" for actuator in actuators):
+                yield f"its RespawnActuator puts {name!r} elsewhere at each reset"

@@ -155,7 +155,7 @@ def test_an_unsaved_scene_is_restored(page: PanelPage, room: PanelRoom, tmp_path
 def test_nudges_of_one_thing_are_undone_together(
     page: PanelPage, room: PanelRoom, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.page.editing.history.MERGE_S", math.inf)
+    monkeypatch.setattr("ai4u_edu.page.editing.transactions.MERGE_S", math.inf)
     before = room.runner.latest.bodies
     for _ in range(3):
         page.done("nudge", name="box", dx=0.25, dy=0)
