@@ -5,8 +5,8 @@ import contextlib
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from ai4u_edu.page.server.attempts import client_address
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.attempts import client_address
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 
 MAX_ECHOES = 20
 MAX_ECHO_CHARS = 100

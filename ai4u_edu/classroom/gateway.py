@@ -32,8 +32,8 @@ from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.classroom.tournament.network_routes import NetworkRoutes
-from ai4u_edu.page.server.attempts import Attempts
 from ai4u_edu.page.server.host_origin import LOOPBACK, HostOriginCheck
+from ai4u_edu.page.server.limits.attempts import Attempts
 from ai4u_edu.page.server.proxy import AGENT_COOKIE, DARK_COOKIE
 from ai4u_edu.page.server.token_auth import PageCookie, TokenAuth
 from ai4u_edu.page.server.token_page import TokenPage

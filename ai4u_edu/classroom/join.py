@@ -23,10 +23,10 @@ from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.member.joining import SEAT_COOKIE
-from ai4u_edu.page.server.attempts import client_address
-from ai4u_edu.page.server.concurrency_limit import TooManyOpenError
-from ai4u_edu.page.server.json_body import read_json
-from ai4u_edu.page.server.rate_limit import RateLimits
+from ai4u_edu.page.server.limits.attempts import client_address
+from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
+from ai4u_edu.page.server.limits.json_body import read_json
+from ai4u_edu.page.server.limits.rate_limit import RateLimits
 from ai4u_edu.page.server.standalone import standalone_page
 
 COOKIE_LIFE_S = 200 * 24 * 3600

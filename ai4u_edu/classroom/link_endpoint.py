@@ -13,9 +13,13 @@ from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
-from ai4u_edu.page.server.attempts import Attempts, Verdict, client_address
-from ai4u_edu.page.server.concurrency_limit import TRY_LATER, ConcurrencyLimit, TooManyOpenError
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.attempts import Attempts, Verdict, client_address
+from ai4u_edu.page.server.limits.concurrency_limit import (
+    TRY_LATER,
+    ConcurrencyLimit,
+    TooManyOpenError,
+)
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.wire.class_link import (
     SUBPROTOCOL,
     VERSION,

@@ -28,7 +28,7 @@ from ai4u_edu.classroom.room_process import (
     run_room,
 )
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.token_auth import is_same_secret
 
 TIMEOUTS = DEFAULT_TIMEOUTS

@@ -1,6 +1,6 @@
 """Limits of a class's open sockets and requests. A school is one address, so a seat has its own."""
 
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 
 MAX_STRANGER_SOCKETS = 50
 """Sockets of one address that nobody with a seat has: of the check page, and links before hello."""

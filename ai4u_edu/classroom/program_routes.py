@@ -20,7 +20,7 @@ from ai4u_edu.classroom.programs import (
     ProgramRow,
 )
 from ai4u_edu.classroom.seat_rate import SeatRate
-from ai4u_edu.page.server.json_body import read_json
+from ai4u_edu.page.server.limits.json_body import read_json
 
 MAX_BODY_BYTES = 6 * MAX_PROGRAM_CHARS + 4000
 """JSON takes at most six bytes for a character."""

@@ -14,7 +14,7 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
 from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
 from ai4u_edu.classroom.script_keys import ScriptKeys
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.page.server.token_auth import PageCookie
 from ai4u_edu.page.server.token_page import wants_page
 

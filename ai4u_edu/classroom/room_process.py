@@ -19,7 +19,7 @@ from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
 from ai4u_edu.member import ClassLinkSettings
 from ai4u_edu.page.server import Rules, serve
 from ai4u_edu.page.server.app import RoomMount
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.room import Room, RoomSettings
 from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
 

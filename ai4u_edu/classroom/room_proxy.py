@@ -17,8 +17,8 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.room_host import RoomAddress
+from ai4u_edu.page.server.limits.request_target import target_of
 from ai4u_edu.page.server.proxy import SCRIPT_KEY_HEADER, connect_viser, pass_up
-from ai4u_edu.page.server.request_target import target_of
 from ai4u_edu.page.server.socket_pump import pump_sockets, sendable_code
 
 _HOP_BY_HOP = {

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable
 
-from ai4u_edu.page.server.rate_limit import RateLimits
+from ai4u_edu.page.server.limits.rate_limit import RateLimits
 
 REQUESTS_PER_S = 1.0
 """Rate of a seat's requests, of which some may come at once."""

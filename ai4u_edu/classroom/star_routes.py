@@ -12,7 +12,7 @@ from ai4u_edu.classroom.join import NO_STORE, seat_of
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.programs import MAX_SCENE_NAME_CHARS
 from ai4u_edu.classroom.seat_rate import SeatRate
-from ai4u_edu.page.server.json_body import read_json
+from ai4u_edu.page.server.limits.json_body import read_json
 
 MAX_BODY_BYTES = 2000
 

@@ -37,7 +37,7 @@ from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.scene_source import find_scene
 from ai4u_edu.classroom.seats import State
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
-from ai4u_edu.page.server.json_body import read_json
+from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.standalone import standalone_page
 from ai4u_edu.wire.class_link import MAX_SCENE_CHARS, MAX_STARTING_PROGRAM_CHARS
 

@@ -9,7 +9,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.page.server.keepalive import keepalives
+from ai4u_edu.page.server.limits.keepalive import keepalives
 
 POLL_S = 0.25
 """Interval at which changes are sent; poses are sent as often."""

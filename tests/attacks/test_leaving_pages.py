@@ -13,7 +13,7 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from ai4u_edu.page.server import ServerThread
-from ai4u_edu.page.server.frames import EXTENSION
+from ai4u_edu.page.server.limits.frames import EXTENSION
 from ai4u_edu.wire.native import SUBPROTOCOL
 from tests.attacks.raw_http import SOCKET_HEADERS
 from tests.page.server import http_client

@@ -15,8 +15,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.open_limits import MAX_SEAT_SOCKETS, MAX_STRANGER_SOCKETS
 from ai4u_edu.page.server import ServerThread
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit, TooManyOpenError
-from ai4u_edu.page.server.connections import max_connections
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit, TooManyOpenError
+from ai4u_edu.page.server.limits.connections import max_connections
 from tests.attacks.programs import Crowd, many_descriptors
 from tests.classroom.served_class import ServedClass, served_class
 from tests.page.server import http_client

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from tests.browser.test_class import agent_of, join
 from tests.browser.whole import scene_picture
 from tests.chromium import new_page

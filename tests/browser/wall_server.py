@@ -15,7 +15,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.pages import FILE_ROUTES
 from ai4u_edu.page.server import ServerThread
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.page.server.standalone import standalone_page
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 from tests.waiting import LIMIT_S

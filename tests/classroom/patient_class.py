@@ -31,7 +31,7 @@ def be_patient() -> None:
     import functools
 
     from ai4u_edu.classroom import gateway, local_rooms, room_watch
-    from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS
+    from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
     from tests.waiting import LIMIT_S
 
     connections = ("request", "linger", "stall", "handshake", "ping", "close")

@@ -10,7 +10,7 @@ from websockets.sync.connection import Connection
 
 from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, Echo
 from ai4u_edu.page.server import ServerThread
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from tests.page.server.rooms import PATIENT, open_socket
 from tests.waiting import LIMIT_S
 

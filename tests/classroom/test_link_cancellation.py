@@ -5,7 +5,7 @@ from typing import Any
 
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_rooms import LiveRoom
-from ai4u_edu.page.server.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.wire.class_link import VERSION, Hello, encode_from_room
 from tests.waiting import until_async
 

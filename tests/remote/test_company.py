@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.page.server import frames
+from ai4u_edu.page.server.limits import frames
 from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.remote import Robot
 from tests.remote.rooms import Place, Script, connect, log_of, log_room

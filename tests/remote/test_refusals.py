@@ -10,7 +10,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.base.errors import ActionError, ParameterError
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.remote import LostError, RefusedError, RemoteError
 from ai4u_edu.wire import native

@@ -8,7 +8,7 @@ from socket import SHUT_RDWR
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.page.server.scripts.sockets import MAX_STRAY_FRAMES_PER_S
 from ai4u_edu.remote import LostError, RefusedError, Robot

@@ -15,7 +15,7 @@ from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.open_limits import sign_ins
-from ai4u_edu.page.server.concurrency_limit import TooManyOpenError
+from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
 
 TIMEOUT_S = 10.0
 CACHE_S = 60.0

@@ -12,7 +12,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
-from ai4u_edu.page.server.attempts import client_address
+from ai4u_edu.page.server.limits.attempts import client_address
 from ai4u_edu.page.server.token_auth import is_same_secret
 
 COOKIE = "ai4u-edu-hub"

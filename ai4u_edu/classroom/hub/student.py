@@ -15,7 +15,7 @@ from ai4u_edu.classroom.hub.teacher_auth import SIGN_IN, is_teacher
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
 from ai4u_edu.classroom.store import SeatRow
-from ai4u_edu.page.server.attempts import client_address
+from ai4u_edu.page.server.limits.attempts import client_address
 from ai4u_edu.page.server.standalone import standalone_page
 
 _TOKEN = re.compile(r"(?:token|bearer)\s+(\S+)", re.IGNORECASE)

@@ -26,7 +26,7 @@ from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.parts.due import due_parts
 from ai4u_edu.page.panel.upload import MAX_PART_BYTES, UPLOAD_IDLE_S, Upload
 from ai4u_edu.page.server.bindings import choose_agent
-from ai4u_edu.page.server.keepalive import keepalives
+from ai4u_edu.page.server.limits.keepalive import keepalives
 from ai4u_edu.page.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.page.server.proxy import PAGE_ID_PARAM, page_id
 from ai4u_edu.page.viewer import Viewer

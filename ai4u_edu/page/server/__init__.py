@@ -7,11 +7,11 @@ from ai4u_edu.page.server.address import AddressError, PortTakenError
 from ai4u_edu.page.server.app import RoomMount, room_app
 from ai4u_edu.page.server.desktop import open_on_desktop
 from ai4u_edu.page.server.host_origin import LOOPBACK, hosts_for
+from ai4u_edu.page.server.limits.timeouts import Timeouts
 from ai4u_edu.page.server.scripts import Rules
 from ai4u_edu.page.server.serve import ServerThread, serve
 from ai4u_edu.page.server.start_page import LessonView
 from ai4u_edu.page.server.startup_banner import startup_banner
-from ai4u_edu.page.server.timeouts import Timeouts
 from ai4u_edu.page.server.token_auth import token_for, with_token
 from ai4u_edu.page.server.viser_lockdown import lock_viser_port
 

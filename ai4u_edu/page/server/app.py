@@ -9,11 +9,12 @@ from starlette.routing import Match, Mount, Route, WebSocketRoute
 from starlette.types import ASGIApp, Scope
 
 from ai4u_edu.page.editing import SceneEditor
-from ai4u_edu.page.server.attempts import Attempts, LimitScripts
 from ai4u_edu.page.server.class_feed import ClassFeed
 from ai4u_edu.page.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.page.server.input import Inputs
 from ai4u_edu.page.server.library_pictures import PICTURE_PATH, library_picture_route
+from ai4u_edu.page.server.limits.attempts import Attempts, LimitScripts
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.page import Page
 from ai4u_edu.page.server.past import Past
 from ai4u_edu.page.server.program_zip import program_zip
@@ -22,7 +23,6 @@ from ai4u_edu.page.server.scene_routes import SceneRoutes
 from ai4u_edu.page.server.scripts import RemoteSockets, Report, Rules
 from ai4u_edu.page.server.start_page import LessonView, StartPage
 from ai4u_edu.page.server.state_routes import StateRoutes
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.token_auth import TokenAuth
 from ai4u_edu.page.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.page.server.vendor_files import VendorFiles

@@ -23,7 +23,7 @@ from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.page.server.control_lock import ControlLock
 from ai4u_edu.page.server.human_override import HumanOverride
-from ai4u_edu.page.server.keepalive import keepalives
+from ai4u_edu.page.server.limits.keepalive import keepalives
 from ai4u_edu.page.server.page_receiver import ReceiveLimits, close_socket, receive_messages
 from ai4u_edu.runtime.runner import Runner
 

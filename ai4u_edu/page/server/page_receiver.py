@@ -5,7 +5,7 @@ from typing import NamedTuple, TypeVar
 
 from starlette.websockets import WebSocket, WebSocketState
 
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
 
 M = TypeVar("M")
 MAX_MISTAKES = 5

@@ -16,9 +16,9 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.page.server import page_messages
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.socket_pump import pump_sockets
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.token_auth import with_token
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET, PROXY_SECRET_HEADER
 

@@ -15,7 +15,7 @@ from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.page.editing.sharing import SharedScene, shared_link
-from ai4u_edu.page.server.json_body import read_json
+from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes.scene_link import LINK, MAX_LINK_CHARS, decode_link
 

@@ -14,12 +14,16 @@ from starlette.types import ASGIApp
 
 from ai4u_edu.base.log_limit import limited_logs
 from ai4u_edu.page.server.address import listen, url_of
-from ai4u_edu.page.server.connections import MAX_PER_ADDRESS, Connections, raise_descriptor_limit
-from ai4u_edu.page.server.frames import FramesProtocol
-from ai4u_edu.page.server.listener import Listener
-from ai4u_edu.page.server.request_target import PathsOnly
-from ai4u_edu.page.server.requests import RequestProtocol, ServerConfig
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
+from ai4u_edu.page.server.limits.connections import (
+    MAX_PER_ADDRESS,
+    Connections,
+    raise_descriptor_limit,
+)
+from ai4u_edu.page.server.limits.frames import FramesProtocol
+from ai4u_edu.page.server.limits.listener import Listener
+from ai4u_edu.page.server.limits.request_target import PathsOnly
+from ai4u_edu.page.server.limits.requests import RequestProtocol, ServerConfig
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
 if TYPE_CHECKING:  # uvicorn has the type for checkers alone
     from uvicorn.server import Protocols

@@ -17,8 +17,8 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.page.server.attempts import TOO_MANY, Attempts, Verdict, client_address
 from ai4u_edu.page.server.host_origin import is_loopback
+from ai4u_edu.page.server.limits.attempts import TOO_MANY, Attempts, Verdict, client_address
 from ai4u_edu.page.server.token_page import TokenPage, wants_page
 
 MIN_TOKEN_CHARS = 8

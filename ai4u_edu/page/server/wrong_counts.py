@@ -5,7 +5,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 from typing import TypeVar
 
-from ai4u_edu.page.server.rate_limit import MAX_KEYS, RateLimits
+from ai4u_edu.page.server.limits.rate_limit import MAX_KEYS, RateLimits
 
 MAX_WRONG = 60
 """Wrong secrets in a row after which an address is limited."""

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 import pytest
 from websockets.exceptions import InvalidStatus
 
-from ai4u_edu.page.server import Rules, attempts, wrong_counts
-from ai4u_edu.page.server.attempts import (
+from ai4u_edu.page.server import Rules, wrong_counts
+from ai4u_edu.page.server.limits import attempts
+from ai4u_edu.page.server.limits.attempts import (
     MAX_WAITING,
     Attempts,
     Verdict,

@@ -11,8 +11,8 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from ai4u_edu.page.server import connections as limits
-from ai4u_edu.page.server.connections import (
+from ai4u_edu.page.server.limits import connections as limits
+from ai4u_edu.page.server.limits.connections import (
     MAX_EVICTING,
     MAX_PER_ADDRESS,
     Connections,

@@ -17,10 +17,10 @@ from websockets.protocol import State
 
 from ai4u_edu.page.server import ServerThread, messages
 from ai4u_edu.page.server import input as input_socket
-from ai4u_edu.page.server.frames import FramesProtocol
 from ai4u_edu.page.server.input import MAX_MESSAGE_BYTES, MAX_MESSAGES_PER_S
+from ai4u_edu.page.server.limits.frames import FramesProtocol
+from ai4u_edu.page.server.limits.requests import ServerConfig
 from ai4u_edu.page.server.page_receiver import MAX_MISTAKES
-from ai4u_edu.page.server.requests import ServerConfig
 from ai4u_edu.page.server.serve import MAX_MESSAGE_BYTES as MAX_FRAME_BYTES
 from tests.page.server.rooms import PATIENT, open_socket, served
 from tests.waiting import until

@@ -25,7 +25,7 @@ from starlette.routing import Route
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.page import server
 from ai4u_edu.page.server import AddressError, PortTakenError, ServerThread, serve
-from ai4u_edu.page.server.frames import FramesProtocol
+from ai4u_edu.page.server.limits.frames import FramesProtocol
 from tests.page.server import http_client
 from tests.page.server.rooms import (
     PATIENT,

@@ -11,7 +11,7 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.log_limit import LogLimiter
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.runtime.runner import Runner
 
 EVENTS_PER_S = 5.0

@@ -8,8 +8,8 @@ from urllib.parse import parse_qs
 from starlette.requests import HTTPConnection
 from starlette.types import Message, Receive, Scope, Send
 
-from ai4u_edu.page.server.frames import EXTENSION, FramesProtocol
-from ai4u_edu.page.server.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.frames import EXTENSION, FramesProtocol
+from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.scripts.agent_lease import AgentLease
 from ai4u_edu.page.server.scripts.answers import is_request_for_time
 from ai4u_edu.page.server.scripts.lease_registry import LeaseRegistry

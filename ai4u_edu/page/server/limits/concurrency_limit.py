@@ -9,7 +9,7 @@ from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.page.server.connections import max_connections
+from ai4u_edu.page.server.limits.connections import max_connections
 
 TRY_LATER = 1013
 """Code of a close: too many are open; try again later."""

@@ -17,9 +17,9 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 from websockets.exceptions import InvalidState
 from websockets.http11 import Request
 
-from ai4u_edu.page.server.plain_response import plain_response
-from ai4u_edu.page.server.requests import ServerConfig
-from ai4u_edu.page.server.timeouts import Timeouts
+from ai4u_edu.page.server.limits.plain_response import plain_response
+from ai4u_edu.page.server.limits.requests import ServerConfig
+from ai4u_edu.page.server.limits.timeouts import Timeouts
 
 EXTENSION = "ai4u_edu.frames"
 """Key of the protocol in an ASGI scope's ``extensions``."""

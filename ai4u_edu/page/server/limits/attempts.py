@@ -14,7 +14,7 @@ from enum import Enum, auto
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ai4u_edu.page.server.connections import address_of
+from ai4u_edu.page.server.limits.connections import address_of
 from ai4u_edu.page.server.wrong_counts import WrongCounts, remember
 
 DELAY_S = 1.0

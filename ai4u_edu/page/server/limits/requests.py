@@ -14,9 +14,9 @@ import h11
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from ai4u_edu.page.server.connections import Connections
-from ai4u_edu.page.server.plain_response import plain_response
-from ai4u_edu.page.server.timeouts import DEFAULT_TIMEOUTS, Timeouts
+from ai4u_edu.page.server.limits.connections import Connections
+from ai4u_edu.page.server.limits.plain_response import plain_response
+from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 
 PART_BYTES = 4096
 """Bytes of a head that are parsed at a time, until it is complete."""

@@ -2,7 +2,7 @@
 
 asyncio's selector loop calls :meth:`socket.socket.accept` of the socket that it is given.
 Connections are refused there, before anything is allocated for them. On Windows the loop accepts by
-other means; there only the timeouts of :mod:`ai4u_edu.page.server.requests` apply.
+other means; there only the timeouts of :mod:`ai4u_edu.page.server.limits.requests` apply.
 """
 
 import errno
@@ -13,8 +13,8 @@ from contextlib import suppress
 from typing import Any
 
 from ai4u_edu.base.log_limit import log_limited
-from ai4u_edu.page.server.connections import MAX_EVICTING, Connections
-from ai4u_edu.page.server.plain_response import plain_response
+from ai4u_edu.page.server.limits.connections import MAX_EVICTING, Connections
+from ai4u_edu.page.server.limits.plain_response import plain_response
 
 RETRY_AFTER_S = 5
 MAX_REFUSED = 64
