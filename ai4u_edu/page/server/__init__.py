@@ -1,17 +1,13 @@
 """The web server: one port for page, viser, keys, scripts and API."""
 
-import warnings
-from typing import Any
-
 from ai4u_edu.page.server.address import AddressError, PortTakenError
 from ai4u_edu.page.server.app import RoomMount, room_app
-from ai4u_edu.page.server.desktop import open_on_desktop
 from ai4u_edu.page.server.host_origin import LOOPBACK, hosts_for
 from ai4u_edu.page.server.limits.timeouts import Timeouts
 from ai4u_edu.page.server.scripts import Rules
 from ai4u_edu.page.server.serve import ServerThread, serve
 from ai4u_edu.page.server.start_page import LessonView
-from ai4u_edu.page.server.startup_banner import startup_banner
+from ai4u_edu.page.server.startup_banner import open_on_desktop, startup_banner
 from ai4u_edu.page.server.token_auth import token_for, with_token
 from ai4u_edu.page.server.viser_lockdown import lock_viser_port
 
@@ -33,13 +29,3 @@ __all__ = [
     "token_for",
     "with_token",
 ]
-
-_RENAMED = {"announcement": startup_banner, "shut_side_door": lock_viser_port}
-
-
-def __getattr__(name: str) -> Any:
-    if name in _RENAMED:
-        now = _RENAMED[name]
-        warnings.warn(f"use {__name__}.{now.__name__}", DeprecationWarning, stacklevel=2)
-        return now
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

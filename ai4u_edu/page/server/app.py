@@ -17,7 +17,6 @@ from ai4u_edu.page.server.limits.attempts import Attempts, LimitScripts
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.page import Page
 from ai4u_edu.page.server.past import Past
-from ai4u_edu.page.server.program_zip import program_zip
 from ai4u_edu.page.server.proxy import ViserProxy
 from ai4u_edu.page.server.scene_routes import SceneRoutes
 from ai4u_edu.page.server.scripts import RemoteSockets, Report, Rules
@@ -25,7 +24,7 @@ from ai4u_edu.page.server.start_page import LessonView, StartPage
 from ai4u_edu.page.server.state_routes import StateRoutes
 from ai4u_edu.page.server.token_auth import TokenAuth
 from ai4u_edu.page.server.token_page import PUBLIC_FILES, TokenPage
-from ai4u_edu.page.server.vendor_files import VendorFiles
+from ai4u_edu.page.server.vendor_files import VendorFiles, program_zip
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.page.server.web_files import WEB_PATHS
 from ai4u_edu.runtime.runner import Runner

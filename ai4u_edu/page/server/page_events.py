@@ -1,18 +1,39 @@
-"""The messages from the input socket to a page."""
+"""The messages from the input socket to a page, and the keys that they tell it."""
 
 from collections.abc import Mapping
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.driving_keys import keys_of
+from ai4u_edu.blocks import (
+    Actuator,
+    ArrowController,
+    Brain,
+    DiscreteActuator,
+    DiscreteArrowController,
+    WASDRBMoveController,
+)
 from ai4u_edu.page.server.api import finite
 from ai4u_edu.page.server.bindings import has_stick
 from ai4u_edu.page.server.control_lock import ControlLock
 from ai4u_edu.page.server.human_override import HumanOverride
-from ai4u_edu.page.server.key_labels import key_labels, usable_keys
 from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.recording.snapshot.outcome import outcome
 
 Event = dict[str, Any]
+_MOTIONS = {
+    (1, 0, 0): "forward",
+    (-1, 0, 0): "back",
+    (0, 1, 0): "right",
+    (0, -1, 0): "left",
+    (0, 0, 1): "jump",
+    (1, 0, 1): "jump forward",
+}
+"""Label of a motion, by the signs of (forward, turn, jump of either kind)."""
+
+_JUMPS = ("jump", "jump_forward")
+_CHOICES = ("right", "left", "up", "down", "accept")
+"""Names of a DiscreteArrowController's choices, from 1 on."""
 
 
 def hello_event(agent: BasicAgent, number: int, override: HumanOverride) -> Event:
@@ -83,3 +104,61 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> Event | No
 def error_event(text: str) -> Event:
     """Return an error in words: of the page's message, or of the world."""
     return {"type": "error", "text": text}
+
+
+def usable_keys(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str]]:
+    """Return an agent's keys without those for actions that its body can't do.
+
+    Args:
+        agent: the agent to drive.
+        brain: the brain to ask; default: the agent's own.
+    """
+    brain = brain or agent.brain
+    useless = _useless_actions(agent, brain)
+    keys = keys_of(agent, brain)
+    return {action: codes for action, codes in keys.items() if action not in useless}
+
+
+def key_labels(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
+    """Return the labels of actions that do something else in this scene than their name says."""
+    brain = brain or agent.brain
+    actuator = _actuator(agent, brain)
+    controller = getattr(brain, "controller", None)
+    if not isinstance(actuator, DiscreteActuator) or actuator.handler is not None:
+        return {}
+    if not isinstance(controller, DiscreteArrowController):
+        return {}
+    names = {}
+    for action, row in zip(_CHOICES, actuator.table[1:], strict=False):
+        forward, turn, jump, forward_jump = row
+        name = _MOTIONS.get((_sign(forward), _sign(turn), _sign(jump + forward_jump)))
+        if name is not None:
+            names[action] = name
+    return names
+
+
+def _useless_actions(agent: BasicAgent, brain: Brain) -> set[str]:
+    """Return the actions that the controller knows and the body can't do."""
+    controller, actuator = getattr(brain, "controller", None), _actuator(agent, brain)
+    if isinstance(actuator, Actuator) and isinstance(controller, DiscreteArrowController):
+        return set(_CHOICES[int(actuator.limits()[1][0]) :])
+    if actuator is None or not isinstance(controller, WASDRBMoveController | ArrowController):
+        return set()
+    numbers = len(actuator.limits()[0])
+    parts = getattr(controller, "components", None) or (
+        _JUMPS if numbers >= 4 else ()  # the smallest action that includes jumps
+    )
+    jump = getattr(actuator, "jump_power", 1.0)
+    forward = jump or getattr(actuator, "jump_forward_power", 1.0)
+    can = {"jump": jump and "jump" in parts, "jump_forward": forward and "jump_forward" in parts}
+    return {action for action in _JUMPS if not can[action]}
+
+
+def _actuator(agent: BasicAgent, brain: Brain) -> Actuator | None:
+    """Return the actuator that a brain's controller drives."""
+    controller = getattr(brain, "controller", None)
+    return agent.bound_blocks.actuators.get(getattr(controller, "actuator_name", ""))
+
+
+def _sign(number: float) -> int:
+    return (number > 0) - (number < 0)

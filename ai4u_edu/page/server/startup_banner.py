@@ -1,6 +1,9 @@
-"""Text that the terminal shows when a room is served."""
+"""Start of a served room for a person: addresses in the terminal, and the page on the desktop."""
 
+import os
 import socket
+import sys
+import webbrowser
 from urllib.parse import urlsplit
 
 from ai4u_edu.page.server.address import WILDCARD_HOSTS
@@ -46,3 +49,12 @@ def own_address() -> str:
         except OSError:
             return socket.gethostname()
         return str(probe.getsockname()[0])
+
+
+def open_on_desktop(url: str) -> bool:
+    """Open a page if there is a desktop; return True if it was opened."""
+    # without a desktop a text browser might open, and take over the terminal
+    desktop = sys.platform in {"win32", "darwin"} or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+    )
+    return desktop and webbrowser.open(url)

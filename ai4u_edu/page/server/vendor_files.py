@@ -1,8 +1,13 @@
-"""Libraries of others, which pages load from ``web/vendor/``; see the README there."""
+"""Libraries of ``web/vendor/`` that pages load, and the package that runs a student's program.
+
+See the README in that folder.
+"""
 
 import asyncio
 import gzip
 import hashlib
+import io
+import zipfile
 from functools import lru_cache
 from pathlib import Path
 
@@ -11,6 +16,7 @@ from starlette.responses import FileResponse, PlainTextResponse, Response
 
 from ai4u_edu.page.server.web_files import ALWAYS_ASK, NEVER_ASK, web_folder
 
+_PROGRAM = Path(__file__).resolve().parents[2] / "program"
 _PACKED = ".gz"
 _SCRIPTS = {".js", ".mjs"}
 _MEDIA_TYPES = {
@@ -67,6 +73,18 @@ class VendorFiles:
         return Response(content, headers=headers, media_type=kind)
 
 
+async def program_zip(request: Request) -> Response:
+    """Return ``ai4u_edu/program`` as a ZIP file, from which Python can import it.
+
+    Its ``ai4u_edu/__init__.py`` is empty, since ours would import the whole library.
+    """
+    content, etag = _program()
+    headers = {**ALWAYS_ASK, "ETag": etag}
+    if request.headers.get("if-none-match") == etag:
+        return Response(status_code=304, headers=headers)
+    return Response(content, headers=headers, media_type="application/zip")
+
+
 def _takes_gzip(request: Request) -> bool:
     offers = request.headers.get("accept-encoding", "").lower().split(",")
     return any(each.partition(";")[0].strip() == "gzip" for each in offers)
@@ -85,3 +103,16 @@ def _pack(path: Path, _modified_ns: int) -> bytes:
 
 def _unpack(path: Path, _modified_ns: int) -> bytes:
     return gzip.decompress(path.read_bytes())
+
+
+@lru_cache(maxsize=1)
+def _program() -> tuple[bytes, str]:
+    date = (2026, 1, 1, 0, 0, 0)  # one for all files, so that the same files make the same bytes
+    files = {"ai4u_edu/__init__.py": b""}
+    for path in sorted(_PROGRAM.glob("*.py")):
+        files[f"ai4u_edu/{_PROGRAM.name}/{path.name}"] = path.read_bytes()
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name, date), content, zipfile.ZIP_DEFLATED)
+    return packed.getvalue(), f'"{hashlib.sha256(packed.getvalue()).hexdigest()[:32]}"'

@@ -23,7 +23,6 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.page import server
 from ai4u_edu.page.server import AddressError, PortTakenError, ServerThread, serve
 from ai4u_edu.page.server.limits.frames import FramesProtocol
 from tests.page.server import http_client
@@ -301,14 +300,6 @@ def _suppressed_get(url: str) -> None:
 
 async def _nothing(scope: object, receive: object, send: object) -> None:
     await PlainTextResponse("fine")(scope, receive, send)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(
-    ("old", "new"), [("announcement", "startup_banner"), ("shut_side_door", "lock_viser_port")]
-)
-def test_an_old_name_warns(old: str, new: str) -> None:
-    with pytest.warns(DeprecationWarning, match=new):
-        assert getattr(server, old) is getattr(server, new)
 
 
 def test_connections_that_come_while_it_ends_are_closed_too() -> None:

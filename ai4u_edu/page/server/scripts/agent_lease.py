@@ -10,7 +10,6 @@ from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.page.server.loop_queue import LoopQueue
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.refusal import RefusalError
 from ai4u_edu.page.server.scripts.report import Report
 from ai4u_edu.page.server.scripts.session import Session
 from ai4u_edu.page.server.scripts.settings import Rules
@@ -22,6 +21,18 @@ from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 SHORT_DROP_S = 0.3
 """Time for which a script whose connection is lost counts as late; after that it counts as lost."""
+
+
+class RefusalError(Exception):
+    """A script does not get the agent that it asked for.
+
+    Attributes:
+        code: one of :data:`ai4u_edu.wire.native.PROBLEMS`.
+    """
+
+    def __init__(self, code: str, text: str) -> None:
+        super().__init__(text)
+        self.code = code
 
 
 class AgentLease:

@@ -5,9 +5,8 @@ from collections.abc import Callable
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.page.server.loop_queue import LoopQueue, queue_here
-from ai4u_edu.page.server.scripts.agent_lease import AgentLease
+from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.page.server.scripts.report import Report
 from ai4u_edu.page.server.scripts.settings import Rules
 from ai4u_edu.page.server.token_auth import is_same_secret
@@ -122,3 +121,11 @@ class LeaseRegistry:
             f"agent {agent.id!r} is driven by another script; {others}; an agent is free when its "
             f"script ends, or {self._rules.grace:g} s after the connection is lost"
         )
+
+
+def wrong_version(expected: str, got: object) -> str:
+    """Return the text for a script whose version of the protocol is another one."""
+    return (
+        f"expected {expected}, got {got}; install the ai4u-edu that the world has "
+        "(pip install -U ai4u-edu, on both machines)"
+    )

@@ -4,12 +4,11 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
 from ai4u_edu.page.server.loop_queue import LoopQueue
-from ai4u_edu.page.server.scripts.answers import find_problem, is_request_for_time, to_brain_answer
 from ai4u_edu.page.server.scripts.exchange import Exchange, Turn
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.reward_sum import RewardSum
 from ai4u_edu.page.server.scripts.welcome import ObservationSubset
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire import native
@@ -52,7 +51,7 @@ class Session:
         self._on_close = on_close
         self._may_seed = may_seed
         self._report_mistake = report_mistake
-        self._rewards = RewardSum()
+        self._rewards = _RewardSum()
 
     # -- for the brain, in the runner's thread ---------------------------------------------------
 
@@ -156,11 +155,11 @@ class Session:
             self.time_asked_at = time.monotonic()
             return None
         agents = len(self._runner.sim.agents)
-        problem = find_problem(message, asked, agents=agents, may_seed=self._may_seed)
+        problem = _find_problem(message, asked, agents=agents, may_seed=self._may_seed)
         if problem is not None:
             self._report_mistake(problem.text)
             return problem
-        if self.exchange.answer(Reply(to_brain_answer(message), asked)):
+        if self.exchange.answer(Reply(_to_brain_answer(message), asked)):
             self._runner.notify_answer()
         return None
 
@@ -215,3 +214,77 @@ def _replaces(observation: Observation, asked: Observation) -> bool:
     """
     is_first = asked.steps == 0 and asked.episode == observation.episode
     return observation is not asked and not is_first
+
+
+class _RewardSum:
+    """Reward of all decisions that a script has not been told yet, in total and by term."""
+
+    def __init__(self) -> None:
+        self.total = 0.0
+        self.terms: dict[str, float] = {}
+        self._counted = (0, 0)
+
+    def add(self, observation: Observation) -> None:
+        """Add the reward of a decision, once; a new episode begins at 0."""
+        decision = (observation.episode, observation.steps)
+        if decision == self._counted:
+            return
+        if observation.episode != self._counted[0]:
+            self.clear()
+        self._counted = decision
+        self.total += observation.reward
+        for name, amount in observation.terms.items():
+            self.terms[name] = self.terms.get(name, 0.0) + amount
+
+    def clear(self) -> None:
+        """Begin at 0 again, after a percept was sent."""
+        self.total, self.terms = 0.0, {}
+
+
+def _find_problem(
+    message: native.Answer, asked: Observation, *, agents: int, may_seed: bool
+) -> native.Problem | None:
+    """Return the reason why a message can't be the answer to a percept.
+
+    Args:
+        message: the script's.
+        asked: what the percept was made of.
+        agents: number of agents in the world.
+        may_seed: whether a reset may have a seed, which resets the whole world.
+    """
+    match message:
+        case native.Action() if asked.done:
+            text = "the episode is over; expected a reset"
+            return native.Problem("episode_over", text, asked.number)
+        case native.Action(episode=episode, step=step):
+            if (episode, step) == (asked.episode, asked.steps):
+                return None
+            text = (
+                f"percept {asked.number} is of episode {asked.episode}, step {asked.steps}; "
+                f"got an action for episode {episode}, step {step}"
+            )
+            return native.Problem("bad_action", text, asked.number)
+        case native.Reset(seed=int()) if not may_seed:
+            text = (
+                "expected a reset without a seed, which begins an episode for this agent; with "
+                f"one it would begin for all {agents} agents, and whoever runs the world has to "
+                "allow that (ai4u-edu play --seeded-resets)"
+            )
+            return native.Problem("seed_refused", text, asked.number)
+    return None
+
+
+def is_request_for_time(message: native.Answer) -> bool:
+    """Return True for a message by which a script asks for more time."""
+    return isinstance(message, native.Order) and message.word == "wait"
+
+
+def _to_brain_answer(message: native.Answer) -> Answer | Reset:
+    """Convert a message to what a brain gets from its link."""
+    match message:
+        case native.Action(values=values):
+            return values
+        case native.Reset(seed=seed):
+            return Reset(seed)
+        case native.Order(word=word):
+            return Command(word)

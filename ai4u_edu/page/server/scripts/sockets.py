@@ -10,13 +10,11 @@ from starlette.types import Message, Receive, Scope, Send
 
 from ai4u_edu.page.server.limits.frames import EXTENSION, FramesProtocol
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
-from ai4u_edu.page.server.scripts.agent_lease import AgentLease
-from ai4u_edu.page.server.scripts.answers import is_request_for_time
-from ai4u_edu.page.server.scripts.lease_registry import LeaseRegistry
+from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
+from ai4u_edu.page.server.scripts.lease_registry import LeaseRegistry, wrong_version
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.refusal import RefusalError, wrong_version
 from ai4u_edu.page.server.scripts.report import NoReport, Report
-from ai4u_edu.page.server.scripts.session import Session
+from ai4u_edu.page.server.scripts.session import Session, is_request_for_time
 from ai4u_edu.page.server.scripts.settings import Rules
 from ai4u_edu.page.server.token_auth import PageCookie, is_same_secret
 from ai4u_edu.runtime.runner import Runner
