@@ -11,13 +11,13 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
+from ai4u_edu.classroom.my_work import my_work_route
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.join import NO_STORE, Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.classroom.my_work import my_work_route
 from ai4u_edu.classroom.open_limits import seat_requests, seat_sockets, stranger_sockets
 from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
 from ai4u_edu.classroom.program_routes import ProgramRoutes

@@ -28,7 +28,7 @@ from ai4u_edu.classroom.seats import Seats, State
 from ai4u_edu.classroom.stars import Stars
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
-from ai4u_edu.member.room_counts import read_counts
+from ai4u_edu.member.room_state import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
     CheckedNetwork,

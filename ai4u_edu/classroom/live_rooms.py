@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from ai4u_edu.classroom.help_score import Signals, help_score
-from ai4u_edu.member.room_counts import RoomCounts
+from ai4u_edu.member.room_state import RoomCounts
 from ai4u_edu.wire.class_link import Drawing, FromClass, People, Poses, Shape, State, Work
 
 REMOTE_PREFIX = "seat-"

@@ -118,7 +118,7 @@ def _with_work(settings: "RoomSettings") -> "RoomSettings":
     """Open a ZIP file with a student's work, if that is the scene."""
     if not settings.scene.lower().endswith(".zip"):
         return settings
-    from ai4u_edu.room.my_work import open_my_work
+    from ai4u_edu.member.my_work import open_my_work
 
     work = open_my_work(Path(settings.scene))
     typer.echo(f"Your work is in {work.folder}, and scenes that you save go there.")

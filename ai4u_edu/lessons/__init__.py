@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ai4u_edu.lessons.checking import check, hint, progress, solution
-    from ai4u_edu.lessons.class_membership import join_class, leave_class
+    from ai4u_edu.lessons.class_membership import join_class, leave_class, submit
     from ai4u_edu.lessons.controls import cards, sliders
     from ai4u_edu.lessons.filming import film
-    from ai4u_edu.lessons.network_submission import submit
     from ai4u_edu.lessons.plots import bars, plot
     from ai4u_edu.lessons.predictions import compare, predict
     from ai4u_edu.lessons.readiness import ready
@@ -44,10 +43,9 @@ __all__ = [
 
 _HOMES = {
     "checking": ("check", "hint", "progress", "solution"),
-    "class_membership": ("join_class", "leave_class"),
+    "class_membership": ("join_class", "leave_class", "submit"),
     "controls": ("cards", "sliders"),
     "filming": ("film",),
-    "network_submission": ("submit",),
     "predictions": ("compare", "predict"),
     "report_page": ("report",),
     "showing": ("show", "stop"),

@@ -1,25 +1,28 @@
-"""``join_class`` and ``leave_class``: a notebook as a member of a class.
+"""``join_class``, ``leave_class`` and ``submit``: a notebook as a member of a class.
 
 Without ``join_class`` nothing is sent anywhere, and nothing that could send is loaded.
 """
 
 import atexit
-import secrets
 from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Literal
-from urllib.parse import quote
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.notebook_output import card, put
 from ai4u_edu.lessons.progress_file import FOLDER
 
 if TYPE_CHECKING:
-    from ai4u_edu.lessons.class_connection import ClassConnection
     from ai4u_edu.lessons.live import Live
-    from ai4u_edu.member import Seat
+    from ai4u_edu.member.notebook import ClassConnection
 
-SEAT_FILE = "class.json"
-"""File with the notebook's seat, in the folder of the progress."""
+CHECK_TIMEOUT_S = 60.0
+"""Time for which the class's check is waited for; it goes on afterwards."""
+NO_CLASS = (
+    'You are in no class. Join it first: `join_class("http://ADDRESS", "CODE")` with the address '
+    "and the code on the board, on a JupyterHub `join_class()`. Then run this cell again. Without "
+    "a class, networks play each other with: ai4u-edu tournament SCENE ONE.onnx OTHER.onnx"
+)
 
 _connection: "ClassConnection | None" = None
 _world: "Live | None" = None
@@ -42,38 +45,22 @@ def join_class(
         name_choice: number of the name to get among those that the class offers, from 1.
         service: name of the class's service on a JupyterHub that has several.
     """
-    from ai4u_edu.lessons.class_connection import ClassConnection
     from ai4u_edu.member import NotJoinedError
+    from ai4u_edu.member.notebook import join_notebook
 
     _connect(None)
     try:
-        seat, folder = _take_seat(url, code, name_choice, service)
+        connection = join_notebook(url, code, name_choice, service, Path.cwd() / FOLDER)
     except NotJoinedError as error:
         text = f"{error} Then run this cell again. Your checks work without a class, too."
-        put(card("vermillion", "Not joined.", [text]), f"Not joined. {text}")
+        _tell("vermillion", "Not joined.", text)
         return
-    _connect(ClassConnection(seat, folder))
+    _connect(connection)
     text = (
-        f"You are {seat.name}. Your teacher sees the results of your checks, and the world that "
-        "you show. `leave_class()` ends that."
+        f"You are {connection.seat.name}. Your teacher sees the results of your checks, and the "
+        "world that you show. `leave_class()` ends that."
     )
-    put(card("blue", "Joined.", [text]), f"Joined. {text}")
-
-
-def _take_seat(url: str, code: str, name_choice: int, service: str) -> "tuple[Seat, Path]":
-    """Return the notebook's seat, and the folder for its files.
-
-    Raises:
-        NotJoinedError: the class gives none.
-    """
-    from ai4u_edu.member import SeatFile, join_at_hub
-
-    seats = SeatFile(Path.cwd() / FOLDER / SEAT_FILE)
-    if url:
-        seat = seats.take(url, code, name_choice, "notebook")
-        return seat, seats.folder(seat)
-    # the token is another one after each start of the server; what was not delivered has to stay
-    return join_at_hub(service), seats.path.parent / f"class-at-hub-{quote(service, safe='')}"
+    _tell("blue", "Joined.", text)
 
 
 def leave_class() -> None:
@@ -84,6 +71,43 @@ def leave_class() -> None:
     if not is_member:
         text = "You are in no class."
     put(card("grey", "Class.", [text]), text)
+
+
+def submit(scene: str, network: str | Path, *, part: str = "") -> None:
+    """Hand in a trained network for a tournament of your class; the latest one counts.
+
+    The class lets it play a game against itself before it takes it, and says so if it can't play.
+    Without a connection it is kept, and sent later.
+
+    Args:
+        scene: name of the tournament's scene, such as ``"sumo"``.
+        network: its ONNX file, such as ``"policy.onnx"``.
+        part: role or side that the network drives, such as ``"keeper"`` in soccer; empty if it
+            drives all of your robots.
+    """
+    connection = _connection
+    if connection is None:
+        _tell("grey", "Not handed in.", NO_CLASS)
+        return
+    from ai4u_edu.member.notebook import network_in
+
+    try:
+        message = network_in(Path(network), scene, part)
+    except SetupError as error:
+        _tell("vermillion", "Not handed in.", str(error))
+        return
+    answer = connection.hand_in(message, CHECK_TIMEOUT_S)
+    title = f"{message.file} for {scene}" + (f" ({part})" if part else "")
+    if answer.refusal:
+        _tell("vermillion", "Not taken.", f"{title}: {answer.refusal}")
+    elif answer.is_checked:
+        _tell("green", "Handed in.", f"{title} can play in the tournament. The latest one counts.")
+    elif answer.is_stored:
+        _tell(
+            "blue", "Handed in.", f"{title} waits for its check. Run this cell again to hear more."
+        )
+    else:
+        _tell("blue", "Kept.", f"{connection.client.problem} {title} is sent as soon as it can be.")
 
 
 def report_event(
@@ -97,11 +121,7 @@ def report_event(
         diagnosis: id of the mistake that was found, such as ``04.2/narrow``.
     """
     if _connection is not None:
-        from ai4u_edu.wire.class_link import ExerciseResult
-
-        key = secrets.token_urlsafe(12)
-        _connection.client.renew()  # another notebook of this seat may have taken its place
-        _connection.client.send_result(ExerciseResult(key, exercise, event, diagnosis))
+        _connection.report(exercise, event, diagnosis)
 
 
 def class_trouble() -> str:
@@ -123,6 +143,10 @@ def set_world(world: "Live | None") -> None:
         _world = world
         if world is not None and _connection is not None:
             world.join_class(_connection)
+
+
+def _tell(colour: str, sign: str, text: str) -> None:
+    put(card(colour, sign, [text]), f"{sign} {text}")
 
 
 def _connect(connection: "ClassConnection | None") -> None:

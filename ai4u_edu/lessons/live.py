@@ -22,8 +22,8 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:
-    from ai4u_edu.lessons.class_connection import ClassConnection
     from ai4u_edu.member import ClassMember
+    from ai4u_edu.member.notebook import ClassConnection
 
 TOKEN = token_urlsafe(24)
 """Token of all pages of this process. Many may share one notebook server under any host name, so

@@ -2,14 +2,19 @@
 
 from ai4u_edu.member.class_view import ClassView
 from ai4u_edu.member.client import LinkClient
-from ai4u_edu.member.errors import NotJoinedError, UnreachableError
-from ai4u_edu.member.hub import is_at_hub, join_at_hub, page_at_hub
-from ai4u_edu.member.joining import Seat, join
-from ai4u_edu.member.link import ClassLinkSettings, Link, Receive
+from ai4u_edu.member.joining import (
+    NotJoinedError,
+    Seat,
+    SeatFile,
+    UnreachableError,
+    is_at_hub,
+    join,
+    join_at_hub,
+    page_at_hub,
+)
+from ai4u_edu.member.link import ClassLinkSettings, Link, LinkTimeouts, Receive
 from ai4u_edu.member.member import ClassMember
 from ai4u_edu.member.outbox import Outbox
-from ai4u_edu.member.seat_file import SeatFile
-from ai4u_edu.member.timeouts import LinkTimeouts
 
 __all__ = [
     "ClassLinkSettings",

@@ -16,8 +16,8 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from ai4u_edu.member.dialogue import LinkDialogue, Phase, PresentState
+from ai4u_edu.member.link import LinkTimeouts
 from ai4u_edu.member.outbox import Outbox
-from ai4u_edu.member.timeouts import LinkTimeouts
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     PATH,

@@ -8,8 +8,8 @@ import random
 from collections.abc import Callable
 from enum import Enum
 
+from ai4u_edu.member.link import LinkTimeouts
 from ai4u_edu.member.outbox import Outbox
-from ai4u_edu.member.timeouts import LinkTimeouts
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     Ack,

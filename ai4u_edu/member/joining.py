@@ -1,15 +1,25 @@
-"""Joining of a class over HTTP, as its join page does it."""
+"""A program's way to a seat of a class: by the join code, by a file that keeps it, or by a hub.
 
+With a code, it asks the class as its join page does. On a JupyterHub each server has a token, with
+which the class asks the hub who its user is: so nobody types in an address or a code.
+"""
+
+import hashlib
+import json
+import os
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any, Literal
-from urllib.parse import urlsplit
+from urllib.parse import quote, urlsplit
 from uuid import uuid4
 
 import httpx
 
-from ai4u_edu.base.errors import shorten
-from ai4u_edu.member.errors import NotJoinedError, UnreachableError
+from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.errors import AI4UError, shorten
 
 SEAT_COOKIE = "ai4u_edu_seat"
 """Cookie with a seat's token from a program; those from a class go on with a name of its own, as
@@ -19,12 +29,24 @@ CONNECT_TIMEOUT_S = 10.0
 ANSWER_TIMEOUT_S = 90.0
 """Time for an answer: after many wrong codes from a school's network, the class lets the right one
 wait up to a minute for its turn."""
-TIMEOUT = httpx.Timeout(ANSWER_TIMEOUT_S, connect=CONNECT_TIMEOUT_S)
-MAX_NAME_ROUNDS = 5
+_TIMEOUT = httpx.Timeout(ANSWER_TIMEOUT_S, connect=CONNECT_TIMEOUT_S)
+_MAX_NAME_ROUNDS = 5
 """Limit of lists of names to ask for; a whole class may choose from the same few at once."""
-MAX_SENTENCE_CHARS = 300
+_MAX_SENTENCE_CHARS = 300
+_HUB_ADDRESS = "AI4U_EDU_CLASS_URL"
+"""Variable with the class's address, for hubs whose API must not tell it."""
+_MAX_SEATS = 20
+"""Limit of the classes whose seat is kept; the oldest one is forgotten."""
 ProgramKind = Literal["play", "notebook"]
 _ROOM_PATH = re.compile(r"/r/\w+/?$")
+
+
+class NotJoinedError(AI4UError):
+    """A class gives no seat, or can't be asked; the message is for the person who wants to join."""
+
+
+class UnreachableError(NotJoinedError):
+    """Nobody answers at the class's address; the same attempt may succeed later."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +121,7 @@ def join(
         raise NotJoinedError("expected the code on the board, such as BCDFG, got none")
     request = request or str(uuid4())
     with _client(address, held) as client:
-        for _ in range(MAX_NAME_ROUNDS):
+        for _ in range(_MAX_NAME_ROUNDS):
             names = _names(client)
             first = (name_choice - 1) % len(names)
             for name in names[first:] + names[:first]:
@@ -124,10 +146,119 @@ def is_seat_valid(seat: Seat) -> bool:
         return answer.status_code == 303
 
 
+class SeatFile:
+    """The latest seat in each class, by the class's address.
+
+    The code and whatever a person typed in are not in it.
+
+    Args:
+        path: of the file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def take(self, url: str, code: str, name_choice: int = 1, kind: ProgramKind = "play") -> Seat:
+        """Return the seat that is kept, if the class still knows it; else join.
+
+        If the class can't be reached, the kept seat is returned, too.
+
+        Raises:
+            UnreachableError: nobody answers there, and no seat is kept.
+            NotJoinedError: the class gives no seat; the message says why.
+        """
+        kept = self.seats().get(class_address(url))
+        if kept is not None:
+            try:
+                if is_seat_valid(kept):
+                    return kept
+            except UnreachableError:
+                return kept
+        held = kept.token if kept else ""
+        seat = join(url, code, name_choice, held=held, kind=kind)
+        self._keep(seat)
+        return seat
+
+    def folder(self, seat: Seat) -> Path:
+        """Return the folder for a seat's files; those of another seat don't get into it."""
+        digest = hashlib.sha256(f"{seat.url} {seat.token}".encode()).hexdigest()
+        return self.path.parent / f"class-{digest[:16]}"
+
+    def seats(self) -> dict[str, Seat]:
+        """Return the seats by address; none if the file is damaged."""
+        with suppress(OSError, ValueError, TypeError, KeyError, AttributeError):
+            read: Any = json.loads(self.path.read_text(encoding="utf-8"))
+            return {each["url"]: _seat_in(each) for each in read["seats"]}
+        return {}
+
+    def _keep(self, seat: Seat) -> None:
+        others = [each for each in self.seats().values() if each.url != seat.url]
+        seats = [asdict(each) for each in [*others, seat][-_MAX_SEATS:]]
+        with suppress(OSError):  # the next start joins anew
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            write_atomically(self.path, json.dumps({"seats": seats}, indent=1), mode=0o600)
+
+
+def is_at_hub(variables: Mapping[str, str] = os.environ) -> bool:
+    """Return True in a server that a JupyterHub has started.
+
+    >>> is_at_hub({"JUPYTERHUB_API_TOKEN": "t", "JUPYTERHUB_API_URL": "http://hub:8081/hub/api"})
+    True
+    """
+    return all(variables.get(each) for each in ("JUPYTERHUB_API_TOKEN", "JUPYTERHUB_API_URL"))
+
+
+def page_at_hub(path: str, variables: Mapping[str, str] = os.environ) -> str:
+    """Return the path of a page of this server, below the hub's own; empty if there is no hub.
+
+    Args:
+        path: below the server's own.
+        variables: of the process.
+
+    >>> page_at_hub("proxy/4000/", {"JUPYTERHUB_SERVICE_PREFIX": "/user/ada/",
+    ...     "JUPYTERHUB_BASE_URL": "/"})
+    'user/ada/proxy/4000/'
+    """
+    prefix = variables.get("JUPYTERHUB_SERVICE_PREFIX", "")
+    base = variables.get("JUPYTERHUB_BASE_URL", "/")
+    return f"{prefix.rstrip('/')}/{path}".removeprefix(base) if prefix else ""
+
+
+def join_at_hub(service: str = "ai4u-class", variables: Mapping[str, str] = os.environ) -> Seat:
+    """Return the seat that this server's user has in the class, which gives one if needed.
+
+    Args:
+        service: name of the hub's service.
+        variables: of the process.
+
+    Raises:
+        UnreachableError: the hub or the class does not answer.
+        NotJoinedError: there is no hub or no class, or the class gives no seat.
+    """
+    if not is_at_hub(variables):
+        raise NotJoinedError(
+            "expected a server of a JupyterHub with a class, and this is none. Give the address of "
+            "the class and the code on the board"
+        )
+    token = variables["JUPYTERHUB_API_TOKEN"]
+    headers = {"Authorization": f"token {token}"}
+    with httpx.Client(headers=headers, timeout=_TIMEOUT, trust_env=False) as client:
+        url = variables.get(_HUB_ADDRESS) or _class_address(client, service, variables)
+        url = f"{url.rstrip('/')}/"
+        answer = _ask_hub(client, "POST", f"{url}api/hub-seat", "class")
+    told = _fields(answer)
+    if answer.status_code != 200 or not isinstance(told.get("name"), str):
+        problem = told.get("problem")
+        if isinstance(problem, str) and problem:
+            raise NotJoinedError(shorten(problem, _MAX_SENTENCE_CHARS))
+        raise NotJoinedError(f"There is no class at {url} (answer {answer.status_code}).")
+    return Seat(token, told["name"], str(told.get("colour", "")), url)
+
+
 def _client(address: str, token: str) -> httpx.Client:
     cookies = {SEAT_COOKIE: token} if token else None
     # a class is near: what the environment says of proxies is for the Internet
-    return httpx.Client(base_url=address, timeout=TIMEOUT, cookies=cookies, trust_env=False)
+    return httpx.Client(base_url=address, timeout=_TIMEOUT, cookies=cookies, trust_env=False)
 
 
 def _ask(client: httpx.Client, method: str, path: str, **rest: Any) -> httpx.Response:
@@ -151,7 +282,7 @@ def _ask(client: httpx.Client, method: str, path: str, **rest: Any) -> httpx.Res
 
 def _names(client: httpx.Client) -> list[str]:
     answer = _ask(client, "GET", "api/names")
-    names = _field(answer, "names") if answer.status_code == 200 else None
+    names = _fields(answer).get("names") if answer.status_code == 200 else None
     if not isinstance(names, list) or not all(isinstance(each, str) for each in names):
         raise NotJoinedError(
             f"There is no class at {client.base_url} (answer {answer.status_code}). Use the "
@@ -168,7 +299,7 @@ def _seat_of(answer: httpx.Response, name: str, address: str) -> Seat:
     )
     if not token:
         raise NotJoinedError(f"The class at {address} gave no seat. Is it of the same version?")
-    named, colour = _field(answer, "name"), _field(answer, "colour")
+    named, colour = _fields(answer).get("name"), _fields(answer).get("colour")
     return Seat(
         token,
         named if isinstance(named, str) else name,
@@ -178,16 +309,51 @@ def _seat_of(answer: httpx.Response, name: str, address: str) -> Seat:
 
 
 def _problem_of(answer: httpx.Response, address: str) -> str:
-    problem = _field(answer, "problem")
+    problem = _fields(answer).get("problem")
     if isinstance(problem, str) and problem:
-        return shorten(problem, MAX_SENTENCE_CHARS)
+        return shorten(problem, _MAX_SENTENCE_CHARS)
     return f"The class at {address} could not answer (status {answer.status_code}). Try again."
 
 
-def _field(answer: httpx.Response, name: str) -> object:
-    """Return a field of a JSON object; None if there is none."""
+def _seat_in(read: dict[str, Any]) -> Seat:
+    seat = Seat(read["token"], read["name"], read["colour"], read["url"])
+    if not all(isinstance(each, str) for each in asdict(seat).values()):
+        raise TypeError(f"expected texts, got {read!r}")
+    return seat
+
+
+def _class_address(client: httpx.Client, service: str, variables: Mapping[str, str]) -> str:
+    """Return the address of the service, as the hub's API tells it."""
+    api = variables["JUPYTERHUB_API_URL"].rstrip("/")
+    answer = _ask_hub(client, "GET", f"{api}/services/{quote(service, safe='')}", "hub")
+    told = _fields(answer)
+    url, prefix = told.get("url"), told.get("prefix")
+    if isinstance(url, str) and isinstance(prefix, str) and url and prefix:
+        parts = urlsplit(url)
+        return f"{parts.scheme}://{parts.netloc}{prefix}"
+    raise NotJoinedError(
+        f"This hub has no class that this server may use: it has no service {service!r}, or this "
+        f"server's token lacks the scope read:services!service={service}. Whoever runs the "
+        "hub finds the settings in docs/jupyterhub.md."
+    )
+
+
+def _ask_hub(client: httpx.Client, method: str, url: str, who: str) -> httpx.Response:
+    try:
+        answer = client.request(method, url)
+    except (httpx.TransportError, httpx.InvalidURL) as error:
+        why = str(error) or type(error).__name__
+    else:
+        if answer.status_code < 500:
+            return answer
+        why = f"answer {answer.status_code}"
+    raise UnreachableError(f"The {who} at {url} can't be reached ({why}). Try again in a moment.")
+
+
+def _fields(answer: httpx.Response) -> dict[str, Any]:
+    """Return the JSON object of an answer; an empty one if there is none."""
     try:
         body = answer.json()
     except ValueError:
-        return None
-    return body.get(name) if isinstance(body, dict) else None
+        return {}
+    return body if isinstance(body, dict) else {}

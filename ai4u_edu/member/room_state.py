@@ -1,14 +1,16 @@
 """State of a room as its class shows it: who drives, how it goes, who is stuck."""
 
+import json
 import math
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.member.episode_watch import driver_of
-from ai4u_edu.member.room_counts import RoomCounts, read_counts, write_counts
 from ai4u_edu.recording.snapshot import Snapshot
 from ai4u_edu.recording.snapshot.outcome import outcome
 from ai4u_edu.wire.class_link import State, Status
@@ -20,9 +22,36 @@ DRIVING_S = 10.0
 """Time after the last key or edit for which a room whose world runs is still driven."""
 WRITE_INTERVAL_S = 1.0
 """Shortest time between two writes of the counts, except when the goal is reached."""
+_COUNTS_FILE = "counts.json"
+"""File of the counts, in the room's folder."""
 WINS = ("goal", "won")
 TEACHER = "teacher"
 """Value of :attr:`Snapshot.waiting` while a world is held."""
+
+
+@dataclass(frozen=True)
+class RoomCounts:
+    """Drives and falls in a scene, and whether its goal was reached; a file keeps them."""
+
+    scene: str = ""
+    """Title of the scene."""
+    episodes: int = 0
+    falls: int = 0
+    is_solved: bool = False
+
+
+def read_counts(folder: Path) -> RoomCounts:
+    """Return the counts of a room's folder; none if there is no file, or another one."""
+    try:
+        stored = json.loads((folder / _COUNTS_FILE).read_text(encoding="utf-8"))
+        return RoomCounts(
+            str(stored["scene"]),
+            max(0, int(stored["episodes"])),
+            max(0, int(stored["falls"])),
+            bool(stored["is_solved"]),
+        )
+    except (OSError, ValueError, TypeError, KeyError, OverflowError, RecursionError):
+        return RoomCounts()
 
 
 class RoomState:
@@ -79,7 +108,7 @@ class RoomState:
         if at_once or is_news or now - self._written_at >= WRITE_INTERVAL_S:
             self._written_at = now
             with suppress(OSError):  # a full disk, say: tried again later
-                write_counts(self._folder, counts)
+                _write_counts(self._folder, counts)
                 self._stored = counts
 
     def read(
@@ -151,3 +180,12 @@ def _is_driven(snapshot: Snapshot) -> bool:
         if agent.held_keys or is_moving:
             return True
     return False
+
+
+def _write_counts(folder: Path, counts: RoomCounts) -> None:
+    """Write counts into a room's folder.
+
+    Raises:
+        OSError: they can't be written.
+    """
+    write_atomically(folder / _COUNTS_FILE, json.dumps(asdict(counts)))

@@ -11,9 +11,9 @@ import pytest
 
 from ai4u_edu import Scene, zoo
 from ai4u_edu.lessons.progress_file import read_entries
+from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.file import decode
-from ai4u_edu.room.my_work import open_my_work
 from ai4u_edu.wire.class_link import Ack, Race, Work
 from tests.classroom.link_client import RawLink, TeacherSocket, check, state, wait_for_verdicts
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class

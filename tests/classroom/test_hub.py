@@ -11,8 +11,7 @@ from ai4u_edu import zoo
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.sign_in import COOKIE, STATE_COOKIE
-from ai4u_edu.member.errors import NotJoinedError, UnreachableError
-from ai4u_edu.member.hub import join_at_hub
+from ai4u_edu.member import NotJoinedError, UnreachableError, join_at_hub
 from ai4u_edu.wire.class_link import Ack, HandedIn, Network, Problem, Welcome
 from tests.classroom.fake_hub import (
     ACCESS,

@@ -104,7 +104,7 @@ def test_an_unreachable_class_leaves_a_program_its_seat(
     def unreachable(seat: object) -> bool:
         raise UnreachableError("gone")
 
-    monkeypatch.setattr("ai4u_edu.member.seat_file.is_seat_valid", unreachable)
+    monkeypatch.setattr("ai4u_edu.member.joining.is_seat_valid", unreachable)
     assert file.take(there.url, CODE) == seat
 
 

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 from ai4u_edu.cli.main import app
 from ai4u_edu.member import SeatFile
 from ai4u_edu.member.joining import SEAT_COOKIE
-from ai4u_edu.room.my_work import open_my_work
+from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.scenes import Scene
 from tests.classroom.link_client import TeacherSocket
 from tests.classroom.reserved_port import reserved_port

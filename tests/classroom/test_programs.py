@@ -15,7 +15,7 @@ from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.errors import NewerProgramError, ProgramNotKeptError
 from ai4u_edu.classroom.programs import MAX_PROGRAM_CHARS, MAX_PROGRAMS, Programs
 from ai4u_edu.classroom.seat_rate import MAX_REQUESTS_AT_ONCE
-from ai4u_edu.room.my_work import open_my_work
+from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.wire.class_link import MAX_STARTING_PROGRAM_CHARS, Assignment
 from tests.classroom.link_client import RawLink, state
 from tests.classroom.served_class import ServedClass, Student, served_class

@@ -21,7 +21,7 @@ from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
 from ai4u_edu.games.jobs.inline import InlineEngine
 from ai4u_edu.games.tournament.verify import verify
-from ai4u_edu.room.my_work import open_my_work
+from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, Network, Problem
 from tests.classroom.link_client import RawLink, TeacherSocket, key, wait_for_verdicts
 from tests.classroom.served_class import ServedClass, Student, served_class

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.room import my_work as module
-from ai4u_edu.room.my_work import UnsafeSceneError, open_my_work
+from ai4u_edu.member import my_work as module
+from ai4u_edu.member.my_work import UnsafeSceneError, open_my_work
 from tests.playing import played
 
 LIBRARY = Path(__file__).parents[2] / "ai4u_edu/scenes/library"

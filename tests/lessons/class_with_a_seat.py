@@ -7,10 +7,9 @@ from functools import partial
 
 import pytest
 
-from ai4u_edu.lessons import class_connection
-from ai4u_edu.lessons.class_connection import ClassConnection
 from ai4u_edu.lessons.class_membership import current_connection
-from ai4u_edu.member import Seat, SeatFile
+from ai4u_edu.member import Seat, SeatFile, notebook
+from ai4u_edu.member.notebook import ClassConnection
 from tests.member.tiny_class import PATIENT, SECRET, TinyClass
 from tests.waiting import until
 
@@ -28,7 +27,7 @@ def class_with_a_seat(
     seat = Seat(SECRET, "Red Fox", "#d55e00", there.url)
     monkeypatch.setattr(SeatFile, "take", lambda *_: seat)
     patient = partial(ClassConnection, timeouts=PATIENT, clock=clock)
-    monkeypatch.setattr(class_connection, "ClassConnection", patient)
+    monkeypatch.setattr(notebook, "ClassConnection", patient)
     yield there
     there.stop()
 

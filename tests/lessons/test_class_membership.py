@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.lessons import check, hint, join_class, leave_class, show, stop
-from ai4u_edu.lessons.class_connection import NO_WORLD
 from ai4u_edu.lessons.class_membership import current_connection
 from ai4u_edu.lessons.progress_file import FOLDER
+from ai4u_edu.member.notebook import NO_WORLD
 from ai4u_edu.wire.class_link import (
     Applied,
     Assignment,

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
+from ai4u_edu.lessons import class_membership as module
 from ai4u_edu.lessons import join_class, leave_class, submit
-from ai4u_edu.lessons import network_submission as module
-from ai4u_edu.lessons.class_connection import ClassConnection
 from ai4u_edu.lessons.class_membership import current_connection
+from ai4u_edu.member.notebook import ClassConnection
 from ai4u_edu.wire.class_link import (
     MAX_NETWORK_BYTES,
     Ack,

@@ -1,20 +1,29 @@
-"""A notebook's link with its class, and the part of it that the shown world uses."""
+"""A notebook as a member of a class: its seat, its link, and the part that a shown world uses."""
 
+import secrets
 import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from threading import Condition, Lock
-from typing import NamedTuple
+from typing import Literal, NamedTuple
+from urllib.parse import quote
 
 from msgspec.structs import replace
 
-from ai4u_edu.member import LinkClient, LinkTimeouts, Outbox, Seat
+from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.member.client import LinkClient
 from ai4u_edu.member.dialogue import PresentState
+from ai4u_edu.member.joining import Seat, SeatFile, join_at_hub
+from ai4u_edu.member.link import LinkTimeouts, Receive
+from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.class_link import (
+    MAX_NETWORK_BYTES,
     Applied,
     Assignment,
     Attention,
+    ExerciseResult,
     FromClass,
     HandedIn,
     Network,
@@ -26,16 +35,10 @@ from ai4u_edu.wire.class_link import (
     Welcome,
 )
 
-OUTBOX = "outbox"
-"""Folder of results that are not delivered yet, in the seat's folder."""
-POLL_S = 0.25
-"""Interval at which a lost connection is looked for."""
 NO_WORLD = "The notebook shows no world at present."
 _REPLAYED = (Welcome, People, Attention, Race)
 """Messages of which a world that is shown later gets the latest one. Of assignments it gets only a
 lesson's: a scene would replace the world that a cell has just shown."""
-
-Receive = Callable[[FromClass], object]
 
 
 class Answer(NamedTuple):
@@ -68,7 +71,7 @@ class ClassConnection:
     ) -> None:
         self.seat, self.folder = seat, folder
         self._clock = clock
-        outbox = Outbox(folder / OUTBOX)
+        outbox = Outbox(folder / "outbox")
         self.client = LinkClient(seat.url, seat.token, "notebook", self._receive, outbox, timeouts)
         self._assignment = ""
         """Id of the latest assignment; the class sends it again after each reconnect."""
@@ -91,6 +94,20 @@ class ClassConnection:
         """Deliver what can be delivered soon, and end the link."""
         self.client.stop()
 
+    def report(
+        self, exercise: str, event: Literal["right", "wrong", "hint"], diagnosis: str = ""
+    ) -> None:
+        """Tell the class of a check or a hint.
+
+        Args:
+            exercise: its id.
+            event: result of the check, or that a hint was read.
+            diagnosis: id of the mistake that was found, such as ``04.2/narrow``.
+        """
+        self.client.renew()  # another notebook of this seat may have taken its place
+        key = secrets.token_urlsafe(12)
+        self.client.send_result(ExerciseResult(key, exercise, event, diagnosis))
+
     def hand_in(self, network: Network, timeout_s: float) -> Answer:
         """Deliver a network, and wait for the class's check.
 
@@ -111,7 +128,7 @@ class ClassConnection:
                 is_lost = is_lost and bool(self.client.problem)
                 if answer.is_checked or answer.refusal or is_lost or left_s <= 0:
                     return answer
-                self._changed.wait(min(left_s, POLL_S))
+                self._changed.wait(min(left_s, 0.25))  # a lost connection notifies nobody
 
     def _answer(self, key: str) -> Answer:
         for each in self._handed_in.networks:
@@ -214,3 +231,57 @@ class WorldLink:
     def send_result(self, result: Result) -> None:
         """Deliver a result."""
         self._connection.client.send_result(result)
+
+
+def join_notebook(
+    url: str, code: str, name_choice: int, service: str, folder: Path
+) -> ClassConnection:
+    """Take the seat of a notebook, and return its connection, which is not started.
+
+    Args:
+        url: address of the class; empty on a JupyterHub.
+        code: join code.
+        name_choice: number of the name to get among those that the class offers, from 1.
+        service: name of the class's service on a JupyterHub.
+        folder: of the notebook's files; the same one gives the same seat.
+
+    Raises:
+        NotJoinedError: the class gives no seat; the message says why.
+    """
+    if url:
+        seats = SeatFile(folder / "class.json")
+        seat = seats.take(url, code, name_choice, "notebook")
+        return ClassConnection(seat, seats.folder(seat))
+    # the token is another one after each start of the server; what was not delivered has to stay
+    place = folder / f"class-at-hub-{quote(service, safe='')}"
+    return ClassConnection(join_at_hub(service), place)
+
+
+def network_in(path: Path, scene: str, part: str) -> Network:
+    """Return the message with which a network is handed in.
+
+    Args:
+        path: of its ONNX file.
+        scene: name of the tournament's scene.
+        part: role or side that it drives; empty for all agents.
+
+    Raises:
+        SetupError: it can't be handed in; a sentence for the student.
+    """
+    names = Scene.names()
+    if scene not in names:
+        raise SetupError(f"Expected the name of a scene, got {scene!r}; {suggest(scene, names)}.")
+    if path.suffix.lower() != ".onnx":
+        raise SetupError(
+            f"Expected a network as an .onnx file, got {path.name!r}. A training writes one."
+        )
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise SetupError(
+            f"{path} can't be read: {error.strerror}. Is it in this notebook's folder?"
+        ) from None
+    if not 0 < len(data) <= MAX_NETWORK_BYTES:
+        limit = MAX_NETWORK_BYTES // 2**20
+        raise SetupError(f"{path.name}: expected 1 byte to {limit} MB, got {len(data):,} bytes.")
+    return Network(secrets.token_urlsafe(12), scene, part, path.name[-100:], data)
