@@ -77,15 +77,13 @@ def classroom(
     own_blocks: OwnBlocks = None,
     open_page: o.OpenPage = True,
     hub: AtHub = False,
-    teachers: Teachers = None,  # noqa: ARG001 - serve_at_hub takes it from the context
+    teachers: Teachers = None,  # noqa: ARG001 - _serve_at_hub takes it from the context
 ) -> None:
     """Serve a class: students join with a code, and each drives in a world of their own."""
     load_own_blocks(own_blocks)
     os.umask(0o077)  # whatever a class and its rooms write is its owner's alone
     if hub:
-        from ai4u_edu.cli.classroom_hub import serve_at_hub
-
-        serve_at_hub(context)
+        _serve_at_hub(context)
         return
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
@@ -130,4 +128,45 @@ def classroom(
         )
         with tuned_process(), released_memory():
             serve(app, host, port, announce, **SERVER_LIMITS)
+    HAS_SERVED.set()
+
+
+def _serve_at_hub(context: typer.Context) -> None:
+    """Serve a class as a service of a JupyterHub until SIGTERM, which the hub sends at its end.
+
+    Args:
+        context: of the command, with its options. An address to listen at that is among them counts
+            more than the hub's: in a container that may be a name of the network, at which nobody
+            can listen.
+
+    Raises:
+        SetupError: no hub has started this process.
+    """
+    from ai4u_edu.classroom import ClassStore, RoomRule, Seats
+    from ai4u_edu.classroom.gateway import SERVER_LIMITS
+    from ai4u_edu.classroom.hub import HubEnvironment, hub_class_app
+    from ai4u_edu.page.server import serve
+    from ai4u_edu.page.server.process_exit import HAS_SERVED
+    from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
+
+    hub, options = HubEnvironment.read(), context.params
+    source = context.get_parameter_source("host")
+    is_host_given = source is not None and source.name != "DEFAULT"
+
+    def announce(url: str) -> None:
+        typer.echo(f"The class is a service of the hub: {url.rstrip('/')}{hub.prefix}")
+
+    with ClassStore(options["folder"], options["max_folder"]) as store:
+        rule = RoomRule.parse("each")
+        seats = Seats(store, options["scene"], rule, language=options["language"])
+        app = hub_class_app(
+            store,
+            seats,
+            hub,
+            teachers=options["teachers"] or ["ai4u-teachers"],
+            blocks=options["own_blocks"] or (),
+        )
+        host = options["host"] if is_host_given else hub.host
+        with tuned_process(), released_memory():
+            serve(app, host, hub.port, announce, **SERVER_LIMITS)
     HAS_SERVED.set()

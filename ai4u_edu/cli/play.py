@@ -8,7 +8,6 @@ import typer
 
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.cli import play_options as o
-from ai4u_edu.cli.joining import with_class
 from ai4u_edu.cli.options import OwnBlocks, expect_scene, load_own_blocks
 
 if TYPE_CHECKING:
@@ -72,7 +71,7 @@ def play(
         unsaved=unsaved_folder() if autosave or restore else None,
         autosave=autosave,
     )
-    settings = with_class(_with_work(settings), class_url, code, name_choice, port)
+    settings = _with_class(_with_work(settings), class_url, code, name_choice, port)
     if autosave and settings.saved_scenes is None and settings.class_folder is None:
         settings = replace(settings, saved_scenes=_own_scenes())
     _serve(settings, host, port, open_page, connections)
@@ -127,6 +126,62 @@ def _with_work(settings: "RoomSettings") -> "RoomSettings":
         scene=str(work.scene),
         saved_scenes=settings.saved_scenes or work.scenes,
         offers=(*settings.offers, str(work.episodes)),
+    )
+
+
+def _with_class(
+    settings: "RoomSettings", url: str, code: str, name_choice: int, port: int
+) -> "RoomSettings":
+    """Join a class, if there is an address.
+
+    Args:
+        settings: of the world.
+        url: address of the class; ``hub`` for that of the JupyterHub that started this server.
+        code: join code.
+        name_choice: number of the name to take.
+        port: of the world's page.
+    """
+    if url == "hub":
+        return _with_class_at_hub(settings, port)
+    if not url:
+        if code:
+            raise typer.BadParameter("expected --class with the address of the class, too")
+        return settings
+    from ai4u_edu.base.atomic_write import make_folder
+    from ai4u_edu.member import ClassLinkSettings, SeatFile
+    from ai4u_edu.page.editing.autosave import unsaved_folder
+
+    seats = SeatFile(unsaved_folder().with_name("classes") / "seats.json")
+    seat = seats.take(url, code, name_choice)
+    folder = seats.folder(seat)
+    make_folder(folder, "the seat in the class")
+    typer.echo(f"Joined the class as {seat.name}.")
+    return replace(
+        settings, class_link=ClassLinkSettings(seat.url, seat.token), class_folder=folder
+    )
+
+
+def _with_class_at_hub(settings: "RoomSettings", port: int) -> "RoomSettings":
+    """Join the class of the JupyterHub that has started this server, if there is one."""
+    from ai4u_edu.base.atomic_write import make_folder
+    from ai4u_edu.member import ClassLinkSettings, NotJoinedError, join_at_hub, page_at_hub
+    from ai4u_edu.page.editing.autosave import unsaved_folder
+    from ai4u_edu.page.server import with_token
+
+    try:
+        seat = join_at_hub()
+    except NotJoinedError as error:
+        _warn(f"{error} The world runs without a class.")
+        return settings
+    folder = unsaved_folder().with_name("classes") / "at-hub"
+    make_folder(folder, "the seat in the class")
+    typer.echo(f"Joined the class as {seat.name}.")
+    token = settings.rules.token
+    page = with_token(f"proxy/{port}/", token) if port else ""
+    return replace(
+        settings,
+        class_link=ClassLinkSettings(seat.url, seat.token, page=page_at_hub(page) if page else ""),
+        class_folder=folder,
     )
 
 
