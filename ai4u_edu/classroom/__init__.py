@@ -2,8 +2,7 @@
 
 from ai4u_edu.classroom.gateway import class_app
 from ai4u_edu.classroom.local_rooms import LocalRooms
-from ai4u_edu.classroom.room_rule import RoomRule
-from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.seats import RoomRule, Seats
 from ai4u_edu.classroom.store import ClassStore
 
 __all__ = ["ClassStore", "LocalRooms", "RoomRule", "Seats", "class_app"]

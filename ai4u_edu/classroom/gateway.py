@@ -1,37 +1,30 @@
 """The web app of a class: joining, the way into rooms, and the teacher's page."""
 
 import re
-from collections.abc import Awaitable, Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from typing import Any
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
-from starlette.requests import Request
-from starlette.responses import JSONResponse, Response
 from starlette.routing import Mount, Route, WebSocketRoute
 
-from ai4u_edu.classroom.my_work import my_work_route
 from ai4u_edu.classroom.class_event import ClassEvents
-from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.episode_check import EpisodeCheck
-from ai4u_edu.classroom.join import NO_STORE, Join
+from ai4u_edu.classroom.join import Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.open_limits import seat_requests, seat_sockets, stranger_sockets
-from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
-from ai4u_edu.classroom.program_routes import ProgramRoutes
-from ai4u_edu.classroom.room_entrance import RoomEntrance
+from ai4u_edu.classroom.pages import FILE_ROUTES, Echo, page_route
+from ai4u_edu.classroom.room_entrance import RoomEntrance, ScriptKeys
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.room_proxy import RoomProxy
-from ai4u_edu.classroom.script_keys import ScriptKeys
 from ai4u_edu.classroom.seats import Seats
-from ai4u_edu.classroom.star_routes import StarRoutes
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, join_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.classroom.tournament.files import TournamentFiles
-from ai4u_edu.classroom.tournament.network_routes import NetworkRoutes
+from ai4u_edu.classroom.work_routes import WorkRoutes
 from ai4u_edu.page.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.page.server.limits.attempts import Attempts
 from ai4u_edu.page.server.proxy import AGENT_COOKIE, DARK_COOKIE
@@ -81,7 +74,7 @@ def class_app(
 
     events = ClassEvents(live, join_here)
     join, teacher = Join(seats, live.tell_people), Teacher(live, events, proxy)
-    programs = ProgramRoutes(live)
+    work = WorkRoutes(live)
     cookie = PageCookie(teacher_token)
     entrance = RoomEntrance(live, proxy, cookie, keys, sockets=seated, requests=seat_requests())
     auth = Middleware(TokenAuth, token=teacher_token, attempts=attempts)
@@ -95,9 +88,7 @@ def class_app(
             Route("/api/names", join.names),
             Route("/api/join", join.join, methods=["POST"]),
             Route("/api/move-code", join.move_code, methods=["GET", "POST"]),
-            Route("/api/my-work", my_work_route(live)),
-            *_work_routes(live, programs),
-            Route("/api/program/run", programs.run, methods=["PUT"]),
+            *work.routes(),
             Route("/check", page_route("check.html")),
             WebSocketRoute("/check/socket", Echo(strangers)),
             Route("/privacy", page_route("privacy.html")),
@@ -106,7 +97,7 @@ def class_app(
             Route("/teacher", teacher.page, middleware=[page_auth]),
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/export", teacher.export, middleware=[auth]),
-            Route("/teacher/programs", programs.of_room, middleware=[auth]),
+            Route("/teacher/programs", work.programs, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
             *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
@@ -114,31 +105,9 @@ def class_app(
             WebSocketRoute("/projector/socket", projector, middleware=[auth]),
             Mount("/r", app=entrance),
         ],
-        middleware=[_origin_check(allowed_hosts, proxy_hosts)],
-    )
-
-
-def _work_routes(live: LiveClass, programs: ProgramRoutes) -> list[Route]:
-    """Return the routes with which pages keep work, as long as the class's folder is not full."""
-    routes = {
-        "/api/program": programs.own,
-        "/api/stars": StarRoutes(live).own,
-        "/api/network": NetworkRoutes(live).own,
-    }
-
-    def limited(keep: Callable[[Request], Awaitable[Response]]) -> Callable[..., Any]:
-        async def answer(request: Request) -> Response:
-            if request.method == "PUT" and live.store.quota.is_full:
-                text = "The class's folder is full, and keeps nothing more. Tell your teacher."
-                return JSONResponse({"problem": text}, 507, NO_STORE)
-            return await keep(request)
-
-        return answer
-
-    return [Route(path, limited(keep), methods=["GET", "PUT"]) for path, keep in routes.items()]
-
-
-def _origin_check(allowed_hosts: Collection[str], proxy_hosts: Collection[str]) -> Middleware:
-    return Middleware(
-        HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts, pages=PAGES
+        middleware=[
+            Middleware(
+                HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts, pages=PAGES
+            )
+        ],
     )

@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
-from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.errors import (
     JoinError,
     NameTakenError,
@@ -17,13 +16,12 @@ from ai4u_edu.classroom.errors import (
     StoreError,
     WrongCodeError,
 )
-from ai4u_edu.classroom.move_codes import LIFE_S
 from ai4u_edu.classroom.open_limits import sign_ins
 from ai4u_edu.classroom.room_process import path_of
-from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.seats import MOVE_CODE_LIFE_S, Seats
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.member.joining import SEAT_COOKIE
-from ai4u_edu.page.server.limits.attempts import client_address
+from ai4u_edu.page.server.limits.attempts import CodeLimit, client_address
 from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.limits.rate_limit import RateLimits
@@ -83,12 +81,12 @@ class Join:
         """
         seat = seat_of(self._seats, request)
         if seat is None:
-            return _problem("You have no place in this class. Join with the code.", 403)
+            return problem("You have no place in this class. Join with the code.", 403)
         if request.method != "POST":
             is_open = self._seats.has_move_code(seat.number)
             return JSONResponse({"is_open": is_open}, headers=NO_STORE)
         code = self._seats.new_move_code(seat.number)
-        return JSONResponse({"code": code, "minutes": LIFE_S // 60}, headers=NO_STORE)
+        return JSONResponse({"code": code, "minutes": MOVE_CODE_LIFE_S // 60}, headers=NO_STORE)
 
     async def join(self, request: Request) -> Response:
         """Give a browser or program a seat, as a cookie, and tell it the way to its room.
@@ -100,12 +98,12 @@ class Join:
             async with self._waiting.one_of(client_address(request.scope)):
                 return await self._join(request, wanted)
         except TooManyOpenError:
-            return _problem(TOO_MANY, 429)
+            return problem(TOO_MANY, 429)
 
     async def _join(self, request: Request, wanted: JoinRequest) -> Response:
         address = client_address(request.scope)
         if not await self._limit.wait_for_turn(address):
-            return _problem("Too many wrong codes come from your network. Try again.", 429)
+            return problem("Too many wrong codes come from your network. Try again.", 429)
         given = wanted.code, wanted.name, wanted.request, seat_token(self._seats, request)
         try:
             try:
@@ -114,18 +112,18 @@ class Join:
             except NewSeatError:
                 wait_s = self._new_seats.take_within(address, MAX_NEW_SEAT_WAIT_S)
                 if wait_s is None:
-                    return _problem(TOO_MANY, 429)
+                    return problem(TOO_MANY, 429)
                 await asyncio.sleep(wait_s)
                 seat, token = await asyncio.to_thread(self._seats.join, *given)
         except WrongCodeError as error:
             self._limit.add_wrong(address)
-            return _problem(str(error), 403)
+            return problem(str(error), 403)
         except NameTakenError as error:
-            return _problem(str(error), 409)
+            return problem(str(error), 409)
         except JoinError as error:
-            return _problem(str(error), 403)
+            return problem(str(error), 403)
         except StoreError as error:
-            return _problem(f"{error} Tell your teacher.", 503)
+            return problem(f"{error} Tell your teacher.", 503)
         self._on_change()
         found = {"room": f"{path_of(seat.room)}/", "name": seat.name, "colour": seat.colour}
         answer = JSONResponse(found, headers=NO_STORE)
@@ -152,5 +150,6 @@ def seat_token(seats: Seats, connection: HTTPConnection) -> str:
     return cookies.get(seats.cookie) or cookies.get(SEAT_COOKIE, "")
 
 
-def _problem(text: str, status: int) -> Response:
+def problem(text: str, status: int) -> Response:
+    """Return a refusal with a sentence to show."""
     return JSONResponse({"problem": text}, status, NO_STORE)

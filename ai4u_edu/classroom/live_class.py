@@ -16,16 +16,13 @@ from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
-from ai4u_edu.classroom.program_runs import ProgramRuns
-from ai4u_edu.classroom.programs import Programs
+from ai4u_edu.classroom.programs import ProgramRuns, Programs, Stars
 from ai4u_edu.classroom.progress import Progress
-from ai4u_edu.classroom.race import Races
-from ai4u_edu.classroom.race_runner import RaceRunner
+from ai4u_edu.classroom.race import RaceRunner, Races
 from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, State
-from ai4u_edu.classroom.stars import Stars
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.member.room_state import read_counts

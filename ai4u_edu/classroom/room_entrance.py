@@ -1,6 +1,8 @@
 """The way into rooms: everything below ``/r/``, for a room's own seats and for the teacher."""
 
 import asyncio
+import hmac
+import secrets
 from contextlib import nullcontext
 
 from starlette.requests import HTTPConnection
@@ -13,7 +15,8 @@ from ai4u_edu.classroom.join import seat_of
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
 from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
-from ai4u_edu.classroom.script_keys import ScriptKeys
+from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.page.server.token_auth import PageCookie
 from ai4u_edu.page.server.token_page import wants_page
@@ -29,6 +32,38 @@ NO_KEY = (
 LEFT = "you have no place in this class now; ask your teacher, or join again"
 TEACHER = 0
 """Number that stands for the teacher in the place of a seat's."""
+
+
+class ScriptKeys:
+    """A key for each seat, which its page shows in the Python code that drives the agent.
+
+    Keys are computed from one secret of the class, so none is stored.
+
+    Args:
+        store: of the class.
+        seats: of the class.
+    """
+
+    def __init__(self, store: ClassStore, seats: Seats) -> None:
+        self._store, self._seats = store, seats
+
+    def key_of(self, number: int) -> str:
+        """Return a seat's key; empty for number 0, the teacher's."""
+        if not number:
+            return ""
+        return hmac.digest(self._secret(), str(number).encode(), "sha256").hex()[:24]
+
+    def seat_of(self, room: str, authorization: str) -> int | None:
+        """Return the number of a room's seat whose key a header has; None if there is none."""
+        for seat in self._seats.all():
+            if seat.room == room and seat.state == "in":
+                wanted = f"Bearer {self.key_of(seat.number)}"
+                if secrets.compare_digest(wanted.encode(), authorization.encode()):
+                    return seat.number
+        return None
+
+    def _secret(self) -> bytes:
+        return self._store.setting_or("script_secret", lambda: secrets.token_hex(16)).encode()
 
 
 class RoomEntrance:

@@ -3,47 +3,211 @@
 import asyncio
 import io
 import secrets
+import shutil
 from dataclasses import replace
 from functools import lru_cache
+from typing import Annotated, Literal
 from urllib.parse import quote
 
 import segno
+from pydantic import BaseModel, ConfigDict, Field, RootModel
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
+from ai4u_edu.base.atomic_write import reason
+from ai4u_edu.base.errors import SceneError, shorten
 from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.classroom.assignments import AssignedScene
+from ai4u_edu.classroom.attention import MAX_SECONDS
 from ai4u_edu.classroom.class_event import ClassEvents
-from ai4u_edu.classroom.commands import (
-    AnyCommand,
-    Assign,
-    Attend,
-    BeginTournament,
-    Command,
-    HideBoard,
-    MoveCode,
-    PlainCommand,
-    SeatCommand,
-    Show,
-    Sleep,
-    StartRace,
-    StartTournament,
-)
+from ai4u_edu.classroom.course_index import course_lessons
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
-from ai4u_edu.classroom.forget import forget
-from ai4u_edu.classroom.live_class import LiveClass
-from ai4u_edu.classroom.move_codes import LIFE_S
+from ai4u_edu.classroom.join import NO_STORE, problem
+from ai4u_edu.classroom.live_class import LiveClass, ShownKind
+from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
-from ai4u_edu.classroom.scene_source import find_scene
-from ai4u_edu.classroom.seats import State
+from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
+from ai4u_edu.classroom.seats import MOVE_CODE_LIFE_S, State
+from ai4u_edu.classroom.store import TEACHER_SETTING
+from ai4u_edu.classroom.tournament.entrants import System
+from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
+from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
+from ai4u_edu.page.editing.errors import ChangeError
+from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.standalone import standalone_page
-from ai4u_edu.wire.class_link import MAX_SCENE_CHARS, MAX_STARTING_PROGRAM_CHARS
+from ai4u_edu.scenes import Scene
+from ai4u_edu.wire.class_link import (
+    MAX_MESSAGE_CHARS,
+    MAX_SCENE_CHARS,
+    MAX_STARTING_PROGRAM_CHARS,
+)
 
 MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
-UNPROCESSABLE = 422
-NO_STORE = {"Cache-Control": "no-store"}
+MAX_COUNTDOWN_S = 60.0
+_RoomId = Annotated[str, Field(max_length=40)]
+_Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
+_Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]
+
+
+class SceneOfRoom(BaseModel):
+    """The present scene of a room."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    room: str = Field(max_length=40)
+
+
+class SceneText(BaseModel):
+    """A scene's YAML."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    yaml: str = Field(max_length=MAX_SCENE_CHARS)
+
+
+class SceneOfLesson(BaseModel):
+    """The scene that a lesson begins with."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    lesson: str = Field(max_length=2)
+
+
+_SceneSource = str | SceneOfRoom | SceneText
+_LessonOrScene = SceneOfLesson | _SceneSource
+
+
+class _Command(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class _SeatCommand(_Command):
+    """Send a seat out, ban it, or give it another name."""
+
+    do: Literal["kick", "ban", "rename"]
+    seat: int
+    name: str = Field(default="", max_length=60)
+    new_code: bool = False
+    """True with a ban to set a new code too, since who knows the old one may join again."""
+
+
+class _GiveMoveCode(_Command):
+    """Return a code with which a student takes a seat again, whatever its state is."""
+
+    do: Literal["move code"]
+    seat: int
+
+
+class _PlainCommand(_Command):
+    """A command without arguments."""
+
+    do: Literal[
+        "new code",
+        "open",
+        "close",
+        "end race",
+        "cancel tournament",
+        "close tournament",
+        "forget",
+    ]
+
+
+class _Assign(_Command):
+    """Give rooms a scene, or a lesson."""
+
+    do: Literal["assign"]
+    rooms: list[_RoomId] | Literal["all"]
+    scene: _LessonOrScene
+    seed: _Seed | None = None
+    """Seed of all these worlds."""
+    same_seed: bool = False
+    """True without a seed: a random one, the same for all."""
+    program: str = Field(default="", max_length=MAX_STARTING_PROGRAM_CHARS)
+    """Python that students may begin with."""
+
+
+class _Attend(_Command):
+    """Ask for attention; without kind and message, end it."""
+
+    do: Literal["attention"]
+    kind: Literal["", "pause", "blank"]
+    message: str = Field(default="", max_length=MAX_MESSAGE_CHARS)
+    seconds: _Seconds = 0.0
+
+
+class _StartRace(_Command):
+    """Start a race."""
+
+    do: Literal["race"]
+    scene: _SceneSource
+    seed: _Seed | None = None
+    countdown: float = Field(default=5.0, ge=0, le=MAX_COUNTDOWN_S, allow_inf_nan=False)
+    hide_board: bool = False
+
+
+class _BeginTournament(_Command):
+    """Begin a tournament: students hand in networks for its scene."""
+
+    do: Literal["tournament"]
+    scene: str = Field(max_length=60)
+    """Name in the library."""
+
+
+class _StartTournament(_Command):
+    """Play the present tournament."""
+
+    do: Literal["start tournament"]
+    seeds: int = Field(default=1, ge=1, le=20)
+    """Seeds of each pair's duels, or of races."""
+    system: System = "round-robin"
+    own_player: bool = False
+    """True if the scene's own player takes part."""
+
+
+class _HideBoard(_Command):
+    """Hide the board of the race from students, or show it."""
+
+    do: Literal["board"]
+    hide: bool
+
+
+class _Show(_Command):
+    """Choose what the projector page shows."""
+
+    do: Literal["show"]
+    kind: ShownKind
+    room: _RoomId = ""
+    game: int = Field(default=0, ge=0, le=10**6)
+    """Number of a game of the tournament, for its recording."""
+
+
+class _Sleep(_Command):
+    """End the process of a room; it starts again when its page is opened."""
+
+    do: Literal["sleep"]
+    room: _RoomId
+
+
+_AnyCommand = (
+    _SeatCommand
+    | _GiveMoveCode
+    | _PlainCommand
+    | _Assign
+    | _Attend
+    | _StartRace
+    | _BeginTournament
+    | _StartTournament
+    | _HideBoard
+    | _Show
+    | _Sleep
+)
+
+
+class _TeacherRequest(RootModel[Annotated[_AnyCommand, Field(discriminator="do")]]):
+    """Body of a command."""
 
 
 class Teacher:
@@ -77,55 +241,57 @@ class Teacher:
     async def command(self, request: Request) -> Response:
         """Do what the teacher wants; answer with a sentence if it can't be done."""
         try:
-            wanted = await read_json(request, Command, MAX_BODY_BYTES)
-            if isinstance(wanted.root, MoveCode):
+            wanted = await read_json(request, _TeacherRequest, MAX_BODY_BYTES)
+            if isinstance(wanted.root, _GiveMoveCode):
                 code = self._seats.new_move_code(wanted.root.seat, is_teachers=True)
-                return JSONResponse({"code": code, "minutes": LIFE_S // 60}, headers=NO_STORE)
+                return JSONResponse(
+                    {"code": code, "minutes": MOVE_CODE_LIFE_S // 60}, headers=NO_STORE
+                )
             await self._do(wanted.root)
         except HTTPException as error:
-            status = 400 if error.status_code == UNPROCESSABLE else error.status_code
-            return JSONResponse({"problem": error.detail}, status, NO_STORE)
+            status = 400 if error.status_code == 422 else error.status_code
+            return problem(error.detail, status)
         except (JoinError, CommandError, StoreError) as error:
-            return JSONResponse({"problem": str(error)}, 400, NO_STORE)
+            return problem(str(error), 400)
         self._live.tell_people()
         return JSONResponse({}, headers=NO_STORE)
 
-    async def _do(self, wanted: AnyCommand) -> None:
+    async def _do(self, wanted: _AnyCommand) -> None:
         live = self._live
         match wanted:
-            case SeatCommand():
+            case _SeatCommand():
                 await self._do_seat(wanted)
-            case PlainCommand():
+            case _PlainCommand():
                 await self._do_plain(wanted)
-            case Assign():
+            case _Assign():
                 await self._assign(wanted)
-            case Attend(kind=kind, message=message, seconds=seconds):
+            case _Attend(kind=kind, message=message, seconds=seconds):
                 await asyncio.to_thread(live.attention.set, kind, message.strip(), seconds)
                 live.tell_attention()
-            case StartRace():
-                scene = await asyncio.to_thread(find_scene, live, wanted.scene)
+            case _StartRace():
+                scene = await asyncio.to_thread(_find_scene, live, wanted.scene)
                 race = live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)
                 live.assignments.assign_race(scene, race.id)
                 live.race.tell()
-            case BeginTournament(scene=name):
+            case _BeginTournament(scene=name):
                 await live.tournament.begin(name)
-            case StartTournament():
+            case _StartTournament():
                 seats = [each for each in self._seats.all() if each.state == State.IN.value]
                 await live.tournament.start(
                     seats, wanted.seeds, wanted.system, has_own_player=wanted.own_player
                 )
-            case HideBoard(hide=hide):
+            case _HideBoard(hide=hide):
                 live.races.change(hide=hide)
                 live.race.tell()
-            case Show(kind=kind, room=room, game=game):
+            case _Show(kind=kind, room=room, game=game):
                 if kind == "room":
                     self._check_room(room)
                 live.show(kind, room if kind == "room" else "", game if kind == "game" else 0)
-            case Sleep(room=room):
+            case _Sleep(room=room):
                 self._check_room(room)
                 await live.host.end(room)
 
-    async def _do_seat(self, wanted: SeatCommand) -> None:
+    async def _do_seat(self, wanted: _SeatCommand) -> None:
         match wanted.do:
             case "rename":
                 await asyncio.to_thread(self._seats.rename, wanted.seat, wanted.name)
@@ -139,7 +305,7 @@ class Teacher:
         self._proxy.end(wanted.seat, "your teacher has sent you out; ask before you join again")
         self._live.end_links(wanted.seat, "Your teacher has sent you out. Join again.")
 
-    async def _do_plain(self, wanted: PlainCommand) -> None:
+    async def _do_plain(self, wanted: _PlainCommand) -> None:
         races = self._live.races
         match wanted.do:
             case "new code":
@@ -151,7 +317,7 @@ class Teacher:
             case "close tournament":
                 await self._live.tournament.dismiss()
             case "forget":
-                await forget(self._live, self._proxy)
+                await _forget(self._live, self._proxy)
             case "end race":
                 if races.now is not None and races.now.phase != "over":
                     races.change(phase="over")
@@ -159,9 +325,9 @@ class Teacher:
                     races.dismiss()
                 self._live.race.tell()
 
-    async def _assign(self, wanted: Assign) -> None:
+    async def _assign(self, wanted: _Assign) -> None:
         live = self._live
-        scene = await asyncio.to_thread(find_scene, live, wanted.scene)
+        scene = await asyncio.to_thread(_find_scene, live, wanted.scene)
         scene = replace(scene, program=wanted.program)
         seed = wanted.seed
         if seed is None and wanted.same_seed:
@@ -175,6 +341,93 @@ class Teacher:
     def _check_room(self, room: str) -> None:
         if room not in self._live.rooms and room not in self._seats.scenes():
             raise CommandError(f"room: there is no room {room[:40]!r}")
+
+
+def _find_scene(live: LiveClass, source: _LessonOrScene) -> AssignedScene:
+    """Return a scene that rooms can open; a thread may do it.
+
+    That of a lesson is empty if the lesson shows no scene of the library.
+
+    Raises:
+        CommandError: there is none, or something in it is wrong.
+    """
+    if isinstance(source, SceneOfLesson):
+        return _scene_of_lesson(source.lesson)
+    if isinstance(source, str):
+        if source not in Scene.names():
+            raise CommandError(f"scene: expected a scene of the library, got {source[:40]!r}")
+        return AssignedScene(Scene.load(source).description.title or source, source)
+    text = source.yaml if isinstance(source, SceneText) else _text_of_room(live, source.room)
+    try:
+        scene = Scene.loads(text)
+        Permissions(()).check(scene.description.agents)
+    except (SceneError, ChangeError) as error:
+        raise CommandError(f"scene: {shorten(str(error), 400)}") from None
+    title = scene.description.title or scene.description.name
+    # a text without a line break would be taken for a name
+    return AssignedScene(title, text if "\n" in text else f"{text}\n")
+
+
+def _scene_of_lesson(number: str) -> AssignedScene:
+    for each in course_lessons():
+        if each.number == number:
+            return AssignedScene(each.title, each.scene, f"{number} {each.title}")
+    last = course_lessons()[-1].number
+    raise CommandError(f"lesson: expected a number from 00 to {last}, got {number!r}")
+
+
+def _text_of_room(live: LiveClass, room: str) -> str:
+    """Return the YAML of a room's present scene.
+
+    Raises:
+        CommandError: there is no such room, or nothing is known of its scene.
+    """
+    if room not in live.rooms and room not in live.seats.scenes():
+        raise CommandError(f"room: there is no room {room[:40]!r}")
+    state = live.rooms.get(room)
+    if state is not None and state.work is not None:
+        return state.work.scene
+    try:
+        return (live.store.folder / "rooms" / room / SCENE_FILE).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        raise CommandError("room: its scene is not known yet; it was not changed") from None
+
+
+async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
+    """Delete everything of a class but the secret of the teacher's page, and set a new code.
+
+    Nothing of seats, tokens, names and addresses is left in the folder; the file with the tables
+    is made anew, since deleted rows may be read from one.
+
+    Raises:
+        StoreError: something can't be deleted; the class goes on without what is deleted already.
+    """
+    rooms, seats = list(live.seats.scenes()), live.seats.all()
+    live.seats.let_nobody_in()  # else a page that comes back would start its room again
+    live.end_all_links("The class is over, and your teacher has deleted everything of it.")
+    for seat in seats:
+        proxy.end(seat.number, "the class is over")
+    await asyncio.gather(*(live.host.end(each) for each in rooms))
+    await live.results.finish()
+    await live.tournament.end()
+    live.attention.end()  # so that no message of the teacher is saved again
+    await asyncio.to_thread(_delete, live)
+    live.begin_anew()
+
+
+def _delete(live: LiveClass) -> None:
+    token = live.store.setting(TEACHER_SETTING)
+    live.seats.begin_anew()
+    live.store.set_setting(TEACHER_SETTING, token)
+    for name in ("rooms", RACES, NETWORKS, TOURNAMENTS):
+        folder = live.store.folder / name
+        try:
+            if folder.exists():
+                shutil.rmtree(folder)
+        except OSError as error:
+            raise StoreError(
+                f"{folder} can't be deleted: {reason(error)}. Delete it yourself."
+            ) from None
 
 
 def join_code(address: str, code: str) -> str:

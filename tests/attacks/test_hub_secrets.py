@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError
-from ai4u_edu.page.server.wrong_counts import MAX_WRONG
+from ai4u_edu.page.server.limits.attempts import MAX_WRONG
 from tests.classroom.fake_hub import NAME, PREFIX, SECRET, FakeHub, fake_hub
 from tests.page.server.rooms import Clock
 
@@ -26,7 +26,7 @@ def api_of(hub: FakeHub) -> HubApi:
 def test_an_address_with_many_wrong_secrets_asks_the_hub_no_more(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ai4u_edu.classroom.code_limit.MAX_WAIT_S", 0.0)
+    monkeypatch.setattr("ai4u_edu.page.server.limits.attempts.MAX_CODE_WAIT_S", 0.0)
 
     async def guess(hub: FakeHub) -> None:
         api, ada = api_of(hub), hub.add("ada")

@@ -12,8 +12,8 @@ from starlette.applications import Starlette
 from starlette.routing import WebSocketRoute
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.open_limits import MAX_SEAT_SOCKETS, MAX_STRANGER_SOCKETS
+from ai4u_edu.classroom.pages import Echo
 from ai4u_edu.page.server import ServerThread
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit, TooManyOpenError
 from ai4u_edu.page.server.limits.connections import max_connections

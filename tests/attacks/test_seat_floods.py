@@ -11,8 +11,7 @@ from ai4u_edu.classroom import ClassStore, RoomRule, Seats
 from ai4u_edu.classroom import join as join_routes
 from ai4u_edu.classroom.errors import JoinError, NewSeatError
 from ai4u_edu.classroom.programs import Programs
-from ai4u_edu.classroom.room_rule import MAX_SEATS
-from ai4u_edu.classroom.seats import UNOPENED_S, State
+from ai4u_edu.classroom.seats import MAX_SEATS, UNOPENED_S, State
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.page.server.rooms import Clock
 from tests.waiting import LIMIT_S

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.page.server import Rules, wrong_counts
+from ai4u_edu.page.server import Rules
+from ai4u_edu.page.server.limits import attempts
 from tests.chromium import new_page
 from tests.page.server.rooms import Room, served
 
@@ -55,8 +56,8 @@ def test_a_wrong_token_in_the_address_does_not_stay_there(room: Room, page: Page
 
 
 def test_attempts_are_limited(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(wrong_counts, "MAX_WRONG", 2)
-    monkeypatch.setattr(wrong_counts, "FORGOTTEN_PER_S", 0.001)
+    monkeypatch.setattr(attempts, "MAX_WRONG", 2)
+    monkeypatch.setattr(attempts, "FORGOTTEN_PER_S", 0.001)
     with served(rules=Rules(token=TOKEN)) as room:
         page.goto(room.url)
         for _ in range(2):

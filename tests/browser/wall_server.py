@@ -12,8 +12,7 @@ from starlette.responses import JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from ai4u_edu.classroom.echo import Echo
-from ai4u_edu.classroom.pages import FILE_ROUTES
+from ai4u_edu.classroom.pages import FILE_ROUTES, Echo
 from ai4u_edu.page.server import ServerThread
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.page.server.standalone import standalone_page

@@ -46,7 +46,7 @@ def be_patient() -> None:
         ("ai4u_edu.classroom.link_endpoint", ["HELLO_TIMEOUT_S"]),
         ("ai4u_edu.classroom.open_limits", ["STRANGER_SOCKET_S"]),
         ("ai4u_edu.classroom.room_proxy", ["OPEN_TIMEOUT_S", "ANSWER_TIMEOUT_S"]),
-        ("ai4u_edu.classroom.tournament.played", ["END_TIMEOUT_S"]),
+        ("ai4u_edu.classroom.tournament.runner", ["END_TIMEOUT_S"]),
     ):
         for name in names:
             replace(module, name, LIMIT_S)

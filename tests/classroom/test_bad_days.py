@@ -14,7 +14,7 @@ import httpx
 import psutil
 import pytest
 
-from ai4u_edu.page.server.wrong_counts import MAX_WRONG
+from ai4u_edu.page.server.limits.attempts import MAX_WRONG
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.page.server import http_client
 from tests.page.server.rooms import Page

@@ -8,7 +8,7 @@ from starlette.routing import WebSocketRoute
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.connection import Connection
 
-from ai4u_edu.classroom.echo import MAX_ECHO_CHARS, MAX_ECHOES, Echo
+from ai4u_edu.classroom.pages import MAX_ECHO_CHARS, MAX_ECHOES, Echo
 from ai4u_edu.page.server import ServerThread
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from tests.page.server.rooms import PATIENT, open_socket

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu.classroom.code_limit import MAX_WAIT_S
 from ai4u_edu.member import NotJoinedError, SeatFile, UnreachableError, join
 from ai4u_edu.member.joining import ANSWER_TIMEOUT_S, class_address, is_seat_valid
+from ai4u_edu.page.server.limits.attempts import MAX_CODE_WAIT_S
 from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.page.server.rooms import served
@@ -114,4 +114,4 @@ def test_an_address_may_be_copied_from_the_page() -> None:
 
 
 def test_a_program_waits_longer_for_an_answer_than_the_class_lets_its_code_wait() -> None:
-    assert ANSWER_TIMEOUT_S > MAX_WAIT_S
+    assert ANSWER_TIMEOUT_S > MAX_CODE_WAIT_S

@@ -14,7 +14,7 @@ import pytest
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.errors import NewerProgramError, ProgramNotKeptError
 from ai4u_edu.classroom.programs import MAX_PROGRAM_CHARS, MAX_PROGRAMS, Programs
-from ai4u_edu.classroom.seat_rate import MAX_REQUESTS_AT_ONCE
+from ai4u_edu.classroom.work_routes import MAX_REQUESTS_AT_ONCE
 from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.wire.class_link import MAX_STARTING_PROGRAM_CHARS, Assignment
 from tests.classroom.link_client import RawLink, state
@@ -24,7 +24,7 @@ from tests.classroom.two_seats import two_seats
 from tests.page.server import http_client
 
 MARKUP = "# <img src=x onerror=alert(1)>\n"
-NONE_FORGOTTEN = {"ai4u_edu.classroom.seat_rate.REQUESTS_PER_S": 0.0}
+NONE_FORGOTTEN = {"ai4u_edu.classroom.work_routes.REQUESTS_PER_S": 0.0}
 """A class whose limit of requests does not depend on their speed."""
 RUNS = "open('ran.txt', 'w').write('it ran')\nraise SystemExit\n"
 """A program that would leave a trace if the server ran it."""

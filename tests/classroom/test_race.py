@@ -11,8 +11,8 @@ from typing import Any, Literal
 import pytest
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.classroom.commands import MAX_COUNTDOWN_S
 from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck, find_fault
+from ai4u_edu.classroom.teacher import MAX_COUNTDOWN_S
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.file import decode, encode
 from ai4u_edu.wire.class_link import Ack, Assignment, EpisodeResult, Race, race_assignment

@@ -9,8 +9,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom import ClassStore, RoomRule, Seats
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.names import CODE_LENGTH, CODE_LETTERS, LANGUAGES, is_name, words_of
-from ai4u_edu.classroom.room_rule import MAX_SEATS
-from ai4u_edu.classroom.seats import State, digest_of
+from ai4u_edu.classroom.seats import MAX_SEATS, State, digest_of
 from ai4u_edu.classroom.store import SeatRow
 
 

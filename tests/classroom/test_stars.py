@@ -12,9 +12,9 @@ import httpx
 import pytest
 
 from ai4u_edu.classroom import ClassStore
-from ai4u_edu.classroom.seat_rate import MAX_REQUESTS_AT_ONCE
-from ai4u_edu.classroom.stars import Stars
+from ai4u_edu.classroom.programs import Stars
 from ai4u_edu.classroom.store import RoomRow, SeatRow, TokenRow
+from ai4u_edu.classroom.work_routes import MAX_REQUESTS_AT_ONCE
 from tests.classroom.served_class import Student, served_class
 from tests.classroom.test_export import zip_of
 from tests.classroom.test_programs import NONE_FORGOTTEN

@@ -2,6 +2,5 @@
 
 from ai4u_edu.classroom.hub.app import hub_class_app
 from ai4u_edu.classroom.hub.environment import HubEnvironment
-from ai4u_edu.classroom.hub.no_rooms import NoRooms
 
-__all__ = ["HubEnvironment", "NoRooms", "hub_class_app"]
+__all__ = ["HubEnvironment", "hub_class_app"]

@@ -11,10 +11,10 @@ from typing import Any
 import httpx
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.classroom.code_limit import CodeLimit
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.open_limits import sign_ins
+from ai4u_edu.page.server.limits.attempts import CodeLimit
 from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
 
 TIMEOUT_S = 10.0

@@ -1,31 +1,35 @@
 """The web app of a class that is a service of a JupyterHub."""
 
+import asyncio
 import re
 from collections.abc import Iterable
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
+from urllib.parse import quote, unquote
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
-from starlette.types import ASGIApp
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocketClose
 
 from ai4u_edu.classroom.class_event import ClassEvents
-from ai4u_edu.classroom.echo import Echo
 from ai4u_edu.classroom.episode_check import EpisodeCheck
+from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.hub.api import HubApi
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.hub.hub_seats import HubSeats
-from ai4u_edu.classroom.hub.look_in import LookIn
-from ai4u_edu.classroom.hub.no_rooms import NoRooms
-from ai4u_edu.classroom.hub.prefix import BehindHub
 from ai4u_edu.classroom.hub.sign_in import SignIn
 from ai4u_edu.classroom.hub.student import HubStudent
 from ai4u_edu.classroom.hub.teacher_auth import TeacherAuth
-from ai4u_edu.classroom.join import Join
+from ai4u_edu.classroom.join import NO_STORE, Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.open_limits import seat_sockets, stranger_sockets
-from ai4u_edu.classroom.pages import FILE_ROUTES, page_route
+from ai4u_edu.classroom.pages import FILE_ROUTES, Echo, page_route
+from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
@@ -35,6 +39,8 @@ from ai4u_edu.classroom.tournament.files import TournamentFiles
 from ai4u_edu.page.server.host_origin import HostOriginCheck
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
+_STUDENTS_PAGE = re.compile(r"user/([\w\-.@~%!+]+)(/[\w\-./@~%=?&]*)?", re.ASCII)
+"""Path of a world's page, without what is before it at this hub."""
 PAGES = re.compile(r"/|/teacher|/teacher/look/[\w-]+|/projector|/check|/privacy|/oauth_callback")
 """Paths of pages, to which other sites may lead a person, such as the one where users sign in."""
 
@@ -56,7 +62,7 @@ def hub_class_app(
         teachers: groups of the hub whose members are teachers; its admins always are.
         blocks: Python files with the teacher's blocks.
     """
-    live = LiveClass(store, seats, NoRooms(), EpisodeCheck(blocks))
+    live = LiveClass(store, seats, _NoRooms(), EpisodeCheck(blocks))
     api, groups = HubApi(hub), tuple(teachers)
     sign_in, hub_seats = SignIn(hub, api), HubSeats(store, seats)
 
@@ -87,7 +93,7 @@ def hub_class_app(
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
-            Route("/teacher/look/{room}", LookIn(live, hub, hub_seats).page, middleware=[auth]),
+            Route("/teacher/look/{room}", _LookIn(live, hub, hub_seats).page, middleware=[auth]),
             *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),
             Route("/projector", page_route("projector.html"), middleware=[auth]),
@@ -96,4 +102,124 @@ def hub_class_app(
         # the hub's proxy passes any name on, and no name opens anything without a sign-in
         middleware=[Middleware(HostOriginCheck, allowed_hosts=("*",), pages=PAGES)],
     )
-    return BehindHub(app, hub.prefix)
+    return _BehindHub(app, hub.prefix)
+
+
+class _NoRooms:
+    """Host without rooms: all worlds are students' own, and keep links to the class."""
+
+    is_hosting = False
+
+    async def enter(self, room: str, scene: str) -> RoomAddress:
+        """Refuse to start a room."""
+        raise RoomError(f"expected a world on the student's own server, got {room!r}, {scene!r}")
+
+    def in_use(self, room: str) -> AbstractContextManager[None]:  # noqa: ARG002
+        """Do nothing."""
+        return nullcontext()
+
+    def room_of(self, secret: str) -> str:  # noqa: ARG002
+        """Return that no room has this secret."""
+        return ""
+
+    def is_used(self, room: str) -> bool:  # noqa: ARG002
+        """Return False."""
+        return False
+
+    def is_running(self, room: str) -> bool:  # noqa: ARG002
+        """Return False."""
+        return False
+
+    async def end(self, room: str) -> None:
+        """Do nothing."""
+
+    def close(self) -> None:
+        """Do nothing."""
+
+
+class _LookIn:
+    """Route that leads a teacher to the page of a room on a student's server, through the hub.
+
+    The hub checks whether the teacher may use that server: an admin, or somebody to whom it is
+    shared. So the class needs no permission for it.
+
+    Args:
+        live: the class.
+        hub: environment of the service.
+        seats: of the hub's users.
+    """
+
+    def __init__(self, live: LiveClass, hub: HubEnvironment, seats: HubSeats) -> None:
+        self._live, self._hub, self._seats = live, hub, seats
+
+    async def page(self, request: Request) -> Response:
+        """Return the redirect."""
+        room = self._live.rooms.get(request.path_params["room"])
+        if room is None or room.link is None or room.state is None or not room.state.page:
+            text = "This world has no page now. Reload the class's page.\n"
+            return PlainTextResponse(text, 404, NO_STORE)
+        # a student's program says where its page is; it may lead to that student's server only
+        user = _user_of_page(room.state.page)
+        if not user or not await asyncio.to_thread(self._seats.is_of, room.seat, user):
+            text = "This world gave an address that is not on its student's server.\n"
+            return PlainTextResponse(text, 403, NO_STORE)
+        return RedirectResponse(f"{self._hub.hub_url}{room.state.page}", 303, NO_STORE)
+
+
+def _user_of_page(page: str) -> str:
+    """Return the name of the user on whose server a page is; empty if the path is no such page.
+
+    >>> _user_of_page("user/ada/proxy/4000/?token=abc"), _user_of_page("user/ada/%2e%2e/grace/")
+    ('ada', '')
+    """
+    match = _STUDENTS_PAGE.fullmatch(page)
+    path, _, _ = page.partition("?")
+    # browsers go up at such a part, also if it is escaped
+    if match is None or {".", ".."} & {*unquote(path).split("/")}:
+        return ""
+    return unquote(match[1])
+
+
+class _BehindHub:
+    """ASGI middleware that removes the service's prefix, which the hub's proxy leaves in paths.
+
+    It also takes over the scheme that the browser uses. A client can forge that header for its own
+    requests only, where it has no use.
+
+    Args:
+        app: the app, which has no prefix.
+        prefix: such as ``/services/ai4u-class/``.
+    """
+
+    def __init__(self, app: ASGIApp, prefix: str) -> None:
+        self._app, self._prefix = app, prefix.rstrip("/")
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on without the prefix."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        path: str = scope["path"]
+        if path == self._prefix and scope["type"] == "http":
+            await RedirectResponse(f"{self._prefix}/")(scope, receive, send)
+        elif path.startswith(f"{self._prefix}/"):
+            inner_path = path.removeprefix(self._prefix)
+            inner = {
+                **scope,
+                "path": inner_path,
+                "raw_path": quote(inner_path).encode(),  # the one that was sent may be escaped
+                "scheme": _scheme(scope),
+            }
+            await self._app(inner, receive, send)
+        elif scope["type"] == "http":
+            text = f"expected a path below {self._prefix}/\n"
+            await PlainTextResponse(text, 404)(scope, receive, send)
+        else:
+            await WebSocketClose()(scope, receive, send)
+
+
+def _scheme(scope: Scope) -> str:
+    given = next((value for name, value in scope["headers"] if name == b"x-forwarded-proto"), b"")
+    is_secure = given.partition(b",")[0].strip().lower() in (b"https", b"wss")
+    scheme: str = scope["scheme"]
+    return {"http": "https", "ws": "wss"}.get(scheme, scheme) if is_secure else scheme

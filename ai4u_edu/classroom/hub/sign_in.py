@@ -12,6 +12,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
+from ai4u_edu.classroom.join import NO_STORE
 from ai4u_edu.page.server.limits.attempts import client_address
 from ai4u_edu.page.server.token_auth import is_same_secret
 
@@ -22,7 +23,6 @@ STATE_LIFE_S = 600
 TOKEN_LIFE_S = 14 * 24 * 3600
 PAGES = ("", "teacher", "projector")
 """Pages to which a browser goes after the sign-in."""
-NO_STORE = {"Cache-Control": "no-store"}
 
 
 class SignIn:

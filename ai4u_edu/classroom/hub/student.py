@@ -10,8 +10,9 @@ from ai4u_edu.classroom.errors import JoinError, StoreError
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.hub.hub_seats import HubSeats
-from ai4u_edu.classroom.hub.sign_in import NO_STORE, SignIn
+from ai4u_edu.classroom.hub.sign_in import SignIn
 from ai4u_edu.classroom.hub.teacher_auth import SIGN_IN, is_teacher
+from ai4u_edu.classroom.join import NO_STORE, problem
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
 from ai4u_edu.classroom.store import SeatRow
@@ -66,9 +67,9 @@ class HubStudent:
             user = await self._sign_in.user_of(request)
             return await self._seat(user)
         except HubUnreachableError as error:
-            return _problem(str(error), 503)
+            return problem(str(error), 503)
         except NoAccessError as error:
-            return _problem(str(error), 403)
+            return problem(str(error), 403)
 
     async def seat(self, request: Request) -> Response:
         """Return the seat of a program that has a token of the hub."""
@@ -78,9 +79,9 @@ class HubStudent:
             user = await self._api.user_of(found[1], address) if found else None
             return await self._seat(user)
         except HubUnreachableError as error:
-            return _problem(str(error), 503)
+            return problem(str(error), 503)
         except NoAccessError as error:
-            return _problem(str(error), 403)
+            return problem(str(error), 403)
 
     async def room_of(self, token: str, address: str) -> LiveRoom | None:
         """Return the room of a link with a token of the hub; None if its user has no seat.
@@ -101,13 +102,13 @@ class HubStudent:
 
     async def _seat(self, user: HubUser | None) -> Response:
         if user is None:
-            return _problem(SIGN_IN, 401)
+            return problem(SIGN_IN, 401)
         try:
             seat = await asyncio.to_thread(self._seats.admit, user)
         except JoinError as error:
-            return _problem(str(error), 403)
+            return problem(str(error), 403)
         except StoreError as error:
-            return _problem(f"{error} Tell your teacher.", 503)
+            return problem(f"{error} Tell your teacher.", 503)
         self._live.tell_people()
         return JSONResponse(self._told(seat), headers=NO_STORE)
 
@@ -118,7 +119,3 @@ class HubStudent:
             "notebooks": f"{self._hub.hub_url}user-redirect/",
             "world": f"{self._hub.hub_url}user-redirect/ai4u-edu/",
         }
-
-
-def _problem(text: str, status: int) -> Response:
-    return JSONResponse({"problem": text}, status, NO_STORE)

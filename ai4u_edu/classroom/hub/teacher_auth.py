@@ -8,7 +8,8 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket
 
 from ai4u_edu.classroom.hub.api import HubUnreachableError, HubUser, NoAccessError
-from ai4u_edu.classroom.hub.sign_in import NO_STORE, SignIn
+from ai4u_edu.classroom.hub.sign_in import SignIn
+from ai4u_edu.classroom.join import NO_STORE
 from ai4u_edu.page.server.token_page import wants_page
 
 NOT_ALLOWED, TRY_LATER = 1008, 1013

@@ -2,9 +2,15 @@
 
 import asyncio
 import json
+import os
+import shutil
+import subprocess
+import sys
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from pathlib import Path
+from threading import Thread
 from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
@@ -15,13 +21,16 @@ from ai4u_edu.classroom.tournament.network_check import NetworkCheck, missing_ex
 from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.networks import Networks
-from ai4u_edu.classroom.tournament.played import PlayedTournament
 from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
 
 VIEW = "view.json"
 """File with a tournament as it was at its end."""
 RETRY_S = 2.0
 """Time after which what could not be written is tried again."""
+
+
+END_TIMEOUT_S = 5.0
+"""Time in which the process of a tournament has to end."""
 
 
 class TournamentRunner:
@@ -49,7 +58,7 @@ class TournamentRunner:
         self._updating: asyncio.Task[None] | None = None
         self._lock = asyncio.Lock()
         """Held while the tournament begins or ends."""
-        self._played: PlayedTournament | None = None
+        self._played: _PlayedTournament | None = None
         self.read()
 
     def read(self) -> None:
@@ -204,7 +213,7 @@ class TournamentRunner:
                 if played is None:
                     folder, work = self.tournaments.folder_of(row), self.tournaments.work_of(row)
                     self._played = await asyncio.to_thread(
-                        PlayedTournament, folder, work, lambda: self._news.append(0)
+                        _PlayedTournament, folder, work, lambda: self._news.append(0)
                     )
                 else:
                     self.tournaments.change("over" if played.is_over else "failed", played.problem)
@@ -223,3 +232,72 @@ class TournamentRunner:
             with suppress(OSError):  # a full disk: the results are in the journal
                 await asyncio.to_thread(write_atomically, path, json.dumps(played.view))
         self._note_change()
+
+
+class _PlayedTournament:
+    """A tournament that is played in a process of its own, which ends with this one.
+
+    Args:
+        folder: of the tournament's results, with its plan.
+        work: gets the journal, and files of the games that are played.
+        on_change: called in a thread of its own when the tournament goes on or ends.
+    """
+
+    def __init__(self, folder: Path, work: Path, on_change: Callable[[], object]) -> None:
+        self.view: dict[str, Any] | None = None
+        """The tournament so far; see :func:`ai4u_edu.games.tournament.live_view.live_view`."""
+        self.problem = ""
+        """Reason for which it could not be played."""
+        self.is_over = False
+        """True when all games were played."""
+        self.has_ended = False
+        """True when the process has ended, in any way."""
+        self._on_change = on_change
+        self._temporary = work / "games.tmp"
+        # for files of the games that are played, with networks; nothing of it stays
+        shutil.rmtree(self._temporary, ignore_errors=True)  # of a class that was killed
+        self._temporary.mkdir(parents=True, exist_ok=True)
+        variables = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(self._temporary.absolute()))
+        self._process = subprocess.Popen(  # noqa: S603 - our own module
+            [
+                sys.executable,
+                "-m",
+                "ai4u_edu.games.tournament.live_process",
+                str(folder),
+                str(work),
+            ],
+            env={**os.environ, **variables},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
+        self._reader = Thread(target=self._read, name="tournament", daemon=True)
+        self._reader.start()
+
+    def end(self) -> None:
+        """End the process, and wait for that; a thread does it."""
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+        try:
+            self._process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+        self._reader.join(END_TIMEOUT_S)
+        shutil.rmtree(self._temporary, ignore_errors=True)
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None  # noqa: S101 - it is a pipe
+        with self._process.stdout as lines:
+            for line in lines:
+                told = json.loads(line)
+                self.view = told.get("view", self.view)
+                self.problem = told.get("problem", "")
+                self.is_over = told.get("is_over", False)
+                self._on_change()
+        code = self._process.wait()
+        if not self.is_over and not self.problem:
+            self.problem = (
+                f"The tournament's process has ended by itself (code {code}). Start it again: it "
+                "goes on where it was."
+            )
+        self.has_ended = True
+        self._on_change()

@@ -6,14 +6,15 @@ from collections.abc import Iterator
 import pytest
 from websockets.exceptions import InvalidStatus
 
-from ai4u_edu.page.server import Rules, wrong_counts
+from ai4u_edu.page.server import Rules
 from ai4u_edu.page.server.limits import attempts
 from ai4u_edu.page.server.limits.attempts import (
     MAX_WAITING,
+    MAX_WRONG,
     Attempts,
     Verdict,
 )
-from ai4u_edu.page.server.wrong_counts import MAX_ADDRESSES, MAX_WRONG
+from ai4u_edu.page.server.limits.rate_limit import MAX_KEYS
 from ai4u_edu.wire import native
 from tests.page.server import http_client
 from tests.page.server.rooms import Page, Room, served
@@ -96,19 +97,19 @@ def test_of_many_at_once_most_are_not_even_looked_at(tries: Attempts) -> None:
 
 def test_memory_is_bounded(tries: Attempts) -> None:
     async def come() -> None:
-        for number in range(3 * MAX_ADDRESSES):
+        for number in range(3 * MAX_KEYS):
             await tries.check(str(number), lambda: False)
             await tries.check(str(number), lambda: True)
 
     asyncio.run(come())
-    assert len(tries._wrong) == len(tries._known) == MAX_ADDRESSES
+    assert len(tries._wrong) == len(tries._known) == MAX_KEYS
     assert tries._waiting == {}
 
 
 @pytest.fixture
 def room(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
-    monkeypatch.setattr(wrong_counts, "MAX_WRONG", 3)
-    monkeypatch.setattr(wrong_counts, "FORGOTTEN_PER_S", 0.001)
+    monkeypatch.setattr(attempts, "MAX_WRONG", 3)
+    monkeypatch.setattr(attempts, "FORGOTTEN_PER_S", 0.001)
     monkeypatch.setattr(attempts, "DELAY_S", 0.01)
     with served(rules=Rules(token=TOKEN)) as room:
         yield room

@@ -1,11 +1,7 @@
-"""Rate limit for wrong tokens, against guessing.
-
-After too many wrong tokens from an address, each further one is checked after a delay, whether it
-is right or wrong. Otherwise a quick answer would tell that a guess was right. An address that has
-sent the right token before, as a class's own has, is not delayed with the right one.
-"""
+"""Rate limits for wrong secrets, against guessing: tokens of rooms, and join codes of classes."""
 
 import asyncio
+import math
 import time
 from collections import OrderedDict
 from collections.abc import Awaitable, Callable
@@ -15,12 +11,23 @@ from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ai4u_edu.page.server.limits.connections import address_of
-from ai4u_edu.page.server.wrong_counts import WrongCounts, remember
+from ai4u_edu.page.server.limits.rate_limit import MAX_KEYS, RateLimits
 
+MAX_WRONG = 60
+"""Wrong secrets in a row after which an address is limited."""
+FORGOTTEN_PER_S = 1.0
+"""Rate at which an address's wrong secrets are forgotten."""
+MAX_DEBT = 10
+"""Wrong secrets beyond that which count, so that an address is not limited without end."""
 DELAY_S = 1.0
 """Delay of each token after too many wrong ones."""
 MAX_WAITING = 20
 """Delayed tokens of one address at a time; further ones are refused unchecked."""
+CODE_TURNS_PER_S = 20.0
+"""Codes of one address that are checked, after too many wrong ones: at this rate it takes a day to
+try all codes."""
+MAX_CODE_WAIT_S = 60.0
+"""Longest wait for a turn; codes that would wait longer are refused unchecked."""
 TOO_MANY = "too many wrong tokens from this address; try again in {seconds} s"
 
 
@@ -33,7 +40,11 @@ class Verdict(Enum):
 
 
 class Attempts:
-    """Counts of wrong tokens by address. Belongs to the server's event loop.
+    """Delays the tokens of addresses that have sent too many wrong ones.
+
+    Each further token is checked after a delay, whether it is right or wrong: otherwise a quick
+    answer would tell that a guess was right. An address that has sent the right token before, as a
+    class's own has, is not delayed with the right one. Belongs to the server's event loop.
 
     Args:
         clock: returns seconds; to be replaced in tests.
@@ -46,7 +57,7 @@ class Attempts:
         sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
     ) -> None:
         self._sleep = sleep
-        self._wrong = WrongCounts(clock)
+        self._wrong = _wrong_secrets(clock)
         self._known: OrderedDict[str, None] = OrderedDict()
         self._waiting: dict[str, int] = {}
 
@@ -63,7 +74,9 @@ class Attempts:
         elif not await self.wait(address):
             return Verdict.TOO_MANY
         elif is_right():
-            remember(self._known, address, None)
+            self._known[address] = None
+            if len(self._known) > MAX_KEYS:
+                self._known.popitem(last=False)
             return Verdict.RIGHT
         was_over = self.retry_after(address) > 0
         self.add_wrong(address)
@@ -89,15 +102,50 @@ class Attempts:
 
     def add_wrong(self, address: str) -> None:
         """Count a wrong token."""
-        self._wrong.add(address)
+        self._wrong.take(address)
 
     def retry_after(self, address: str) -> int:
         """Return the seconds until an address is not delayed any more; 0 if it is not now."""
-        return self._wrong.seconds_over(address)
+        return math.ceil(self._wrong.wait_s(address))
 
     def is_known(self, address: str) -> bool:
         """Return True if an address has sent the right token."""
         return address in self._known
+
+
+class CodeLimit:
+    """Gives the codes of an address that has sent too many wrong ones their turns, in order.
+
+    All students of a school may have one address. So the right code of one waits in the same queue
+    as the wrong ones of another, gets its turn, and nobody locks a class out. Belongs to one event
+    loop.
+
+    Args:
+        clock: returns seconds; to be replaced in tests.
+        sleep: waits for a number of seconds; to be replaced in tests.
+    """
+
+    def __init__(
+        self,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], Awaitable[None]] = asyncio.sleep,
+    ) -> None:
+        self._sleep, self._wrong = sleep, _wrong_secrets(clock)
+        self._turns = RateLimits(CODE_TURNS_PER_S, 0, clock=clock)
+
+    async def wait_for_turn(self, address: str) -> bool:
+        """Wait until a code of this address may be checked; False if that would take too long."""
+        if not self._wrong.wait_s(address):
+            return True
+        wait_s = self._turns.take_within(address, MAX_CODE_WAIT_S)
+        if wait_s is None:
+            return False
+        await self._sleep(wait_s)
+        return True
+
+    def add_wrong(self, address: str) -> None:
+        """Count a wrong code."""
+        self._wrong.take(address)
 
 
 class LimitScripts:
@@ -138,3 +186,8 @@ def too_many(seconds: int) -> PlainTextResponse:
     text = TOO_MANY.format(seconds=seconds)
     headers = {"Retry-After": str(seconds), "Cache-Control": "no-store"}
     return PlainTextResponse(f"token: {text}\n", 429, headers)
+
+
+def _wrong_secrets(clock: Callable[[], float]) -> RateLimits:
+    """Return counts of wrong secrets by address, which are forgotten with time."""
+    return RateLimits(FORGOTTEN_PER_S, MAX_WRONG, max_debt=MAX_DEBT, clock=clock)

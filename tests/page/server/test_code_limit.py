@@ -2,8 +2,13 @@
 
 import asyncio
 
-from ai4u_edu.classroom.code_limit import MAX_WAIT_S, TURNS_PER_S, CodeLimit
-from ai4u_edu.page.server.wrong_counts import FORGOTTEN_PER_S, MAX_WRONG
+from ai4u_edu.page.server.limits.attempts import (
+    CODE_TURNS_PER_S,
+    FORGOTTEN_PER_S,
+    MAX_CODE_WAIT_S,
+    MAX_WRONG,
+    CodeLimit,
+)
 
 
 class Queue:
@@ -34,16 +39,16 @@ def test_codes_wait_for_turns_after_too_many_wrong_ones_of_their_address() -> No
     for _ in range(3):
         assert queue.takes("school")
     assert queue.takes("home")
-    assert [round(each * TURNS_PER_S) for each in queue.waits] == [1, 2, 3]
+    assert [round(each * CODE_TURNS_PER_S) for each in queue.waits] == [1, 2, 3]
 
 
 def test_a_code_that_would_wait_too_long_is_refused() -> None:
     queue = Queue()
     queue.add_wrong("school", MAX_WRONG)
-    turns = [queue.takes("school") for _ in range(round(MAX_WAIT_S * TURNS_PER_S) + 2)]
+    turns = [queue.takes("school") for _ in range(round(MAX_CODE_WAIT_S * CODE_TURNS_PER_S) + 2)]
     assert turns.count(False) in (2, 3)  # of rounding
     assert turns[-2:] == [False, False]
-    assert max(queue.waits) <= MAX_WAIT_S
+    assert max(queue.waits) <= MAX_CODE_WAIT_S
     queue.now += 1
     assert queue.takes("school")
 
