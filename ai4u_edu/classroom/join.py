@@ -16,9 +16,10 @@ from ai4u_edu.classroom.errors import (
     StoreError,
     WrongCodeError,
 )
+from ai4u_edu.classroom.names import MOVE_CODE_LIFE_S
 from ai4u_edu.classroom.open_limits import sign_ins
 from ai4u_edu.classroom.room_process import path_of
-from ai4u_edu.classroom.seats import MOVE_CODE_LIFE_S, Seats
+from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.member.joining import SEAT_COOKIE
 from ai4u_edu.page.server.limits.attempts import CodeLimit, client_address

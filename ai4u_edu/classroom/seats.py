@@ -4,7 +4,7 @@ import hashlib
 import secrets
 import time
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -21,6 +21,7 @@ from ai4u_edu.classroom.errors import (
 from ai4u_edu.classroom.names import (
     DEFAULT_LANGUAGE,
     LANGUAGES,
+    MoveCodes,
     colour_of,
     free_names,
     is_name,
@@ -38,7 +39,6 @@ MAX_DEVICES = 3
 UNOPENED_S = 60.0
 """Time that a new seat has to open its room, before it makes room for another one in a full class.
 """
-MOVE_CODE_LIFE_S = 300.0
 COOKIE_SETTING = "seat_cookie"
 """Name of the setting with the name of the seats' cookie."""
 
@@ -121,7 +121,7 @@ class Seats:
         self._made_at: dict[int, float] = {}
         """Times at which seats were made, by number; of this run."""
         self._lock = Lock()
-        self._move_codes = _MoveCodes()
+        self._move_codes = MoveCodes()
         self._seats: dict[int, SeatRow] = {}
         self._tokens: dict[bytes, TokenRow] = {}
         self._scenes: dict[str, str] = {}
@@ -455,76 +455,3 @@ def digest_of(request: str) -> str:
 def hash_of(token: str) -> bytes:
     """Return what is stored of a token. It is random, so a plain digest is enough."""
     return hashlib.sha256(b"ai4u-edu seat " + token.encode()).digest()
-
-
-@dataclass
-class _MoveCode:
-    seat: int
-    ends_at: float
-    is_teachers: bool
-    request: str = ""
-    """Digest of the join request that has used it; empty before."""
-
-
-class _MoveCodes:
-    """Codes with which seats move to other devices. Not thread-safe.
-
-    Each has five letters, and is for one seat, one device and five minutes.
-
-    Args:
-        clock: returns seconds; to be replaced in tests.
-
-    >>> codes = _MoveCodes()
-    >>> code = codes.new(3, ())
-    >>> codes.use(code, "a"), codes.use(code, "a"), codes.use(code, "b")
-    ((3, False), (3, False), (0, False))
-    """
-
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock = clock
-        self._codes: dict[str, _MoveCode] = {}
-
-    def new(self, seat: int, taken: Collection[str], *, is_teachers: bool = False) -> str:
-        """Return a new code of a seat, whose code before is void.
-
-        Args:
-            seat: its number.
-            taken: codes that must not be used, such as the class's.
-            is_teachers: True for a code that the teacher has asked for.
-        """
-        now = self._clock()
-        self._codes = {
-            code: each
-            for code, each in self._codes.items()
-            if each.ends_at > now and each.seat != seat
-        }
-        while (code := new_code()) in self._codes or code in taken:
-            pass
-        self._codes[code] = _MoveCode(seat, now + MOVE_CODE_LIFE_S, is_teachers)
-        return code
-
-    def use(self, code: str, request: str) -> tuple[int, bool]:
-        """Use a code, and return its seat, and True if it is the teacher's.
-
-        The seat is 0 if there is no such code, or another request has used it.
-
-        Args:
-            code: normalized.
-            request: digest of the join request, which may be repeated because an answer was lost.
-        """
-        found = self._codes.get(code)
-        if found is None or found.ends_at <= self._clock() or found.request not in ("", request):
-            return 0, False
-        found.request = request
-        return found.seat, found.is_teachers
-
-    def is_open(self, seat: int) -> bool:
-        """Return True while a seat has a code that nobody has used yet."""
-        return any(
-            each.seat == seat and not each.request and each.ends_at > self._clock()
-            for each in self._codes.values()
-        )
-
-    def clear(self) -> None:
-        """Make all codes void."""
-        self._codes.clear()

@@ -25,13 +25,14 @@ from ai4u_edu.classroom.course_index import course_lessons
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.join import NO_STORE, problem
 from ai4u_edu.classroom.live_class import LiveClass, ShownKind
+from ai4u_edu.classroom.names import MOVE_CODE_LIFE_S
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
-from ai4u_edu.classroom.seats import MOVE_CODE_LIFE_S, State
+from ai4u_edu.classroom.seats import State
 from ai4u_edu.classroom.store import TEACHER_SETTING
-from ai4u_edu.classroom.tournament.entrants import System
 from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
+from ai4u_edu.classroom.tournament.runner import System
 from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
 from ai4u_edu.page.editing.errors import ChangeError

@@ -20,10 +20,8 @@ from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.hub.api import HubApi
 from ai4u_edu.classroom.hub.environment import HubEnvironment
-from ai4u_edu.classroom.hub.hub_seats import HubSeats
-from ai4u_edu.classroom.hub.sign_in import SignIn
-from ai4u_edu.classroom.hub.student import HubStudent
-from ai4u_edu.classroom.hub.teacher_auth import TeacherAuth
+from ai4u_edu.classroom.hub.sign_in import SignIn, TeacherAuth
+from ai4u_edu.classroom.hub.student import HubSeats, HubStudent
 from ai4u_edu.classroom.join import NO_STORE, Join
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_class import LiveClass

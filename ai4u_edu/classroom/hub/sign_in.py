@@ -1,24 +1,32 @@
-"""Sign-in of browsers by the hub's OAuth (RFC 6749, authorization code with RFC 7636)."""
+"""Sign-in of browsers by the hub's OAuth (RFC 6749, authorization code with RFC 7636).
+
+The hub's groups give access to the teacher's pages, in the place of a secret address.
+"""
 
 import base64
 import hashlib
 import json
 import secrets
+from collections.abc import Collection
 from typing import Any
 from urllib.parse import urlencode
 
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocket
 
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.join import NO_STORE
 from ai4u_edu.page.server.limits.attempts import client_address
 from ai4u_edu.page.server.token_auth import is_same_secret
+from ai4u_edu.page.server.token_page import wants_page
 
 COOKIE = "ai4u-edu-hub"
 """Cookie with the browser's token of the hub; scripts in a page can't read it."""
 STATE_COOKIE = "ai4u-edu-hub-state"
+SIGN_IN = "expected somebody who has signed in at the hub; open the class's page"
 STATE_LIFE_S = 600
 TOKEN_LIFE_S = 14 * 24 * 3600
 PAGES = ("", "teacher", "projector")
@@ -105,6 +113,47 @@ class SignIn:
         )
 
 
+def is_teacher(user: HubUser, groups: Collection[str]) -> bool:
+    """Return True for the hub's admins, and for members of a group of teachers."""
+    return user.is_admin or bool(user.groups.intersection(groups))
+
+
+class TeacherAuth:
+    """ASGI middleware around one route that lets only teachers pass.
+
+    Args:
+        app: the protected app.
+        sign_in: knows whose browser it is.
+        groups: the hub's groups of teachers.
+    """
+
+    def __init__(self, app: ASGIApp, sign_in: SignIn, groups: Collection[str]) -> None:
+        self._app, self._sign_in, self._groups = app, sign_in, groups
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Pass a request on, or refuse it with the reason."""
+        given = HTTPConnection(scope)
+        try:
+            user = await self._sign_in.user_of(given)
+        except HubUnreachableError as error:
+            await _refuse(str(error), 503, scope, receive, send)
+            return
+        except NoAccessError as error:
+            await _refuse(str(error), 403, scope, receive, send)
+            return
+        if user is None:
+            if scope["type"] == "http" and scope["method"] == "GET" and wants_page(given):
+                await self._sign_in.begin(given)(scope, receive, send)
+            else:
+                await _refuse(SIGN_IN, 401, scope, receive, send)
+        elif is_teacher(user, self._groups):
+            await self._app(scope, receive, send)
+        else:
+            groups = ", ".join(self._groups)
+            text = f"This page is for teachers: admins of the hub, and its group {groups}."
+            await _refuse(text, 403, scope, receive, send)
+
+
 def _challenge_of(verifier: str) -> str:
     digest = hashlib.sha256(verifier.encode()).digest()
     return base64.urlsafe_b64encode(digest).decode().rstrip("=")
@@ -119,3 +168,14 @@ def _read_state(cookie: str) -> dict[str, str] | None:
     is_fine = isinstance(kept, dict) and kept.keys() == {"state", "verifier", "page"}
     is_fine = is_fine and all(isinstance(each, str) for each in kept.values())
     return kept if is_fine and kept["page"] in PAGES else None
+
+
+async def _refuse(text: str, status: int, scope: Scope, receive: Receive, send: Send) -> None:
+    if scope["type"] == "websocket":
+        socket = WebSocket(scope, receive, send)
+        # a browser tells a script why a socket was closed, but not why a handshake failed
+        await socket.accept(next(iter(scope["subprotocols"]), None))
+        await socket.close(1013 if status == 503 else 1008, text[:100])
+        return
+    response: Response = PlainTextResponse(f"{text}\n", status, NO_STORE)
+    await response(scope, receive, send)

@@ -1,7 +1,9 @@
-"""HTTP routes of a hub's students: their page, and the seat of a program on their server."""
+"""A hub's students: their seats, their page, and the routes of a program on their server."""
 
 import asyncio
+import hmac
 import re
+import secrets
 
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
@@ -9,17 +11,56 @@ from starlette.responses import JSONResponse, PlainTextResponse, RedirectRespons
 from ai4u_edu.classroom.errors import JoinError, StoreError
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
-from ai4u_edu.classroom.hub.hub_seats import HubSeats
-from ai4u_edu.classroom.hub.sign_in import SignIn
-from ai4u_edu.classroom.hub.teacher_auth import SIGN_IN, is_teacher
+from ai4u_edu.classroom.hub.sign_in import SIGN_IN, SignIn, is_teacher
 from ai4u_edu.classroom.join import NO_STORE, problem
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
-from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.classroom.seats import Seats
+from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.page.server.limits.attempts import client_address
 from ai4u_edu.page.server.standalone import standalone_page
 
 _TOKEN = re.compile(r"(?:token|bearer)\s+(\S+)", re.IGNORECASE)
+
+
+class HubSeats:
+    """The seat of each user of the hub.
+
+    The class stores a keyed hash of the user's name, and not the name. The hash finds the seat
+    again at the next sign-in. Without the key, nobody can compute it from a list of names; the key
+    lies in the class's file beside it.
+
+    Args:
+        store: of the class.
+        seats: of the class.
+    """
+
+    def __init__(self, store: ClassStore, seats: Seats) -> None:
+        self._store, self._seats = store, seats
+
+    def find(self, user: HubUser) -> SeatRow | None:
+        """Return a user's seat; None if there is none that may enter."""
+        return self._seats.by_identity(self._identity_of(user.name))
+
+    def admit(self, user: HubUser) -> SeatRow:
+        """Return a user's seat, which is made if there is none.
+
+        Raises:
+            JoinError: the seat is banned, or the class is closed or full.
+        """
+        return self._seats.admit(self._identity_of(user.name))
+
+    def is_of(self, number: int, name: str) -> bool:
+        """Return True if a seat is that of the user with this name."""
+        seat = self._seats.by_identity(self._identity_of(name))
+        return seat is not None and seat.number == number
+
+    def _identity_of(self, name: str) -> bytes:
+        """Return the keyed hash of a user's name."""
+        return hmac.digest(self._key(), name.encode(), "sha256")
+
+    def _key(self) -> bytes:
+        return bytes.fromhex(self._store.setting_or("hub_key", lambda: secrets.token_hex(32)))
 
 
 class HubStudent:

@@ -18,7 +18,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
 from ai4u_edu.base.errors import NameNotFoundError
 from ai4u_edu.blocks.brains.controllers.keyboard import CENTERED, Stick
-from ai4u_edu.page.server import messages, page_events
+from ai4u_edu.page.server import messages
 from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.page.server.control_lock import ControlLock
@@ -77,7 +77,7 @@ class Inputs:
                 agent = choose_agent(sim, wanted)
             except NameNotFoundError as error:
                 if RECONNECT_PARAM not in socket.query_params:
-                    await socket.send_json(page_events.error_event(str(error)))
+                    await socket.send_json(messages.error_event(str(error)))
                     await socket.close(1008, "there is no such agent")
                     return
                 agent = choose_agent(sim, None)
@@ -230,7 +230,7 @@ class _Page:
         await self._send_error(text)
 
     async def _send_error(self, text: str) -> None:
-        await self._send(json.dumps(page_events.error_event(text[:MAX_ERROR_CHARS])))
+        await self._send(json.dumps(messages.error_event(text[:MAX_ERROR_CHARS])))
 
     async def _send(self, text: str) -> None:
         # the task that sends events may wake up just after the other one has closed the socket
@@ -246,11 +246,11 @@ class _Page:
             changed.clear()
             if (news := class_page.news()) is not None:
                 await self._send(json.dumps(news))
-            events = [page_events.lock_event(self._lock, self._seats)]
+            events = [messages.lock_event(self._lock, self._seats)]
             if is_changed or now >= hello_at:
                 hello_at, known = now + HELLO_S, driver
-                events.insert(0, page_events.hello_event(self._agent, self._number, self._override))
-            state = page_events.state_event(self._runner.latest, self._agent.id, self._title())
+                events.insert(0, messages.hello_event(self._agent, self._number, self._override))
+            state = messages.state_event(self._runner.latest, self._agent.id, self._title())
             if state is not None:
                 events.append(state)
             for event in events:
