@@ -118,7 +118,7 @@ def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
     for file, data in _networks(live, seat.number):
         yield f"{NETWORKS}/{file}", data
     exercises = {
-        exercise: asdict(progress_file.Entry(entry.state == "solved", tries=entry.tries))
+        exercise: asdict(progress_file.ExerciseProgress(entry.state == "solved", tries=entry.tries))
         for (number, exercise), entry in live.progress.entries.items()
         if number == seat.number
     }

@@ -16,7 +16,8 @@ from ai4u_edu.games.tournament.drivers import ANSWERS
 from ai4u_edu.games.tournament.game import result_fault
 from ai4u_edu.games.tournament.limits import is_over_time
 from ai4u_edu.games.tournament.plan import TournamentPlan
-from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, Tournament, files_of, play_all, sums_of
+from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, files_of, play_all, sums_of
+from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.file import decode
 
