@@ -16,29 +16,6 @@ def needed_by(path: str) -> set[str]:
     return {file for file in found if not file.endswith("__init__.py")} - {path}
 
 
-def circles() -> list[list[str]]:
-    """Return the files of the package that import each other, by circle."""
-    package = sorted((ROOT / "ai4u_edu").rglob("*.py"))
-    graph = {path: needed_by(path) for path in (str(file.relative_to(ROOT)) for file in package)}
-    reach = {path: _reach(path, graph) for path in graph}
-    found = {
-        tuple(sorted(other for other in reach[path] if path in reach[other]))
-        for path in graph
-        if path in reach[path]
-    }
-    return sorted(map(list, found))
-
-
-def _reach(start: str, graph: dict[str, set[str]]) -> set[str]:
-    reached: set[str] = set()
-    ahead = [start]
-    while ahead:
-        new = graph[ahead.pop()] - reached
-        reached |= new
-        ahead += new
-    return reached
-
-
 @cache
 def _module_path(name: str) -> Path | None:
     """Return the file of a module; None if there is no such module."""

@@ -85,10 +85,12 @@ class LinkEndpoint:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one link until one side ends it."""
         socket = WebSocket(scope, receive, send)
+        subprotocol = SUBPROTOCOL if SUBPROTOCOL in scope["subprotocols"] else None
         with suppress(WebSocketDisconnect):
-            await socket.accept(SUBPROTOCOL if SUBPROTOCOL in scope["subprotocols"] else None)
             try:
+                # counted before it is accepted: the next one comes as soon as this one is open
                 async with self._strangers.one_of(client_address(scope)):
+                    await socket.accept(subprotocol)
                     room = await self._greet(socket)
                 if room is not None and room.seat:
                     async with self._seated.one_of(room.seat):
@@ -96,6 +98,8 @@ class LinkEndpoint:
                 elif room is not None:
                     await self._serve(socket, room)
             except TooManyOpenError as error:
+                if socket.application_state is WebSocketState.CONNECTING:
+                    await socket.accept(subprotocol)  # a close has a reason, a refusal has none
                 if socket.application_state is WebSocketState.CONNECTED:
                     await socket.close(TRY_LATER, _close_reason(str(error)))
 

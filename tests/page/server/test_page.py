@@ -164,7 +164,7 @@ def test_no_file_asks_for_anything_elsewhere_or_makes_html_of_text(name: str) ->
         "web/..%5cpyproject.toml",
         "web/%2fetc%2fpasswd",
         "web//etc/passwd",
-        "web/page/main.js",
+        "web/main.js",
         "web/page",
         "web/page/",
         "web/page/../../pyproject.toml",
