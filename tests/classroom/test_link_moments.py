@@ -1,4 +1,4 @@
-"""A link whose task is cancelled while its hello arrives."""
+"""Moments of a link that a socket alone can't bring about."""
 
 import asyncio
 from typing import Any
@@ -45,5 +45,45 @@ def test_a_cancellation_that_comes_with_the_hello_ends_the_link() -> None:
         task.cancel()
         await until_async(task.done)
         assert task.cancelled()
+
+    asyncio.run(run())
+
+
+def test_a_link_counts_before_it_is_accepted() -> None:
+    async def run() -> None:
+        nothing: Any = None
+        limit = ConcurrencyLimit(1, 1.0)
+        endpoint = LinkEndpoint(nothing, limit, limit)
+        is_accepting, is_asked = asyncio.Event(), asyncio.Event()
+        sent: list[Any] = []
+
+        async def hang(_: Any = None) -> Any:
+            is_accepting.set()
+            await asyncio.Event().wait()
+
+        def receiver() -> Any:
+            messages = iter([{"type": "websocket.connect"}])
+
+            async def receive() -> Any:
+                if (message := next(messages, None)) is not None:
+                    return message
+                is_asked.set()
+                return await hang()
+
+            return receive
+
+        async def send(message: Any) -> None:
+            sent.append(message)
+
+        first = asyncio.create_task(endpoint(SCOPE, receiver(), hang))
+        await is_accepting.wait()
+        second = asyncio.create_task(endpoint(SCOPE, receiver(), send))
+        greeted = asyncio.create_task(is_asked.wait())
+        await asyncio.wait([second, greeted], return_when=asyncio.FIRST_COMPLETED)
+        assert [message["type"] for message in sent] == ["websocket.accept", "websocket.close"]
+        assert sent[-1]["code"] == 1013
+        for task in (first, second, greeted):
+            task.cancel()
+        await asyncio.gather(first, second, greeted, return_exceptions=True)
 
     asyncio.run(run())
