@@ -28,7 +28,7 @@ export class EpisodeCard {
     return this.#card.element;
   }
 
-  /** @param downloads of the chosen episode: [{format, url}] */
+  /** @param downloads of the chosen episode: [{title, url}] */
   update(episode, isOpen, downloads = []) {
     this.#episode = episode;
     const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;

@@ -10,8 +10,8 @@ import { fileButton } from "../world/scene_files.js";
 
 /** Number that stands for the episode that is still running. */
 const RUNNING_EPISODE = 0;
-/** Largest recording that is sent (bytes). */
-const MAX_RECORDING_BYTES = 20_000_000;
+/** Largest recording that is sent, as the server has it (MAX_FILE_BYTES of episodes). */
+const MAX_RECORDING_MB = 16;
 
 export class PastTab {
   #panel;
@@ -85,8 +85,9 @@ export class PastTab {
   }
 
   async #open(file) {
-    if (file.size > MAX_RECORDING_BYTES) {
-      this.#panel.notice(`${file.name}: expected a recording (.episode), got ${file.size} bytes.`, "error");
+    if (file.size > MAX_RECORDING_MB * 2 ** 20) {
+      const text = `expected a recording (.episode) of at most ${MAX_RECORDING_MB} MB, got ${(file.size / 2 ** 20).toFixed(1)} MB`;
+      this.#panel.notice(`${file.name}: ${text}.`, "error");
       return;
     }
     const answer = await this.#panel.sendFile("open_recording", file);
