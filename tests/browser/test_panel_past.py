@@ -224,9 +224,7 @@ def test_a_recording_is_opened(tab: TabPage, tmp_path: Path) -> None:
     }
 
 
-def test_a_recording_that_the_server_would_refuse_is_not_sent(
-    tab: TabPage, tmp_path: Path
-) -> None:
+def test_a_recording_that_the_server_would_refuse_is_not_sent(tab: TabPage, tmp_path: Path) -> None:
     file = tmp_path / "long.episode"
     file.write_bytes(bytes(MAX_FILE_BYTES + 1))
     with tab.page.expect_file_chooser() as chooser:
