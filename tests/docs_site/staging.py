@@ -17,7 +17,8 @@ OTHER_PAGES = {
 FILES = "files"
 """Folder for what pages link to and is no page, such as sources."""
 
-LINK = re.compile(r"(!?\[(?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*\]\()([^)\s]+)(\))")
+LINK = re.compile(r"((?:^|!?\[)(?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*\]\()([^)\s]+)(\))")
+"""A link with its target; of one whose text goes over two lines, the rest in the second."""
 FENCE = re.compile(r"^ *(```|~~~)")
 HEADING = re.compile(r"## (.+)")
 ENTRY = re.compile(r"- \[[^\]]*\]\(([^)#]+)\)")
