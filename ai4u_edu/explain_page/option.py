@@ -134,10 +134,10 @@ class SceneSource:
             scene = without_unknown_brains(episode.episode.scene)
         else:
             scene = self._exported()
-        if scene != self._scene:  # the next episode of the same world is another static scene
+        # the next episode of the same world is another static scene, of an equal description
+        if self._scene is None or scene != self._scene:
             self._scene = scene
         self._version = version
-        assert self._scene is not None  # noqa: S101 - set above, or it was equal to one
         return self._scene
 
     def _exported(self) -> SceneDescription:

@@ -112,19 +112,19 @@ class _NoRooms:
         """Refuse to start a room."""
         raise RoomError(f"expected a world on the student's own server, got {room!r}, {scene!r}")
 
-    def in_use(self, room: str) -> AbstractContextManager[None]:  # noqa: ARG002
+    def in_use(self, room: str) -> AbstractContextManager[None]:  # noqa: ARG002 - of a protocol
         """Do nothing."""
         return nullcontext()
 
-    def room_of(self, secret: str) -> str:  # noqa: ARG002
+    def room_of(self, secret: str) -> str:  # noqa: ARG002 - of a protocol
         """Return that no room has this secret."""
         return ""
 
-    def is_used(self, room: str) -> bool:  # noqa: ARG002
+    def is_used(self, room: str) -> bool:  # noqa: ARG002 - of a protocol
         """Return False."""
         return False
 
-    def is_running(self, room: str) -> bool:  # noqa: ARG002
+    def is_running(self, room: str) -> bool:  # noqa: ARG002 - of a protocol
         """Return False."""
         return False
 
