@@ -43,6 +43,7 @@ for ever."""
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
+    "class hammer": ["-m", "tests.attacks.class_hammer", "--seconds", "3600"],
     "soak": ["-m", "tests.soak", "--minutes", "30"],
 }
 WEB = "web"

@@ -5,8 +5,10 @@ import random
 import threading
 import uuid
 from collections import Counter
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, Self
+from urllib.parse import urljoin
 
 import msgspec
 import viser
@@ -39,9 +41,13 @@ class Panel:
     """One page's sockets to its panel and to viser, through the room's own port.
 
     A thread for each socket reads; the others' calls only send.
+
+    Args:
+        url: of the world, or of a class's room.
+        headers: with the cookies of who may enter the room.
     """
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, headers: Mapping[str, str] | None = None) -> None:
         self.known = Known()
         self.answers: Counter[str] = Counter()
         """Answers to commands so far: "done" and "failed"."""
@@ -50,10 +56,11 @@ class Panel:
         self._id = 0
         self._nodes: set[str] = set()
         page = uuid.uuid4()
+        protocols = [Subprotocol(f"viser-v{viser.__version__}")]
         self._viser = _opened(
-            url, f"?page={page}", subprotocols=[Subprotocol(f"viser-v{viser.__version__}")]
+            url, f"?page={page}", subprotocols=protocols, additional_headers=headers
         )
-        self._panel = _opened(url, f"ws/panel?page={page}")
+        self._panel = _opened(url, f"ws/panel?page={page}", additional_headers=headers)
         self._readers = [
             threading.Thread(target=target, daemon=True)
             for target in (self._read_panel, self._read_viser)
@@ -192,7 +199,7 @@ def unpacked(frame: bytes) -> list[Message]:
 def _opened(url: str, path: str, **options: Any) -> ClientConnection:
     return open_socket(
         url + path,
-        origin=Origin(url.rstrip("/")),
+        origin=Origin(urljoin(url, "/").rstrip("/")),
         max_size=None,
         compression=None,
         **options,

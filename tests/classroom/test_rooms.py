@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 from collections.abc import Iterator
 from contextlib import suppress
@@ -12,13 +11,12 @@ import httpx
 import psutil
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection
 
 from ai4u_edu.page.server.proxy import MAX_UPWARD_BYTES
 from ai4u_edu.remote import RemoteError
 from ai4u_edu.remote import connect as connect_script
-from tests.classroom.served_class import CODE, ServedClass, Student, served_class
-from tests.load.clients import CAMERA, VISER
+from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.classroom.student_page import open_picture, python_lines, script_address
 from tests.page.server import http_client
 from tests.page.server.rooms import Page, open_socket
 from tests.waiting import LIMIT_S, Deadline, until
@@ -89,7 +87,7 @@ def test_what_is_no_message_to_the_picture_is_refused_before_viser(
     served: ServedClass, frame: bytes | str, code: int
 ) -> None:
     ada = served.joined()
-    with _picture(ada) as picture:
+    with open_picture(ada) as picture:
         picture.recv(LIMIT_S)
         picture.send(frame)
         deadline = Deadline()
@@ -111,14 +109,14 @@ def test_no_secret_reaches_a_browser(served: ServedClass) -> None:
 
 def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClass) -> None:
     ada, ben = served.joined(), served.joined()
-    address = _script_address(ada)
+    address = script_address(ada)
     assert address.startswith(ada.address)
     with connect_script(address) as robot:
         for _ in range(5):
             robot.sense()
             robot.act(move=[1.0, 0.0, 0.0, 0.0])
     key = address.partition("?token=")[2]
-    assert key not in _python_lines(ben)
+    assert key not in python_lines(ben)
     for wrong in (f"{ben.address}?token={key}", ada.address, f"{ada.address}?token=wrong"):
         with pytest.raises(RemoteError, match="answer 403 expected the key"):
             connect_script(wrong)
@@ -134,43 +132,13 @@ def test_a_program_has_the_world_wait_for_it_where_nobody_else_is_in_it(
     tmp_path: Path, rooms: str
 ) -> None:
     with served_class(tmp_path, "sumo", "--rooms", rooms) as school:
-        address = _script_address(school.joined())
+        address = script_address(school.joined())
         if rooms == "each":
             with connect_script(address, agent="blue", mode="lockstep") as robot:
                 assert robot.reset(seed=5).episode
             return
         with pytest.raises(RemoteError, match="expected mode='realtime'"):
             connect_script(address, agent="blue", mode="lockstep")
-
-
-def _script_address(student: Student) -> str:
-    """Return the address for scripts that the student's page shows."""
-    address: str = re.findall(r"http://[^\s'\"]+", _python_lines(student))[0]
-    return address
-
-
-def _picture(student: Student, query: str = "") -> ClientConnection:
-    """Open the socket of a page's picture."""
-    return open_socket(
-        student.address + query,
-        subprotocols=[VISER],
-        additional_headers=student.cookies,
-        max_size=None,
-    )
-
-
-def _python_lines(student: Student) -> str:
-    """Return the Python code that the page shows, as its panel gets it."""
-    page = "?page=" + "a" * 16
-    panel = open_socket(student.address + "ws/panel" + page, additional_headers=student.cookies)
-    with _picture(student, page) as drawn, panel as told:
-        drawn.send(CAMERA)
-        told.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
-        deadline = Deadline()
-        while True:
-            part = json.loads(told.recv(deadline.left()))
-            if part.get("name") == "python" and student.address in str(part["lines"]):
-                return str(part["lines"])
 
 
 def test_the_teachers_page_needs_its_secret(served: ServedClass) -> None:
