@@ -61,6 +61,7 @@ def page(opened: Page, school: WallServer) -> Page:
     opened.get_by_role("button", name="All", exact=False).first.click()
     opened.get_by_label("Sort").select_option("help")
     school.push(school.state)
+    school.draw()
     expect(cards(opened)).to_have_count(COUNT)
     opened.evaluate(FIRST_IS_STOP)
     return opened

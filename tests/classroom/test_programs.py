@@ -115,10 +115,11 @@ def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
 def test_only_the_own_browser_and_the_teacher_read_a_program(served: ServedClass) -> None:
     ada, ben = served.joined(name="Red Fox"), served.joined(name="Blue Otter")
     source = f"{MARKUP}{RUNS}# \u00e9\u0000\U0001f600"
-    assert put(ada, source=source).status_code == 200
+    saved = put(ada, source=source)
+    assert saved.status_code == 200
     answer = found(ada)
     assert (answer["source"], answer["scene"], answer["agent"]) == (source, "Maze", "robot")
-    assert (answer["version"], answer["is_of_device"]) == (1, False)
+    assert (answer["version"], answer["is_of_device"]) == (saved.json()["version"], False)
     assert found(ben) == {"source": None}
     stranger = served.student()
     assert put(stranger).status_code == 403
