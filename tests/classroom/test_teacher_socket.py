@@ -27,6 +27,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def served(folder: Path) -> Iterator[ServedClass]:
     with served_class(folder) as served:
+        served.joined()  # seat 1
         yield served
 
 
