@@ -27,7 +27,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from ai4u_edu.base.errors import ActionError
 from ai4u_edu.page.server.token_auth import PageCookie
 from ai4u_edu.remote import RemoteError, connect
-from tests.attacks.hammer import GONE, KEYS, Tally, ends_at_once
+from tests.attacks.hammer import GONE, KEYS, Tally, ends_at_once, tracebacks_in
 from tests.attacks.panel import Panel
 from tests.attacks.raw_http import SOCKET_HEADERS, ForbiddenServer, ask, status_of
 from tests.attacks.targets import BUSY, METHODS, ROOM_PATHS, SERVER_ERROR, mutated
@@ -106,9 +106,7 @@ def attack_class(seconds: float, seed: int, folder: Path) -> tuple[Tally, list[s
         lines = memory.judge(attack.tally, seconds)
         attack.tally.wrong += ends_at_once(served.process, LIMIT_S)
         _join(attack.tally, scripts)  # one waits as long as its world stands still
-    log = "".join(served.told)
-    if "Traceback" in log or "never retrieved" in log:
-        attack.tally.wrong.append("the log has a traceback:\n" + log[-4000:])
+    attack.tally.wrong += tracebacks_in("".join(served.told))
     return attack.tally, lines
 
 
@@ -335,7 +333,8 @@ class Memory:
             slope = statistics.linear_regression(*zip(*later, strict=True)).slope * 3600 / 1e6
             name = "class" if pid == self._class.pid else "room"
             first, last = later[0][1] / 1e6, later[-1][1] / 1e6
-            lines.append(f"{name} {pid}: {first:.1f} -> {last:.1f} MB, {slope:+.1f} MB/h")
+            sizes = " ".join(f"{size / 1e6:.0f}" for _, size in samples[:: len(samples) // 20 + 1])
+            lines.append(f"{name} {pid}: {first:.1f} -> {last:.1f} MB, {slope:+.1f} MB/h ({sizes})")
             if seconds >= SLOPE_AFTER_S and slope > GROWTH_MB_PER_H:
                 tally.wrong.append(f"grows: {lines[-1]}")
         return lines

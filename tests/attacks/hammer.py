@@ -9,6 +9,7 @@ server.
 import argparse
 import json
 import random
+import re
 import signal
 import sys
 import threading
@@ -95,10 +96,17 @@ def hammer(
         stuck = [each for each in (threads[:6] if waits else threads) if each.is_alive()]
         tally.wrong += [f"{_stack(each)}did not end: {_summary(server)}" for each in stuck]
         tally.wrong += ends_at_once(server.process, ends_within)
-    log = "".join(server.told)
-    if "Traceback" in log or "never retrieved" in log:
-        tally.wrong.append("the log has a traceback:\n" + log[-4000:])
+    tally.wrong += tracebacks_in("".join(server.told))
     return tally
+
+
+def tracebacks_in(log: str) -> list[str]:
+    """Return the part of a server's log around its first traceback, if it has one."""
+    found = re.search("Traceback|never retrieved", log)
+    if found is None:
+        return []
+    at = found.start()
+    return [f"the log has a traceback:\n{log[max(at - 1000, 0) : at + 4000]}"]
 
 
 def use_panel(server: Played, rng: random.Random, tally: Tally, over: threading.Event) -> None:
