@@ -27,7 +27,7 @@ from ai4u_edu import (
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.check import Outcome
-from ai4u_edu.page.panel.parts.agent import agent_part
+from ai4u_edu.page.panel.parts.agent import RewardRow, agent_part
 from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.runner import Runner
 from tests.page.viewer.pages import page, shown
@@ -108,16 +108,17 @@ def test_all_of_it_appears_in_the_viewer(sim: ai4u_edu.ControlRequestor) -> None
         runner._publish()
         with page(viewer):
             shown(viewer)
-            told = agent_part(served.context, runner.latest, runner.latest.agents[0], ())
+            part = agent_part(served.context, runner.latest, runner.latest.agents[0], ())
         (agent,) = sim.agents
         smell = float(agent.percept["smell"][0])
         assert 0.6 < smell < 1
-        (sensor,) = [each for each in told["sensors"] if each["key"] == "smell"]
-        assert sensor["values"][0]["value"] == pytest.approx(smell, abs=0.01)
+        (sensor,) = [sensor for sensor in part.sensors if sensor.key == "smell"]
+        assert sensor.values
+        assert sensor.values[0].value == pytest.approx(smell, abs=0.01)
         paid = agent.ledger.episode_terms["cosy"]
         assert paid == 6
-        assert told["rewards"] == [{"term": "cosy", "decision": 1.0, "episode": paid}]
-        assert "LocalBrain" in told["brain"]
+        assert part.rewards == [RewardRow("cosy", decision=1.0, episode=paid)]
+        assert "LocalBrain" in part.brain
         names = list(viewer.server.scene._handle_from_node_name)
         assert len([name for name in names if name.endswith("/body")]) == 2, "mouse and cheese"
         texts = [

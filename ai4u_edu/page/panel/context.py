@@ -4,7 +4,6 @@ import asyncio
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import msgspec
 
@@ -32,15 +31,13 @@ class PartCache:
         self._of_snapshot: dict[object, bytes] = {}
         self._by_key: dict[object, bytes] = {}
 
-    def of_snapshot(
-        self, snapshot: Snapshot, key: object, build: Callable[[], dict[str, Any]]
-    ) -> bytes:
+    def of_snapshot(self, snapshot: Snapshot, key: object, build: Callable[[], object]) -> bytes:
         """Return a part of a snapshot; it is kept until the next snapshot."""
         if snapshot is not self._snapshot:
             self._snapshot, self._of_snapshot = snapshot, {}
         return _cached(self._of_snapshot, key, build)
 
-    def by_key(self, key: object, build: Callable[[], dict[str, Any]]) -> bytes:
+    def by_key(self, key: object, build: Callable[[], object]) -> bytes:
         """Return a part that does not change while its key is the same."""
         return _cached(self._by_key, key, build)
 
@@ -90,7 +87,7 @@ class PanelContext:
         return self.editor
 
 
-def _cached(texts: dict[object, bytes], key: object, build: Callable[[], dict[str, Any]]) -> bytes:
+def _cached(texts: dict[object, bytes], key: object, build: Callable[[], object]) -> bytes:
     text = texts.get(key)
     if text is None:
         if len(texts) >= MAX_CACHED:

@@ -8,7 +8,7 @@ from uuid import uuid4
 import pytest
 
 from ai4u_edu.blocks import RemoteStatus
-from ai4u_edu.page.panel.parts.agent import agent_part
+from ai4u_edu.page.panel.parts.agent import ScriptState, agent_part
 from ai4u_edu.page.viewer.scene.view import Mode
 from tests.page.panel.rooms import PanelRoom, panel_room, picture
 from tests.waiting import until
@@ -98,20 +98,13 @@ def test_a_sensor_is_hidden() -> None:
 def test_the_script_that_drives_an_agent(room: PanelRoom) -> None:
     snapshot = room.runner.latest
     remote = RemoteStatus("late", "no answer for 2 s", 7, 0, 0, 0, 3)
-    for status, told in (
+    counts = {"decisions": 7, "clipped": 3}
+    for status, script in (
         (None, None),
-        (
-            remote,
-            {
-                "state": "late",
-                "reason": "no answer for 2 s",
-                "warning": "",
-                "counts": {"decisions": 7, "clipped": 3},
-            },
-        ),
+        (remote, ScriptState("late", "no answer for 2 s", warning="", counts=counts)),
     ):
         agent = snapshot.agents[0]._replace(remote=status)
-        assert agent_part(room.context, snapshot, agent, ())["script"] == told
+        assert agent_part(room.context, snapshot, agent, ()).script == script
 
 
 def test_pages_of_one_world_look_at_the_same_moments_and_those_of_others_at_other_ones(

@@ -1,1 +1,1 @@
-"""Parts of the panel: each function returns the JSON of one part."""
+"""Parts of the panel: a struct for each, and the function that makes it."""

@@ -1,7 +1,9 @@
 """The part "blocks": the blocks of an agent, its settings, and a form for one block."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Literal
+
+from msgspec import UNSET, Struct, UnsetType, field
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block
@@ -14,21 +16,107 @@ from ai4u_edu.page.editing.settings import agent_form
 from ai4u_edu.page.editing.suggestion import NAMED
 from ai4u_edu.page.panel.gallery import first_fields, first_sentence, hint_of, words_of
 from ai4u_edu.page.panel.labels import change_label
-from ai4u_edu.page.panel.parts.fields import field_json
+from ai4u_edu.page.panel.parts.fields import FormField, form_field
+from ai4u_edu.page.panel.parts.part import Part
 
 AGENT_KINDS = ("sensors", "actuators", "rewards", "brains")
-PARTS: Mapping[str, Mapping[str, str]] = {
-    "children": {"title": "Reward", "kind": "rewards"},
-    "sensors": {"title": "Sensor", "kind": "sensors"},
-    "variables": {"title": "Need", "class": "HomeostaticVariable"},
+PARTS: Mapping[str, tuple[str, str, str]] = {
+    "children": ("Reward", "rewards", ""),
+    "sensors": ("Sensor", "sensors", ""),
+    "variables": ("Need", "", "HomeostaticVariable"),
 }
-"""Parts of which a block may have several, by the parameter that holds them."""
+"""Parts of which a block may have several, by the parameter that holds them: title, and the kind of
+the gallery or the one class."""
 MAX_READS_CHARS = 80
+
+
+class UndoLabel(Struct, frozen=True):
+    """A change that can be undone, or made again."""
+
+    label: str
+    """The change in words; empty if there is none."""
+
+
+class BlockAddition(Struct, frozen=True, kw_only=True):
+    """Something that can be added to a block: one of a kind of the gallery, or of one class."""
+
+    title: str
+    kind: str | UnsetType = UNSET
+    """Kind of the gallery from which one is chosen."""
+    type_name: str | UnsetType = field(name="class", default=UNSET)
+    """Class of what is added, if there is but one."""
+    parent: BlockPath
+    """Path of the list that it is added to."""
+
+
+class BlockRow(Struct, frozen=True):
+    """A block of an agent."""
+
+    path: BlockPath
+    """Names and indices that lead to it from the agent."""
+    name: str
+    """Name in the percept, the action or the rewards; empty if it has none."""
+    title: str
+    type_name: str = field(name="class")
+    """Name of its class."""
+    icon: str
+    """Name of its icon, as in ``web/shared/icons.js``."""
+    reads: str
+    """Its most important parameters in a few words."""
+    is_on: bool
+    """False if it is switched off."""
+    can_switch: bool
+    can_up: bool
+    can_down: bool
+    can_remove: bool
+    children: list["BlockRow"]
+    """Blocks that it holds."""
+    adds: list[BlockAddition]
+    """Things that can be added to it."""
+
+
+class BlockForm(Struct, frozen=True):
+    """The form of one block."""
+
+    path: BlockPath
+    title: str
+    type_name: str = field(name="class")
+    icon: str
+    """Name of its icon, as in ``web/shared/icons.js``."""
+    question: str
+    """The question that it answers."""
+    summary: str
+    """A short sentence about it."""
+    detail: str
+    """The first sentence of its class's docstring."""
+    fields: list[FormField]
+
+
+class BlocksPart(Part, frozen=True, kw_only=True):
+    """An agent's blocks."""
+
+    name: Literal["blocks"] = "blocks"
+    agent: str
+    """Id of the agent."""
+    driver: str
+    """Name of its present driver."""
+    kinds: dict[str, list[BlockRow]]
+    """Blocks by kind: ``sensors``, ``actuators``, ``rewards`` and ``brains``."""
+    settings: list[FormField]
+    """Form of the agent itself."""
+    form: BlockForm | None
+    """Form of the chosen block; null if there is none."""
+    undo: UndoLabel
+    """The change that undo takes back."""
+    redo: UndoLabel
+    """The change that redo makes again."""
+    waits_for_reset: bool
+    """True if a change takes effect in the next episode."""
 
 
 def blocks_part(
     editor: SceneEditor, agent_id: str, driver: str, path: BlockPath | None
-) -> dict[str, Any]:
+) -> BlocksPart:
     """Return an agent's blocks.
 
     Args:
@@ -43,77 +131,75 @@ def blocks_part(
     state = editor.state
     agent = state.agent(agent_id)
     names = SceneNames(state, agent_id)
-    return {
-        "type": "part",
-        "name": "blocks",
-        "agent": agent_id,
-        "driver": driver,
-        "kinds": {
+    undo, redo = undo_labels(editor)
+    return BlocksPart(
+        agent=agent_id,
+        driver=driver,
+        kinds={
             kind: [
                 _block(block, (kind, index), len(agent[kind]), names)
                 for index, block in enumerate(agent.get(kind, ()))
             ]
             for kind in AGENT_KINDS
         },
-        "settings": [field_json(each, block="LocalBrain") for each in agent_form(agent)],
-        "form": _form(state, agent_id, path),
-        **changes_json(editor),
-    }
+        settings=[form_field(setting, block="LocalBrain") for setting in agent_form(agent)],
+        form=_form(state, agent_id, path),
+        undo=undo,
+        redo=redo,
+        waits_for_reset=editor.waits_for_reset,
+    )
 
 
-def changes_json(editor: SceneEditor) -> dict[str, Any]:
-    """Return what undo and redo would do, and whether a change waits for a reset."""
-    return {
-        "undo": {"label": change_label(editor.undo_label)},
-        "redo": {"label": change_label(editor.redo_label)},
-        "waits_for_reset": editor.waits_for_reset,
-    }
+def undo_labels(editor: SceneEditor) -> tuple[UndoLabel, UndoLabel]:
+    """Return what undo and redo would do."""
+    return UndoLabel(change_label(editor.undo_label)), UndoLabel(change_label(editor.redo_label))
 
 
-def _block(block: Plain, path: BlockPath, count: int, names: SceneNames) -> dict[str, Any]:
+def _block(block: Plain, path: BlockPath, count: int, names: SceneNames) -> BlockRow:
     words = words_of(str(block["type"]))
     index = path[-1]
     is_in_list = isinstance(index, int)
-    return {
-        "path": list(path),
-        "name": _name(block),
-        "title": words.title,
-        "class": block["type"],
-        "icon": words.picture,
-        "reads": _reads(block, names),
-        "is_on": is_enabled(path, block) if is_in_list else True,
-        "can_switch": is_in_list and len(path) == 2,
-        "can_up": isinstance(index, int) and index > 0,
-        "can_down": isinstance(index, int) and index < count - 1,
-        "can_remove": is_in_list,
-        "children": _children(block, path, names),
-        "adds": _adds(Block.types[str(block["type"])], path),
-    }
+    return BlockRow(
+        path=path,
+        name=_name(block),
+        title=words.title,
+        type_name=str(block["type"]),
+        icon=words.picture,
+        reads=_reads(block, names),
+        is_on=is_enabled(path, block) if is_in_list else True,
+        can_switch=is_in_list and len(path) == 2,
+        can_up=isinstance(index, int) and index > 0,
+        can_down=isinstance(index, int) and index < count - 1,
+        can_remove=is_in_list,
+        children=_children(block, path, names),
+        adds=_additions(Block.types[str(block["type"])], path),
+    )
 
 
-def _adds(cls: type[Block], path: BlockPath) -> list[dict[str, Any]]:
-    """Return what can be added to a block: a kind of the gallery, or a class, and where to."""
+def _additions(cls: type[Block], path: BlockPath) -> list[BlockAddition]:
     return [
-        {**what, "parent": [*path, name]}
-        for name, what in PARTS.items()
+        BlockAddition(
+            title=title, kind=kind or UNSET, type_name=type_name or UNSET, parent=(*path, name)
+        )
+        for name, (title, kind, type_name) in PARTS.items()
         if name in cls.parameters()
     ]
 
 
-def _children(block: Plain, path: BlockPath, names: SceneNames) -> list[dict[str, Any]]:
-    found = []
+def _children(block: Plain, path: BlockPath, names: SceneNames) -> list[BlockRow]:
+    rows = []
     for name, value in block.items():
         if name not in KINDS:
             continue
         if isinstance(value, Mapping):
-            found.append(_block(value, (*path, name), 1, names))
+            rows.append(_block(value, (*path, name), 1, names))
         elif isinstance(value, list | tuple):
-            found += [
-                _block(each, (*path, name, index), len(value), names)
-                for index, each in enumerate(value)
-                if isinstance(each, Mapping)
+            rows += [
+                _block(child, (*path, name, index), len(value), names)
+                for index, child in enumerate(value)
+                if isinstance(child, Mapping)
             ]
-    return found
+    return rows
 
 
 def _name(block: Plain) -> str:
@@ -136,7 +222,7 @@ def _reads(block: Plain, names: SceneNames) -> str:
     return text if len(text) <= MAX_READS_CHARS else text[: MAX_READS_CHARS - 1] + "…"
 
 
-def _form(state: EditState, agent_id: str, path: BlockPath | None) -> dict[str, Any] | None:
+def _form(state: EditState, agent_id: str, path: BlockPath | None) -> BlockForm | None:
     """Return the form of the chosen block; None if there is no such block any more."""
     if path is None:
         return None
@@ -147,13 +233,13 @@ def _form(state: EditState, agent_id: str, path: BlockPath | None) -> dict[str, 
     type_name = str(block["type"])
     fields = block_form(block, SceneNames(state, agent_id))
     first = first_fields(type_name, fields)
-    return {
-        "path": list(path),
-        "title": words_of(type_name).title,
-        "class": type_name,
-        "icon": words_of(type_name).picture,
-        "question": words_of(type_name).question,
-        "summary": hint_of(type_name),
-        "detail": first_sentence(Block.types[type_name]),
-        "fields": [field_json(each, first, type_name) for each in fields],
-    }
+    return BlockForm(
+        path=path,
+        title=words_of(type_name).title,
+        type_name=type_name,
+        icon=words_of(type_name).picture,
+        question=words_of(type_name).question,
+        summary=hint_of(type_name),
+        detail=first_sentence(Block.types[type_name]),
+        fields=[form_field(parameter, first, type_name) for parameter in fields],
+    )

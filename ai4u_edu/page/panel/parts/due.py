@@ -13,7 +13,7 @@ from ai4u_edu.page.panel.parts.past import past_part
 from ai4u_edu.page.panel.parts.run import run_part
 from ai4u_edu.page.panel.parts.scene import scene_part
 from ai4u_edu.page.panel.parts.training import training_part
-from ai4u_edu.page.panel.parts.view import view_part
+from ai4u_edu.page.panel.parts.view import ViewPart
 from ai4u_edu.page.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
@@ -48,7 +48,7 @@ def _view_json(context: PanelContext, view: PageView) -> bytes:
     is_driven = any(each.is_driven_by_keys for each in agents if each.id == view.agent)
     has_trail = view.trails.get(view.agent, not is_driven)
     key = "view", view.camera, has_trail
-    return context.cache.by_key(key, lambda: view_part(view.camera, has_trail=has_trail))
+    return context.cache.by_key(key, lambda: ViewPart(camera=view.camera, has_trail=has_trail))
 
 
 def _agent_parts(context: PanelContext, view: PageView) -> Parts:

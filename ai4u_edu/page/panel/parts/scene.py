@@ -1,13 +1,15 @@
 """The part "scene": title, goal, legend and agents."""
 
-from dataclasses import asdict
-from typing import Any
+from typing import Literal
+
+from msgspec import UNSET, Struct, UnsetType
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.page.panel.context import PanelContext
-from ai4u_edu.page.panel.parts.blocks import changes_json
+from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.colours import hex_colour
+from ai4u_edu.page.panel.parts.part import Part
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -24,7 +26,64 @@ MAX_LEGEND_GROUPS = 12
 """Most groups in the legend."""
 
 
-def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
+class LegendColour(Struct, frozen=True):
+    """A colour of the legend."""
+
+    name: str
+    """Names of the groups that have it."""
+    colour: str
+    """The colour as CSS has it."""
+
+
+class SceneAgent(Struct, frozen=True):
+    """An agent of the scene."""
+
+    id: str
+    body: str
+    """Name of its body."""
+    title: str
+    colour: str
+    """Colour of its body as CSS has it."""
+    driver: str
+    """Title of what drives it; empty while another world is being opened."""
+    is_person: bool
+    """True if a person drives it by keys."""
+
+
+class ScenePart(Part, frozen=True, kw_only=True):
+    """The scene's texts, the legend of its groups, and its agents."""
+
+    name: Literal["scene"] = "scene"
+    scene: str
+    """Name of the scene that runs now; empty without an editor."""
+    title: str
+    """Title of the scene that is shown, which may be that of a recorded episode."""
+    goal: str
+    """Its goal in words."""
+    key: str
+    """A key of its task, under which a page keeps best times; empty without an editor."""
+    can_edit_goal: bool
+    controls: str
+    """How it is driven, in words."""
+    rewards: str
+    """What it pays for, in words."""
+    stars: StarGoals | None
+    """Goals for programs; null in a scene that has none."""
+    legend: list[LegendColour]
+    agents: list[SceneAgent]
+    can_edit: bool
+    """False if the world can only be watched and driven."""
+    has_past: bool
+    """True if episodes are recorded."""
+    undo: UndoLabel | UnsetType = UNSET
+    """The change that undo takes back; left out without an editor."""
+    redo: UndoLabel | UnsetType = UNSET
+    """The change that redo makes again; left out without an editor."""
+    waits_for_reset: bool | UnsetType = UNSET
+    """True if a change takes effect in the next episode; left out without an editor."""
+
+
+def scene_part(context: PanelContext, snapshot: Snapshot) -> ScenePart:
     """Return the scene's texts, the legend of its groups, and its agents."""
     static_scene, editor = snapshot.static_scene, context.editor
     description = None if editor is None else editor.state.description
@@ -32,23 +91,24 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> dict[str, Any]:
     if other is not None and description is not None and other.name == description.name:
         other = None
     texts = other or description
-    return {
-        "type": "part",
-        "name": "scene",
-        "scene": "" if description is None else description.name,
-        "title": "" if texts is None else texts.title or texts.name,
-        "goal": static_scene.goal if texts is None else texts.goal,
-        "key": "" if editor is None else editor.state.task_key,
-        "can_edit_goal": editor is not None and other is None,
-        "controls": "" if description is None else description.controls,
-        "rewards": "" if description is None else description.rewards,
-        "stars": None if editor is None else _stars(editor.state.star_goals),
-        "legend": _legend(static_scene),
-        "agents": _agents(context, static_scene),
-        "can_edit": editor is not None,
-        "has_past": context.runner.recorder is not None,
-        **({} if editor is None else changes_json(editor)),
-    }
+    undo, redo = (UNSET, UNSET) if editor is None else undo_labels(editor)
+    return ScenePart(
+        scene="" if description is None else description.name,
+        title="" if texts is None else texts.title or texts.name,
+        goal=static_scene.goal if texts is None else texts.goal,
+        key="" if editor is None else editor.state.task_key,
+        can_edit_goal=editor is not None and other is None,
+        controls="" if description is None else description.controls,
+        rewards="" if description is None else description.rewards,
+        stars=None if editor is None else _stars(editor.state.star_goals),
+        legend=_legend(static_scene),
+        agents=_agents(context, static_scene),
+        can_edit=editor is not None,
+        has_past=context.runner.recorder is not None,
+        undo=undo,
+        redo=redo,
+        waits_for_reset=UNSET if editor is None else editor.waits_for_reset,
+    )
 
 
 def _shown_scene(context: PanelContext, snapshot: Snapshot) -> SceneDescription | None:
@@ -57,43 +117,38 @@ def _shown_scene(context: PanelContext, snapshot: Snapshot) -> SceneDescription 
     return frame_cache.episode.scene if snapshot.past and frame_cache is not None else None
 
 
-def _stars(goals: StarGoals | None) -> dict[str, Any] | None:
+def _stars(goals: StarGoals | None) -> StarGoals | None:
     """Return the goals for programs; None in a scene that has none."""
-    return asdict(goals) if goals is not None and goals.count else None
+    return goals if goals is not None and goals.count else None
 
 
-def _legend(static_scene: StaticScene) -> list[dict[str, str]]:
+def _legend(static_scene: StaticScene) -> list[LegendColour]:
     groups = dict(tuple(group_colours(static_scene).items())[:MAX_LEGEND_GROUPS])
     groups |= {"other": UNKNOWN_GROUP, "nothing": RAY_MISS}
     names: dict[Rgb, list[str]] = {}
     for group, colour in groups.items():
         names.setdefault(colour, []).append(group)
-    return [
-        {"name": ", ".join(alike), "colour": hex_colour(colour)} for colour, alike in names.items()
-    ]
+    return [LegendColour(", ".join(alike), hex_colour(colour)) for colour, alike in names.items()]
 
 
-def _agents(context: PanelContext, static_scene: StaticScene) -> list[dict[str, Any]]:
+def _agents(context: PanelContext, static_scene: StaticScene) -> list[SceneAgent]:
     bodies = {body.name: body for body in static_scene.bodies}
     running = {agent.id: agent for agent in context.runner.sim.agents}
     return [
-        {
-            "id": agent_id,
-            "body": body,
-            "title": title(agent_id, body),
-            "colour": hex_colour(body_colour(bodies[body], is_agent=True)),
-            **_driver(running.get(agent_id)),
-        }
+        SceneAgent(
+            id=agent_id,
+            body=body,
+            title=title(agent_id, body),
+            colour=hex_colour(body_colour(bodies[body], is_agent=True)),
+            driver=_driver(agent := running.get(agent_id)),
+            is_person=agent is not None and bool(keys_of(agent)),
+        )
         for body, agent_id in static_scene.agent_of.items()
         if body in bodies
     ]
 
 
-def _driver(agent: BasicAgent | None) -> dict[str, Any]:
+def _driver(agent: BasicAgent | None) -> str:
     if agent is None:  # the runner has another world already
-        return {"driver": "", "is_person": False}
-    is_person = bool(keys_of(agent))
-    return {
-        "driver": "You" if is_person else driver_title(agent.brain),
-        "is_person": is_person,
-    }
+        return ""
+    return "You" if keys_of(agent) else driver_title(agent.brain)

@@ -1,4 +1,4 @@
-"""Sensors' readings as JSON: lines with names and units, strips of bars, pictures, or text."""
+"""Sensors' readings: lines with names and units, strips of bars, pictures, or text."""
 
 import base64
 import io
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import UNSET, Struct, UnsetType, field
 from PIL import Image
 
 from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
@@ -35,9 +36,87 @@ RAY_GROUPS, RAY_DISTANCES = slice(-2, None, -2), slice(None, None, -2)
 Floats = npt.NDArray[np.float64]
 
 
-def sensor_json(
-    sensor: SensorInfo, value: Any, colours: Mapping[str, Rgb], rays: RayPicture | None
-) -> dict[str, Any]:
+class ReadingLine(Struct, frozen=True):
+    """One number of a reading."""
+
+    name: str
+    value: float | None
+    """The number, with four decimals; null if it is not finite."""
+    text: str
+    """The number as text."""
+    unit: str
+    """Its unit; empty if it is normalized, or has none."""
+    low: float | None
+    """Lower bound; null if it has none."""
+    high: float | None
+    """Upper bound; null if it has none."""
+    is_seen: bool
+    """False for a number below its range, which stands for "not visible"."""
+    older: list[float] | UnsetType = UNSET
+    """Its older values, oldest first; left out if readings are not stacked."""
+
+
+class ReadingStrip(Struct, frozen=True):
+    """Many numbers as bars side by side, left to right."""
+
+    caption: str
+    zeros: list[float]
+    """Position of zero in the range of each number, 0 to 1."""
+    shares: list[float]
+    """Position of each number in its range, 0 to 1."""
+    colours: list[str] | None
+    """Colour of each bar as CSS has it; null for one colour."""
+    older: list[list[float]]
+    """Positions of older readings, oldest first."""
+
+
+class ReadingPicture(Struct, frozen=True):
+    """A picture of a reading, with a pixel for each cell."""
+
+    rows: int
+    columns: int
+    cells: str
+    """Address of the picture: a PNG as a ``data:`` URL."""
+    caption: str
+    """What it shows; ``earlier`` for an older reading, empty for the groups in its cells."""
+
+
+class SensorReading(Struct, frozen=True, kw_only=True):
+    """A sensor and its reading: one of ``pictures``, ``text``, ``values`` and ``strips``."""
+
+    key: str
+    """Its perception key."""
+    title: str
+    type_name: str = field(name="class")
+    """Name of its class."""
+    icon: str
+    """Name of its icon, as in ``web/shared/icons.js``."""
+    help: str
+    """A short sentence about it."""
+    shape: list[int]
+    """Shape of the reading; empty for a single value."""
+    stack: int
+    """Number of stacked readings, oldest first."""
+    pictures: list[ReadingPicture] | UnsetType = UNSET
+    text: str | UnsetType = UNSET
+    values: list[ReadingLine] | UnsetType = UNSET
+    strips: list[ReadingStrip] | UnsetType = UNSET
+    is_drawable: bool
+    """True if the page's picture can show it."""
+    is_shown: bool
+    """True if the page's picture shows it."""
+
+
+def sensor_reading(
+    sensor: SensorInfo,
+    value: Any,
+    colours: Mapping[str, Rgb],
+    rays: RayPicture | None,
+    *,
+    title: str,
+    is_drawable: bool,
+    is_shown: bool,
+) -> SensorReading:
     """Return a reading and what its sensor is.
 
     Args:
@@ -45,32 +124,40 @@ def sensor_json(
         value: its reading in the percept.
         colours: colours by group.
         rays: the sensor's rays, if it has some.
+        title: the sensor's title.
+        is_drawable: True if the page's picture can show it.
+        is_shown: True if the page's picture shows it.
     """
-    words = words_of(sensor.block)
-    return {
-        "key": sensor.key,
-        "title": words.title,
-        "class": sensor.block,
-        "icon": words.picture,
-        "help": hint_of(sensor.block),
-        "shape": list(np.shape(value)),
-        "stack": sensor.stack,
-        **_reading(sensor, value, colours, rays),
-    }
-
-
-def _reading(
-    sensor: SensorInfo, value: Any, colours: Mapping[str, Rgb], rays: RayPicture | None
-) -> dict[str, Any]:
-    if sensor.legend is not None:
-        return {"pictures": _pictures(value, sensor.legend, colours, sensor.stack)}
+    pictures: list[ReadingPicture] | UnsetType = UNSET
+    text: str | UnsetType = UNSET
+    lines: list[ReadingLine] | UnsetType = UNSET
+    strips: list[ReadingStrip] | UnsetType = UNSET
     array = np.asarray(value)
-    if array.dtype.kind not in "fiu" or array.size != sensor.stack * len(sensor.low):
-        return {"text": reading_text(value)}
-    rows = array.reshape(sensor.stack, -1).astype(np.float64)
-    if len(sensor.low) <= (MAX_NAMED_LINES if sensor.slots else MAX_UNNAMED_LINES):
-        return {"values": _lines(sensor, rows)}
-    return {"strips": _strips(sensor, rows, colours, rays)}
+    if sensor.legend is not None:
+        pictures = _pictures(value, sensor.legend, colours, sensor.stack)
+    elif array.dtype.kind not in "fiu" or array.size != sensor.stack * len(sensor.low):
+        text = reading_text(value)
+    else:
+        rows = array.reshape(sensor.stack, -1).astype(np.float64)
+        if len(sensor.low) <= (MAX_NAMED_LINES if sensor.slots else MAX_UNNAMED_LINES):
+            lines = _lines(sensor, rows)
+        else:
+            strips = _strips(sensor, rows, colours, rays)
+    return SensorReading(
+        key=sensor.key,
+        title=title,
+        type_name=sensor.block,
+        icon=words_of(sensor.block).picture,
+        help=hint_of(sensor.block),
+        shape=list(np.shape(value)),
+        stack=sensor.stack,
+        pictures=pictures,
+        text=text,
+        values=lines,
+        strips=strips,
+        is_drawable=is_drawable,
+        is_shown=is_shown,
+    )
 
 
 def reading_text(value: Any) -> str:
@@ -93,30 +180,30 @@ def reading_text(value: Any) -> str:
     return ", ".join(texts + rest)
 
 
-def _lines(sensor: SensorInfo, rows: Floats) -> list[dict[str, Any]]:
+def _lines(sensor: SensorInfo, rows: Floats) -> list[ReadingLine]:
     """Return each number with its name, unit and range, and its older values, oldest first."""
     count = len(sensor.low)
     names = sensor.slots or tuple(map(str, range(count)) if count > 1 else ("value",))
     units = sensor.unit.split(", ")
     units = units if len(units) == count else [sensor.unit] * count
     return [
-        {
-            "name": name.replace("_", " "),
-            "value": _short(rows[-1, i]),
-            "text": number(float(rows[-1, i])),
-            "unit": units[i],
-            "low": _short(sensor.low[i]),
-            "high": _short(sensor.high[i]),
-            "is_seen": bool(rows[-1, i] >= sensor.low[i] - 1e-4 * (1 + abs(sensor.low[i]))),
-            **({"older": rows[:-1, i].round(4).tolist()} if len(rows) > 1 else {}),
-        }
+        ReadingLine(
+            name=name.replace("_", " "),
+            value=_short(rows[-1, i]),
+            text=number(float(rows[-1, i])),
+            unit=units[i],
+            low=_short(sensor.low[i]),
+            high=_short(sensor.high[i]),
+            is_seen=bool(rows[-1, i] >= sensor.low[i] - 1e-4 * (1 + abs(sensor.low[i]))),
+            older=rows[:-1, i].round(4).tolist() if len(rows) > 1 else UNSET,
+        )
         for i, name in enumerate(names)
     ]
 
 
 def _strips(
     sensor: SensorInfo, rows: Floats, colours: Mapping[str, Rgb], rays: RayPicture | None
-) -> list[dict[str, Any]]:
+) -> list[ReadingStrip]:
     ends = f"{number(float(sensor.low.min()))} to {number(float(sensor.high.max()))}"
     ends = f"{ends} {sensor.unit}".strip()
     cut = f", the first {MAX_BARS} of {rows.shape[1]}" if rows.shape[1] > MAX_BARS else ""
@@ -143,7 +230,7 @@ def _strip(
     part: slice,
     caption: str,
     colours: Sequence[str] | None = None,
-) -> dict[str, Any]:
+) -> ReadingStrip:
     """Return bars side by side, as positions in their ranges from 0 to 1, left to right."""
     low, high = sensor.low[part][:MAX_BARS], sensor.high[part][:MAX_BARS]
     span = np.maximum(high - low, 1e-9)
@@ -153,18 +240,18 @@ def _strip(
         return positions
 
     older = [shares(row[part][:MAX_BARS]) for row in rows[:-1][-MAX_OLDER_READINGS:]]
-    return {
-        "caption": caption,
-        "zeros": shares(np.zeros(len(low))),
-        "shares": shares(rows[-1][part][:MAX_BARS]),
-        "colours": None if colours is None else list(colours[:MAX_BARS]),
-        "older": older,
-    }
+    return ReadingStrip(
+        caption=caption,
+        zeros=shares(np.zeros(len(low))),
+        shares=shares(rows[-1][part][:MAX_BARS]),
+        colours=None if colours is None else list(colours[:MAX_BARS]),
+        older=older,
+    )
 
 
 def _pictures(
     value: Any, legend: Legend, colours: Mapping[str, Rgb], stack: int
-) -> list[dict[str, Any]]:
+) -> list[ReadingPicture]:
     """Return a reading as pictures: the groups in its cells, distances, and older readings."""
     known = [
         VOID if group == "void" else colours.get(group, UNKNOWN_GROUP) for group in legend.groups
@@ -178,7 +265,7 @@ def _pictures(
     return made + [_picture(legend.groups_in(each), known, "earlier") for each in older]
 
 
-def _picture(cells: Cells, colours: Sequence[Rgb], caption: str) -> dict[str, Any]:
+def _picture(cells: Cells, colours: Sequence[Rgb], caption: str) -> ReadingPicture:
     """Return cells as a PNG with a pixel each; cell 0, of nothing, is transparent."""
     step = -(-max(cells.shape) // MAX_CELLS_PER_SIDE)
     cells = cells[::step, ::step]
@@ -188,12 +275,7 @@ def _picture(cells: Cells, colours: Sequence[Rgb], caption: str) -> dict[str, An
     image.save(out, "PNG", transparency=0)
     data = base64.b64encode(out.getvalue()).decode()
     rows, columns = cells.shape
-    return {
-        "rows": rows,
-        "columns": columns,
-        "cells": f"data:image/png;base64,{data}",
-        "caption": caption,
-    }
+    return ReadingPicture(rows, columns, f"data:image/png;base64,{data}", caption)
 
 
 def _short(value: Any) -> float | None:

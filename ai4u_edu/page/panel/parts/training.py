@@ -1,23 +1,33 @@
 """The part "training": decisions so far and the learning curve, in the world of a training."""
 
-from typing import Any
+from typing import Literal
 
+from ai4u_edu.page.panel.parts.part import Part
 from ai4u_edu.runtime.training_progress import TrainingProgress
 
 
-def training_part(progress: TrainingProgress) -> dict[str, Any]:
-    """Return the progress of a training in words, and its learning curve.
+class TrainingPart(Part, frozen=True, kw_only=True):
+    """The progress of a training, and its learning curve."""
 
-    Each point of the curve is [decisions, mean reward, share of successes or null].
-    """
-    return {
-        "type": "part",
-        "name": "training",
-        "text": _text(progress),
-        "is_over": progress.is_over,
-        "share": min(progress.decisions / progress.total, 1.0) if progress.total else 1.0,
-        "points": [[each.decisions, each.reward, each.success] for each in progress.curve],
-    }
+    name: Literal["training"] = "training"
+    text: str
+    """The progress as a sentence."""
+    is_over: bool
+    """True once the finished policy drives."""
+    share: float
+    """Decisions learned from so far, as a share of all; 0 to 1."""
+    points: list[tuple[int, float, float | None]]
+    """The learning curve: decisions, mean reward, and share of successes (0 to 1) or null."""
+
+
+def training_part(progress: TrainingProgress) -> TrainingPart:
+    """Return the progress of a training."""
+    return TrainingPart(
+        text=_text(progress),
+        is_over=progress.is_over,
+        share=min(progress.decisions / progress.total, 1.0) if progress.total else 1.0,
+        points=[(each.decisions, each.reward, each.success) for each in progress.curve],
+    )
 
 
 def _text(progress: TrainingProgress) -> str:

@@ -1,15 +1,16 @@
 """The part "view": what the page's picture shows."""
 
-from typing import Any
+from typing import Literal
 
 from ai4u_edu.page.panel.messages.play import CameraMode
+from ai4u_edu.page.panel.parts.part import Part
 
 
-def view_part(camera: CameraMode, *, has_trail: bool) -> dict[str, Any]:
-    """Return the choices for the page's picture.
+class ViewPart(Part, frozen=True, kw_only=True):
+    """The choices for the page's picture."""
 
-    Args:
-        camera: position of the camera.
-        has_trail: True if the trail of the agent that is shown is drawn.
-    """
-    return {"type": "part", "name": "view", "camera": camera, "has_trail": has_trail}
+    name: Literal["view"] = "view"
+    camera: CameraMode
+    """Position of the camera."""
+    has_trail: bool
+    """True if the trail of the agent that is shown is drawn."""

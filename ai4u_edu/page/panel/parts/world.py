@@ -1,6 +1,8 @@
 """The part "world": everything in the scene, a form for one thing, and the scene's settings."""
 
-from typing import Any
+from typing import Literal
+
+from msgspec import Struct
 
 from ai4u_edu.blocks import RespawnActuator
 from ai4u_edu.page.editing import EditState, SceneEditor
@@ -9,8 +11,9 @@ from ai4u_edu.page.editing.thing_form import thing_form
 from ai4u_edu.page.editing.things import Thing, kind_of
 from ai4u_edu.page.panel.new_things import TEMPLATES
 from ai4u_edu.page.panel.page_view import PageView
-from ai4u_edu.page.panel.parts.blocks import changes_json
-from ai4u_edu.page.panel.parts.fields import field_json
+from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
+from ai4u_edu.page.panel.parts.fields import FormField, form_field
+from ai4u_edu.page.panel.parts.part import Part
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import BodyDescription
 
@@ -18,51 +21,137 @@ LAMP_TAG = "lamp"
 """Tag of bodies that are lamps for light sensors."""
 
 
-def world_part(editor: SceneEditor, view: PageView) -> dict[str, Any]:
+class SceneThing(Struct, frozen=True):
+    """A body, floor or area of the scene."""
+
+    name: str
+    kind: str
+    """``agent``, ``lamp``, ``body``, ``floor`` or ``area``."""
+    agent: str | None
+    """Id of the agent whose body it is; null if it is nobody's."""
+    shape: str
+    """Type of its shape, such as ``box``."""
+    x: float
+    """Position (m) in the scene's file."""
+    y: float
+    heading: float
+    """Heading (degrees) in the scene's file, from the x axis counterclockwise."""
+    movable: bool
+    """True for a body that physics moves."""
+    colour: str | None
+    """Name of its colour; null for the colour of its kind."""
+    label: str | None
+    """Text on it."""
+    is_random: bool
+    """True if each episode draws a place for it, or chooses one."""
+
+
+class ThingForm(Struct, frozen=True):
+    """The form of one thing."""
+
+    name: str
+    kind: str
+    """Kind of the thing, as in its row."""
+    fields: list[FormField]
+
+
+class ThingTemplate(Struct, frozen=True):
+    """A thing that can be added."""
+
+    name: str
+    title: str
+    icon: str
+    """Name of its icon, as in ``web/shared/icons.js``."""
+
+
+class UnsavedScene(Struct, frozen=True):
+    """A scene that somebody changed and did not save."""
+
+    name: str
+    when: str
+    """Time of the last change, in words."""
+
+
+class WorldPart(Part, frozen=True, kw_only=True):
+    """The things of the scene, and the form of the selected one."""
+
+    name: Literal["world"] = "world"
+    title: str
+    """Title of the scene."""
+    bodies: list[SceneThing]
+    """Bodies, floors and areas, the latest first."""
+    form: ThingForm | None
+    """Form of the selected thing; null if there is none."""
+    settings: list[FormField]
+    """Form of the scene itself."""
+    templates: list[ThingTemplate]
+    """Things that can be added."""
+    unsaved: UnsavedScene | None
+    """A scene that can be restored; null if there is none."""
+    problem: str
+    """Why the scene is not kept while it is changed; empty if it is."""
+    can_save: bool
+    """True if scenes can be saved here; else they are downloaded."""
+    is_autosaved: bool
+    """True if the scene is kept while it is changed."""
+    is_dragging: bool
+    """True while somebody drags a thing."""
+    is_move_mode: bool
+    """True if this page moves things with the mouse."""
+    snap: float
+    """Grid (m) to which moved things snap; 0 for none."""
+    undo: UndoLabel
+    """The change that undo takes back."""
+    redo: UndoLabel
+    """The change that redo makes again."""
+    waits_for_reset: bool
+    """True if a change takes effect in the next episode."""
+
+
+def world_part(editor: SceneEditor, view: PageView) -> WorldPart:
     """Return the things of the scene, and the form of the selected one."""
     state, recovery = editor.state, editor.recovery
     described = state.description
     agents = {str(agent.get("body")): str(agent.get("id", "0")) for agent in described.agents}
     unsaved, autosave = recovery.unsaved, recovery.autosave
-    return {
-        "type": "part",
-        "name": "world",
-        "title": editor.title,
-        "bodies": [
-            _thing(thing, agents) | {"is_random": _is_random(thing, described)}
-            for thing in reversed(described.things)
+    undo, redo = undo_labels(editor)
+    return WorldPart(
+        title=editor.title,
+        bodies=[_thing(thing, agents, described) for thing in reversed(described.things)],
+        form=_form(state, view.show.body, agents),
+        settings=[form_field(setting) for setting in scene_form(described)],
+        templates=[
+            ThingTemplate(name, template.title, template.icon)
+            for name, template in TEMPLATES.items()
         ],
-        "form": _form(state, view.show.body, agents),
-        "settings": [field_json(each) for each in scene_form(described)],
-        "templates": [
-            {"name": name, "title": each.title, "icon": each.icon}
-            for name, each in TEMPLATES.items()
-        ],
-        "unsaved": None if unsaved is None else {"name": unsaved.name, "when": unsaved.when},
-        "problem": "" if autosave is None else autosave.problem,
-        "can_save": editor.scene_store is not None,
-        "is_autosaved": autosave is not None and not autosave.problem,
-        "is_dragging": editor.is_dragging,
-        "is_move_mode": view.is_move_mode,
-        "snap": view.snap_m,
-        **changes_json(editor),
-    }
+        unsaved=None if unsaved is None else UnsavedScene(unsaved.name, unsaved.when),
+        problem="" if autosave is None else autosave.problem,
+        can_save=editor.scene_store is not None,
+        is_autosaved=autosave is not None and not autosave.problem,
+        is_dragging=editor.is_dragging,
+        is_move_mode=view.is_move_mode,
+        snap=view.snap_m,
+        undo=undo,
+        redo=redo,
+        waits_for_reset=editor.waits_for_reset,
+    )
 
 
-def _thing(thing: Thing, agents: dict[str, str]) -> dict[str, Any]:
+def _thing(thing: Thing, agents: dict[str, str], described: SceneDescription) -> SceneThing:
     x, y = thing.position
-    return {
-        "name": thing.name,
-        "kind": _kind(thing, agents),
-        "agent": agents.get(thing.name),
-        "shape": thing.shape.type,
-        "x": x,
-        "y": y,
-        "heading": thing.heading_deg,
-        "movable": isinstance(thing, BodyDescription) and thing.kind == "dynamic",
-        "colour": thing.colour,
-        "label": thing.label,
-    }
+    return SceneThing(
+        name=thing.name,
+        kind=_kind(thing, agents),
+        agent=agents.get(thing.name),
+        shape=thing.shape.type,
+        x=x,
+        y=y,
+        heading=thing.heading_deg,
+        movable=isinstance(thing, BodyDescription) and thing.kind == "dynamic",
+        colour=thing.colour,
+        label=thing.label,
+        is_random=_is_random(thing, described),
+    )
 
 
 def _is_random(thing: Thing, described: SceneDescription) -> bool:
@@ -85,13 +174,10 @@ def _kind(thing: Thing, agents: dict[str, str]) -> str:
     return kind_of(thing).removesuffix("s")
 
 
-def _form(state: EditState, name: str | None, agents: dict[str, str]) -> dict[str, Any] | None:
+def _form(state: EditState, name: str | None, agents: dict[str, str]) -> ThingForm | None:
     """Return the form of the selected thing; None if there is no such thing any more."""
-    thing = next((each for each in state.description.things if each.name == name), None)
+    thing = next((thing for thing in state.description.things if thing.name == name), None)
     if thing is None:
         return None
-    return {
-        "name": thing.name,
-        "kind": _kind(thing, agents),
-        "fields": [field_json(each) for each in thing_form(thing)],
-    }
+    fields = [form_field(parameter) for parameter in thing_form(thing)]
+    return ThingForm(thing.name, _kind(thing, agents), fields)
