@@ -1,5 +1,6 @@
 /** Our panel beside viser's canvas: its frame, its tabs, and what they share. */
 
+/** @import { PanelCommands, PanelParts, Show } from "../generated/messages.js" */
 import { button, element, setAttributes } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
 import { DriveTab } from "./drive/tab.js";
@@ -43,7 +44,10 @@ export function startPanel(driving, dock) {
 }
 
 export class Panel extends EventTarget {
-  /** What this page looks at. */
+  /**
+   * What this page looks at.
+   * @type {Omit<Show, "type">}
+   */
   shown;
   /** True while a program of this page has the agent. */
   hasProgram = false;
@@ -103,22 +107,34 @@ export class Panel extends EventTarget {
   /**
    * Send a command. The promise never rejects: it gives {ok: true, text, ...} or {ok: false, text, problems, ...}.
    * An error is shown, unless problems tell a form more; the text of a result is, unless `quiet` is set.
+   * @template {keyof PanelCommands} Name
+   * @param {Name} command
+   * @param {PanelCommands[Name]} [args]
+   * @param {{quiet?: boolean}} [options]
+   * @returns {Promise<any>}
    */
-  async send(command, args = {}, { quiet = false } = {}) {
+  async send(command, args, { quiet = false } = {}) {
     const answer = await this.#socket.command(command, args);
     if (!answer.ok && !answer.problems.length) this.notice(answer.text, "error");
     else if (answer.ok && !quiet) this.notice(answer.text);
     return answer;
   }
 
-  /** Send a file, and a command about it. */
+  /**
+   * Send a file, and a command about it.
+   * @param {"load_text" | "open_recording"} command
+   * @param {File} file
+   */
   async sendFile(command, file) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     this.#socket.upload(bytes);
     return this.send(command, { name: file.name.slice(-MAX_FILE_NAME_CHARS), size: bytes.length });
   }
 
-  /** Change what this page looks at: {agent, block, body, episode}. */
+  /**
+   * Change what this page looks at.
+   * @param {Partial<Show>} changes
+   */
   show(changes) {
     const before = this.shown;
     this.shown = { ...before, ...changes };
@@ -132,7 +148,12 @@ export class Panel extends EventTarget {
     this.#notices.show(text, level, action);
   }
 
-  /** Return the latest part of a name, or null. */
+  /**
+   * Return the latest part of a name, or null.
+   * @template {string} Name
+   * @param {Name} name
+   * @returns {(Name extends keyof PanelParts ? PanelParts[Name] : any) | null}
+   */
   part(name) {
     return this.#parts.get(name) ?? null;
   }
@@ -204,6 +225,7 @@ export class Panel extends EventTarget {
     }
   }
 
+  /** @param {PanelParts["scene"]} scene */
   #onScene(scene) {
     this.#tabs.setVisible("build", scene.can_edit);
     this.#tabs.setVisible("world", scene.can_edit);

@@ -1,5 +1,6 @@
 /** The run of the world: goal, time, score, stages, and the buttons to pause and start again. */
 
+/** @import { RunPart, ScenePart, Stage } from "../generated/messages.js" */
 import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
 import { freeId } from "../shared/ids.js";
 import { fact, toggle } from "./widgets/parts.js";
@@ -90,12 +91,13 @@ export class RunControls {
     best.set(seconds(time));
   }
 
+  /** @param {RunPart} run */
   #draw(run) {
     this.#isPaused = run.is_paused;
     setText(this.#pause.querySelector("span"), run.is_paused ? "Resume" : "Pause");
     this.#facts.time.set(seconds(run.time_s));
     this.#facts.score.set(number(run.score));
-    setText(this.#result, run.result ? (run.result_text ?? run.result) : "");
+    setText(this.#result, run.result && run.result_text);
     setAttributes(this.#result, { "data-result": run.result || null });
     setText(this.#problem, run.error || "");
     const place = `Episode ${run.episode}, decision ${run.decision}`;
@@ -110,20 +112,19 @@ export class RunControls {
     this.#lock.set(run.is_seed_locked);
   }
 
+  /** @param {ScenePart} scene */
   #drawScene(scene) {
     setText(this.#goalText, scene.goal);
     this.#change.hidden = !scene.can_edit_goal;
     this.#goal.hidden = !scene.goal && !scene.can_edit_goal;
-    if (scene.stages?.length) this.#drawStages(scene.stages);
   }
 
-  /** @param stages [{title, is_done, is_now}] or texts */
+  /** @param {Stage[]} stages */
   #drawStages(stages) {
-    if (!stages) return;
     this.#stages.hidden = stages.length === 0;
     keyed(
       this.#stages,
-      stages.map((each, index) => ({ index, ...(typeof each === "string" ? { title: each } : each) })),
+      stages.map((stage, index) => ({ index, ...stage })),
       ({ index }) => index,
       () => element("li"),
       (item, { title, is_done: isDone, is_now: isNow }) => {

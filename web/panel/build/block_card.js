@@ -1,5 +1,9 @@
 /** A block as a card: switch, order, copy, delete, and its form when it is open. */
 
+/**
+ * @import { BlockAddition, BlockRow } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, keyed, setText } from "../../shared/dom.js";
 import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
@@ -9,6 +13,7 @@ export const isSamePath = (one, other) => JSON.stringify(one ?? null) === JSON.s
 
 export class BlockCard {
   #panel;
+  /** @type {BlockRow} */
   #block = null;
   #summary = element("p", { className: "ai4u-hint-text" });
   #detail = element("p", { className: "ai4u-hint-text ai4u-details-only" });
@@ -18,6 +23,7 @@ export class BlockCard {
   #adds = element("div", { className: "ai4u-tools" });
   #card;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => panel.show({ block: isOpen ? this.#block.path : null }) });
@@ -34,7 +40,7 @@ export class BlockCard {
   }
 
   /**
-   * @param block as in the part "blocks"
+   * @param {BlockRow} block
    * @param form the form of the chosen block, which may be another one
    */
   update(block, form) {
@@ -98,6 +104,7 @@ export class BlockCard {
     this.#adds.hidden = adds.length === 0;
   }
 
+  /** @param {BlockAddition} addition */
   async #addPart({ title, kind, class: type, parent }) {
     if (type) {
       const added = await this.#panel.send("add_block", { class: type, parent });

@@ -1,15 +1,19 @@
 /** The gallery of blocks that can be added, grouped by the question that each answers. */
 
+/**
+ * @import { ListBlocks } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { element } from "../../shared/dom.js";
 import { tile, tiles } from "../widgets/parts.js";
 import { picture } from "./pictures.js";
 
 /**
  * Open the gallery.
- * @param panel the panel
+ * @param {Panel} panel
  * @param {object} options
  * @param {string} options.title of the dialog, such as "Add a sensor"
- * @param {string} options.kind "sensors", "actuators", "rewards" or "brains"
+ * @param {ListBlocks["kind"]} options.kind
  * @param {(string | number)[]} [options.parent] path of the list that gets the block; default: the agent's own
  */
 export async function openGallery(panel, { title, kind, parent = [kind] }) {

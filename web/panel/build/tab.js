@@ -1,5 +1,6 @@
 /** The tab "Build": the blocks of the shown agent, its driver and its settings. */
 
+/** @import { BlocksPart } from "../../generated/messages.js" */
 import { button, element } from "../../shared/dom.js";
 import { updateCards } from "./block_card.js";
 import { Form } from "../widgets/form.js";
@@ -43,7 +44,7 @@ export class BuildTab {
     root.append(section("build-settings", "Agent's settings", { isOpen: false }, this.#settings.element));
   }
 
-  /** @param part as "blocks" in the protocol */
+  /** @param {BlocksPart} part */
   update(part) {
     this.#followDrivers(part);
     for (const [kind, { cards, none }] of this.#lists) {
@@ -54,7 +55,10 @@ export class BuildTab {
     this.#settings.update(part.settings ?? []);
   }
 
-  /** Ask for the drivers again if others may be able to drive now: each is tried, which takes a while. */
+  /**
+   * Ask for the drivers again if others may be able to drive now: each is tried, which takes a while.
+   * @param {BlocksPart} part
+   */
   #followDrivers({ agent, driver, kinds }) {
     this.#showDrivers(driver);
     const classes = (blocks) => blocks.map((block) => [block.class, block.is_on, classes(block.children ?? [])]);

@@ -1,5 +1,6 @@
 /** The rewards of an agent: each term's last and summed reward, and the curve of the episode. */
 
+/** @import { CurvePart, PaidDecision, RewardRow } from "../../generated/messages.js" */
 import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { Curve } from "../widgets/curve.js";
 import { number } from "../../shared/numbers.js";
@@ -25,8 +26,8 @@ export class RewardTable {
   }
 
   /**
-   * @param terms [{term, decision, episode}]
-   * @param latest [{decision, terms: [{term, amount}]}] decisions that had a reward, newest first
+   * @param {RewardRow[]} terms
+   * @param {PaidDecision[]} latest decisions that had a reward, newest first
    */
   update(terms, latest) {
     keyed(this.#rows, terms, ({ term }) => term, makeRow, (row, { term, decision, episode }) => {
@@ -41,7 +42,7 @@ export class RewardTable {
     });
   }
 
-  /** @param points [decision, its reward, the sum so far] of each decision, oldest first */
+  /** @param {CurvePart["points"]} points */
   drawCurve(points) {
     this.#curve.update(points.map(([, , sum]) => sum));
   }

@@ -1,5 +1,6 @@
 /** All robots of the world, and the script that drives one of them. */
 
+/** @import { AgentSummary, ScriptState } from "../../generated/messages.js" */
 import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { number } from "../../shared/numbers.js";
 
@@ -19,7 +20,7 @@ export class RobotTable {
   #rows = element("tbody");
   element = element("table", { className: "ai4u-table" }, tableHead(...HEADS), this.#rows);
 
-  /** @param robots [{id, title, colour, decision, score, state}] */
+  /** @param {AgentSummary[]} robots */
   update(robots) {
     keyed(this.#rows, robots, ({ id }) => id, makeRow, (row, { title, colour, decision, score, state }) => {
       const [head, ...cells] = row.children;
@@ -35,14 +36,20 @@ function makeRow() {
   return element("tr", {}, head, ...HEADS.slice(1).map(() => element("td")));
 }
 
-/** Return the state of a script in words: {state, reason, warning, counts}, or null if there is no script. */
+/**
+ * Return the state of a script in words.
+ * @param {ScriptState | null} script null if there is none
+ */
 export function scriptWords(script) {
   if (!script) return "";
   const counts = Object.entries(script.counts).map(([name, count]) => `${count} ${COUNTS[name] ?? name}`);
   return [`Script: ${script.state}`, script.reason, ...counts].filter(Boolean).join(" · ");
 }
 
-/** Return what a script sends that has no effect, or why it is lost: also said to who has no interest in its counts. */
+/**
+ * Return what a script sends that has no effect, or why it is lost: also for people without an interest in its counts.
+ * @param {ScriptState | null} script null if there is none
+ */
 export function scriptWarning(script) {
   if (!script) return "";
   return script.warning || (script.state === "lost" ? script.reason : "");

@@ -1,5 +1,9 @@
 /** One sensor of the Drive tab: its name in words, and its reading as bars, strips, pictures or text. */
 
+/**
+ * @import { ReadingPicture, SensorReading } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { Bars } from "../widgets/bars.js";
 import { icon } from "../../shared/icons.js";
@@ -25,6 +29,10 @@ export class SensorView {
   #help = element("p", { className: "ai4u-soft ai4u-details-only" });
   element;
 
+  /**
+   * @param {Panel} panel
+   * @param {SensorReading} sensor
+   */
   constructor(panel, sensor) {
     this.#panel = panel;
     this.#key = sensor.key;
@@ -37,8 +45,8 @@ export class SensorView {
   }
 
   /**
-   * @param sensor an entry of `sensors` of the part "agent"
-   * @param why how much its slots matter, see `Why.of`; null if that is not shown
+   * @param {SensorReading} sensor
+   * @param {any} why how much its slots matter, see `Why.of`; null if that is not shown
    */
   update(sensor, why = null) {
     const { title, key, help = "", values = [], strips = [], pictures = [], text = "" } = sensor;
@@ -76,6 +84,11 @@ function makePicture() {
   return element("figure", {}, element("img", { alt: "" }), element("figcaption"));
 }
 
+/**
+ * @param {any} figure
+ * @param {ReadingPicture} picture
+ * @param {string} title of the sensor
+ */
 function drawPicture(figure, { cells, caption, rows, columns }, title) {
   const [image, words] = figure.children;
   if (image.src !== cells) image.src = cells;

@@ -1,5 +1,6 @@
 /** The Drive tab: who drives, what the agent senses, what it does and what it gets for it. */
 
+/** @import { ActionNumber, AgentPart, DecisionPhases, NeedLevel, ScenePart, TrainingPart } from "../../generated/messages.js" */
 import { DriverStatus } from "../../page/driver_status.js";
 import { button, element, keyed, setText } from "../../shared/dom.js";
 import { Bars } from "../widgets/bars.js";
@@ -82,6 +83,7 @@ export class DriveTab {
     if (panel.driver) this.#drawDriver(panel.driver);
   }
 
+  /** @param {AgentPart} agent */
   update(agent) {
     setText(this.#brain, agent.brain ? `Brain: ${agent.brain}` : "");
     const state = [agent.problem, agent.state, agent.clipped ? `${agent.clipped} numbers out of range, cut` : ""];
@@ -100,6 +102,7 @@ export class DriveTab {
     this.#sections.robots.hidden = !agent.others?.length;
   }
 
+  /** @param {AgentPart} agent */
   #drawSensors(agent) {
     keyed(
       this.#sensors,
@@ -110,6 +113,7 @@ export class DriveTab {
     );
   }
 
+  /** @param {TrainingPart} training */
   #drawTraining(training) {
     this.#sections.training.hidden = false;
     this.#training.update(training);
@@ -130,6 +134,7 @@ export class DriveTab {
     } else if (!isFirst && isAtTop) this.#root.append(part);
   }
 
+  /** @param {ScenePart} scene */
   #drawScene(scene) {
     const agents = scene.agents.map(({ id, title, driver }) => ({ value: id, text: driver ? `${title} · ${driver}` : title }));
     this.#agents.element.hidden = agents.length < 2;
@@ -173,16 +178,19 @@ export class DriveTab {
   }
 }
 
+/** @param {NeedLevel} need */
 function needRow({ name, level, low, high, comfort, state }) {
   const text = `${Math.round((100 * (level - low)) / (high - low || 1))} %${state ? ` – too ${state}` : ""}`;
   return { name, value: level, low, high, good: comfort, text };
 }
 
+/** @param {ActionNumber} number of the action */
 function actionRow({ actuator, title, name, value, low, high, has_effect: hasEffect = true }) {
   const words = (name || title || actuator).replaceAll("_", " ");
   return { name: hasEffect ? words : `${words} (no effect)`, value, low, high };
 }
 
+/** @param {DecisionPhases} phases */
 function phaseWords(phases) {
   if (!phases) return "";
   const { all_ticks: ticks, tick, now, seconds } = phases;

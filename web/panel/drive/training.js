@@ -1,5 +1,6 @@
 /** The progress of a training whose policy drives: decisions so far, and the learning curve. */
 
+/** @import { TrainingPart } from "../../generated/messages.js" */
 import { element, setText } from "../../shared/dom.js";
 import { Curve } from "../widgets/curve.js";
 import { number } from "../../shared/numbers.js";
@@ -11,7 +12,7 @@ export class Training {
   #last = element("p", { className: "ai4u-soft" });
   element = element("div", {}, this.#text, this.#bar, this.#curve.element, this.#last);
 
-  /** @param {{text: string, is_over: boolean, share: number, points: any[]}} training points are [decisions, reward, success or null] */
+  /** @param {TrainingPart} training */
   update({ text, is_over: isOver, share, points }) {
     setText(this.#text, text);
     this.#bar.value = share;

@@ -1,5 +1,9 @@
 /** A finished episode as a card: a click chooses and shows it. */
 
+/**
+ * @import { DownloadLink, KeptEpisode } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { Card } from "../widgets/card.js";
 import { fact } from "../widgets/parts.js";
@@ -9,12 +13,14 @@ const COPIED_MS = 1500;
 
 export class EpisodeCard {
   #panel;
+  /** @type {KeptEpisode} */
   #episode = null;
   #card;
   #facts = { driver: fact("Driver"), steps: fact("Steps"), seed: fact("Seed") };
   #copy = button("Copy", () => this.#copySeed(), { icon: "copy", kind: "quiet", label: "Copy the seed" });
   #downloads = element("div", { className: "ai4u-tools", role: "group", ariaLabel: "Download" });
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => void this.#choose(isOpen) });
@@ -28,7 +34,11 @@ export class EpisodeCard {
     return this.#card.element;
   }
 
-  /** @param downloads of the chosen episode: [{title, url}] */
+  /**
+   * @param {KeptEpisode} episode
+   * @param {boolean} isOpen
+   * @param {DownloadLink[]} downloads of the chosen episode
+   */
   update(episode, isOpen, downloads = []) {
     this.#episode = episode;
     const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;

@@ -1,5 +1,9 @@
 /** The player of an episode: one number for the moment that is shown, and what can be done from there. */
 
+/**
+ * @import { PastPart, PlayedEpisode } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { segments } from "../widgets/parts.js";
 
@@ -7,6 +11,7 @@ const SPEEDS = [0.25, 0.5, 1, 2, 4];
 
 export class Player {
   #panel;
+  /** @type {PlayedEpisode | null} */
   #playing = null;
   #isShowing = false;
   #title = element("strong");
@@ -23,6 +28,7 @@ export class Player {
   #note = element("p", { className: "ai4u-hint-text", role: "status" });
   element;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     const send = (command, args = {}) => panel.send(command, args, { quiet: true });
@@ -53,6 +59,7 @@ export class Player {
     );
   }
 
+  /** @param {Partial<PastPart>} part */
   update({ playing = null, is_showing: isShowing = false, ghost = "", problem = "" }) {
     this.#playing = playing;
     this.#isShowing = isShowing;
@@ -67,6 +74,7 @@ export class Player {
     if (playing) this.#show(playing);
   }
 
+  /** @param {PlayedEpisode} playing */
   #show({ number, scene, is_here: isHere, step, steps, is_playing: isPlaying, speed }) {
     // as in the banner over the picture: steps count from 1, and the end comes after the last one
     const text = step < steps ? `Step ${step + 1} of ${steps}` : `The end, after ${steps} steps`;

@@ -1,5 +1,6 @@
 /** One field of a form: label, control, unit, hint and problem. */
 
+/** @import { FormField } from "../../generated/messages.js" */
 import { element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 
@@ -17,7 +18,11 @@ export class FieldRow {
   #label = element("label");
   element = element("div", { className: "ai4u-field" });
 
-  /** @param onEnter called with an entry; with undefined if the field shows its value again */
+  /**
+   * @param {FormField} field
+   * @param {(entered: string | boolean | undefined) => void} onEnter called with an entry; with undefined if the field shows
+   *   its value again
+   */
   constructor(field, onEnter) {
     this.#field = field;
     this.#onEnter = onEnter;
@@ -32,7 +37,10 @@ export class FieldRow {
     this.#control.addEventListener("keydown", (event) => this.#onKey(event));
   }
 
-  /** @param {boolean} isPending true if an entry was not accepted yet, which stays then */
+  /**
+   * @param {FormField} field
+   * @param {boolean} isPending true if an entry was not accepted yet, which stays then
+   */
   update(field, isPending) {
     this.#field = field;
     setText(this.#label, field.label);
@@ -68,6 +76,7 @@ export class FieldRow {
   }
 }
 
+/** @param {FormField} field */
 function control(field) {
   if (field.kind === "switch") return element("input", { type: "checkbox" });
   if (field.kind === "choice") return element("select");
@@ -80,6 +89,7 @@ function control(field) {
   return element("input", { type: "text", inputMode, autocomplete: "off", spellcheck: false });
 }
 
+/** @param {FormField} field */
 function shownText({ shown, value }) {
   return shown ?? (value === null || value === undefined ? "" : String(value));
 }

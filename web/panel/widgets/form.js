@@ -1,5 +1,6 @@
 /** A form from a description of its fields. Each entry is sent when it is made; problems stand below their fields. */
 
+/** @import { FormField } from "../../generated/messages.js" */
 import { element, keyed, setText } from "../../shared/dom.js";
 import { FieldRow } from "./field.js";
 import { recall, remember } from "../../shared/storage.js";
@@ -31,7 +32,7 @@ export class Form {
 
   /**
    * Show fields. A field that has the focus or an entry that was not accepted keeps what was typed.
-   * @param fields descriptions: {name, label, kind, value, shown, hint, choices, is_common, unit}
+   * @param {FormField[]} fields
    * @param {string[]} first names of the fields above "More"
    */
   update(fields, first = []) {
@@ -96,6 +97,7 @@ export class Form {
   }
 }
 
+/** @param {FormField[]} fields */
 function fieldsThatMatter(fields) {
   const own = fields.filter((field) => !field.is_common);
   return (own.length ? own : fields).slice(0, FIRST_COUNT).map(({ name }) => name);

@@ -1,5 +1,6 @@
 /** Many numbers side by side as a strip of bars, drawn on a canvas; its older readings above, smaller. */
 
+/** @import { ReadingStrip } from "../../generated/messages.js" */
 import { element, setText } from "../../shared/dom.js";
 
 const HEIGHT = 40;
@@ -11,7 +12,11 @@ export function makeStrip() {
   return element("figure", {}, element("div"), element("figcaption"));
 }
 
-/** Draw {caption, zeros, shares, colours, older}: positions in the ranges, 0 to 1, left to right. */
+/**
+ * Draw the bars of a strip.
+ * @param {any} figure
+ * @param {ReadingStrip} strip
+ */
 export function drawStrip(figure, { caption, zeros, shares, colours, older = [] }) {
   const accent = getComputedStyle(document.querySelector(".ai4u-panel")).getPropertyValue("--accent");
   const key = JSON.stringify([shares, colours, older, accent]);

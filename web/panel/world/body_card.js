@@ -1,5 +1,9 @@
 /** A thing of the world as a card: its form when it is chosen, copy and delete. */
 
+/**
+ * @import { SceneThing, ThingForm } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element } from "../../shared/dom.js";
 import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
@@ -15,6 +19,7 @@ export class BodyCard {
   #delete;
   #copy;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
@@ -29,6 +34,10 @@ export class BodyCard {
     return this.#card.element;
   }
 
+  /**
+   * @param {SceneThing} body
+   * @param {ThingForm | null} form of the selected thing, which may be another one
+   */
   update(body, form) {
     const { name, kind, shape, x, y, is_random: isRandom } = body;
     this.#name = name;
@@ -43,6 +52,7 @@ export class BodyCard {
     for (const [made, verb] of [[this.#copy, "Duplicate"], [this.#delete, "Delete"]]) made.title = `${verb} ${name}`;
   }
 
+  /** @param {"duplicate_body" | "remove_body"} command */
   async #do(command) {
     const answer = await this.#panel.send(command, { name: this.#name });
     if (!answer.ok) return;
@@ -51,7 +61,11 @@ export class BodyCard {
   }
 }
 
-/** Choose a thing: its form opens, and the picture marks it. */
+/**
+ * Choose a thing: its form opens, and the picture marks it.
+ * @param {Panel} panel
+ * @param {string | null} name
+ */
 export function choose(panel, name) {
   panel.show({ body: name });
   panel.send("select", { body: name }, { quiet: true });

@@ -1,5 +1,9 @@
 /** Buttons to save, download and open a scene, and the offer of an unsaved one. */
 
+/**
+ * @import { WorldPart } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 import { section } from "../widgets/parts.js";
@@ -18,6 +22,7 @@ export class SceneFiles {
   /** What is left after a restart, in words. */
   kept = section("world-kept", "What is kept after a restart?", { isOpen: false }, this.#kept);
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#unsaved = element(
@@ -41,6 +46,7 @@ export class SceneFiles {
     this.element.append(this.#unsaved, tools);
   }
 
+  /** @param {WorldPart} part */
   update({ unsaved, can_save: canSave = true, is_autosaved: isAutosaved = false }) {
     setText(this.#kept, keptWords(canSave, isAutosaved));
     this.#save.hidden = !canSave;

@@ -1,5 +1,6 @@
 /** The tab "World": the things in it, the scene's settings and files. */
 
+/** @import { WorldPart } from "../../generated/messages.js" */
 import { button, element, keyed, setText } from "../../shared/dom.js";
 import { BodyCard, choose } from "./body_card.js";
 import { Form } from "../widgets/form.js";
@@ -50,7 +51,7 @@ export class WorldTab {
     panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));
   }
 
-  /** @param part as "world" in the protocol */
+  /** @param {WorldPart} part */
   update(part) {
     this.#isMoving = Boolean(part.is_move_mode);
     this.#moves.set(this.#isMoving);

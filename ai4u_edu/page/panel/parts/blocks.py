@@ -16,14 +16,15 @@ from ai4u_edu.page.editing.settings import agent_form
 from ai4u_edu.page.editing.suggestion import NAMED
 from ai4u_edu.page.panel.gallery import first_fields, first_sentence, hint_of, words_of
 from ai4u_edu.page.panel.labels import change_label
+from ai4u_edu.page.panel.messages.base import Kind
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
 from ai4u_edu.page.panel.parts.part import Part
 
 AGENT_KINDS = ("sensors", "actuators", "rewards", "brains")
-PARTS: Mapping[str, tuple[str, str, str]] = {
-    "children": ("Reward", "rewards", ""),
-    "sensors": ("Sensor", "sensors", ""),
-    "variables": ("Need", "", "HomeostaticVariable"),
+PARTS: Mapping[str, tuple[str, Kind | UnsetType, str | UnsetType]] = {
+    "children": ("Reward", "rewards", UNSET),
+    "sensors": ("Sensor", "sensors", UNSET),
+    "variables": ("Need", UNSET, "HomeostaticVariable"),
 }
 """Parts of which a block may have several, by the parameter that holds them: title, and the kind of
 the gallery or the one class."""
@@ -41,7 +42,7 @@ class BlockAddition(Struct, frozen=True, kw_only=True):
     """Something that can be added to a block: one of a kind of the gallery, or of one class."""
 
     title: str
-    kind: str | UnsetType = UNSET
+    kind: Kind | UnsetType = UNSET
     """Kind of the gallery from which one is chosen."""
     type_name: str | UnsetType = field(name="class", default=UNSET)
     """Class of what is added, if there is but one."""
@@ -178,9 +179,7 @@ def _block(block: Plain, path: BlockPath, count: int, names: SceneNames) -> Bloc
 
 def _additions(cls: type[Block], path: BlockPath) -> list[BlockAddition]:
     return [
-        BlockAddition(
-            title=title, kind=kind or UNSET, type_name=type_name or UNSET, parent=(*path, name)
-        )
+        BlockAddition(title=title, kind=kind, type_name=type_name, parent=(*path, name))
         for name, (title, kind, type_name) in PARTS.items()
         if name in cls.parameters()
     ]

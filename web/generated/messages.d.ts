@@ -1,0 +1,1113 @@
+/** The messages between a page and its world. Made by python -m tests.web_messages --write */
+
+/** The state of the script that drives an agent. */
+export interface ScriptState {
+  state: "connected" | "late" | "lost" | "waiting";
+  /** Why it is not driving, as a sentence; empty if it is. */
+  reason: string;
+  /** A sentence about what had no effect lately; empty if all had. */
+  warning: string;
+  /** Counts that are not 0, by name: decisions, missing, ignored, refused, clipped, warnings. */
+  counts: Record<string, number>;
+}
+
+/** A picture of a reading, with a pixel for each cell. */
+export interface ReadingPicture {
+  rows: number;
+  columns: number;
+  /** Address of the picture: a PNG as a `data:` URL. */
+  cells: string;
+  /** What it shows; `earlier` for an older reading, empty for the groups in its cells. */
+  caption: string;
+}
+
+/** One number of a reading. */
+export interface ReadingLine {
+  name: string;
+  /** The number, with four decimals; null if it is not finite. */
+  value: number | null;
+  /** The number as text. */
+  text: string;
+  /** Its unit; empty if it is normalized, or has none. */
+  unit: string;
+  /** Lower bound; null if it has none. */
+  low: number | null;
+  /** Upper bound; null if it has none. */
+  high: number | null;
+  /** False for a number below its range, which stands for "not visible". */
+  is_seen: boolean;
+  /** Its older values, oldest first; left out if readings are not stacked. */
+  older?: number[];
+}
+
+/** Many numbers as bars side by side, left to right. */
+export interface ReadingStrip {
+  caption: string;
+  /** Position of zero in the range of each number, 0 to 1. */
+  zeros: number[];
+  /** Position of each number in its range, 0 to 1. */
+  shares: number[];
+  /** Colour of each bar as CSS has it; null for one colour. */
+  colours: string[] | null;
+  /** Positions of older readings, oldest first. */
+  older: number[][];
+}
+
+/** A sensor and its reading: one of `pictures`, `text`, `values` and `strips`. */
+export interface SensorReading {
+  /** Its perception key. */
+  key: string;
+  title: string;
+  /** Name of its class. */
+  class: string;
+  /** Name of its icon, as in `web/shared/icons.js`. */
+  icon: string;
+  /** A short sentence about it. */
+  help: string;
+  /** Shape of the reading; empty for a single value. */
+  shape: number[];
+  /** Number of stacked readings, oldest first. */
+  stack: number;
+  pictures?: ReadingPicture[];
+  text?: string;
+  values?: ReadingLine[];
+  strips?: ReadingStrip[];
+  /** True if the page's picture can show it. */
+  is_drawable: boolean;
+  /** True if the page's picture shows it. */
+  is_shown: boolean;
+}
+
+/** The present level of a need, such as energy. */
+export interface NeedLevel {
+  name: string;
+  level: number;
+  /** Lowest possible level. */
+  low: number;
+  /** Highest possible level. */
+  high: number;
+  /** Bounds of the comfort zone. */
+  comfort: [number, number];
+  /** Side on which the level is out of the comfort zone; empty if it is in there. */
+  state: "" | "high" | "low";
+}
+
+/** One number of an action. For an action that fits no actuator, only `actuator`, `name` and `value` are there. */
+export interface ActionNumber {
+  /** Name of the actuator. */
+  actuator: string;
+  /** Title of the actuator. */
+  title?: string;
+  /** Name of the actuator's class. */
+  class?: string;
+  name: string;
+  value: number;
+  low?: number;
+  high?: number;
+  /** True if the number is one of several discrete choices. */
+  is_choice?: boolean;
+  /** False if it does nothing with the actuator's parameters, as a jump of power 0. */
+  has_effect?: boolean;
+}
+
+/** A reward term. */
+export interface RewardRow {
+  term: string;
+  /** Amount in the last finished decision. */
+  decision: number;
+  /** Sum in the episode so far. */
+  episode: number;
+}
+
+/** What one reward term paid in one decision. */
+export interface PaidTerm {
+  term: string;
+  amount: number;
+}
+
+/** The rewards of one decision. */
+export interface PaidDecision {
+  /** Number of the decision in its episode, from 1. */
+  decision: number;
+  /** The terms that are not 0. */
+  terms: PaidTerm[];
+  total: number;
+}
+
+/** Where an agent is in its decision: sense, decide, act for some ticks, reward. */
+export interface DecisionPhases {
+  /** Ticks of the decision that are told apart. */
+  ticks: number;
+  /** Ticks of the decision. */
+  all_ticks: number;
+  /** Ticks that have passed; null while the world runs too fast to see them. */
+  tick: number | null;
+  /** The present phase; empty while the world runs too fast to see it. */
+  now: "" | "act" | "reward" | "sense";
+  /** True if the actuators act at every tick, False if only at the first. */
+  repeats: boolean;
+  /** Duration of the decision (s). */
+  seconds: number;
+}
+
+/** One of several agents. */
+export interface AgentSummary {
+  id: string;
+  title: string;
+  /** Colour of its body as CSS has it. */
+  colour: string;
+  /** Episodes that it has begun. */
+  episode: number;
+  /** Decisions in its episode so far. */
+  decision: number;
+  /** Reward in its episode so far. */
+  score: number;
+  /** How its episode ended, in a few words; empty while it runs. */
+  state: string;
+}
+
+/** An agent's readings, action and rewards. */
+export interface AgentPart {
+  type: "part";
+  name: "agent";
+  id: string;
+  title: string;
+  /** Name of its driver, as in the command `driver`; empty if it can't be changed. */
+  driver: string;
+  /** Title of its brain. */
+  brain: string;
+  /** How its episode ended, in a few words; empty while it runs. */
+  state: string;
+  /** The problem with the script that should drive it; empty if there is none. */
+  problem: string;
+  /** The script that drives it; null if none does. */
+  script: ScriptState | null;
+  /** Numbers of actions so far that were out of range and clipped. */
+  clipped: number;
+  sensors: SensorReading[];
+  needs: NeedLevel[];
+  /** The last action. */
+  action: ActionNumber[];
+  /** Reward of the last finished decision. */
+  reward: number;
+  rewards: RewardRow[];
+  /** The latest decisions with a reward, the latest first. */
+  paid: PaidDecision[];
+  phases: DecisionPhases;
+  /** All agents, if there are several. */
+  others: AgentSummary[];
+}
+
+/** Something that can be added to a block: one of a kind of the gallery, or of one class. */
+export interface BlockAddition {
+  title: string;
+  /** Kind of the gallery from which one is chosen. */
+  kind?: "actuators" | "brains" | "rewards" | "sensors";
+  /** Class of what is added, if there is but one. */
+  class?: string;
+  /** Path of the list that it is added to. */
+  parent: (string | number)[];
+}
+
+/** A block of an agent. */
+export interface BlockRow {
+  /** Names and indices that lead to it from the agent. */
+  path: (string | number)[];
+  /** Name in the percept, the action or the rewards; empty if it has none. */
+  name: string;
+  title: string;
+  /** Name of its class. */
+  class: string;
+  /** Name of its icon, as in `web/shared/icons.js`. */
+  icon: string;
+  /** Its most important parameters in a few words. */
+  reads: string;
+  /** False if it is switched off. */
+  is_on: boolean;
+  can_switch: boolean;
+  can_up: boolean;
+  can_down: boolean;
+  can_remove: boolean;
+  /** Blocks that it holds. */
+  children: BlockRow[];
+  /** Things that can be added to it. */
+  adds: BlockAddition[];
+}
+
+/** A field of a form. */
+export interface FormField {
+  /** Name of the parameter, as in the values of a command. */
+  name: string;
+  label: string;
+  /** Kind of its control; `whole` is a whole number, `data` JSON. */
+  kind: "choice" | "data" | "number" | "switch" | "text" | "whole";
+  /** The present value. */
+  value: unknown;
+  /** The present value as text in an input, or as one of the choices. */
+  shown: string;
+  /** A short sentence about it. */
+  hint: string;
+  /** The meaning of the parameter in the words of its class, with its range. */
+  detail: string;
+  /** Values to choose from, for the kind `choice`; else suggestions. */
+  choices: string[];
+  /** True if every block of the kind has it. */
+  is_common: boolean;
+  /** True for the few fields that matter most. */
+  is_first: boolean;
+  /** Unit of a number; empty if it has none. */
+  unit: string;
+  /** Lower bound of a number; null if it has none. */
+  low: number | null;
+  /** Upper bound of a number; null if it has none. */
+  high: number | null;
+}
+
+/** The form of one block. */
+export interface BlockForm {
+  path: (string | number)[];
+  title: string;
+  class: string;
+  /** Name of its icon, as in `web/shared/icons.js`. */
+  icon: string;
+  /** The question that it answers. */
+  question: string;
+  /** A short sentence about it. */
+  summary: string;
+  /** The first sentence of its class's docstring. */
+  detail: string;
+  fields: FormField[];
+}
+
+/** A change that can be undone, or made again. */
+export interface UndoLabel {
+  /** The change in words; empty if there is none. */
+  label: string;
+}
+
+/** An agent's blocks. */
+export interface BlocksPart {
+  type: "part";
+  name: "blocks";
+  /** Id of the agent. */
+  agent: string;
+  /** Name of its present driver. */
+  driver: string;
+  /** Blocks by kind: `sensors`, `actuators`, `rewards` and `brains`. */
+  kinds: Record<string, BlockRow[]>;
+  /** Form of the agent itself. */
+  settings: FormField[];
+  /** Form of the chosen block; null if there is none. */
+  form: BlockForm | null;
+  /** The change that undo takes back. */
+  undo: UndoLabel;
+  /** The change that redo makes again. */
+  redo: UndoLabel;
+  /** True if a change takes effect in the next episode. */
+  waits_for_reset: boolean;
+}
+
+/** The rewards of an agent's episode so far. */
+export interface CurvePart {
+  type: "part";
+  name: "curve";
+  /** Id of the agent. */
+  agent: string;
+  /** Number, reward and sum so far of each decision, oldest first. */
+  points: [number, number, number][];
+}
+
+/** A recorded episode that is kept. */
+export interface KeptEpisode {
+  /** Number from 1, in order of arrival; never reused. */
+  number: number;
+  /** Title of its scene. */
+  scene: string;
+  /** True if its scene is the one that runs now. */
+  is_here: boolean;
+  /** Title of the driver, or the file that it was loaded from. */
+  driver: string;
+  /** True if a person took most decisions, by keys. */
+  is_person: boolean;
+  /** True if an agent reached the goal; null for a scene without a goal. */
+  result: boolean | null;
+  /** Sum of the rewards of the agent that acts first. */
+  reward: number;
+  /** Decisions of the agent that acts first. */
+  decisions: number;
+  /** Duration (s) in world time. */
+  seconds: number;
+  /** Its seed, a whole number as text. */
+  seed: string;
+  /** True if it is kept however many others come. */
+  is_pinned: boolean;
+  /** True for the best of its scene. */
+  is_best: boolean;
+  /** The file that it was loaded from; empty if it was recorded here. */
+  source: string;
+}
+
+/** The chosen episode, and the state of the player. */
+export interface PlayedEpisode {
+  /** Its number; 0 for the one that runs. */
+  number: number;
+  /** Title of its scene. */
+  scene: string;
+  /** True if its scene is the one that runs now. */
+  is_here: boolean;
+  /** The decision that is shown, from 0. */
+  step: number;
+  /** The last decision that can be shown. */
+  steps: number;
+  /** Number by which the world counted it; 0 if it was loaded. */
+  world_episode: number;
+  is_playing: boolean;
+  /** Speed of playing; 1 is the recorded speed. */
+  speed: number;
+}
+
+/** A file of the chosen episode to download. */
+export interface DownloadLink {
+  /** Extension of the file. */
+  format: string;
+  title: string;
+  /** Address, relative to the page. */
+  url: string;
+}
+
+/** The kept episodes, and the state of the player. */
+export interface PastPart {
+  type: "part";
+  name: "past";
+  /** The kept episodes, the latest first. */
+  episodes: KeptEpisode[];
+  /** The chosen episode; null if none is, or nothing of it can be shown yet. */
+  playing: PlayedEpisode | null;
+  /** True if pages see a moment of the past. */
+  is_showing: boolean;
+  /** Label of that moment; empty for the present. */
+  shown: string;
+  /** State of the race against a ghost, as a sentence; empty without one. */
+  ghost: string;
+  /** Why an episode could not be recorded, kept or replayed; empty if all went well. */
+  problem: string;
+  /** Files of the chosen episode; empty if none is chosen. */
+  downloads: DownloadLink[];
+}
+
+/** The range of one number of an action. */
+export interface ActionRange {
+  /** Its name; empty if it has none. */
+  name: string;
+  low: number;
+  high: number;
+  /** False if it does nothing with the actuator's parameters, as a jump of power 0. */
+  has_effect: boolean;
+}
+
+/** An actuator as a program names it. */
+export interface ProgramActuator {
+  name: string;
+  /** True if its number is one of several discrete choices. */
+  is_choice: boolean;
+  components: ActionRange[];
+}
+
+/** One number of a reading. */
+export interface SensorSlot {
+  /** Its name; empty if it is the only one and has none. */
+  name: string;
+  /** Its unit; empty if it is normalized, or has none. */
+  unit: string;
+  /** Lower bound; null if it has none. */
+  low: number | null;
+  /** Upper bound; null if it has none. */
+  high: number | null;
+}
+
+/** The order of the numbers that a flat fan of rays reads. */
+export interface RayLayout {
+  /** Angle of each ray from the heading, positive to the left; the rightmost ray is first. */
+  angles_deg: number[];
+  /** True if a ray reads the code of what it hits; it comes before the distance. */
+  has_code: boolean;
+  /** True if a ray reads the distance to what it hits; 0 if it hits nothing. */
+  has_distance: boolean;
+  /** Name of each group, and its code in the reading. */
+  codes: [string, number][];
+  /** Largest distance in the reading: 1, or metres. */
+  reach: number;
+  /** Length of a ray, metres. */
+  reach_m: number;
+}
+
+/** A sensor as a program reads it. */
+export interface ProgramSensor {
+  /** Its perception key. */
+  key: string;
+  title: string;
+  /** Name of its class. */
+  class: string;
+  kind: "bool" | "number" | "text";
+  /** Unit of the reading; empty if it is normalized, or has none. */
+  unit: string;
+  /** Shape of the reading; empty for a single value. */
+  shape: number[];
+  /** Number of stacked readings, oldest first. */
+  stack: number;
+  /** Its numbers; empty if there are too many of them, or several axes. */
+  slots: SensorSlot[];
+  /** Order of the numbers of a flat fan of rays; null for another sensor. */
+  rays: RayLayout | null;
+}
+
+/** The code that drives an agent from a notebook, and what a program can name. */
+export interface PythonPart {
+  type: "part";
+  name: "python";
+  /** Id of the agent. */
+  agent: string;
+  /** The code; empty if the agent has gone. */
+  lines: string;
+  actuators: ProgramActuator[];
+  sensors: ProgramSensor[];
+}
+
+/** A stage on the way to the goal, or several of them in one line. */
+export interface Stage {
+  /** Its number, or how many of how many are done. */
+  title: string;
+  is_done: boolean;
+  /** True for the stage that comes next. */
+  is_now: boolean;
+}
+
+/** The state of the episode, for a page that shows an agent. */
+export interface RunPart {
+  type: "part";
+  name: "run";
+  /** Number of the episode, from 1; the agent's own once it has begun more than one alone. */
+  episode: number;
+  /** Decisions of the agent in the episode so far. */
+  decision: number;
+  /** Time of the episode (s); it stops at the episode's end. */
+  time_s: number;
+  /** Wanted time scale; 1 is real time. */
+  speed: number | "max";
+  /** Measured time scale. */
+  real_speed: number;
+  is_paused: boolean;
+  /** `key` while the world waits for a person to press a key, `teacher` while a teacher holds it; empty otherwise. */
+  waiting: string;
+  /** Label of the moment of the past that is shown; empty for the present. */
+  past: string;
+  /** Seed of the episode, a whole number as text: JavaScript rounds those above 2**53. */
+  seed: string;
+  /** True if each reset repeats the seed. */
+  is_seed_locked: boolean;
+  /** Reward of the agent in the episode so far. */
+  score: number;
+  /** Stages on the way to the goal, in order. */
+  stages: Stage[];
+  /** World time (s) to the end by the step limit; null without a limit. */
+  seconds_left: number | null;
+  /** End of the agent's episode: `goal`, `won`, `lost`, `fell`, `time` or `over`. It is empty before. */
+  result: string;
+  /** The end of the agent's episode as a short sentence; empty while it runs. */
+  result_text: string;
+  /** What the world does, as a short sentence. */
+  status: string;
+  /** Warning about a slow tick; empty if there was none lately. */
+  slow: string;
+  /** Sentence about the error that stopped the world; empty if none did. */
+  error: string;
+  /** Sentence about a block that does not return; empty if all do. */
+  stall: string;
+}
+
+/** The goals of a scene: reach it once; from ten unseen starts; and in few decisions. */
+export interface StarGoals {
+  /** 0 in a scene without `success`, 2 where the goal takes a fixed time, or 3. */
+  count: number;
+  /** Most decisions for the third star, on average over the ten starts. */
+  few_decisions: number | null;
+}
+
+/** A colour of the legend. */
+export interface LegendColour {
+  /** Names of the groups that have it. */
+  name: string;
+  /** The colour as CSS has it. */
+  colour: string;
+}
+
+/** An agent of the scene. */
+export interface SceneAgent {
+  id: string;
+  /** Name of its body. */
+  body: string;
+  title: string;
+  /** Colour of its body as CSS has it. */
+  colour: string;
+  /** Title of what drives it; empty while another world is being opened. */
+  driver: string;
+  /** True if a person drives it by keys. */
+  is_person: boolean;
+}
+
+/** The scene's texts, the legend of its groups, and its agents. */
+export interface ScenePart {
+  type: "part";
+  name: "scene";
+  /** Name of the scene that runs now; empty without an editor. */
+  scene: string;
+  /** Title of the scene that is shown, which may be that of a recorded episode. */
+  title: string;
+  /** Its goal in words. */
+  goal: string;
+  /** A key of its task, under which a page keeps best times; empty without an editor. */
+  key: string;
+  can_edit_goal: boolean;
+  /** How it is driven, in words. */
+  controls: string;
+  /** What it pays for, in words. */
+  rewards: string;
+  /** Goals for programs; null in a scene that has none. */
+  stars: StarGoals | null;
+  legend: LegendColour[];
+  agents: SceneAgent[];
+  /** False if the world can only be watched and driven. */
+  can_edit: boolean;
+  /** True if episodes are recorded. */
+  has_past: boolean;
+  /** The change that undo takes back; left out without an editor. */
+  undo?: UndoLabel;
+  /** The change that redo makes again; left out without an editor. */
+  redo?: UndoLabel;
+  /** True if a change takes effect in the next episode; left out without an editor. */
+  waits_for_reset?: boolean;
+}
+
+/** The progress of a training, and its learning curve. */
+export interface TrainingPart {
+  type: "part";
+  name: "training";
+  /** The progress as a sentence. */
+  text: string;
+  /** True once the finished policy drives. */
+  is_over: boolean;
+  /** Decisions learned from so far, as a share of all; 0 to 1. */
+  share: number;
+  /** The learning curve: decisions, mean reward, and share of successes (0 to 1) or null. */
+  points: [number, number, number | null][];
+}
+
+/** The choices for the page's picture. */
+export interface ViewPart {
+  type: "part";
+  name: "view";
+  /** Position of the camera. */
+  camera: "arena" | "eyes" | "follow" | "turn";
+  /** True if the trail of the agent that is shown is drawn. */
+  has_trail: boolean;
+}
+
+/** A body, floor or area of the scene. */
+export interface SceneThing {
+  name: string;
+  /** `agent`, `lamp`, `body`, `floor` or `area`. */
+  kind: string;
+  /** Id of the agent whose body it is; null if it is nobody's. */
+  agent: string | null;
+  /** Type of its shape, such as `box`. */
+  shape: string;
+  /** Position (m) in the scene's file. */
+  x: number;
+  y: number;
+  /** Heading (degrees) in the scene's file, from the x axis counterclockwise. */
+  heading: number;
+  /** True for a body that physics moves. */
+  movable: boolean;
+  /** Name of its colour; null for the colour of its kind. */
+  colour: string | null;
+  /** Text on it. */
+  label: string | null;
+  /** True if each episode draws a place for it, or chooses one. */
+  is_random: boolean;
+}
+
+/** The form of one thing. */
+export interface ThingForm {
+  name: string;
+  /** Kind of the thing, as in its row. */
+  kind: string;
+  fields: FormField[];
+}
+
+/** A thing that can be added. */
+export interface ThingTemplate {
+  name: string;
+  title: string;
+  /** Name of its icon, as in `web/shared/icons.js`. */
+  icon: string;
+}
+
+/** A scene that somebody changed and did not save. */
+export interface UnsavedScene {
+  name: string;
+  /** Time of the last change, in words. */
+  when: string;
+}
+
+/** The things of the scene, and the form of the selected one. */
+export interface WorldPart {
+  type: "part";
+  name: "world";
+  /** Title of the scene. */
+  title: string;
+  /** Bodies, floors and areas, the latest first. */
+  bodies: SceneThing[];
+  /** Form of the selected thing; null if there is none. */
+  form: ThingForm | null;
+  /** Form of the scene itself. */
+  settings: FormField[];
+  /** Things that can be added. */
+  templates: ThingTemplate[];
+  /** A scene that can be restored; null if there is none. */
+  unsaved: UnsavedScene | null;
+  /** Why the scene is not kept while it is changed; empty if it is. */
+  problem: string;
+  /** True if scenes can be saved here; else they are downloaded. */
+  can_save: boolean;
+  /** True if the scene is kept while it is changed. */
+  is_autosaved: boolean;
+  /** True while somebody drags a thing. */
+  is_dragging: boolean;
+  /** True if this page moves things with the mouse. */
+  is_move_mode: boolean;
+  /** Grid (m) to which moved things snap; 0 for none. */
+  snap: number;
+  /** The change that undo takes back. */
+  undo: UndoLabel;
+  /** The change that redo makes again. */
+  redo: UndoLabel;
+  /** True if a change takes effect in the next episode. */
+  waits_for_reset: boolean;
+}
+
+/** The parts of the panel by name. */
+export interface PanelParts {
+  agent: AgentPart;
+  blocks: BlocksPart;
+  curve: CurvePart;
+  past: PastPart;
+  python: PythonPart;
+  run: RunPart;
+  scene: ScenePart;
+  training: TrainingPart;
+  view: ViewPart;
+  world: WorldPart;
+}
+
+/** The whole of what a page looks at; only the parts of open tabs are sent. */
+export interface Show {
+  type: "show";
+  agent: string;
+  tabs?: ("agent" | "blocks" | "past" | "world")[];
+  block?: (string | number)[] | null;
+  body?: string | null;
+  episode?: number | null;
+}
+
+/** Add a block to the agent, or to one of its blocks. */
+export interface AddBlock {
+  class: string;
+  parent: (string | number)[];
+  index?: number | null;
+}
+
+/** Add a thing, by default where there is room in the picture (m). */
+export interface AddBody {
+  template: string;
+  x?: number | null;
+  y?: number | null;
+}
+
+/** Return the action at another pose, and show it; left out, where the agent stands now. */
+export interface AskElsewhere {
+  x?: number | null;
+  y?: number | null;
+  heading_deg?: number | null;
+}
+
+/** Return the reward terms of the chosen episode over time, and the decisions that paid most. */
+export interface AskPaid {
+}
+
+/** Another value of one number of a percept. */
+export interface Change {
+  key: string;
+  index: number;
+  value: number;
+}
+
+/** Return the action on the agent's percept, and on a changed one. */
+export interface AskWhatIf {
+  changes: Change[];
+}
+
+/** Show the present again. */
+export interface BackToLive {
+}
+
+/** Put the camera somewhere. */
+export interface Camera {
+  mode: "arena" | "eyes" | "follow" | "turn";
+}
+
+/** Change parameters of the agent itself. */
+export interface ChangeAgent {
+  values: Record<string, unknown>;
+}
+
+/** Change parameters of a block of the agent. */
+export interface ChangeBlock {
+  path: (string | number)[];
+  values: Record<string, unknown>;
+}
+
+/** Change properties of a thing. */
+export interface ChangeBody {
+  name: string;
+  values: Record<string, unknown>;
+}
+
+/** Change texts or settings of the scene. */
+export interface ChangeSettings {
+  values: Record<string, unknown>;
+}
+
+/** Return where two drivers first disagree in the chosen episode; empty for the present one. */
+export interface CompareDrivers {
+  first: string;
+  second: string;
+}
+
+/** Let the world run on from the shown decision. */
+export interface ContinueHere {
+}
+
+/** Draw the picture in dark colours, or light ones. */
+export interface Dark {
+  on: boolean;
+}
+
+/** Pause, and run until the agent's decision is over. */
+export interface Decision {
+}
+
+/** Delete the unsaved scene. */
+export interface Discard {
+}
+
+/** Return the scene's file. */
+export interface Download {
+}
+
+/** Add a copy of a block of the agent. */
+export interface DuplicateBlock {
+  path: (string | number)[];
+}
+
+/** Add a copy of a thing. */
+export interface DuplicateBody {
+  name: string;
+}
+
+/** Show a decision of the chosen episode, counted from 0. */
+export interface GoToStep {
+  step: number;
+}
+
+/** Show no other pose any more. */
+export interface HideElsewhere {
+}
+
+/** List the blocks that can be added. */
+export interface ListBlocks {
+  kind: "actuators" | "brains" | "rewards" | "sensors";
+}
+
+/** List the drivers that the agent can have. */
+export interface ListDrivers {
+}
+
+/** Return the drivers that the present one can be compared with. */
+export interface ListRivals {
+}
+
+/** List the scenes that can be opened. */
+export interface ListScenes {
+}
+
+/** Open the scene file that was sent in binary messages before. */
+export interface LoadText {
+  name: string;
+  size: number;
+}
+
+/** Begin each episode with the same seed from now on, or with new ones. */
+export interface LockSeed {
+  on: boolean;
+}
+
+/** Move a block of the agent up (-1) or down (1). */
+export interface MoveBlock {
+  path: (string | number)[];
+  by: number;
+}
+
+/** Put a thing somewhere (m, degrees). */
+export interface MoveBody {
+  name: string;
+  x: number;
+  y: number;
+  heading_deg?: number | null;
+}
+
+/** Let the user move things with the mouse, or not. */
+export interface MoveMode {
+  on: boolean;
+}
+
+/** Begin an episode with a new start. */
+export interface NewStart {
+}
+
+/** Move a thing a bit (m, degrees). */
+export interface Nudge {
+  name: string;
+  dx?: number;
+  dy?: number;
+  turn_deg?: number;
+}
+
+/** Choose a recorded episode; 0 is the one that runs. */
+export interface OpenEpisode {
+  number: number;
+}
+
+/** Open the recording that was sent in binary messages before. */
+export interface OpenRecording {
+  name: string;
+  size: number;
+}
+
+/** Open a scene of the library, or a saved one. */
+export interface OpenScene {
+  name: string;
+  is_saved?: boolean;
+}
+
+/** Pause the world. */
+export interface Pause {
+}
+
+/** Keep an episode however many others come, or no longer. */
+export interface Pin {
+  number: number;
+  on: boolean;
+}
+
+/** Play the chosen episode. */
+export interface Play {
+}
+
+/** Begin an episode with the same start, against a ghost of the chosen one. */
+export interface Race {
+}
+
+/** Make the change again that was undone last. */
+export interface Redo {
+}
+
+/** Leave out motion that nothing in the world makes, or not. */
+export interface ReduceMotion {
+  on: boolean;
+}
+
+/** Remove a block of the agent. */
+export interface RemoveBlock {
+  path: (string | number)[];
+}
+
+/** Delete a thing; the body of an agent goes with its agent. */
+export interface RemoveBody {
+  name: string;
+}
+
+/** Remove the ghost. */
+export interface RemoveGhost {
+}
+
+/** Open the unsaved scene. */
+export interface Restore {
+}
+
+/** Let the world run. */
+export interface Resume {
+}
+
+/** Save the scene under a name. */
+export interface SaveScene {
+  name: string;
+  over?: boolean;
+}
+
+/** Select a thing. */
+export interface SelectBody {
+  body: string | null;
+}
+
+/** Choose the agent's driver. */
+export interface SetDriver {
+  name: string;
+  agent?: string | null;
+}
+
+/** Set the speed of playing; 1 is the recorded speed. */
+export interface SetPlaySpeed {
+  speed: number;
+}
+
+/** Begin an episode with a seed. */
+export interface SetSeed {
+  seed: string;
+}
+
+/** Set the time scale; 1 is real time. */
+export interface SetSpeed {
+  speed: number | "max";
+}
+
+/** Show another agent. */
+export interface ShowAgent {
+  agent: string;
+}
+
+/** Show maps over the floor: what the agent would do at each place, and what it is worth. */
+export interface ShowMaps {
+  field: boolean;
+  values: boolean;
+  facing?: string;
+}
+
+/** Draw a sensor in the picture, or hide it. */
+export interface ShowSensor {
+  key: string;
+  on: boolean;
+}
+
+/** Draw the agent's trail, or hide it. */
+export interface ShowTrail {
+  on: boolean;
+}
+
+/** Show why the agent acts as it does, or no longer. */
+export interface ShowWhy {
+  on: boolean;
+}
+
+/** Set the grid (m) to which moved things snap; 0 for none. */
+export interface Snap {
+  distance: number;
+}
+
+/** Stop playing. */
+export interface Stop {
+}
+
+/** Switch a block of the agent on or off. */
+export interface SwitchBlock {
+  path: (string | number)[];
+  on: boolean;
+}
+
+/** Pause, and tick once. */
+export interface Tick {
+}
+
+/** Begin an episode with the same start. */
+export interface TryAgain {
+}
+
+/** Take back the last change. */
+export interface Undo {
+}
+
+/** The panel's commands by name: what is sent with each of them. */
+export interface PanelCommands {
+  add_block: AddBlock;
+  add_body: AddBody;
+  agent: ShowAgent;
+  back_to_live: BackToLive;
+  camera: Camera;
+  change_agent: ChangeAgent;
+  change_block: ChangeBlock;
+  change_body: ChangeBody;
+  change_settings: ChangeSettings;
+  compare: CompareDrivers;
+  continue: ContinueHere;
+  dark: Dark;
+  decision: Decision;
+  discard: Discard;
+  download: Download;
+  driver: SetDriver;
+  drivers: ListDrivers;
+  duplicate_block: DuplicateBlock;
+  duplicate_body: DuplicateBody;
+  elsewhere: AskElsewhere;
+  episode: OpenEpisode;
+  gallery: ListBlocks;
+  hide_elsewhere: HideElsewhere;
+  load_text: LoadText;
+  lock_seed: LockSeed;
+  maps: ShowMaps;
+  move_block: MoveBlock;
+  move_body: MoveBody;
+  move_mode: MoveMode;
+  new_start: NewStart;
+  nudge: Nudge;
+  open_recording: OpenRecording;
+  open_scene: OpenScene;
+  paid: AskPaid;
+  pause: Pause;
+  pin: Pin;
+  play: Play;
+  play_speed: SetPlaySpeed;
+  race: Race;
+  redo: Redo;
+  reduce_motion: ReduceMotion;
+  remove_block: RemoveBlock;
+  remove_body: RemoveBody;
+  remove_ghost: RemoveGhost;
+  restore: Restore;
+  resume: Resume;
+  rivals: ListRivals;
+  save_scene: SaveScene;
+  scenes: ListScenes;
+  seed: SetSeed;
+  select: SelectBody;
+  sensor: ShowSensor;
+  snap: Snap;
+  speed: SetSpeed;
+  step: GoToStep;
+  stop: Stop;
+  switch_block: SwitchBlock;
+  tick: Tick;
+  trail: ShowTrail;
+  try_again: TryAgain;
+  undo: Undo;
+  what_if: AskWhatIf;
+  why: ShowWhy;
+}
