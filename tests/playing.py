@@ -58,8 +58,9 @@ class Played:
         episode = self.snapshot()["episode"]
         url = self.url.replace("http", "ws", 1) + "ws/input"
         with connect(url, origin=Origin(self.url.rstrip("/")), proxy=None) as page:
-            page.send(json.dumps({"type": "command", "name": "resume"}))
-            page.send(json.dumps({"type": "command", "name": "reset", "seed": seed}))
+            page.send(json.dumps({"type": "do", "id": 0, "command": "resume"}))
+            command = {"type": "do", "id": 0, "command": "seed", "seed": str(seed)}
+            page.send(json.dumps(command))
             until(lambda: (now := self.snapshot())["episode"] != episode and not now["paused"])
 
     def _get(self, path: str, timeout: float = LIMIT_S) -> dict[str, Any]:

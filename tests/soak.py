@@ -99,7 +99,7 @@ class LightPlayer:
             self._read(keys, until=time.monotonic() + 0.1)
         keys.send(json.dumps({"type": "keys", "held": []}))
         if self._rng.random() < 0.2:
-            keys.send(json.dumps({"type": "command", "name": "reset"}))
+            keys.send(json.dumps({"type": "do", "id": 0, "command": "reset"}))
 
     def _read(self, keys: ClientConnection, until: float) -> None:
         """Read what the server says, as a page does: who reads nothing gets no pings either."""

@@ -14,8 +14,9 @@ import msgspec
 from msgspec import inspect
 
 from ai4u_edu.blocks.parameterized import field_docs
-from ai4u_edu.page.panel.messages.base import Command, Show
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.messages import Command, Message
+from ai4u_edu.page.panel.parts.part import PanelPart
+from ai4u_edu.page.server.input_messages import InputEvent
 from ai4u_edu.room.options import OPTIONS
 
 FILE = Path(__file__).parents[1] / "web" / "generated" / "messages.d.ts"
@@ -39,6 +40,7 @@ class Declarations:
 
     def __init__(self) -> None:
         self._texts: dict[str, str] = {}
+        self._classes: dict[str, type] = {}
 
     def __str__(self) -> str:
         return "\n".join([HEAD, *self._texts.values()])
@@ -60,6 +62,8 @@ class Declarations:
         match info:
             case inspect.StructType() | inspect.DataclassType():
                 name = info.cls.__name__
+                if self._classes.setdefault(name, info.cls) is not info.cls:
+                    raise ValueError(f"expected one struct called {name}, got two; rename one")
                 if name not in self._texts:
                     self._texts[name] = ""  # it may hold others of its kind
                     text = self._interface(info, is_sent=is_sent)
@@ -105,11 +109,7 @@ def _can_be_unset(field: inspect.Field) -> bool:
 
 
 def comment(text: str, indent: str = "") -> str:
-    """Return a docstring as a comment; empty if there is none.
-
-    >>> comment("Id of the agent, as\\n    in ``agents``.")
-    '/** Id of the agent, as in `agents`. */\\n'
-    """
+    """Return a docstring as a comment; empty if there is none."""
     text = " ".join(text.replace("``", "`").split())
     return f"{indent}/** {text} */\n" if text else ""
 
@@ -119,19 +119,20 @@ def source() -> str:
     for module in OPTIONS:
         import_module(module)
     file = Declarations()
-    parts = [(kind.__struct_defaults__[0], file.received(kind)) for kind in subclasses(Part)]
+    parts = [(kind.__struct_defaults__[0], file.received(kind)) for kind in subclasses(PanelPart)]
     file.map("PanelParts", "The parts of the panel by name.", parts)
-    file.sent(Show)
+    for kind in subclasses(InputEvent):
+        file.received(kind)
+    for kind in subclasses(Message):
+        file.sent(kind)
     commands = [(kind.__struct_config__.tag, file.sent(kind)) for kind in subclasses(Command)]
-    doc = "The panel's commands by name: what is sent with each of them."
-    file.map("PanelCommands", doc, commands)
+    file.map("Commands", "The commands by name: what is sent with each of them.", commands)
     return str(file)
 
 
-def subclasses(base: type) -> list[type]:
-    """Return the package's subclasses of a struct."""
-    kinds = [kind for kind in base.__subclasses__() if kind.__module__.startswith("ai4u_edu.")]
-    return sorted(kinds, key=lambda kind: kind.__name__)
+def subclasses(base: type[msgspec.Struct]) -> list[type[msgspec.Struct]]:
+    """Return the subclasses of a struct in the order of their names."""
+    return sorted(base.__subclasses__(), key=lambda kind: kind.__name__)
 
 
 def main() -> None:

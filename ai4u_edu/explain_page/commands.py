@@ -16,10 +16,10 @@ from ai4u_edu.explain.sentence import Axis
 from ai4u_edu.explain.what_if import WhatIf
 from ai4u_edu.explain_page import messages as m
 from ai4u_edu.explain_page.choice import OPTION, choice_of
+from ai4u_edu.page.messages import Command
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.commands.past import chosen_episode
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
 
 

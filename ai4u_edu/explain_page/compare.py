@@ -18,10 +18,10 @@ from ai4u_edu.explain.statefulness import dependence_of
 from ai4u_edu.explain_page import messages as m
 from ai4u_edu.explain_page.commands import plain_action
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.messages import Command
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.commands.past import chosen_episode
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.snapshot import AgentState

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from ai4u_edu.page.panel.messages.base import Command, Degrees, Metres, Name, Number
+from ai4u_edu.page.messages import Command, Degrees, Metres, Name, Number
 
 
 class ShowWhy(Command, tag="why"):

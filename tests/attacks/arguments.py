@@ -9,24 +9,22 @@ import msgspec
 from msgspec import inspect
 
 from ai4u_edu.explain_page import messages as explain_messages
-from ai4u_edu.page.panel.messages import edit, play
-from ai4u_edu.page.panel.messages.base import Command
-from ai4u_edu.page.panel.messages.reader import MessageReader
+from ai4u_edu.page.messages import Command
+from ai4u_edu.page.panel.socket import HANDLERS
 from tests.attacks.test_odd_input_messages import ODD
 
 Message = dict[str, Any]
 
-OWN_COMMANDS, EXPLAIN_COMMANDS = (
-    [
-        kind
-        for module in modules
-        for kind in vars(module).values()
-        if isinstance(kind, type) and issubclass(kind, Command) and kind is not Command
-    ]
-    for modules in ((play, edit), (explain_messages,))
-)
-"""Types of the panel's own commands, and of those about explanations."""
-NAMES = MessageReader([*OWN_COMMANDS, *EXPLAIN_COMMANDS]).names
+OWN_COMMANDS = list(HANDLERS)
+"""Types of the panel's own commands."""
+EXPLAIN_COMMANDS = [
+    kind
+    for kind in vars(explain_messages).values()
+    if isinstance(kind, type) and issubclass(kind, Command) and kind is not Command
+]
+"""Types of the commands about explanations."""
+NAMES = {str(kind.__struct_config__.tag): kind for kind in (*OWN_COMMANDS, *EXPLAIN_COMMANDS)}
+"""Types of commands by name."""
 
 TEXTS = ("", "a", "wall", "box", "Lesson 1", "0", "-1.5", "ünï", "<b>x</b>", "../../etc", "x" * 300)
 TABS = ("agent", "blocks", "world", "past")

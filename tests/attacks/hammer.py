@@ -135,7 +135,7 @@ def drive_by_keys(server: Played, rng: random.Random, tally: Tally, over: thread
                     break
                 said: dict[str, Any] = {"type": "keys", "held": rng.sample(KEYS, 2)}
                 if rng.random() < 0.1:
-                    said = {"type": "command", "name": rng.choice(orders)}
+                    said = {"type": "do", "id": 0, "command": rng.choice(orders)}
                 elif rng.random() < 0.1:
                     said = {"type": rng.choice(("take", "let_go"))}
                 page.send(json.dumps(said))

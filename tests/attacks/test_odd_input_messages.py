@@ -10,7 +10,9 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.page.server import input as input_socket
-from ai4u_edu.page.server import messages, page_receiver
+from ai4u_edu.page.server import page_receiver
+from ai4u_edu.page.server.input_messages import INPUT_READER, Keys
+from ai4u_edu.page.server.run_commands import SetSeed
 from tests.builders import small_sim
 from tests.page.server.rooms import Page, Room, served
 from tests.waiting import LIMIT_S, until
@@ -27,7 +29,7 @@ MESSAGES: dict[str, dict[str, Any]] = {
     "keys": {"held": ["KeyW"], "stick": {"forward": 0.5, "turn": 0.5}},
     "take": {},
     "let_go": {},
-    "command": {"name": "pause", "seed": 7},
+    "do": {"id": 0, "command": "seed", "seed": "7"},
 }
 
 OTHERS: tuple[str | bytes, ...] = (
@@ -75,13 +77,13 @@ def spoilt() -> Iterator[str]:
 def harmless(text: str | bytes) -> bool:
     """Return True if a message is none, or one that a page may say."""
     try:
-        said = messages.read(text)
+        said = INPUT_READER.read(text)
     except ValueError as error:
         return 0 < len(str(error)) < 10_000
-    if isinstance(said, messages.Keys):
+    if isinstance(said, Keys):
         pushed = said.stick.forward, said.stick.turn
         return all(-1 <= each <= 1 for each in pushed) and len(said.held) <= 16
-    return not isinstance(said, messages.Command) or said.seed is None or 0 <= said.seed < 2**53
+    return not isinstance(said, SetSeed) or 0 <= int(said.seed) < 10**40
 
 
 def test_whatever_stands_in_a_field_is_in_range_or_refused() -> None:
@@ -101,15 +103,15 @@ def test_odd_messages_leave_the_room_as_it_was(
             messages_said: list[str | bytes] = [*spoilt(), *OTHERS]
             for message in messages_said:
                 here.socket.send(message)
-            here.send("command", name="nobody")
+            here.do("nobody")
             while "nobody" not in str(here.receive("error")):
                 pass
         with other.holding("KeyA"):
             until(lambda: room.held == ["KeyA"])
         other.send("take")
-        other.send("command", name="resume")
+        other.do("resume")
         until(lambda: not runner.latest.paused)
-        other.send("command", name="pause")
+        other.do("pause")
         until(lambda: runner.latest.paused)
     assert runner.latest.seed == seed
     assert [each for each in caplog.records if each.levelno >= logging.WARNING] == []

@@ -14,7 +14,7 @@ from ai4u_edu.base.errors import shown, suggest
 from ai4u_edu.base.parameters import MAX_EXPLAINED, MAX_HINTS, explain
 from ai4u_edu.blocks import Sensor
 from ai4u_edu.blocks.actuators import DiscreteActuator
-from ai4u_edu.page.server import messages
+from ai4u_edu.page.server.input_messages import INPUT_READER
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import from_plain
 from tests.builders import small_sim
@@ -92,7 +92,7 @@ def scene_with(change: Callable[[dict[str, Any]], object]) -> str:
         lambda: Scene.loads(
             scene_with(lambda plain: plain["agents"][0]["sensors"][0].update(KEYS))
         ),
-        lambda: messages.read(json.dumps({"type": "keys", **KEYS})),
+        lambda: INPUT_READER.read(json.dumps({"type": "keys", **KEYS})),
     ],
 )
 def test_thousands_of_unknown_names_are_refused_with_a_few_hints(

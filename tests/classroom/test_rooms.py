@@ -200,7 +200,7 @@ def test_what_the_wall_knows_of_a_room_outlasts_the_class(tmp_path: Path) -> Non
             page.receive("hello")
             until(counts.exists)
             for episodes in (2, 3):
-                page.send("command", name="new_start")
+                page.do("new_start")
                 until(lambda: served.state()["rooms"][0]["episodes"] == episodes)  # noqa: B023
             until(lambda: json.loads(counts.read_text())["episodes"] == 3)
         os.kill(served.process.pid, signal.SIGKILL)

@@ -8,7 +8,7 @@ import msgpack
 import numpy as np
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.page.server import messages
+from ai4u_edu.page.server.input_messages import INPUT_READER
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import (
@@ -173,8 +173,8 @@ def _read_reply(data: bytes) -> None:
 WORDS: tuple[Any, ...] = (
     {"type": "keys", "held": ["KeyW", "Space"]},
     {"type": "take"},
-    {"type": "command", "name": "reset", "seed": 7},
-    {"type": "command", "name": "pause"},
+    {"type": "do", "id": 0, "command": "seed", "seed": "7"},
+    {"type": "do", "id": 0, "command": "pause"},
 )
 
 
@@ -211,4 +211,4 @@ AI4U_REPLY = Target(
     "ai4u-reply", _make_reply, _read_reply, (WireError,), packages=WIRE, seeds=REPLIES
 )
 PERCEPT = Target("percept", make_percept, read_percept, (AI4UError,), count=MANY)
-PAGE = Target("page-words", make_words, messages.read, (ValueError,), count=MANY)
+PAGE = Target("page-words", make_words, INPUT_READER.read, (ValueError,), count=MANY)

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 
 import msgspec
 
+from ai4u_edu.page.messages import Command, Name
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.messages.base import Command, Name
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.viewer.backend.part import Part

@@ -3,7 +3,7 @@
 /** The state of the script that drives an agent. */
 export interface ScriptState {
   state: "connected" | "late" | "lost" | "waiting";
-  /** Why it is not driving, as a sentence; empty if it is. */
+  /** The reason why it is not driving; empty if it is. */
   reason: string;
   /** A sentence about what had no effect lately; empty if all had. */
   warning: string;
@@ -17,7 +17,7 @@ export interface ReadingPicture {
   columns: number;
   /** Address of the picture: a PNG as a `data:` URL. */
   cells: string;
-  /** What it shows; `earlier` for an older reading, empty for the groups in its cells. */
+  /** Its subject; `earlier` for an older reading, empty for the groups in its cells. */
   caption: string;
 }
 
@@ -119,7 +119,7 @@ export interface RewardRow {
   episode: number;
 }
 
-/** What one reward term paid in one decision. */
+/** The amount that one reward term paid in one decision. */
 export interface PaidTerm {
   term: string;
   amount: number;
@@ -134,7 +134,7 @@ export interface PaidDecision {
   total: number;
 }
 
-/** Where an agent is in its decision: sense, decide, act for some ticks, reward. */
+/** The progress of an agent's decision: sense, decide, act for some ticks, reward. */
 export interface DecisionPhases {
   /** Ticks of the decision that are told apart. */
   ticks: number;
@@ -162,7 +162,7 @@ export interface AgentSummary {
   decision: number;
   /** Reward in its episode so far. */
   score: number;
-  /** How its episode ended, in a few words; empty while it runs. */
+  /** The end of its episode in a few words; empty while it runs. */
   state: string;
 }
 
@@ -176,7 +176,7 @@ export interface AgentPart {
   driver: string;
   /** Title of its brain. */
   brain: string;
-  /** How its episode ended, in a few words; empty while it runs. */
+  /** The end of its episode in a few words; empty while it runs. */
   state: string;
   /** The problem with the script that should drive it; empty if there is none. */
   problem: string;
@@ -389,7 +389,7 @@ export interface PastPart {
   shown: string;
   /** State of the race against a ghost, as a sentence; empty without one. */
   ghost: string;
-  /** Why an episode could not be recorded, kept or replayed; empty if all went well. */
+  /** The reason why an episode could not be recorded, kept or replayed; empty if all went well. */
   problem: string;
   /** Files of the chosen episode; empty if none is chosen. */
   downloads: DownloadLink[];
@@ -515,7 +515,7 @@ export interface RunPart {
   result: string;
   /** The end of the agent's episode as a short sentence; empty while it runs. */
   result_text: string;
-  /** What the world does, as a short sentence. */
+  /** The state of the world as a short sentence. */
   status: string;
   /** Warning about a slow tick; empty if there was none lately. */
   slow: string;
@@ -568,9 +568,9 @@ export interface ScenePart {
   /** A key of its task, under which a page keeps best times; empty without an editor. */
   key: string;
   can_edit_goal: boolean;
-  /** How it is driven, in words. */
+  /** Its controls in words. */
   controls: string;
-  /** What it pays for, in words. */
+  /** Its rewards in words. */
   rewards: string;
   /** Goals for programs; null in a scene that has none. */
   stars: StarGoals | null;
@@ -675,7 +675,7 @@ export interface WorldPart {
   templates: ThingTemplate[];
   /** A scene that can be restored; null if there is none. */
   unsaved: UnsavedScene | null;
-  /** Why the scene is not kept while it is changed; empty if it is. */
+  /** The reason why the scene is not kept while it is changed; empty if it is. */
   problem: string;
   /** True if scenes can be saved here; else they are downloaded. */
   can_save: boolean;
@@ -709,14 +709,128 @@ export interface PanelParts {
   world: WorldPart;
 }
 
+/** An error in words: of the page's message, or of the world. */
+export interface ErrorEvent {
+  type: "error";
+  text: string;
+}
+
+/** The page's number, its agent, and the keys that drive the agent. */
+export interface HelloEvent {
+  type: "hello";
+  /** Number of the page. */
+  you: number;
+  /** Id of its agent. */
+  agent: string;
+  /** Name of the agent's body. */
+  name: string;
+  /** Title of the agent's brain. */
+  brain: string;
+  /** Codes of physical keys by action, without those for actions that the body can't do. */
+  keys: Record<string, string[]>;
+  /** Labels of actions that do something else in this scene than their name says. */
+  captions: Record<string, string>;
+  /** True if it is driven by a stick, too. */
+  stick: boolean;
+  /** Title of the network or script that drives the agent now; empty if a person may. */
+  others: string;
+  /** Title of what drives it once the person lets go; empty if nothing does. */
+  instead: string;
+}
+
+/** The page that drives the agent. */
+export interface SeatEvent {
+  type: "seat";
+  /** Number of the page that drives; null if none does. */
+  driver: number | null;
+  /** Count of the pages at this agent. */
+  pages: number;
+  /** Number of the seat of a class at which the driving page is; left out if it is at none. */
+  seat?: number;
+}
+
+/** The state of the world and of the page's agent. */
+export interface StateEvent {
+  type: "state";
+  paused: boolean;
+  /** `key` while the world waits for a person to press a key, `teacher` while a teacher holds it; empty otherwise. */
+  waiting: string;
+  /** Label of the moment of the past that is shown; empty for the present. */
+  past: string;
+  /** Sentence about the error that stopped the world; empty if none did. */
+  error: string;
+  /** Number of the world's episode. */
+  episode: number;
+  /** Episodes that the agent has begun, alone or with the world. */
+  agent_episode: number;
+  /** True if each reset repeats the seed. */
+  seed_locked: boolean;
+  /** True if the agent's episode ended by what happened in it. */
+  terminated: boolean;
+  /** True if the agent's episode ended by the step limit. */
+  truncated: boolean;
+  /** True if its body has fallen off the floor. */
+  fallen: boolean;
+  /** Title of the scene. */
+  title: string;
+  /** Goal of the scene in words. */
+  goal: string;
+  /** End of the agent's episode: `goal`, `won`, `lost`, `fell`, `time` or `over`. It is empty before. */
+  outcome: string;
+  /** Time (s) of an episode that is over; null before, since it would change at each tick. */
+  seconds: number | null;
+  /** Reward of the agent in the episode; null if it is not finite. */
+  reward: number | null;
+  /** The same by reward term. */
+  terms: Record<string, number | null>;
+  /** Codes of the keys that the agent sees held. */
+  held: string[];
+}
+
+/** Position of a stick on the screen or a gamepad. */
+export interface StickPosition {
+  /** Deflection ahead, from -1 to 1. */
+  forward?: number;
+  /** Deflection to the right, from -1 to 1. */
+  turn?: number;
+}
+
+/** All keys that are held now, and the position of the stick. A page sends it at each change, and ten times a second while any key is held. */
+export interface Keys {
+  type: "keys";
+  /** Codes of physical keys, as in `KeyboardEvent.code`. */
+  held: string[];
+  stick?: StickPosition;
+}
+
+/** Release of control. */
+export interface Release {
+  type: "let_go";
+}
+
 /** The whole of what a page looks at; only the parts of open tabs are sent. */
 export interface Show {
   type: "show";
+  /** Id of the agent. */
   agent: string;
+  /** Names of the parts of the open tabs. */
   tabs?: ("agent" | "blocks" | "past" | "world")[];
+  /** Path of the block whose form is shown; null for none. */
   block?: (string | number)[] | null;
+  /** Name of the selected thing; null for none. */
   body?: string | null;
+  /** Number of the chosen episode; null for none. */
   episode?: number | null;
+}
+
+/** Start of a world that waits for a key, by a key that the agent does not know. */
+export interface Start {
+  type: "start";
+}
+
+/** Request for control. */
+export interface Take {
+  type: "take";
 }
 
 /** Add a block to the agent, or to one of its blocks. */
@@ -880,7 +994,7 @@ export interface MoveMode {
   on: boolean;
 }
 
-/** Begin an episode with a new start. */
+/** Begin an episode with a new start, also if the seed is locked. */
 export interface NewStart {
 }
 
@@ -948,6 +1062,10 @@ export interface RemoveBody {
 
 /** Remove the ghost. */
 export interface RemoveGhost {
+}
+
+/** Begin an episode with the locked seed, or else with a new one. */
+export interface Reset {
 }
 
 /** Open the unsaved scene. */
@@ -1045,8 +1163,8 @@ export interface TryAgain {
 export interface Undo {
 }
 
-/** The panel's commands by name: what is sent with each of them. */
-export interface PanelCommands {
+/** The commands by name: what is sent with each of them. */
+export interface Commands {
   add_block: AddBlock;
   add_body: AddBody;
   agent: ShowAgent;
@@ -1091,6 +1209,7 @@ export interface PanelCommands {
   remove_block: RemoveBlock;
   remove_body: RemoveBody;
   remove_ghost: RemoveGhost;
+  reset: Reset;
   restore: Restore;
   resume: Resume;
   rivals: ListRivals;

@@ -1,5 +1,6 @@
 /** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
 
+/** @import { Commands, StateEvent } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
 import { capitalized } from "./driver_status.js";
 import { openNextScene } from "../scenes/next_scene.js";
@@ -17,7 +18,10 @@ const OUTCOME_TEXTS = {
   over: ["Episode over."],
 };
 const WINS = ["goal", "won"];
-/** Commands by the text of their button. */
+/**
+ * Commands by the text of their button.
+ * @type {Record<string, keyof Commands>}
+ */
 const COMMANDS = {
   "Play again": "try_again",
   "Try again": "try_again",
@@ -44,7 +48,7 @@ export class Banners {
   /** @type {[any, any]} */
   #lastDraw = [null, {}];
 
-  /** @param {(name: string) => void} sendCommand called with the name of a command */
+  /** @param {(command: keyof Commands) => void} sendCommand */
   constructor(sendCommand) {
     this.#sendCommand = sendCommand;
     document.body.append(this.#statusRegion, this.#alertRegion);
@@ -66,7 +70,7 @@ export class Banners {
   }
 
   /**
-   * @param state the server's last state message; null while disconnected
+   * @param {StateEvent | null} state the server's last one; null while disconnected
    * @param {object} page
    * @param {string} page.restart the label of the restart key
    * @param {string} page.name the agent's name, if this page can't drive it
@@ -127,6 +131,10 @@ export class Banners {
   }
 }
 
+/**
+ * @param {StateEvent} state
+ * @param {any} page as in Banners.draw
+ */
 function outcomeText(state, { name, result }) {
   const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
   const text = name && theirs ? `${name} ${theirs}` : mine;
@@ -134,12 +142,20 @@ function outcomeText(state, { name, result }) {
   return result ? text + timeText(result) : `${text}!`;
 }
 
+/**
+ * @param {StateEvent} state
+ * @param {any} page as in Banners.draw
+ */
 function startBanner({ goal }, { isNew, name, howToStart }) {
   const start = howToStart ? `${capitalized(howToStart)} to start` : "Waits until a player presses a key";
   const isGoalShown = isNew && goal && !name;
   return isGoalShown ? { kind: "task", text: goal, details: start } : { kind: "start", text: start };
 }
 
+/**
+ * @param {StateEvent} state
+ * @param {any} page as in Banners.draw
+ */
 function outcomeBanner(state, page) {
   const { outcome, reward, terms } = state;
   const isWin = WINS.includes(outcome);

@@ -1,5 +1,6 @@
 /** The line that says who drives the agent, with buttons to take over and to let go. */
 
+/** @import { HelloEvent, SeatEvent } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
 
 export class DriverStatus {
@@ -24,8 +25,8 @@ export class DriverStatus {
   /**
    * @param {object} shown
    * @param {boolean} shown.connected
-   * @param {any} shown.hello the server's first message
-   * @param {any} shown.control who drives
+   * @param {Omit<HelloEvent, "type">} shown.hello the server's first message
+   * @param {Omit<SeatEvent, "type"> & {name?: string}} shown.control who drives
    * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
    * @param {boolean} shown.isPaused true while the world is paused
    * @param {boolean} shown.isWaiting true while the world waits for a key

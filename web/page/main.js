@@ -1,5 +1,6 @@
 /** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
 
+/** @import { Commands, HelloEvent, SeatEvent, StateEvent } from "../generated/messages.js" */
 import "../panel/shortcuts.js"; // the first one: its listener comes before the one that drives
 import { roomOfPage } from "../shared/room.js";
 import { Banners } from "./banners.js";
@@ -34,8 +35,11 @@ const HAS_PANEL = "ai4uPanel" in document.documentElement.dataset;
 const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
 
+/** @type {Omit<HelloEvent, "type">} */
 let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick: false, others: "", instead: "" };
+/** @type {Omit<SeatEvent, "type">} */
 let control = { driver: null, pages: 1 };
+/** @type {StateEvent | null} */
 let state = null;
 let connected = false;
 /** True once the connection has been gone for {@link LOST_MS}. */
@@ -73,13 +77,15 @@ let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
 const results = new Results(playTone);
-const banners = new Banners((name) => socket.send({ type: "command", name }));
+/** @param {keyof Commands} command one that needs no arguments */
+const send = (command) => socket.send({ type: "do", id: 0, command });
+const banners = new Banners(send);
 
 keys.onpress = () => (hasActed = true);
 keys.onotherpress = ({ code, key }) => {
   const isForHelp = key === "?" || key === "Shift";
   if (!canDrive() || RESERVED_CODE.test(code) || isForHelp) return false;
-  if (code === NEW_START_CODE) socket.send({ type: "command", name: "new_start" });
+  if (code === NEW_START_CODE) send("new_start");
   else if (state?.waiting && !hello.others) socket.send({ type: "start" });
   else return false;
   hasActed = true;

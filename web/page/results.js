@@ -1,5 +1,6 @@
 /** A person's results: the time of an episode that reached the goal, and the best times in this browser. */
 
+/** @import { StateEvent } from "../generated/messages.js" */
 import { recall, remember } from "../shared/storage.js";
 
 const WINS = ["goal", "won"];
@@ -24,7 +25,7 @@ export class Results {
   /**
    * Return the result of the episode that has just ended, or null.
    *
-   * @param state the server's last state message; null while disconnected
+   * @param {StateEvent | null} state the server's last one; null while disconnected
    * @param {string} task what is driven, such as the scene's name
    * @param {string} by KEYS or PROGRAM for who drives; empty for others, whose results are not kept
    * @returns {?{seconds: number, best: number, kind: string, by: string}}

@@ -1,6 +1,6 @@
 /** Our panel beside viser's canvas: its frame, its tabs, and what they share. */
 
-/** @import { PanelCommands, PanelParts, Show } from "../generated/messages.js" */
+/** @import { Commands, PanelParts, Show } from "../generated/messages.js" */
 import { button, element, setAttributes } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
 import { DriveTab } from "./drive/tab.js";
@@ -107,9 +107,9 @@ export class Panel extends EventTarget {
   /**
    * Send a command. The promise never rejects: it gives {ok: true, text, ...} or {ok: false, text, problems, ...}.
    * An error is shown, unless problems tell a form more; the text of a result is, unless `quiet` is set.
-   * @template {keyof PanelCommands} Name
+   * @template {keyof Commands} Name
    * @param {Name} command
-   * @param {PanelCommands[Name]} [args]
+   * @param {Commands[Name]} [args]
    * @param {{quiet?: boolean}} [options]
    * @returns {Promise<any>}
    */

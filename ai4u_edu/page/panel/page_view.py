@@ -2,16 +2,37 @@
 
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Future
-from typing import Protocol
+from typing import Annotated, Literal, Protocol
+
+from msgspec import Meta
 
 from ai4u_edu.page.editing import ChangeResult
-from ai4u_edu.page.panel.messages.base import Show
-from ai4u_edu.page.panel.messages.play import CameraMode
+from ai4u_edu.page.messages import Message, Name, Number, Path
 
 TEXTS_PER_CURVE = 4
 """Times that the other texts are sent for each curve of rewards, which is longer than all else."""
 MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
+
+
+CameraMode = Literal["arena", "follow", "turn", "eyes"]
+"""Position of a page's camera: over the arena, over the agent, turning with it, in its eye."""
+Tab = Literal["agent", "blocks", "world", "past"]
+
+
+class Show(Message, tag="show"):
+    """The whole of what a page looks at; only the parts of open tabs are sent."""
+
+    agent: Name
+    """Id of the agent."""
+    tabs: Annotated[tuple[Tab, ...], Meta(max_length=4)] = ()
+    """Names of the parts of the open tabs."""
+    block: Path | None = None
+    """Path of the block whose form is shown; null for none."""
+    body: Name | None = None
+    """Name of the selected thing; null for none."""
+    episode: Number | None = None
+    """Number of the chosen episode; null for none."""
 
 
 class PictureListener(Protocol):
@@ -111,7 +132,7 @@ class PageView:
         self._pictures, self._page_id, self._panel = pictures, page_id, panel
         self._agent_parts = agent_parts
         self._picture: Picture | None = None
-        self.show = Show(type="show", agent=agent)
+        self.show = Show(agent=agent)
         self._camera: CameraMode | None = None
         self.is_move_mode = False
         self.choices: dict[str, object] = {}
@@ -178,7 +199,6 @@ class PageView:
         """Look at another agent."""
         self.ask_again(*self._agent_parts)
         self.show = Show(
-            type="show",
             agent=agent,
             tabs=self.show.tabs,
             body=self.show.body,

@@ -13,15 +13,14 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.page.editing import ChangeResult
+from ai4u_edu.page.messages import Command, MessageReader, id_in
 from ai4u_edu.page.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
 from ai4u_edu.page.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.labels import past_tense
-from ai4u_edu.page.panel.messages.base import Command, Show
-from ai4u_edu.page.panel.messages.reader import MessageReader, id_in
 from ai4u_edu.page.panel.page import Level, Page
-from ai4u_edu.page.panel.page_view import PageView
+from ai4u_edu.page.panel.page_view import PageView, Show
 from ai4u_edu.page.panel.parts.due import Parts, due_parts
 from ai4u_edu.page.panel.upload import MAX_PART_BYTES, Upload
 from ai4u_edu.page.server.bindings import choose_agent
@@ -79,7 +78,7 @@ class PanelSockets:
         """Handlers of all commands."""
         for option in options:
             self.handlers |= option.commands
-        self.reader = MessageReader(self.handlers)
+        self.reader = MessageReader([Show], self.handlers)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one page's socket until it is closed."""

@@ -10,6 +10,7 @@ from contextlib import suppress
 from itertools import count
 from typing import NamedTuple
 
+import msgspec
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
@@ -18,13 +19,26 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
 from ai4u_edu.base.errors import NameNotFoundError
 from ai4u_edu.blocks.keyboard import CENTERED, Stick
-from ai4u_edu.page.server import messages
+from ai4u_edu.page.messages import Command, Message
 from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.page.server.control_lock import ControlLock
 from ai4u_edu.page.server.human_override import HumanOverride
+from ai4u_edu.page.server.input_messages import (
+    INPUT_READER,
+    ErrorEvent,
+    InputEvent,
+    Keys,
+    Release,
+    Start,
+    Take,
+    hello_event,
+    seat_event,
+    state_event,
+)
 from ai4u_edu.page.server.limits.keepalive import keepalives
 from ai4u_edu.page.server.page_receiver import ReceiveLimits, close_socket, receive_messages
+from ai4u_edu.page.server.run_commands import RUN_COMMANDS
 from ai4u_edu.runtime.runner import Runner
 
 MAX_MESSAGE_BYTES = 4096
@@ -77,7 +91,7 @@ class Inputs:
                 agent = choose_agent(sim, wanted)
             except NameNotFoundError as error:
                 if RECONNECT_PARAM not in socket.query_params:
-                    await socket.send_json(messages.error_event(str(error)))
+                    await socket.send_text(_json(ErrorEvent(str(error))))
                     await socket.close(1008, "there is no such agent")
                     return
                 agent = choose_agent(sim, None)
@@ -147,32 +161,25 @@ class _Page:
 
     async def _receive(self) -> None:
         limits = ReceiveLimits(MAX_MESSAGES_PER_S, MAX_MESSAGE_BYTES)
-        async for message in receive_messages(self._socket, limits, messages.read, self._refuse):
+        async for message in receive_messages(
+            self._socket, limits, INPUT_READER.read, self._refuse
+        ):
             if self._runner.sim is self._sim:  # else the other task closes the connection soon
                 self._handle(message)
 
-    def _handle(self, message: messages.Message) -> None:
+    def _handle(self, message: Message | Command) -> None:
         match message:
-            case messages.Keys(held=held, stick=stick):
+            case Keys(held=held, stick=stick):
                 self._hold(frozenset(held), Stick(stick.forward, stick.turn))
-            case messages.Start():
+            case Start():
                 self._start()
-            case messages.Take():
+            case Take():
                 self._await(self._lock.acquire(self._number))
-            case messages.Release():
+            case Release():
                 self._await(self._lock.release(self._number))
-            case messages.Command(name="reset", seed=seed):
-                self._command(lambda: self._runner.reset(seed))
-            case messages.Command(name="try_again"):
-                self._command(self._runner.try_again)
-            case messages.Command(name="new_start"):
-                self._command(self._runner.new_start)
-            case messages.Command(name="lock_seed" | "unlock_seed" as name):
-                self._command(lambda: self._runner.lock_seed(name == "lock_seed"))
-            case messages.Command(name="pause"):
-                self._command(self._runner.pause)
-            case messages.Command(name="resume"):
-                self._command(self._runner.resume)
+            case Command():
+                command = RUN_COMMANDS[type(message)]
+                self._command(lambda: command.submit(self._runner, message))
 
     def _hold(self, held: frozenset[str], stick: Stick) -> None:
         """Drive with what is held; what has been pressed anew may start or repeat an episode.
@@ -230,7 +237,7 @@ class _Page:
         await self._send_error(text)
 
     async def _send_error(self, text: str) -> None:
-        await self._send(json.dumps(messages.error_event(text[:MAX_ERROR_CHARS])))
+        await self._send(_json(ErrorEvent(text[:MAX_ERROR_CHARS])))
 
     async def _send(self, text: str) -> None:
         # the task that sends events may wake up just after the other one has closed the socket
@@ -238,28 +245,32 @@ class _Page:
             await self._socket.send_text(text)
 
     async def _send_events(self, changed: asyncio.Event, class_page: PageOfClass) -> None:
-        sent: dict[str, str] = {}
+        sent: dict[type[InputEvent], InputEvent] = {}
         hello_at, known = -math.inf, None
         while self._runner.sim is self._sim:
             driver = self._override.brain, self._override.current_driver
             now, is_changed = time.monotonic(), changed.is_set() or driver != known
             changed.clear()
             if (news := class_page.news()) is not None:
-                await self._send(json.dumps(news))
-            events = [messages.lock_event(self._lock, self._seats)]
+                await self._send(_json(news))
+            events: list[InputEvent] = [seat_event(self._lock, self._seats)]
             if is_changed or now >= hello_at:
                 hello_at, known = now + HELLO_S, driver
-                events.insert(0, messages.hello_event(self._agent, self._number, self._override))
-            state = messages.state_event(self._runner.latest, self._agent.id, self._title())
+                events.insert(0, hello_event(self._agent, self._number, self._override))
+            state = state_event(self._runner.latest, self._agent.id, self._title())
             if state is not None:
                 events.append(state)
             for event in events:
-                text = json.dumps(event)
-                if sent.get(event["type"]) != text:
-                    sent[event["type"]] = text
-                    await self._send(text)
+                if sent.get(type(event)) != event:
+                    sent[type(event)] = event
+                    await self._send(_json(event))
             # before Python 3.12 a wait_for whose event has just come forgets that it was cancelled
             with suppress(TimeoutError):
                 async with asyncio.timeout(POLL_S):
                     await changed.wait()
         await close_socket(self._socket, 1012, WORLD_REPLACED)
+
+
+def _json(message: object) -> str:
+    # msgspec's own encoder refuses half of a surrogate pair, which a student's error may have
+    return json.dumps(msgspec.to_builtins(message))

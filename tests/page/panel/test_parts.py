@@ -5,12 +5,12 @@ from typing import Any
 import msgspec
 import pytest
 
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.training import TrainingPart, training_part
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from tests.page.panel.rooms import panel_room
 
-TYPES = {str(kind.__struct_defaults__[0]): kind for kind in Part.__subclasses__()}
+TYPES = {str(kind.__struct_defaults__[0]): kind for kind in PanelPart.__subclasses__()}
 """Structs by the name of their part."""
 EDITED = {"blocks", "world"}
 """Parts of a world that can be changed."""
@@ -43,10 +43,10 @@ def test_the_part_of_a_training() -> None:
     check(plain(training_part(progress)), TrainingPart)
 
 
-def check(message: Any, kind: type[Part]) -> None:
+def check(message: Any, kind: type[PanelPart]) -> None:
     # a key that the struct does not know would get lost
     assert plain(msgspec.convert(message, kind)) == message
 
 
-def plain(part: Part) -> Any:
+def plain(part: PanelPart) -> Any:
     return msgspec.json.decode(msgspec.json.encode(part))

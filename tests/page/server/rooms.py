@@ -201,6 +201,10 @@ class Page:
     def send(self, kind: str, **rest: Any) -> None:
         self.socket.send(json.dumps({"type": kind, **rest}))
 
+    def do(self, command: str, **arguments: Any) -> None:
+        """Send a command; it gets no answer."""
+        self.send("do", id=0, command=command, **arguments)
+
     def hold(self, *codes: str) -> None:
         self.send("keys", held=list(codes))
 

@@ -42,7 +42,7 @@ def test_a_room_without_a_class_says_nothing_of_one() -> None:
     for feed in (None, silent):
         with served(class_feed=feed) as room, room.page() as page:
             page.receive("state")
-            page.send("command", name="pause")
+            page.do("pause")
             page.receive("state", paused=True)
             assert "class" not in page.last
 
@@ -53,8 +53,8 @@ def test_keys_do_nothing_while_the_world_is_held() -> None:
         room.runner.hold(True).result(LIMIT_S)
         with page.holding("KeyW"):
             page.receive("state", waiting="teacher")
-            page.send("command", name="resume")
-            page.send("command", name="try_again")
+            page.do("resume")
+            page.do("try_again")
             page.receive("state", episode=3)
             assert room.held == []
             assert room.runner.latest.tick == 0

@@ -146,14 +146,14 @@ def test_a_tap_that_is_over_before_the_next_decision_counts() -> None:
 def test_pause_resume_and_reset(room: Room) -> None:
     with room.page() as page:
         page.hold("KeyW")
-        page.send("command", name="pause")
+        page.do("pause")
         page.receive("state", paused=True)
         until(lambda: room.held == [])
         episode = room.runner.latest.episode
-        page.send("command", name="reset", seed=7)
+        page.do("seed", seed="7")
         page.receive("state", episode=episode + 1)
         assert room.runner.latest.seed == 7
-        page.send("command", name="resume")
+        page.do("resume")
         page.receive("state", paused=False)
 
 
@@ -163,7 +163,7 @@ def test_a_reset_that_fails_says_so_and_keys_go_on(room: Room) -> None:
 
     room.sim.agents[0].before_the_reset.connect(broken)
     with room.page() as page:
-        page.send("command", name="reset")
+        page.do("reset")
         assert page.receive("error")["text"] == "RuntimeError: this block can't be reset"
         page.hold("KeyW")
         until(lambda: room.held == ["KeyW"])
@@ -179,7 +179,7 @@ def test_an_error_in_the_world_reaches_the_page_and_a_reset_clears_it(room: Room
         told = "RuntimeError: odd (while handler broken of end_of_step of agent '0' was called)"
         page.receive("state", error=told)
         event.disconnect(broken)
-        page.send("command", name="reset")
+        page.do("reset")
         page.receive("state", error="")
 
 

@@ -102,10 +102,10 @@ def test_who_does_not_drive_does_not_start(room: Room) -> None:
         until(lambda: runs(room))
 
 
-def reset_by(page: Page, room: Room, **command: Any) -> int:
+def reset_by(page: Page, room: Room, command: str, **arguments: Any) -> int:
     """Return the seed after a command that begins an episode."""
     episode = room.runner.latest.episode
-    page.send("command", **command)
+    page.do(command, **arguments)
     until(lambda: room.runner.latest.episode == episode + 1)
     return room.runner.latest.seed
 
@@ -119,16 +119,16 @@ def test_r_and_try_again_repeat_the_start_and_a_new_one_is_drawn_when_asked(room
             page.hold()
             assert room.runner.latest.seed == 1
         until(lambda: waits(room))
-        assert reset_by(page, room, name="try_again") == 1
-        new = reset_by(page, room, name="new_start")
+        assert reset_by(page, room, "try_again") == 1
+        new = reset_by(page, room, "new_start")
         assert new != 1
-        page.send("command", name="lock_seed")
+        page.do("lock_seed", on=True)
         page.receive("state", seed_locked=True)
-        assert reset_by(page, room, name="reset") == new
-        page.send("command", name="unlock_seed")
+        assert reset_by(page, room, "reset") == new
+        page.do("lock_seed", on=False)
         page.receive("state", seed_locked=False)
-        assert reset_by(page, room, name="reset") != new
-        assert reset_by(page, room, name="reset", seed=9) == 9
+        assert reset_by(page, room, "reset") != new
+        assert reset_by(page, room, "seed", seed="9") == 9
         assert get(room, "api/snapshot")["seed_locked"] is False
 
 

@@ -28,7 +28,7 @@ from ai4u_edu import (
 from ai4u_edu.blocks import trained_brain
 from ai4u_edu.page.server.bindings import has_stick
 from ai4u_edu.page.server.human_override import HumanOverride
-from ai4u_edu.page.server.messages import usable_keys
+from ai4u_edu.page.server.input_messages import usable_keys
 from ai4u_edu.remote import LostError, RemoteError
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot.agent_words import driver_title

@@ -11,7 +11,7 @@ from ai4u_edu.agent.driving_keys import RESTART
 from ai4u_edu.blocks.keyboard import Stick
 from ai4u_edu.page.server.bindings import has_stick
 from ai4u_edu.page.server.human_override import HumanOverride
-from ai4u_edu.page.server.messages import key_labels, usable_keys
+from ai4u_edu.page.server.input_messages import key_labels, usable_keys
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import BodyState, capture_bodies
 from tests.scenes.few import FEW

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.page.server.messages import key_labels, usable_keys
+from ai4u_edu.page.server.input_messages import key_labels, usable_keys
 from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot
 from ai4u_edu.snapshot.outcome import outcome
 from tests.builders import small_sim

@@ -2,6 +2,10 @@
 
 import asyncio
 from collections.abc import Mapping
+from typing import Annotated
+
+import msgspec
+from msgspec import Meta
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import Problem
@@ -14,16 +18,19 @@ from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.page.editing.scene_names import SceneNames
 from ai4u_edu.page.editing.settings import agent_form, problems_in_agent_form
 from ai4u_edu.page.editing.suggestion import copy_of_block, suggest_block
+from ai4u_edu.page.messages import Command, Kind, Name, Path, Values
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.gallery import driver_title, gallery_items, words_of
 from ai4u_edu.page.panel.labels import change_label, driven_by
-from ai4u_edu.page.panel.messages import edit as m
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
 
 
-async def _drivers(page: Page, _command: m.ListDrivers) -> Answer:
+class ListDrivers(Command, tag="drivers"):
+    """List the drivers that the agent can have."""
+
+
+async def _drivers(page: Page, _command: ListDrivers) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     present = editor.driver_of(agent_id)
 
@@ -42,7 +49,14 @@ async def _drivers(page: Page, _command: m.ListDrivers) -> Answer:
     return Answer(more={"items": await page.in_thread(listed)})
 
 
-async def _driver(page: Page, command: m.SetDriver) -> Answer:
+class SetDriver(Command, tag="driver"):
+    """Choose the agent's driver."""
+
+    name: Name
+    agent: Name | None = None
+
+
+async def _driver(page: Page, command: SetDriver) -> Answer:
     editor = page.context.required_editor()
     agent_id = page.view.agent if command.agent is None else command.agent
     agent = page.context.runner.sim.agent(agent_id)
@@ -53,7 +67,13 @@ async def _driver(page: Page, command: m.SetDriver) -> Answer:
     return Answer(f"{agent.body_name} is now driven by {words}.", {"when": result.when})
 
 
-async def _gallery(page: Page, command: m.ListBlocks) -> Answer:
+class ListBlocks(Command, tag="gallery"):
+    """List the blocks that can be added."""
+
+    kind: Kind
+
+
+async def _gallery(page: Page, command: ListBlocks) -> Answer:
     state, agent_id = page.context.required_editor().state, page.view.agent
     items = await page.in_thread(lambda: gallery_items(state, agent_id, command.kind))
     return Answer(
@@ -73,7 +93,15 @@ async def _gallery(page: Page, command: m.ListBlocks) -> Answer:
     )
 
 
-async def _add(page: Page, command: m.AddBlock) -> Answer:
+class AddBlock(Command, tag="add_block"):
+    """Add a block to the agent, or to one of its blocks."""
+
+    type_name: Name = msgspec.field(name="class")
+    parent: Path
+    index: Annotated[int, Meta(ge=0, le=1000)] | None = None
+
+
+async def _add(page: Page, command: AddBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     parent = tuple(command.parent)
     known = [cls.__name__ for cls in types_of(str(parent[-1]))]
@@ -86,7 +114,13 @@ async def _add(page: Page, command: m.AddBlock) -> Answer:
     return await _add_to(page, block, parent, command.index, "added")
 
 
-async def _duplicate(page: Page, command: m.DuplicateBlock) -> Answer:
+class DuplicateBlock(Command, tag="duplicate_block"):
+    """Add a copy of a block of the agent."""
+
+    path: Path
+
+
+async def _duplicate(page: Page, command: DuplicateBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     *parent, index = command.path
     if not isinstance(index, int):
@@ -109,7 +143,13 @@ async def _add_to(
     return change_answer(f"{_title(block)} {done}.", result, path=[*parent, index])
 
 
-async def _remove(page: Page, command: m.RemoveBlock) -> Answer:
+class RemoveBlock(Command, tag="remove_block"):
+    """Remove a block of the agent."""
+
+    path: Path
+
+
+async def _remove(page: Page, command: RemoveBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     path = tuple(command.path)
     title = _title(_block_of(editor, agent_id, path))
@@ -117,7 +157,14 @@ async def _remove(page: Page, command: m.RemoveBlock) -> Answer:
     return change_answer(f"{title} deleted.", result)
 
 
-async def _move(page: Page, command: m.MoveBlock) -> Answer:
+class MoveBlock(Command, tag="move_block"):
+    """Move a block of the agent up (-1) or down (1)."""
+
+    path: Path
+    by: Annotated[int, Meta(ge=-1000, le=1000)]
+
+
+async def _move(page: Page, command: MoveBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     *above, index = command.path
     title = _title(_block_of(editor, agent_id, tuple(command.path)))
@@ -127,7 +174,14 @@ async def _move(page: Page, command: m.MoveBlock) -> Answer:
     return change_answer(f"{title} moved {word}.", result, path=[*above, where])
 
 
-async def _switch(page: Page, command: m.SwitchBlock) -> Answer:
+class SwitchBlock(Command, tag="switch_block"):
+    """Switch a block of the agent on or off."""
+
+    path: Path
+    on: bool
+
+
+async def _switch(page: Page, command: SwitchBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     path = tuple(command.path)
     title = _title(_block_of(editor, agent_id, path))
@@ -135,7 +189,14 @@ async def _switch(page: Page, command: m.SwitchBlock) -> Answer:
     return change_answer(f"{title} turned {'on' if command.on else 'off'}.", result)
 
 
-async def _change(page: Page, command: m.ChangeBlock) -> Answer:
+class ChangeBlock(Command, tag="change_block"):
+    """Change parameters of a block of the agent."""
+
+    path: Path
+    values: Values
+
+
+async def _change(page: Page, command: ChangeBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     path = tuple(command.path)
     block = _block_of(editor, agent_id, path)
@@ -145,7 +206,13 @@ async def _change(page: Page, command: m.ChangeBlock) -> Answer:
     return change_answer(f"{_title(block)} changed.", result)
 
 
-async def _change_agent(page: Page, command: m.ChangeAgent) -> Answer:
+class ChangeAgent(Command, tag="change_agent"):
+    """Change parameters of the agent itself."""
+
+    values: Values
+
+
+async def _change_agent(page: Page, command: ChangeAgent) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     values = read_values(agent_form(editor.state.agent(agent_id)), command.values)
     name = page.context.runner.sim.agent(agent_id).body_name
@@ -156,12 +223,20 @@ async def _change_agent(page: Page, command: m.ChangeAgent) -> Answer:
     return change_answer(f"Settings of {name} changed.", result)
 
 
-async def _undo(page: Page, _command: m.Undo) -> Answer:
+class Undo(Command, tag="undo"):
+    """Take back the last change."""
+
+
+async def _undo(page: Page, _command: Undo) -> Answer:
     result = await page.result(page.context.required_editor().undo())
     return Answer(f"Undone: {change_label(result.label.removeprefix('undo: '))}.")
 
 
-async def _redo(page: Page, _command: m.Redo) -> Answer:
+class Redo(Command, tag="redo"):
+    """Make the change again that was undone last."""
+
+
+async def _redo(page: Page, _command: Redo) -> Answer:
     result = await page.result(page.context.required_editor().redo())
     return Answer(f"Done again: {change_label(result.label.removeprefix('redo: '))}.")
 
@@ -175,17 +250,17 @@ def _title(block: Plain) -> str:
 
 
 HANDLERS: Mapping[type[Command], Handler] = {
-    m.ListDrivers: _drivers,
-    m.SetDriver: _driver,
-    m.ListBlocks: _gallery,
-    m.AddBlock: _add,
-    m.DuplicateBlock: _duplicate,
-    m.RemoveBlock: _remove,
-    m.MoveBlock: _move,
-    m.SwitchBlock: _switch,
-    m.ChangeBlock: _change,
-    m.ChangeAgent: _change_agent,
-    m.Undo: _undo,
-    m.Redo: _redo,
+    ListDrivers: _drivers,
+    SetDriver: _driver,
+    ListBlocks: _gallery,
+    AddBlock: _add,
+    DuplicateBlock: _duplicate,
+    RemoveBlock: _remove,
+    MoveBlock: _move,
+    SwitchBlock: _switch,
+    ChangeBlock: _change,
+    ChangeAgent: _change_agent,
+    Undo: _undo,
+    Redo: _redo,
 }
 """Handlers by the type of their command."""

@@ -1,12 +1,14 @@
 """Commands about recorded episodes. All pages share the player."""
 
 from collections.abc import Mapping
+from typing import Annotated
+
+from msgspec import Meta
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.page.messages import Command, Name, Number
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.messages import play as m
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.recording import Archive, Episode
 from ai4u_edu.recording.episode import decode
@@ -14,7 +16,13 @@ from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
 
 
-async def _episode(page: Page, command: m.OpenEpisode) -> Answer:
+class OpenEpisode(Command, tag="episode"):
+    """Choose a recorded episode; 0 is the one that runs."""
+
+    number: Number
+
+
+async def _episode(page: Page, command: OpenEpisode) -> Answer:
     archive = _archive(page)
     if command.number != RUNNING_EPISODE and archive.find(command.number) is None:
         raise SetupError(f"episode {command.number} is not kept any more")
@@ -23,41 +31,73 @@ async def _episode(page: Page, command: m.OpenEpisode) -> Answer:
     return Answer()
 
 
-async def _step(page: Page, command: m.GoToStep) -> Answer:
+class GoToStep(Command, tag="step"):
+    """Show a decision of the chosen episode, counted from 0."""
+
+    step: Number
+
+
+async def _step(page: Page, command: GoToStep) -> Answer:
     chosen_episode(page)
     page.context.player.go_to(command.step)
     return Answer()
 
 
-async def _play(page: Page, _command: m.Play) -> Answer:
+class Play(Command, tag="play"):
+    """Play the chosen episode."""
+
+
+async def _play(page: Page, _command: Play) -> Answer:
     chosen_episode(page)
     page.context.player.play()
     return Answer()
 
 
-async def _stop(page: Page, _command: m.Stop) -> Answer:
+class Stop(Command, tag="stop"):
+    """Stop playing."""
+
+
+async def _stop(page: Page, _command: Stop) -> Answer:
     page.context.player.play(on=False)
     return Answer()
 
 
-async def _play_speed(page: Page, command: m.SetPlaySpeed) -> Answer:
+class SetPlaySpeed(Command, tag="play_speed"):
+    """Set the speed of playing; 1 is the recorded speed."""
+
+    speed: Annotated[float, Meta(ge=0.1, le=16)]
+
+
+async def _play_speed(page: Page, command: SetPlaySpeed) -> Answer:
     page.context.player.speed = command.speed
     return Answer()
 
 
-async def _back_to_live(page: Page, _command: m.BackToLive) -> Answer:
+class BackToLive(Command, tag="back_to_live"):
+    """Show the present again."""
+
+
+async def _back_to_live(page: Page, _command: BackToLive) -> Answer:
     await page.result(page.context.player.return_to_present())
     return Answer()
 
 
-async def _continue(page: Page, _command: m.ContinueHere) -> Answer:
+class ContinueHere(Command, tag="continue"):
+    """Let the world run on from the shown decision."""
+
+
+async def _continue(page: Page, _command: ContinueHere) -> Answer:
     chosen_episode(page)
     # it waits until the episode was replayed up to there
     await page.result(await page.in_thread(page.context.player.continue_from_here))
     return Answer("The world runs on from here.")
 
 
-async def _race(page: Page, _command: m.Race) -> Answer:
+class Race(Command, tag="race"):
+    """Begin an episode with the same start, against a ghost of the chosen one."""
+
+
+async def _race(page: Page, _command: Race) -> Answer:
     frame_cache = chosen_episode(page)
     context, runner = page.context, page.context.runner
     number = frame_cache.number
@@ -68,18 +108,36 @@ async def _race(page: Page, _command: m.Race) -> Answer:
     return Answer(f"Race against episode {number}: it starts as you do.")
 
 
-async def _remove_ghost(page: Page, _command: m.RemoveGhost) -> Answer:
+class RemoveGhost(Command, tag="remove_ghost"):
+    """Remove the ghost."""
+
+
+async def _remove_ghost(page: Page, _command: RemoveGhost) -> Answer:
     page.context.ghosts.race(None)
     return Answer("The ghost is gone.")
 
 
-async def _pin(page: Page, command: m.Pin) -> Answer:
+class Pin(Command, tag="pin"):
+    """Keep an episode however many others come, or no longer."""
+
+    number: Number
+    on: bool
+
+
+async def _pin(page: Page, command: Pin) -> Answer:
     _archive(page).pin(command.number, on=command.on)
     kept = "is kept" if command.on else "is no longer pinned"
     return Answer(f"Episode {command.number} {kept}.")
 
 
-async def _open_recording(page: Page, command: m.OpenRecording) -> Answer:
+class OpenRecording(Command, tag="open_recording"):
+    """Open the recording that was sent in binary messages before."""
+
+    name: Name
+    size: Number
+
+
+async def _open_recording(page: Page, command: OpenRecording) -> Answer:
     archive = _archive(page)
     data = page.upload.take(command.size)
     episode = await page.in_thread(lambda: decode(Episode, data, command.name))
@@ -108,16 +166,16 @@ def chosen_episode(page: Page) -> FrameCache:
 
 
 HANDLERS: Mapping[type[Command], Handler] = {
-    m.OpenEpisode: _episode,
-    m.GoToStep: _step,
-    m.Play: _play,
-    m.Stop: _stop,
-    m.SetPlaySpeed: _play_speed,
-    m.BackToLive: _back_to_live,
-    m.ContinueHere: _continue,
-    m.Race: _race,
-    m.RemoveGhost: _remove_ghost,
-    m.Pin: _pin,
-    m.OpenRecording: _open_recording,
+    OpenEpisode: _episode,
+    GoToStep: _step,
+    Play: _play,
+    Stop: _stop,
+    SetPlaySpeed: _play_speed,
+    BackToLive: _back_to_live,
+    ContinueHere: _continue,
+    Race: _race,
+    RemoveGhost: _remove_ghost,
+    Pin: _pin,
+    OpenRecording: _open_recording,
 }
 """Handlers by the type of their command."""

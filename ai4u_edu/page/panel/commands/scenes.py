@@ -8,10 +8,9 @@ from typing import Any
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.page.editing.scene_cards import Card, stored_cards
 from ai4u_edu.page.editing.scene_pictures import LibraryScene, library_scenes
+from ai4u_edu.page.messages import Command, Name, Number
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.messages import edit as m
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
@@ -22,7 +21,11 @@ MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS
 """Size of a scene's file; no character takes more bytes."""
 
 
-async def _scenes(page: Page, _command: m.ListScenes) -> Answer:
+class ListScenes(Command, tag="scenes"):
+    """List the scenes that can be opened."""
+
+
+async def _scenes(page: Page, _command: ListScenes) -> Answer:
     store = page.context.required_editor().scene_store
 
     def listed() -> list[dict[str, Any]]:
@@ -35,7 +38,14 @@ async def _scenes(page: Page, _command: m.ListScenes) -> Answer:
     return Answer(more={"items": await page.in_thread(listed)})
 
 
-async def _open(page: Page, command: m.OpenScene) -> Answer:
+class OpenScene(Command, tag="open_scene"):
+    """Open a scene of the library, or a saved one."""
+
+    name: Name
+    is_saved: bool = False
+
+
+async def _open(page: Page, command: OpenScene) -> Answer:
     editor = page.context.required_editor()
     load = partial(Scene.load, command.name)
     if command.is_saved:
@@ -49,7 +59,14 @@ async def _open(page: Page, command: m.OpenScene) -> Answer:
     return Answer(f"Opened {editor.title}.")
 
 
-async def _save(page: Page, command: m.SaveScene) -> Answer:
+class SaveScene(Command, tag="save_scene"):
+    """Save the scene under a name."""
+
+    name: Name
+    over: bool = False
+
+
+async def _save(page: Page, command: SaveScene) -> Answer:
     editor = page.context.required_editor()
     if editor.scene_store is None:
         raise SetupError("scenes can't be saved here; download the file")
@@ -60,7 +77,11 @@ async def _save(page: Page, command: m.SaveScene) -> Answer:
     return Answer(f"Saved as “{name}”. Find it under Choose a scene.", {"saved_as": name})
 
 
-async def _download(page: Page, _command: m.Download) -> Answer:
+class Download(Command, tag="download"):
+    """Return the scene's file."""
+
+
+async def _download(page: Page, _command: Download) -> Answer:
     editor = page.context.required_editor()
     scene = editor.scene
     text = await asyncio.to_thread(scene.dumps)
@@ -69,7 +90,14 @@ async def _download(page: Page, _command: m.Download) -> Answer:
     return Answer("The scene's file is in your downloads.", more)
 
 
-async def _load(page: Page, command: m.LoadText) -> Answer:
+class LoadText(Command, tag="load_text"):
+    """Open the scene file that was sent in binary messages before."""
+
+    name: Name
+    size: Number
+
+
+async def _load(page: Page, command: LoadText) -> Answer:
     editor = page.context.required_editor()
     data = page.upload.take(command.size)
     if len(data) > MAX_SCENE_BYTES:
@@ -82,13 +110,21 @@ async def _load(page: Page, command: m.LoadText) -> Answer:
     return Answer(f"Opened {editor.title}.")
 
 
-async def _restore(page: Page, _command: m.Restore) -> Answer:
+class Restore(Command, tag="restore"):
+    """Open the unsaved scene."""
+
+
+async def _restore(page: Page, _command: Restore) -> Answer:
     editor = page.context.required_editor()
     await page.result(await page.in_thread(editor.recovery.restore))
     return Answer(f"Restored {editor.title}.")
 
 
-async def _discard(page: Page, _command: m.Discard) -> Answer:
+class Discard(Command, tag="discard"):
+    """Delete the unsaved scene."""
+
+
+async def _discard(page: Page, _command: Discard) -> Answer:
     page.context.required_editor().recovery.discard()
     return Answer("The unsaved scene is deleted.")
 
@@ -113,12 +149,12 @@ def _card(card: Card | LibraryScene, picture: str, *, is_saved: bool = False) ->
 
 
 HANDLERS: Mapping[type[Command], Handler] = {
-    m.ListScenes: _scenes,
-    m.OpenScene: _open,
-    m.SaveScene: _save,
-    m.Download: _download,
-    m.LoadText: _load,
-    m.Restore: _restore,
-    m.Discard: _discard,
+    ListScenes: _scenes,
+    OpenScene: _open,
+    SaveScene: _save,
+    Download: _download,
+    LoadText: _load,
+    Restore: _restore,
+    Discard: _discard,
 }
 """Handlers by the type of their command."""

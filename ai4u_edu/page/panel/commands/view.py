@@ -2,50 +2,87 @@
 
 from collections.abc import Mapping
 
+from ai4u_edu.page.messages import Command, Name
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.messages import play as m
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page import Page
+from ai4u_edu.page.panel.page_view import CameraMode
 
 
-async def _agent(page: Page, command: m.ShowAgent) -> Answer:
+class ShowAgent(Command, tag="agent"):
+    """Show another agent."""
+
+    agent: Name
+
+
+async def _agent(page: Page, command: ShowAgent) -> Answer:
     agent = page.context.runner.sim.agent(command.agent)  # an error if there is none
     page.view.choose_agent(agent.id)
     return Answer()
 
 
-async def _camera(page: Page, command: m.Camera) -> Answer:
+class Camera(Command, tag="camera"):
+    """Put the camera somewhere."""
+
+    mode: CameraMode
+
+
+async def _camera(page: Page, command: Camera) -> Answer:
     page.view.choose_camera(command.mode)
     return Answer()
 
 
-async def _sensor(page: Page, command: m.ShowSensor) -> Answer:
+class ShowSensor(Command, tag="sensor"):
+    """Draw a sensor in the picture, or hide it."""
+
+    key: Name
+    on: bool
+
+
+async def _sensor(page: Page, command: ShowSensor) -> Answer:
     page.view.show_sensor(command.key, command.on)
     return Answer()
 
 
-async def _trail(page: Page, command: m.ShowTrail) -> Answer:
+class ShowTrail(Command, tag="trail"):
+    """Draw the agent's trail, or hide it."""
+
+    on: bool
+
+
+async def _trail(page: Page, command: ShowTrail) -> Answer:
     page.view.show_trail(command.on)
     return Answer()
 
 
-async def _dark(page: Page, command: m.Dark) -> Answer:
+class Dark(Command, tag="dark"):
+    """Draw the picture in dark colours, or light ones."""
+
+    on: bool
+
+
+async def _dark(page: Page, command: Dark) -> Answer:
     page.view.choose_dark(command.on)
     return Answer()
 
 
-async def _reduce_motion(page: Page, command: m.ReduceMotion) -> Answer:
+class ReduceMotion(Command, tag="reduce_motion"):
+    """Leave out motion that nothing in the world makes, or not."""
+
+    on: bool
+
+
+async def _reduce_motion(page: Page, command: ReduceMotion) -> Answer:
     page.view.reduce_motion(command.on)
     return Answer()
 
 
 HANDLERS: Mapping[type[Command], Handler] = {
-    m.ShowAgent: _agent,
-    m.Camera: _camera,
-    m.ShowSensor: _sensor,
-    m.ShowTrail: _trail,
-    m.Dark: _dark,
-    m.ReduceMotion: _reduce_motion,
+    ShowAgent: _agent,
+    Camera: _camera,
+    ShowSensor: _sensor,
+    ShowTrail: _trail,
+    Dark: _dark,
+    ReduceMotion: _reduce_motion,
 }
 """Handlers by the type of their command."""

@@ -3,7 +3,9 @@
 import math
 from collections.abc import Mapping
 from concurrent.futures import Future
-from typing import Any
+from typing import Annotated, Any
+
+from msgspec import Meta
 
 from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
 from ai4u_edu.base.parameters import Problem
@@ -12,10 +14,9 @@ from ai4u_edu.page.editing.forms import read_values
 from ai4u_edu.page.editing.settings import scene_form
 from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
 from ai4u_edu.page.editing.things import Thing, kind_of, thing_named
+from ai4u_edu.page.messages import Command, Degrees, Metres, Name, Values
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.messages import edit as m
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.new_things import TEMPLATES, Template, free_position
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.snapshot import StaticScene
@@ -25,23 +26,49 @@ COPY_OFFSET_M = 0.5
 """Distance (m) of a copied floor or area from the original, to the right and down."""
 
 
-async def _move_mode(page: Page, command: m.MoveMode) -> Answer:
+class MoveMode(Command, tag="move_mode"):
+    """Let the user move things with the mouse, or not."""
+
+    on: bool
+
+
+async def _move_mode(page: Page, command: MoveMode) -> Answer:
     page.context.required_editor()
     page.view.set_move_mode(command.on)
     return Answer()
 
 
-async def _snap(page: Page, command: m.Snap) -> Answer:
+class Snap(Command, tag="snap"):
+    """Set the grid (m) to which moved things snap; 0 for none."""
+
+    distance: Annotated[float, Meta(ge=0, le=100)]
+
+
+async def _snap(page: Page, command: Snap) -> Answer:
     page.view.set_snap(command.distance)
     return Answer()
 
 
-async def _select(page: Page, command: m.SelectBody) -> Answer:
+class SelectBody(Command, tag="select"):
+    """Select a thing."""
+
+    body: Name | None
+
+
+async def _select(page: Page, command: SelectBody) -> Answer:
     page.view.select(command.body)
     return Answer()
 
 
-async def _add(page: Page, command: m.AddBody) -> Answer:
+class AddBody(Command, tag="add_body"):
+    """Add a thing, by default where there is room in the picture (m)."""
+
+    template: Name
+    x: Metres | None = None
+    y: Metres | None = None
+
+
+async def _add(page: Page, command: AddBody) -> Answer:
     editor = page.context.required_editor()
     template = TEMPLATES.get(command.template)
     if template is None:
@@ -77,7 +104,13 @@ async def _add_thing(
     return change_answer(f"{done} {name}.", result, body=name)
 
 
-async def _duplicate(page: Page, command: m.DuplicateBody) -> Answer:
+class DuplicateBody(Command, tag="duplicate_body"):
+    """Add a copy of a thing."""
+
+    name: Name
+
+
+async def _duplicate(page: Page, command: DuplicateBody) -> Answer:
     editor = page.context.required_editor()
     thing = thing_named(editor.state, command.name)
     described = _copy_of(thing)
@@ -90,7 +123,14 @@ async def _duplicate(page: Page, command: m.DuplicateBody) -> Answer:
     return await _add_thing(page, Template("", "", kind, {}), described, at, "Copied it as")
 
 
-async def _change(page: Page, command: m.ChangeBody) -> Answer:
+class ChangeBody(Command, tag="change_body"):
+    """Change properties of a thing."""
+
+    name: Name
+    values: Values
+
+
+async def _change(page: Page, command: ChangeBody) -> Answer:
     editor = page.context.required_editor()
     thing = thing_named(editor.state, command.name)
     pose, values = pose_and_changes(thing, command.values)
@@ -108,14 +148,32 @@ async def _change(page: Page, command: m.ChangeBody) -> Answer:
     return change_answer(f"{'Changed' if values else 'Moved'} {thing.name}.", result)
 
 
-async def _move(page: Page, command: m.MoveBody) -> Answer:
+class MoveBody(Command, tag="move_body"):
+    """Put a thing somewhere (m, degrees)."""
+
+    name: Name
+    x: Metres
+    y: Metres
+    heading_deg: Degrees | None = None
+
+
+async def _move(page: Page, command: MoveBody) -> Answer:
     future = page.context.required_editor().move_body(
         command.name, command.x, command.y, command.heading_deg
     )
     return change_answer(f"Moved {command.name}.", await page.result(future))
 
 
-async def _nudge(page: Page, command: m.Nudge) -> Answer:
+class Nudge(Command, tag="nudge"):
+    """Move a thing a bit (m, degrees)."""
+
+    name: Name
+    dx: Metres = 0.0
+    dy: Metres = 0.0
+    turn_deg: Degrees = 0.0
+
+
+async def _nudge(page: Page, command: Nudge) -> Answer:
     """Move a thing from where it is; several nudges follow one another."""
     editor = page.context.required_editor()
     async with page.moves:
@@ -131,14 +189,26 @@ async def _nudge(page: Page, command: m.Nudge) -> Answer:
     return change_answer(f"Moved {command.name}.", result)
 
 
-async def _remove(page: Page, command: m.RemoveBody) -> Answer:
+class RemoveBody(Command, tag="remove_body"):
+    """Delete a thing; the body of an agent goes with its agent."""
+
+    name: Name
+
+
+async def _remove(page: Page, command: RemoveBody) -> Answer:
     editor = page.context.required_editor()
     agent = _agent_of(editor, command.name)
     future = editor.remove_body(command.name) if agent is None else editor.remove_agent(agent)
     return change_answer(f"Deleted {command.name}.", await page.result(future))
 
 
-async def _settings(page: Page, command: m.ChangeSettings) -> Answer:
+class ChangeSettings(Command, tag="change_settings"):
+    """Change texts or settings of the scene."""
+
+    values: Values
+
+
+async def _settings(page: Page, command: ChangeSettings) -> Answer:
     editor = page.context.required_editor()
     values = read_values(scene_form(editor.state.description), command.values)
     result = await page.result(editor.change_settings(values))
@@ -202,15 +272,15 @@ def _named(thing: Thing, error: ChangeError) -> list[Problem]:
 
 
 HANDLERS: Mapping[type[Command], Handler] = {
-    m.MoveMode: _move_mode,
-    m.Snap: _snap,
-    m.SelectBody: _select,
-    m.AddBody: _add,
-    m.DuplicateBody: _duplicate,
-    m.ChangeBody: _change,
-    m.MoveBody: _move,
-    m.Nudge: _nudge,
-    m.RemoveBody: _remove,
-    m.ChangeSettings: _settings,
+    MoveMode: _move_mode,
+    Snap: _snap,
+    SelectBody: _select,
+    AddBody: _add,
+    DuplicateBody: _duplicate,
+    ChangeBody: _change,
+    MoveBody: _move,
+    Nudge: _nudge,
+    RemoveBody: _remove,
+    ChangeSettings: _settings,
 }
 """Handlers by the type of their command."""

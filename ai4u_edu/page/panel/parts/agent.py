@@ -14,7 +14,7 @@ from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.colours import hex_colour
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.sensor_slots import ProgramSensor, program_sensor
 from ai4u_edu.page.panel.parts.sensors import SensorReading, sensor_reading
 from ai4u_edu.snapshot import AgentState, Need, Snapshot
@@ -37,7 +37,7 @@ class ScriptState(Struct, frozen=True):
 
     state: Literal["waiting", "connected", "late", "lost"]
     reason: str
-    """Why it is not driving, as a sentence; empty if it is."""
+    """The reason why it is not driving; empty if it is."""
     warning: str
     """A sentence about what had no effect lately; empty if all had."""
     counts: dict[str, int]
@@ -92,7 +92,7 @@ class RewardRow(Struct, frozen=True):
 
 
 class PaidTerm(Struct, frozen=True):
-    """What one reward term paid in one decision."""
+    """The amount that one reward term paid in one decision."""
 
     term: str
     amount: float
@@ -109,7 +109,7 @@ class PaidDecision(Struct, frozen=True):
 
 
 class DecisionPhases(Struct, frozen=True):
-    """Where an agent is in its decision: sense, decide, act for some ticks, reward."""
+    """The progress of an agent's decision: sense, decide, act for some ticks, reward."""
 
     ticks: int
     """Ticks of the decision that are told apart."""
@@ -139,10 +139,10 @@ class AgentSummary(Struct, frozen=True):
     score: float
     """Reward in its episode so far."""
     state: str
-    """How its episode ended, in a few words; empty while it runs."""
+    """The end of its episode in a few words; empty while it runs."""
 
 
-class AgentPart(Part, frozen=True, kw_only=True):
+class AgentPart(PanelPart, frozen=True, kw_only=True):
     """An agent's readings, action and rewards."""
 
     name: Literal["agent"] = "agent"
@@ -153,7 +153,7 @@ class AgentPart(Part, frozen=True, kw_only=True):
     brain: str
     """Title of its brain."""
     state: str
-    """How its episode ended, in a few words; empty while it runs."""
+    """The end of its episode in a few words; empty while it runs."""
     problem: str
     """The problem with the script that should drive it; empty if there is none."""
     script: ScriptState | None
@@ -174,7 +174,7 @@ class AgentPart(Part, frozen=True, kw_only=True):
     """All agents, if there are several."""
 
 
-class CurvePart(Part, frozen=True, kw_only=True):
+class CurvePart(PanelPart, frozen=True, kw_only=True):
     """The rewards of an agent's episode so far."""
 
     name: Literal["curve"] = "curve"
@@ -204,7 +204,7 @@ class ProgramActuator(Struct, frozen=True):
     components: list[ActionRange]
 
 
-class PythonPart(Part, frozen=True, kw_only=True):
+class PythonPart(PanelPart, frozen=True, kw_only=True):
     """The code that drives an agent from a notebook, and what a program can name."""
 
     name: Literal["python"] = "python"

@@ -14,11 +14,11 @@ from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.page.editing.scene_names import SceneNames, name_of
 from ai4u_edu.page.editing.settings import agent_form
 from ai4u_edu.page.editing.suggestion import NAMED
+from ai4u_edu.page.messages import Kind
 from ai4u_edu.page.panel.gallery import first_fields, first_sentence, hint_of, words_of
 from ai4u_edu.page.panel.labels import change_label
-from ai4u_edu.page.panel.messages.base import Kind
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 
 AGENT_KINDS = ("sensors", "actuators", "rewards", "brains")
 PARTS: Mapping[str, tuple[str, Kind | UnsetType, str | UnsetType]] = {
@@ -93,7 +93,7 @@ class BlockForm(Struct, frozen=True):
     fields: list[FormField]
 
 
-class BlocksPart(Part, frozen=True, kw_only=True):
+class BlocksPart(PanelPart, frozen=True, kw_only=True):
     """An agent's blocks."""
 
     name: Literal["blocks"] = "blocks"

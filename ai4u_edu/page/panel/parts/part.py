@@ -3,7 +3,7 @@
 from msgspec import Struct
 
 
-class Part(Struct, frozen=True, tag_field="type", tag="part"):
+class PanelPart(Struct, frozen=True, tag_field="type", tag="part"):
     """A part of what the panel shows; as JSON, an object of type ``part`` with a ``name``.
 
     Keys come in the order of the fields. A key whose field is UNSET is left out.

@@ -8,7 +8,7 @@ from ai4u_edu.base.optional_deps import has
 from ai4u_edu.blocks import Block
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.recording import ArchiveEntry
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
 from ai4u_edu.snapshot import Snapshot
@@ -84,7 +84,7 @@ class DownloadLink(Struct, frozen=True):
     """Address, relative to the page."""
 
 
-class PastPart(Part, frozen=True, kw_only=True):
+class PastPart(PanelPart, frozen=True, kw_only=True):
     """The kept episodes, and the state of the player."""
 
     name: Literal["past"] = "past"
@@ -99,7 +99,7 @@ class PastPart(Part, frozen=True, kw_only=True):
     ghost: str
     """State of the race against a ghost, as a sentence; empty without one."""
     problem: str
-    """Why an episode could not be recorded, kept or replayed; empty if all went well."""
+    """The reason why an episode could not be recorded, kept or replayed; empty if all went well."""
     downloads: list[DownloadLink]
     """Files of the chosen episode; empty if none is chosen."""
 

@@ -7,7 +7,7 @@ from msgspec import Struct
 
 from ai4u_edu.blocks.rewards.reward_func import Stages
 from ai4u_edu.page.panel.context import PanelContext
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.agent_words import ending
 from ai4u_edu.snapshot.outcome import outcome
@@ -30,7 +30,7 @@ class Stage(Struct, frozen=True):
     """True for the stage that comes next."""
 
 
-class RunPart(Part, frozen=True, kw_only=True):
+class RunPart(PanelPart, frozen=True, kw_only=True):
     """The state of the episode, for a page that shows an agent."""
 
     name: Literal["run"] = "run"
@@ -66,7 +66,7 @@ class RunPart(Part, frozen=True, kw_only=True):
     result_text: str
     """The end of the agent's episode as a short sentence; empty while it runs."""
     status: str
-    """What the world does, as a short sentence."""
+    """The state of the world as a short sentence."""
     slow: str
     """Warning about a slow tick; empty if there was none lately."""
     error: str

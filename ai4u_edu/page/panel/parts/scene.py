@@ -9,7 +9,7 @@ from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.colours import hex_colour
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -50,7 +50,7 @@ class SceneAgent(Struct, frozen=True):
     """True if a person drives it by keys."""
 
 
-class ScenePart(Part, frozen=True, kw_only=True):
+class ScenePart(PanelPart, frozen=True, kw_only=True):
     """The scene's texts, the legend of its groups, and its agents."""
 
     name: Literal["scene"] = "scene"
@@ -64,9 +64,9 @@ class ScenePart(Part, frozen=True, kw_only=True):
     """A key of its task, under which a page keeps best times; empty without an editor."""
     can_edit_goal: bool
     controls: str
-    """How it is driven, in words."""
+    """Its controls in words."""
     rewards: str
-    """What it pays for, in words."""
+    """Its rewards in words."""
     stars: StarGoals | None
     """Goals for programs; null in a scene that has none."""
     legend: list[LegendColour]

@@ -78,7 +78,7 @@ class ReadingPicture(Struct, frozen=True):
     cells: str
     """Address of the picture: a PNG as a ``data:`` URL."""
     caption: str
-    """What it shows; ``earlier`` for an older reading, empty for the groups in its cells."""
+    """Its subject; ``earlier`` for an older reading, empty for the groups in its cells."""
 
 
 class SensorReading(Struct, frozen=True, kw_only=True):

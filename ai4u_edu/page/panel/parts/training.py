@@ -2,11 +2,11 @@
 
 from typing import Literal
 
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.runtime.training_progress import TrainingProgress
 
 
-class TrainingPart(Part, frozen=True, kw_only=True):
+class TrainingPart(PanelPart, frozen=True, kw_only=True):
     """The progress of a training, and its learning curve."""
 
     name: Literal["training"] = "training"

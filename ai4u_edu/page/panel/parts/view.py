@@ -2,11 +2,11 @@
 
 from typing import Literal
 
-from ai4u_edu.page.panel.messages.play import CameraMode
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.page_view import CameraMode
+from ai4u_edu.page.panel.parts.part import PanelPart
 
 
-class ViewPart(Part, frozen=True, kw_only=True):
+class ViewPart(PanelPart, frozen=True, kw_only=True):
     """The choices for the page's picture."""
 
     name: Literal["view"] = "view"

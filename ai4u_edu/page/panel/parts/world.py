@@ -13,7 +13,7 @@ from ai4u_edu.page.panel.new_things import TEMPLATES
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
-from ai4u_edu.page.panel.parts.part import Part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import BodyDescription
 
@@ -72,7 +72,7 @@ class UnsavedScene(Struct, frozen=True):
     """Time of the last change, in words."""
 
 
-class WorldPart(Part, frozen=True, kw_only=True):
+class WorldPart(PanelPart, frozen=True, kw_only=True):
     """The things of the scene, and the form of the selected one."""
 
     name: Literal["world"] = "world"
@@ -89,7 +89,7 @@ class WorldPart(Part, frozen=True, kw_only=True):
     unsaved: UnsavedScene | None
     """A scene that can be restored; null if there is none."""
     problem: str
-    """Why the scene is not kept while it is changed; empty if it is."""
+    """The reason why the scene is not kept while it is changed; empty if it is."""
     can_save: bool
     """True if scenes can be saved here; else they are downloaded."""
     is_autosaved: bool

@@ -1,0 +1,73 @@
+"""Commands for the runner that any page may send, over its input socket or its panel's."""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from typing import Any, NamedTuple
+
+from ai4u_edu.page.messages import Command, Seed
+from ai4u_edu.runtime.runner import Runner
+
+
+class Pause(Command, tag="pause"):
+    """Pause the world."""
+
+
+class Resume(Command, tag="resume"):
+    """Let the world run."""
+
+
+class Reset(Command, tag="reset"):
+    """Begin an episode with the locked seed, or else with a new one."""
+
+
+class TryAgain(Command, tag="try_again"):
+    """Begin an episode with the same start."""
+
+
+class NewStart(Command, tag="new_start"):
+    """Begin an episode with a new start, also if the seed is locked."""
+
+
+class SetSeed(Command, tag="seed"):
+    """Begin an episode with a seed."""
+
+    seed: Seed
+
+
+class LockSeed(Command, tag="lock_seed"):
+    """Begin each episode with the same seed from now on, or with new ones."""
+
+    on: bool
+
+
+def _nothing(_command: Command) -> str:
+    return ""
+
+
+class RunCommand(NamedTuple):
+    """The call that carries out a command, and the sentence about it."""
+
+    submit: Callable[[Runner, Any], "Future[None]"]
+    """Has the runner carry it out."""
+    answer: Callable[[Any], str] = _nothing
+    """Returns a sentence for the page's panel; empty if there is nothing to say."""
+
+
+RUN_COMMANDS: Mapping[type[Command], RunCommand] = {
+    Pause: RunCommand(lambda runner, _: runner.pause()),
+    Resume: RunCommand(lambda runner, _: runner.resume()),
+    Reset: RunCommand(lambda runner, _: runner.reset()),
+    TryAgain: RunCommand(lambda runner, _: runner.try_again(), lambda _: "The same start again."),
+    NewStart: RunCommand(lambda runner, _: runner.new_start(), lambda _: "A new start."),
+    SetSeed: RunCommand(
+        lambda runner, command: runner.reset(int(command.seed)),
+        lambda command: f"Started with seed {command.seed}.",
+    ),
+    LockSeed: RunCommand(
+        lambda runner, command: runner.lock_seed(command.on),
+        lambda command: (
+            "Each reset repeats this start." if command.on else "Resets draw new starts."
+        ),
+    ),
+}
+"""The commands of both sockets by the type of their message."""
