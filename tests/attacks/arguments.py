@@ -10,19 +10,22 @@ from msgspec import inspect
 
 from ai4u_edu.explain_page import messages as explain_messages
 from ai4u_edu.page.messages import Command
-from ai4u_edu.page.panel.socket import HANDLERS
+from ai4u_edu.page.panel.commands import blocks, past, run, scenes, view, world
+from ai4u_edu.page.server import run_commands
 from tests.attacks.test_odd_input_messages import ODD
 
 Message = dict[str, Any]
 
-OWN_COMMANDS = list(HANDLERS)
-"""Types of the panel's own commands."""
-EXPLAIN_COMMANDS = [
-    kind
-    for kind in vars(explain_messages).values()
-    if isinstance(kind, type) and issubclass(kind, Command) and kind is not Command
-]
-"""Types of the commands about explanations."""
+OWN_COMMANDS, EXPLAIN_COMMANDS = (
+    [
+        kind
+        for module in modules
+        for kind in vars(module).values()
+        if isinstance(kind, type) and issubclass(kind, Command) and kind is not Command
+    ]
+    for modules in ((run_commands, blocks, past, run, scenes, view, world), (explain_messages,))
+)
+"""Types of the panel's own commands, and of those about explanations."""
 NAMES = {str(kind.__struct_config__.tag): kind for kind in (*OWN_COMMANDS, *EXPLAIN_COMMANDS)}
 """Types of commands by name."""
 
