@@ -125,7 +125,7 @@ def source() -> str:
         file.received(kind)
     for kind in subclasses(Message):
         file.sent(kind)
-    commands = [(kind.__struct_config__.tag, file.sent(kind)) for kind in subclasses(Command)]
+    commands = [(str(kind.__struct_config__.tag), file.sent(kind)) for kind in subclasses(Command)]
     file.map("Commands", "The commands by name: what is sent with each of them.", commands)
     return str(file)
 
