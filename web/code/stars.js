@@ -63,7 +63,7 @@ export class CodeStars {
     while (this.#list.children.length < words.length) this.#list.append(element("li", {}, element("i", { role: "img" }), element("span")));
     while (this.#list.children.length > words.length) this.#list.lastChild.remove();
     words.forEach((text, index) => {
-      const { firstChild: mark, lastChild: span } = this.#list.children[index];
+      const { firstElementChild: mark, lastElementChild: span } = this.#list.children[index];
       const isEarned = index < earned;
       setText(mark, isEarned ? "★" : "☆");
       setAttributes(mark, { "aria-label": isEarned ? "earned" : "not yet", "data-earned": isEarned });

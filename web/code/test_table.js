@@ -35,7 +35,7 @@ export class TestTable {
     this.#watch = button("Watch the first failure", onWatch, { icon: "play" });
     const table = element("table", { className: "ai4u-code-test" }, this.#sentence, tableHead(...HEADS), this.#body);
     this.#body.addEventListener("click", ({ target }) => {
-      const row = target.closest("tr"); // the button in it is for the keyboard
+      const row = /** @type {Element} */ (target).closest("tr"); // the button in it is for the keyboard
       if (row !== null) onChoose(Number(row.dataset.key));
     });
     this.element = section("code-test", "Test", {}, table, this.#watch, this.#hint);

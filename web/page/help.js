@@ -147,7 +147,9 @@ export class Help {
       return element("div", {}, element("span", { textContent: name }), button);
     });
     this.#list.replaceChildren(...rows);
-    if (focused) this.#list.querySelector(`[data-action="${CSS.escape(focused)}"]`)?.focus();
+    /** @type {HTMLElement | null} */
+    const button = focused && this.#list.querySelector(`[data-action="${CSS.escape(focused)}"]`);
+    button?.focus();
   }
 
   #startRebinding(action) {

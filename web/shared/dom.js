@@ -3,23 +3,31 @@
 import { icon as iconNamed } from "./icons.js";
 
 /**
- * Create an element.
- * @param {string} tag
- * @param {Record<string, any>} properties properties, or attributes where there is no such property; `dataset` and `on` (event
- *   handlers) are objects
- * @param {any[]} children nodes or strings; null and false are left out
- * @returns {any} of the tag's own type
+ * Return the page's element for a selector.
+ * @param {string} selector
  */
-export function element(tag, properties = {}, ...children) {
-  /** @type {any} */
+export function find(selector) {
+  return /** @type {HTMLElement} */ (document.querySelector(selector));
+}
+
+/**
+ * Create an element.
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {{dataset?: Record<string, string | number>, on?: Record<string, (event: Event) => void>, [property: string]: unknown}}
+ *   properties properties, or attributes where there is no such property; `on` has event handlers
+ * @param {(Node | string | false)[]} children null and false are left out
+ * @returns {HTMLElementTagNameMap[Tag]}
+ */
+export function element(tag, { dataset = {}, on = {}, ...properties } = {}, ...children) {
   const made = document.createElement(tag);
+  Object.assign(made.dataset, dataset);
+  for (const [type, handle] of Object.entries(on)) made.addEventListener(type, handle);
   for (const [name, value] of Object.entries(properties)) {
-    if (name === "dataset") Object.assign(made.dataset, value);
-    else if (name === "on") for (const [type, f] of Object.entries(value)) made.addEventListener(type, f);
-    else if (name in made) made[name] = value;
-    else made.setAttribute(name, value);
+    if (name in made) Object.assign(made, { [name]: value });
+    else made.setAttribute(name, String(value));
   }
-  made.append(...children.filter((child) => child !== null && child !== undefined && child !== false));
+  for (const child of children) if (child !== false && child !== null && child !== undefined) made.append(child);
   return made;
 }
 
@@ -50,7 +58,7 @@ export function setAttributes(target, attributes) {
  * Create a button.
  * @param {string} text may be empty if there are an icon and a label
  * @param {(event: MouseEvent) => void} onClick
- * @param {{icon?: string, label?: string, kind?: string, [property: string]: any}} [options] `kind` is "", "main", "quiet"
+ * @param {{icon?: string, label?: string, kind?: string, [property: string]: unknown}} [options] `kind` is "", "main", "quiet"
  *   or "danger"; `label` an accessible name and tooltip, for a button without text; others are properties
  */
 export function button(text, onClick, { icon = "", label = "", kind = "", ...properties } = {}) {
@@ -80,14 +88,15 @@ export function tableHead(...names) {
  * Make an element's children match a list without creating those again that stay: focus, typed text and open
  * sections survive.
  * @template Item
+ * @template {HTMLElement} Child
  * @param {Element} parent
  * @param {Iterable<Item>} items
  * @param {(item: NoInfer<Item>) => string | number} keyOf returns an item's key, unique in the list
- * @param {(item: NoInfer<Item>) => any} make returns the element of a new item
- * @param {(child: any, item: NoInfer<Item>) => void} update brings an element up to date with its item
+ * @param {(item: NoInfer<Item>) => Child} make returns the element of a new item
+ * @param {(child: NoInfer<Child>, item: NoInfer<Item>) => void} update brings an element up to date with its item
  */
 export function keyed(parent, items, keyOf, make, update = () => {}) {
-  const children = /** @type {HTMLElement[]} */ ([...parent.children]);
+  const children = /** @type {Child[]} */ ([...parent.children]);
   const before = new Map(children.map((child) => [child.dataset.key, child]));
   let next = parent.firstElementChild;
   for (const item of items) {

@@ -8,7 +8,7 @@ import { element } from "./dom.js";
  *
  * @param {{title: string, text?: string, content: Node[], yes?: string, no?: string, isDanger?: boolean}} form
  *   without `yes`, it has only a button that closes it
- * @param {() => Promise<any>} send called when the form is sent; its error's message is shown, and after false
+ * @param {() => unknown} send called when the form is sent; its error's message is shown, and after false
  *   the form stays
  * @returns {Promise<boolean>} true if it was sent
  */
@@ -29,7 +29,7 @@ export async function showForm({ title, text = "", content, yes = "", no = "Canc
   );
   const dialog = element("dialog", { className: "ai4u-question ai4u-form" }, form);
   cancel.addEventListener("click", () => dialog.close());
-  form.addEventListener("submit", async (/** @type {SubmitEvent} */ event) => {
+  form.addEventListener("submit", async (event) => {
     event.preventDefault();
     accept.disabled = true;
     problem.textContent = "";
@@ -67,7 +67,7 @@ export function field(label, control, hint = "") {
  * Return a checkbox or radio button with its label beside it.
  * @param {string} label
  * @param {HTMLInputElement} input
- * @param {any[]} rest more children
+ * @param {(Node | string | false)[]} rest more children
  */
 export function choice(label, input, ...rest) {
   return element("label", { className: "ai4u-choice" }, input, element("span", { textContent: label }), ...rest);

@@ -2,15 +2,16 @@
 
 /**
  * Return a number with at most three digits that matter; "–" if there is none.
- * @param {any} value
+ * @param {number | string | null | undefined} value
  */
 export function number(value) {
   if (value === null || value === undefined) return "–";
-  if (!Number.isFinite(Number(value))) return String(value);
-  const size = Math.abs(value);
+  const amount = Number(value);
+  if (!Number.isFinite(amount)) return String(value);
+  const size = Math.abs(amount);
   const digits = size >= 100 ? 0 : size >= 10 ? 1 : 2;
   const text = size.toFixed(digits);
-  return (value < 0 && Number(text) !== 0 ? "−" : "") + text;
+  return (amount < 0 && Number(text) !== 0 ? "−" : "") + text;
 }
 
 /**

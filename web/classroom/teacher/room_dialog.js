@@ -84,8 +84,8 @@ function person(seat, realNames, hasCodes) {
     await showMoveCode(seat);
   });
   move.hidden = !hasCodes;
-  const actions = [[rename, "Rename"], [move, "Code for"], [kick, "Send out"], [ban, "Ban"]];
-  for (const [each, verb] of actions) each.setAttribute("aria-label", `${verb} ${seat.name}`);
+  const verbs = new Map([[rename, "Rename"], [move, "Code for"], [kick, "Send out"], [ban, "Ban"]]);
+  for (const [button, verb] of verbs) button.setAttribute("aria-label", `${verb} ${seat.name}`);
   const real = realNames.of(seat);
   return element(
     "li",

@@ -64,12 +64,11 @@ export function programFacts({ scene, agent, age }, { scenes = [] }) {
 function programElement(program, state) {
   const { name, source } = program;
   const isAny = source !== null;
-  const facts = isAny ? programFacts(program, state) : "no program yet";
+  const { python, isOfBlocks } = splitProgram(source ?? "");
+  const facts = isAny ? [programFacts(program, state), isOfBlocks && "made of blocks"].filter(Boolean).join(" · ") : "no program yet";
   const run = state.runs?.[program.seat];
   const mistake = isAny && run?.state === "mistake" && `Stopped: ${run.line ? `line ${run.line}: ` : ""}${run.text}`;
   const head = element("h3", {}, name, " ", element("small", { className: "ai4u-facts", textContent: facts }));
-  const { python = "", isOfBlocks } = isAny ? splitProgram(source) : {};
-  if (isOfBlocks) head.lastChild.append(" · made of blocks");
   const text = isAny && element("pre", { tabIndex: 0, "aria-label": `Program of ${name}`, textContent: python });
   return element("section", {}, head, mistake && element("p", { className: "ai4u-problem", textContent: mistake }), text);
 }

@@ -24,7 +24,7 @@ export class RobotTable {
   update(robots) {
     keyed(this.#rows, robots, ({ id }) => id, makeRow, (row, { title, colour, decision, score, state }) => {
       const [head, ...cells] = row.children;
-      head.firstChild.style.background = colour;
+      head.querySelector("i").style.background = colour;
       setText(head.lastChild, title);
       [String(decision), number(score), state].forEach((text, index) => setText(cells[index], text));
     });

@@ -150,7 +150,7 @@ export class DriveTab {
       ({ name }) => name,
       () => element("li", {}, element("i", { ariaHidden: "true" }), element("span")),
       (item, { name, colour }) => {
-        item.firstChild.style.background = colour;
+        item.querySelector("i").style.background = colour;
         setText(item.lastChild, name);
       },
     );

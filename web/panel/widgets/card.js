@@ -69,11 +69,10 @@ export class Card {
       (action) => action.label,
       (action) => {
         const { icon: name, label, isDanger = false } = action;
-        const made = button("", () => made.onact(), { icon: name, label, kind: isDanger ? "danger" : "quiet" });
-        return made;
+        return button("", () => {}, { icon: name, label, kind: isDanger ? "danger" : "quiet" });
       },
       (made, { onClick, isEnabled = true }) => {
-        made.onact = onClick;
+        made.onclick = onClick;
         if (made.disabled === isEnabled) made.disabled = !isEnabled;
       },
     );

@@ -14,10 +14,9 @@ export function section(key, title, { isOpen = true, detailsOnly = false } = {},
     element("summary", {}, icon("down", 14), element("h3", { textContent: title })),
     content,
   );
-  made.content = content;
   if (detailsOnly) made.classList.add("ai4u-details-only");
   made.addEventListener("toggle", () => remember(`section-${key}`, made.open));
-  return made;
+  return Object.assign(made, { content });
 }
 
 /** A switch with a label. `set` shows a state without calling `onChange`. */
