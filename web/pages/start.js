@@ -1,7 +1,7 @@
 /** The start page: play a scene of the library, build one, or learn. */
 
 import { syncStars } from "../classroom/student/stars.js";
-import { element } from "../shared/dom.js";
+import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
@@ -10,7 +10,6 @@ import { starRow, starsOf } from "../scenes/stars.js";
 
 /** Name of the empty plate with a robot. */
 const EMPTY_SCENE = "my_scene";
-const find = (selector) => document.querySelector(selector);
 const goToWorld = () => location.assign("./");
 /** Sections by the card that shows them; one of them is open at a time. */
 const sections = new Map([
@@ -35,7 +34,22 @@ showPresent();
 showScenes();
 showLessons();
 
-/** Open a scene ({name} or {saved: its name}) in the world, after a question if the present one has unsaved changes. */
+/**
+ * @typedef {object} Card a scene of the library, or one that somebody saved
+ * @property {string} name
+ * @property {string} title
+ * @property {string} goal
+ * @property {string} level
+ * @property {number | null} minutes to reach the goal for the first time
+ * @property {number} stars
+ * @property {string} picture its address
+ */
+
+/**
+ * Open a scene in the world, after a question if the present one has unsaved changes.
+ * @param {{name: string} | {saved: string}} wanted one of the library, or a saved one
+ * @param {string} title
+ */
 async function open(wanted, title) {
   if (isOpening) return;
   isOpening = true;
@@ -61,6 +75,7 @@ async function showPresent() {
 async function showScenes() {
   const list = find("#library");
   try {
+    /** @type {[{scenes: Card[], saved: Card[]}, void]} */
     const [{ scenes, saved }] = await Promise.all([request("api/scenes"), syncStars()]);
     list.replaceChildren(...scenes.map((scene) => sceneCard(scene, { name: scene.name })));
     find("#saved ul").replaceChildren(...saved.map((scene) => sceneCard(scene, { saved: scene.name })));
@@ -71,6 +86,10 @@ async function showScenes() {
   list.removeAttribute("aria-busy");
 }
 
+/**
+ * @param {Card} card
+ * @param {{name: string} | {saved: string}} wanted
+ */
 function sceneCard({ name, title, goal, level, minutes, stars, picture }, wanted) {
   cards += 1;
   const id = cards;
@@ -91,6 +110,7 @@ function sceneCard({ name, title, goal, level, minutes, stars, picture }, wanted
 }
 
 async function showLessons() {
+  /** @type {{lessons: {number: string, title: string, duration: string}[]}} */
   const { lessons } = await request("api/lessons");
   const items = lessons.map(({ number, title, duration }) =>
     element(

@@ -28,13 +28,19 @@ form.addEventListener("submit", async (event) => {
   input.select();
 });
 
-/** Return the token in a text that may be a whole link. */
+/**
+ * Return the token in a text that may be a whole link.
+ * @param {string} text
+ */
 function tokenIn(text) {
   const query = text.trim().match(/[?&](token=[^#\s]*)/)?.[1];
   return query ? new URLSearchParams(query).get("token") : text.trim();
 }
 
-/** Return this page's address with another token in its query; null for none. */
+/**
+ * Return this page's address with another token in its query; null for none.
+ * @param {string | null} token
+ */
 function addressWith(token) {
   const address = new URL(location.href);
   address.searchParams.delete("token");
@@ -42,6 +48,7 @@ function addressWith(token) {
   return address.href;
 }
 
+/** @param {Response} answer */
 function sentence(answer) {
   if (answer.status === 401) return "That token is wrong.";
   if (answer.status !== 429) return `The world answers with error ${answer.status}.`;

@@ -11,7 +11,10 @@ const ADDRESS = "../../api/stars";
 /** Delay before the class is asked again if it can't be reached (ms). */
 const RETRY_MS = 10_000;
 
-/** Stars that the class has, by scene; null before its first answer. */
+/**
+ * Stars that the class has, by scene; null before its first answer.
+ * @type {Record<string, number> | null}
+ */
 let known = null;
 let isInClass = roomOfPage() !== "";
 let isBusy = false;
@@ -42,7 +45,10 @@ function missing() {
   return found ? { scene: found[0], stars: found[1] } : null;
 }
 
-/** Send stars, or nothing, and take those that the class has; returns false if it can't be reached. */
+/**
+ * Send stars, or nothing, and take those that the class has; returns false if it can't be reached.
+ * @param {{scene: string, stars: number} | null} [body]
+ */
 async function send(body = null) {
   const method = body ? "PUT" : "GET";
   const options = body && { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) };
