@@ -1,5 +1,7 @@
 /** The WebSocket of the teacher's page and of the projector page: the class's state, drawings and poses. */
 
+/** @import { ClassState, DrawingMessage, PosesMessage } from "../types/class.js" */
+
 import { JsonSocket } from "../shared/socket.js";
 
 const LOST = "The class can't be reached. Is its program still running? This page tries again by itself.";
@@ -7,13 +9,18 @@ const LOST = "The class can't be reached. Is its program still running? This pag
 /**
  * Open the socket, and open it again whenever it is lost.
  * @param {string} path relative to the page
- * @param receive functions by the type of a message: class, drawing, poses
+ * @param {{class: (state: ClassState) => void, drawing: (message: DrawingMessage) => void, poses: (message: PosesMessage) => void}}
+ *   receive functions by the type of a message
  * @param {(problem: string) => void} say shows a sentence, or "" when all is well again
  */
 export function openClassSocket(path, receive, say) {
   const socket = new JsonSocket(path);
   socket.onopen = () => say("");
-  socket.onmessage = (message) => receive[message.type]?.(message);
+  socket.onmessage = (message) => {
+    /** @type {keyof typeof receive} */
+    const type = message.type;
+    receive[type]?.(message);
+  };
   socket.onclose = async (refusal) => {
     say(refusal || LOST);
     if (await isTokenAsked()) location.reload();

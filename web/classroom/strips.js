@@ -1,5 +1,8 @@
 /** Strips below the toolbar that say what holds for the whole class now: attention, and a race. */
 
+/** @import { ClassState, Race, RaceRow } from "../types/class.js" */
+/** @import { Command } from "./teacher/command.js" */
+
 import { clock } from "../shared/numbers.js";
 import { HELD, isHeld } from "./teacher/attention_dialog.js";
 import { commandOrTell } from "./teacher/command.js";
@@ -14,6 +17,7 @@ const WINS = ["goal", "won"];
 export class Countdown {
   #end = 0;
 
+  /** @param {number} seconds */
   set(seconds) {
     this.#end = seconds > 0 ? performance.now() + 1000 * seconds : 0;
   }
@@ -27,16 +31,22 @@ export class Countdown {
 export class ClassStrips {
   #held;
   #race;
+  /** @type {ClassState | null} */
   #state = null;
   #ends = new Countdown();
   #starts = new Countdown();
 
+  /**
+   * @param {HTMLElement} held
+   * @param {HTMLElement} race
+   */
   constructor(held, race) {
     this.#held = held;
     this.#race = race;
     setInterval(() => this.#update(), TICK_MS);
   }
 
+  /** @param {ClassState} state */
   show(state) {
     this.#state = state;
     this.#ends.set(state.attention.ends_in);
@@ -62,12 +72,19 @@ export class ClassStrips {
   }
 }
 
+/**
+ * @param {Race} race
+ * @param {number} left seconds to its start
+ */
 function raceWords({ phase, scene }, left) {
   if (phase === "countdown" && left) return `Race “${scene}”: starts in ${clock(left)}.`;
   return phase === "over" ? `Race “${scene}” is over.` : `Race “${scene}” is on.`;
 }
 
-/** Return the best places, and whose results were refused, with the reason. */
+/**
+ * Return the best places, and whose results were refused, with the reason.
+ * @param {RaceRow[]} board
+ */
 function boardWords(board) {
   const best = board.filter(({ outcome }) => WINS.includes(outcome)).slice(0, MAX_PLACES);
   const refused = board.filter(({ outcome }) => outcome === "refused");
@@ -77,7 +94,11 @@ function boardWords(board) {
   ].join("   ");
 }
 
-/** Build a strip of words and buttons, unless it has these already: a button keeps its focus. */
+/**
+ * Build a strip of words and buttons, unless it has these already: a button keeps its focus.
+ * @param {HTMLElement} strip
+ * @param {[string, Command][]} buttons
+ */
 function build(strip, ...buttons) {
   const told = buttons.map(([text]) => text).join();
   if (strip.dataset.told === told) return;
@@ -92,6 +113,11 @@ function build(strip, ...buttons) {
   );
 }
 
+/**
+ * @param {HTMLElement} strip
+ * @param {string} first
+ * @param {string} rest
+ */
 function say(strip, first, rest) {
   setText(strip.querySelector("strong"), first);
   setText(strip.querySelector("span"), rest);

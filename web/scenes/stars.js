@@ -55,9 +55,9 @@ export function starRow(earned = 0, total = 0) {
   return { element: made, set };
 }
 
-/** @param {any} value */
+/** @param {unknown} value */
 function isCount(value) {
-  return Number.isInteger(value) && value >= 1 && value <= MAX_STARS;
+  return typeof value === "number" && Number.isInteger(value) && value >= 1 && value <= MAX_STARS;
 }
 
 /** Students of a class may use one device in turn. */

@@ -6,7 +6,7 @@ import { element } from "./dom.js";
 /**
  * Show a form until it is sent or closed.
  *
- * @param {{title: string, text?: string, content: Node[], yes?: string, no?: string, isDanger?: boolean}} form
+ * @param {{title: string, text?: string, content: (Node | string | false)[], yes?: string, no?: string, isDanger?: boolean}} form
  *   without `yes`, it has only a button that closes it
  * @param {() => unknown} send called when the form is sent; its error's message is shown, and after false
  *   the form stays

@@ -6,7 +6,7 @@ const unstored = new Map();
 /**
  * Return a remembered value; `fallback` if there is none.
  * @param {string} key
- * @param {any} fallback
+ * @param {unknown} fallback
  * @returns {any} another page, or an earlier version, may have kept anything
  */
 export function recall(key, fallback) {
@@ -21,7 +21,7 @@ export function recall(key, fallback) {
 /**
  * Remember a value that JSON can hold.
  * @param {string} key
- * @param {any} value
+ * @param {unknown} value
  */
 export function remember(key, value) {
   unstored.set(key, value);

@@ -1,15 +1,17 @@
 /** The page that checks a browser and its network before a class. */
 
-import { element } from "../../shared/dom.js";
+import { element, find } from "../../shared/dom.js";
 
 const ECHOES = 5;
 const ECHO_TIMEOUT_MS = 5000;
 /** From this round trip on, driving feels late. */
 const MAX_ROUND_TRIP_MS = 150;
 const DRIVING_KEYS = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "KeyW", "KeyA", "KeyS", "KeyD"];
+/** @type {Record<string, string>} */
 const SIGNS = { yes: "✓", no: "×", open: "…" };
-const list = document.querySelector("#checks");
-const result = /** @type {HTMLElement} */ (document.querySelector("#result"));
+const list = find("#checks");
+const result = find("#result");
+/** @type {Map<string, HTMLElement>} */
 const lines = new Map();
 
 add("browser", "This browser can read the page");
@@ -24,6 +26,10 @@ checkGraphics();
 checkNetwork();
 checkKeys();
 
+/**
+ * @param {string} name
+ * @param {string} text
+ */
 function add(name, text) {
   const line = element(
     "li",
@@ -35,7 +41,11 @@ function add(name, text) {
   list.append(line);
 }
 
-/** Say yes or no, and one sentence. */
+/**
+ * Say yes or no, and one sentence.
+ * @param {string} name
+ * @param {boolean} isFine
+ */
 function tell(name, isFine, sentence = "") {
   const line = lines.get(name);
   line.dataset.answer = isFine ? "yes" : "no";
@@ -79,12 +89,16 @@ async function checkNetwork() {
   }
 }
 
-/** Resolve to round trip times (ms) of messages that come back. */
+/**
+ * Resolve to round trip times (ms) of messages that come back.
+ * @returns {Promise<number[]>}
+ */
 function roundTrips() {
   const url = new URL("./check/socket", document.baseURI);
   url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
   return new Promise((resolve, reject) => {
     const socket = new WebSocket(url);
+    /** @type {number[]} */
     const times = [];
     let sent = 0;
     const timer = setTimeout(() => socket.close(), ECHO_TIMEOUT_MS);

@@ -1,6 +1,7 @@
 /** A student's page of a class at a JupyterHub: the name in the class, and the way to the own notebooks. */
 
-const find = (selector) => document.querySelector(selector);
+import { find } from "../../shared/dom.js";
+
 const UNREACHABLE = "The class can't be reached. Reload in a moment.";
 
 try {
@@ -13,10 +14,11 @@ try {
   find("#problem").textContent = UNREACHABLE;
 }
 
+/** @param {{name: string, colour: string, notebooks: string, world: string}} student with the addresses of notebooks and world */
 function show({ name, colour, notebooks, world }) {
   find("#name").textContent = name;
   find(".ai4u-dot").style.background = colour;
-  find("#notebooks").href = notebooks;
-  find("#world").href = world;
+  find("#notebooks").setAttribute("href", notebooks);
+  find("#world").setAttribute("href", world);
   find("#self").hidden = find("#ways").hidden = false;
 }

@@ -1,11 +1,11 @@
 /** The page on which a student joins a class. */
 
-import { element } from "../../shared/dom.js";
+import { element, find } from "../../shared/dom.js";
+import { chosenIn } from "../../shared/form_dialog.js";
 import { randomId } from "../../shared/ids.js";
 
-const find = (selector) => document.querySelector(selector);
-const code = find("#code");
-const join = find("#join");
+const code = /** @type {HTMLInputElement} */ (find("#code"));
+const join = /** @type {HTMLButtonElement} */ (find("#join"));
 const problem = find("#problem");
 
 /** True if a seat of another device is to be used here, too. */
@@ -22,7 +22,10 @@ find("form").addEventListener("submit", (event) => {
 showNames();
 if (given) join.focus();
 
-/** Ask for the code that another device shows, in place of the class's code and a name. */
+/**
+ * Ask for the code that another device shows, in place of the class's code and a name.
+ * @param {boolean} isMove
+ */
 function moveHere(isMove) {
   isMoving = isMove;
   find("#code-label").textContent = isMove ? "Code on your other device" : "Code on the board";
@@ -44,6 +47,10 @@ async function showNames() {
   }
 }
 
+/**
+ * @param {string} name
+ * @param {number} index
+ */
 function nameChoice(name, index) {
   return element(
     "label",
@@ -56,7 +63,7 @@ function nameChoice(name, index) {
 async function sendRequest() {
   join.disabled = true;
   problem.textContent = "";
-  const name = isMoving ? "" : (find("#names input:checked")?.value ?? "");
+  const name = isMoving ? "" : chosenIn(find("#names"));
   try {
     const answer = await fetch("./api/join", {
       method: "POST",

@@ -10,15 +10,18 @@ const STEP_MS = 1200;
 const NOTES_HZ = [[392], [523.25], [523.25, 659.25, 783.99, 1046.5]];
 const SOUND_KEY = "projector-sound";
 
+/** @typedef {{name: string, colour: string, text: string}} Place */
+
 export class Podium {
   element = element("ol", { className: "ai4u-podium", hidden: true });
   #told = "";
+  /** @type {number[]} */
   #timers = [];
 
   /**
    * Show the best, or nobody.
    * @param {string} id of what they have won; the same places are not shown again from the beginning
-   * @param {{name: string, colour: string, text: string}[]} rows of the best, the first at the beginning
+   * @param {Place[]} rows of the best, the first at the beginning
    */
   show(id, rows) {
     const best = rows.slice(0, 3);
@@ -33,6 +36,11 @@ export class Podium {
   }
 }
 
+/**
+ * @param {Place} place
+ * @param {number} index
+ * @param {Place[]} all
+ */
 function step({ name, colour, text }, index, all) {
   const dot = element("span", { className: "ai4u-dot" });
   dot.style.background = colour;

@@ -1,11 +1,14 @@
 /** The projector page: what the teacher shows to all. */
 
+/** @import { ClassState, Race, RaceRow, Seat } from "../../types/class.js" */
+
 import { clock } from "../../shared/numbers.js";
 import { openClassSocket } from "../socket.js";
 import { Countdown } from "../strips.js";
-import { element, keyed, setText } from "../../shared/dom.js";
+import { element, find, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { Podium, soundButton } from "./podium.js";
 import { counted } from "../room_words.js";
+import { dot } from "../tournament/tables.js";
 import { ProjectedTournament } from "./tournament.js";
 import { Wall } from "../wall/wall.js";
 
@@ -15,15 +18,18 @@ const MAX_PLACES = 12;
 const PODIUM_PLACES = 3;
 /** Names of students up to which they are large. */
 const FEW_NAMES = 12;
-/** Words for how a drive of a race ended, if it did not reach the goal. */
+/**
+ * Words for how a drive of a race ended, if it did not reach the goal.
+ * @type {Record<string, string>}
+ */
 const OUTCOMES = { lost: "lost", fell: "fell", time: "out of time", over: "ended" };
-const find = (selector) => document.querySelector(selector);
 const starts = new Countdown();
 const podium = new Podium();
 find("#board").before(podium.element);
 const sound = soundButton();
 document.body.append(sound);
 const tournament = new ProjectedTournament(find("#tournament"));
+/** @type {ClassState | null} */
 let state = null;
 
 const wall = new Wall(find("#wall"), { heightLeft: () => innerHeight - find("#wall").getBoundingClientRect().top - scrollY - MARGIN_PX });
@@ -36,6 +42,7 @@ openClassSocket(
 new ResizeObserver(() => wall.fit()).observe(find("#attention"));
 setInterval(() => state?.race && showCountdown(state.race), TICK_MS);
 
+/** @param {ClassState} message */
 function show(message) {
   state = message;
   const { kind, room } = state.shown;
@@ -60,7 +67,7 @@ function showJoin() {
   setText(find("#code"), state.code);
   find("#code").hidden = !state.code; // at a JupyterHub students sign in
   setText(find("#code-step"), state.code ? "and type the code" : "and sign in");
-  if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
+  setAttributes(find("#qr"), { src: state.qr });
   const count = state.seats.filter((seat) => seat.state === "in").length;
   const here = count ? `${counted(count, "student")} ${count === 1 ? "is" : "are"} here` : "Nobody is here yet";
   showNames();
@@ -70,13 +77,13 @@ function showJoin() {
 /** Show who has joined, the latest at the end. */
 function showNames() {
   const seats = state.seats.filter((seat) => seat.state === "in");
-  const make = ({ colour }) => {
-    const dot = element("span", { className: "ai4u-dot" });
-    dot.style.background = colour;
-    return element("li", {}, dot, element("span"));
-  };
   find("#join").dataset.size = seats.length === 0 ? "none" : seats.length > FEW_NAMES ? "many" : "few";
-  keyed(find("#names"), seats, ({ number }) => number, make, (item, { name }) => setText(item.lastChild, name));
+  keyed(find("#names"), seats, ({ number }) => number, nameItem, (item, { name }) => setText(item.lastChild, name));
+}
+
+/** @param {Seat} seat */
+function nameItem(seat) {
+  return element("li", {}, dot(seat), element("span"));
 }
 
 function showRace() {
@@ -105,17 +112,21 @@ function showGame() {
   find("#game").replaceChildren(...(address ? [made] : []));
 }
 
+/** @param {Race | null} race */
 function showCountdown(race) {
   const isCounting = race?.phase === "countdown" && starts.left > 0;
   setText(find("#starts"), isCounting ? (starts.left > 60 ? clock(starts.left) : String(Math.ceil(starts.left))) : "");
 }
 
+/** @param {RaceRow} row */
 function raceRow(row) {
-  const dot = element("span", { className: "ai4u-dot" });
-  dot.style.background = row.colour;
-  return element("li", {}, element("span", { className: "ai4u-place" }), dot, element("span", { className: "ai4u-name" }), element("span", { className: "ai4u-time" }));
+  return element("li", {}, element("span", { className: "ai4u-place" }), dot(row), element("span", { className: "ai4u-name" }), element("span", { className: "ai4u-time" }));
 }
 
+/**
+ * @param {HTMLElement} item
+ * @param {RaceRow & {place: number}} row
+ */
 function updateRow(item, row) {
   setText(item.querySelector(".ai4u-place"), String(row.place));
   setText(item.querySelector(".ai4u-name"), row.name);

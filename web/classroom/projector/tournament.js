@@ -1,5 +1,7 @@
 /** The tournament on the projector page: standings, the cross table, and the match that was played last. */
 
+/** @import { ClassState, Results, Tournament } from "../../types/class.js" */
+
 import { element, setText } from "../../shared/dom.js";
 import { Podium } from "./podium.js";
 import { counted } from "../room_words.js";
@@ -19,11 +21,13 @@ export class ProjectedTournament {
   #tables = element("div", { className: "ai4u-tables" });
   #told = "";
 
+  /** @param {HTMLElement} place */
   constructor(place) {
     this.#place = place;
     place.append(this.#title, this.#state, this.#last, this.#podium.element, this.#tables);
   }
 
+  /** @param {ClassState} state */
   show({ tournament }) {
     setText(this.#title, tournament ? `Tournament: ${tournament.title}` : "No tournament now");
     setText(this.#state, tournament ? courseOf(tournament) : "");
@@ -41,18 +45,23 @@ export class ProjectedTournament {
   }
 }
 
+/** @param {Tournament} tournament */
 function courseOf({ phase, players, results }) {
   if (phase === "open") return players ? `${counted(players, "player")} so far. Hand in your network!` : "Hand in your network!";
   const played = results ? `${results.games} of ${counted(results.total, "game")}` : "It begins…";
   return { running: played, over: `${played}. It is over.`, cancelled: `${played}. It was stopped.`, failed: `${played}. It was interrupted.` }[phase];
 }
 
+/** @param {Results} results */
 function tablesOf(results) {
   if (results.standings.length > MAX_ROWS) return [listOf(results)];
   return [standingsTable(results, { isShort: true })];
 }
 
-/** Return the standings of many as a list in columns. */
+/**
+ * Return the standings of many as a list in columns.
+ * @param {Results} results
+ */
 function listOf({ standings }) {
   const items = standings.slice(0, MAX_LISTED).map((row, index) =>
     element(

@@ -4,6 +4,8 @@
  * The page of a world without a class never makes one.
  */
 
+/** @import { ClassEvent, Person, StudentRace } from "../../types/class.js" */
+
 import { clock } from "../../shared/numbers.js";
 import { BlankScreen, RaceCountdown } from "./overlay.js";
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
@@ -17,6 +19,7 @@ const TICK_MS = 200;
 const CODE_POLL_MS = 3000;
 /** Most names of others in the bar. */
 const MAX_NAMES = 3;
+/** @type {Record<string, string>} */
 const OUTCOMES = { fell: "fell", time: "time is up", lost: "lost" };
 
 export class ClassBar {
@@ -41,6 +44,7 @@ export class ClassBar {
   #bar = element("section", { className: "ai4u-class-bar", ariaLabel: "Class" });
   #blank = new BlankScreen();
   #countdown = new RaceCountdown();
+  /** @type {ClassEvent | null} */
   #event = null;
   /** When countdowns end (ms, performance.now); Infinity for none. */
   #attentionEndsAt = Infinity;
@@ -63,17 +67,23 @@ export class ClassBar {
   /** The teacher's words for a world that stands still; empty while a race counts down. */
   get heldText() {
     if (this.#msToRace() > 0) return "";
-    const { attention, role } = this.#event ?? {};
-    if (role === "teacher") return attention?.kind ? "You have stopped all worlds" : "";
+    const attention = this.#event?.attention;
+    if (this.#event?.role === "teacher") return attention.kind ? "You have stopped all worlds" : "";
     return attention?.message || "Your teacher has stopped all worlds";
   }
 
-  /** Return the name of a seat; empty if it is not known. */
+  /**
+   * Return the name of a seat; empty if it is not known.
+   * @param {number} number
+   */
   nameOf(number) {
     return this.#event?.people.find((each) => each.number === number)?.name ?? "";
   }
 
-  /** Show an event of the input socket. */
+  /**
+   * Show an event of the input socket.
+   * @param {ClassEvent} event
+   */
   show(event) {
     const now = performance.now();
     const { attention, race } = event;
@@ -115,6 +125,7 @@ export class ClassBar {
     return this.#raceStartsAt - performance.now();
   }
 
+  /** @param {ClassEvent} event */
   #drawPeople({ name, colour, role, people }) {
     const isTeacher = role === "teacher";
     setText(this.#name, isTeacher ? "Teacher" : name || "Our world");
@@ -128,6 +139,7 @@ export class ClassBar {
     this.#others.hidden = others.length === 0;
   }
 
+  /** @param {StudentRace | null} race */
   #drawRace(race) {
     this.#race.hidden = race === null;
     const rows = race?.board ?? [];
@@ -137,9 +149,10 @@ export class ClassBar {
   }
 
   #toggleBoard() {
-    this.#showBoard(this.#board.hidden);
+    this.#showBoard(this.#board.hidden === true);
   }
 
+  /** @param {boolean} isShown */
   #showBoard(isShown) {
     this.#board.hidden = !isShown;
     this.#boardButton.ariaExpanded = String(isShown);
@@ -152,18 +165,24 @@ export class ClassBar {
   }
 }
 
+/** @param {Person} person */
 function makePerson({ name, colour }) {
   const dot = element("span", { className: "ai4u-class-dot", ariaHidden: "true" });
   dot.style.background = colour;
   return element("li", {}, dot, element("span", { textContent: name }), element("small"));
 }
 
+/**
+ * @param {HTMLElement} item
+ * @param {Person} person
+ */
 function updatePerson(item, { name, is_here: isHere }) {
   item.toggleAttribute("data-away", !isHere);
   item.title = isHere ? name : `${name} (not here)`;
   setText(item.querySelector("small"), isHere ? "" : "(not here)");
 }
 
+/** @param {StudentRace["board"][number]} row */
 function boardRow({ name, colour, outcome, seconds }) {
   const dot = element("span", { className: "ai4u-class-dot", ariaHidden: "true" });
   dot.style.background = colour;
@@ -171,6 +190,10 @@ function boardRow({ name, colour, outcome, seconds }) {
   return element("li", {}, dot, element("span", { textContent: name }), element("span", { textContent: result }));
 }
 
+/**
+ * @param {StudentRace | null} race
+ * @param {number} toRace time to its start (ms)
+ */
 function raceText(race, toRace) {
   if (!race) return "";
   if (toRace > 0) return "Race";
@@ -193,6 +216,7 @@ function studentActions() {
 }
 
 async function showMoveCode() {
+  /** @type {{code: string, minutes: number, problem?: string}} */
   let answer;
   try {
     const response = await fetch("../../api/move-code", { method: "POST", cache: "no-store" });
@@ -213,8 +237,11 @@ async function showMoveCode() {
   clearInterval(timer);
 }
 
-/** Close the dialog with a code that the other device has used, or whose time is over. */
+/**
+ * Close the dialog with a code that the other device has used, or whose time is over.
+ * @param {HTMLElement} content
+ */
 async function closeIfUsed(content) {
-  const answer = await fetch("../../api/move-code", { cache: "no-store" }).catch(() => null);
+  const answer = await fetch("../../api/move-code", { cache: "no-store" }).catch(/** @returns {null} */ () => null);
   if (answer?.ok && !(await answer.json()).is_open) content.closest("dialog")?.close();
 }

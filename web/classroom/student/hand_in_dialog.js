@@ -1,5 +1,7 @@
 /** The dialog with which a student hands in a network for a tournament of the class. */
 
+/** @import { HandedIn, Network } from "../../types/class.js" */
+
 import { element, keyed, setText } from "../../shared/dom.js";
 import { field, select, showForm } from "../../shared/form_dialog.js";
 import { tell } from "../../shared/dialog.js";
@@ -11,6 +13,7 @@ const UNREACHABLE = "The class can't be reached. Try again in a moment.";
 const ALL_PARTS = "All of my robots";
 
 export async function showHandIn() {
+  /** @type {HandedIn} */
   let facts;
   try {
     facts = await ask();
@@ -32,6 +35,7 @@ export async function showHandIn() {
     partField.hidden = parts.length === 0;
   }
 
+  /** @param {HandedIn} answer */
   function show(answer) {
     facts = answer;
     const titles = Object.fromEntries(facts.scenes.map(({ name, title }) => [name, title]));
@@ -65,7 +69,12 @@ export async function showHandIn() {
   clearTimeout(timer);
 }
 
-/** Ask the class what was handed in; with a file, hand it in first. Rejects with a sentence. */
+/**
+ * Ask the class what was handed in; with a file, hand it in first. Rejects with a sentence.
+ * @param {{scene: string, part: string, file: string} | null} [place]
+ * @param {File | null} [body]
+ * @returns {Promise<HandedIn>}
+ */
 async function ask(place = null, body = null) {
   let answer;
   try {
@@ -83,6 +92,11 @@ function makeNetwork() {
   return element("li", {}, element("strong"), " ", element("span"));
 }
 
+/**
+ * @param {HTMLElement} item
+ * @param {Network} network
+ * @param {Record<string, string>} titles of scenes
+ */
 function updateNetwork(item, { scene, part, file, verdict, reason }, titles) {
   const words = { open: "is being checked…", right: "can play ✓", refused: `was not taken: ${reason}` };
   item.dataset.verdict = verdict;

@@ -49,7 +49,10 @@ export class BlankScreen {
   }
 }
 
-/** Hide the page of somebody who is not in the class any more, and lead to the page on which one joins. */
+/**
+ * Hide the page of somebody who is not in the class any more, and lead to the page on which one joins.
+ * @param {string} reason
+ */
 export function showLeft(reason) {
   if (document.querySelector(".ai4u-left")) return;
   const title = element("h1", { id: "ai4u-left-title", textContent: "This world is closed for you now" });

@@ -7,23 +7,30 @@ const ADDRESS = "../../api/program/run";
 const RETRY_MS = 10_000;
 /** Longest sentence; the class takes a bit more. */
 const MAX_TEXT_CHARS = 600;
-/** Kinds of mistakes outside of Python, by the kind that the class knows. */
+/**
+ * Kinds of mistakes as the class knows them, by the kind outside of Python.
+ * @type {Record<string, string>}
+ */
 const KINDS = { endless: "endless", too_large: "memory" };
+
+/** @typedef {{state: string, kind?: string, text?: string, line?: number}} Report */
+/** @typedef {{reason: string, text: string, line: number | null, kind?: string}} RunEnd see CodeRun */
 
 export class ProgramReports {
   #isInClass = roomOfPage() !== "";
-  /** The latest news, and those that the class has, as text. */
+  /** @type {Report | null} */
   #latest = null;
+  /** The report that the class has, as text. */
   #told = "";
   #isBusy = false;
   #timer = 0;
 
-  /** @param runs a CodeRun and a CodeTest */
+  /** @param {(EventTarget & {phase: string})[]} runs a CodeRun and a CodeTest */
   constructor(...runs) {
     if (!this.#isInClass) return;
     for (const run of runs) {
       run.addEventListener("change", () => ["running", "stepping", "testing"].includes(run.phase) && this.#tell({ state: "running" }));
-      run.addEventListener("end", ({ detail }) => this.#tell(reportOf(detail)));
+      run.addEventListener("end", (event) => this.#tell(reportOf(/** @type {CustomEvent<RunEnd>} */ (event).detail)));
     }
   }
 
@@ -32,6 +39,7 @@ export class ProgramReports {
     if (this.#isInClass && this.#latest?.state === "mistake") this.#tell({ state: "ended" });
   }
 
+  /** @param {Report} report */
   #tell(report) {
     this.#latest = report;
     this.#send();
@@ -47,6 +55,7 @@ export class ProgramReports {
     if (!isReached && this.#isInClass) this.#timer = setTimeout(() => this.#send(), RETRY_MS);
   }
 
+  /** @param {string} body */
   async #put(body) {
     try {
       const answer = await fetch(ADDRESS, { method: "PUT", headers: { "Content-Type": "application/json" }, body });
@@ -60,7 +69,11 @@ export class ProgramReports {
   }
 }
 
-/** Return what the class is told of a run's end. */
+/**
+ * Return what the class is told of a run's end.
+ * @param {RunEnd} end
+ * @returns {Report}
+ */
 function reportOf({ reason, text, line, kind }) {
   if (reason !== "mistake") return { state: "ended" };
   return { state: "mistake", kind: KINDS[kind] ?? kind ?? "", text: text.slice(0, MAX_TEXT_CHARS), line: line ?? 0 };

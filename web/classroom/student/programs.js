@@ -6,6 +6,8 @@
  * is kept among the earlier runs.
  */
 
+/** @import { KeptProgram } from "../../types/class.js" */
+
 import { element, setText } from "../../shared/dom.js";
 import { randomId } from "../../shared/ids.js";
 import { roomOfPage } from "../../shared/room.js";
@@ -22,17 +24,27 @@ const ADDRESS = "../../api/program";
 const NEWER = "The class has a newer program of yours, from another device. It is among the earlier runs.";
 const UNREACHABLE = "The class can't be reached. Your program is kept in this browser, and saved there later.";
 
+/** @typedef {{scene: string, agent: string}} Place */
+/** @typedef {{place: Place, source: string}} Program */
+
 export class ClassPrograms {
   /** Where the present program is kept, in words. */
   element = element("p", { className: "ai4u-soft", role: "status", hidden: true });
   #tab;
   #isInClass = roomOfPage() !== "";
+  /** @type {Place | null} */
   #place = null;
   /** The person has changed or run the program since it was opened. */
   #isTouched = false;
-  /** Programs to save, by place: {place, source}. */
+  /**
+   * Programs to save, by place.
+   * @type {Map<string, Program>}
+   */
   #waiting = new Map();
-  /** Text that the class has, by place. */
+  /**
+   * Text that the class has, by place.
+   * @type {Map<string, string>}
+   */
   #saved = new Map();
   #isSaving = false;
   #failures = 0;
@@ -52,7 +64,11 @@ export class ClassPrograms {
     addEventListener("visibilitychange", () => document.hidden && this.#save());
   }
 
-  /** Read the class's copy of the program of an agent in a scene. */
+  /**
+   * Read the class's copy of the program of an agent in a scene.
+   * @param {string} scene
+   * @param {string} agent
+   */
   open(scene, agent) {
     if (!this.#isInClass) return;
     this.#place = { scene: (scene || "scene").slice(0, MAX_SCENE_NAME_CHARS), agent };
@@ -62,14 +78,20 @@ export class ClassPrograms {
     this.#read(this.#place);
   }
 
-  /** Save a program that was changed, after a pause. */
+  /**
+   * Save a program that was changed, after a pause.
+   * @param {string} source
+   */
   changed(source) {
     if (!this.#isInClass || this.#place === null) return;
     this.#isTouched = true;
     this.#queue(source, SAVE_DELAY_MS);
   }
 
-  /** Save a program that runs, at once. */
+  /**
+   * Save a program that runs, at once.
+   * @param {string} source
+   */
   ran(source) {
     if (!this.#isInClass || this.#place === null) return;
     this.#isTouched = true;
@@ -78,6 +100,7 @@ export class ClassPrograms {
 
   // -- reading -----------------------------------------------------------------------------------
 
+  /** @param {Place} place */
   async #read(place) {
     clearTimeout(this.#readTimer);
     const { status, found } = await get(place);
@@ -93,6 +116,10 @@ export class ClassPrograms {
     }
   }
 
+  /**
+   * @param {Place} place
+   * @param {KeptProgram} kept
+   */
   #compare(place, { source, version, is_of_device: isOfDevice }) {
     const own = this.#tab.source();
     if (source === null) {
@@ -115,6 +142,10 @@ export class ClassPrograms {
 
   // -- saving ------------------------------------------------------------------------------------
 
+  /**
+   * @param {string} source
+   * @param {number} delay (ms)
+   */
   #queue(source, delay) {
     const place = this.#place;
     if (this.#saved.get(keyOf(place)) === source) {
@@ -125,6 +156,7 @@ export class ClassPrograms {
     this.#saveIn(delay);
   }
 
+  /** @param {number} delay (ms) */
   #saveIn(delay) {
     clearTimeout(this.#saveTimer);
     this.#saveTimer = setTimeout(() => this.#save(), delay);
@@ -145,7 +177,12 @@ export class ClassPrograms {
     else if (this.#waiting.size) this.#saveIn(isReached ? SAVE_DELAY_MS : this.#retryDelay());
   }
 
-  /** Note the class's answer; return true if the program need not be sent again. */
+  /**
+   * Note the class's answer; return true if the program need not be sent again.
+   * @param {string} key
+   * @param {Program} program
+   * @param {{status: number, problem: string, version: number}} answer
+   */
   #note(key, program, { status, problem, version }) {
     const isShown = program.place === this.#place;
     if (status === 403) {
@@ -167,7 +204,10 @@ export class ClassPrograms {
     return true;
   }
 
-  /** Keep the program that another device has saved; what the person changes from now on replaces it in the class. */
+  /**
+   * Keep the program that another device has saved; what the person changes from now on replaces it in the class.
+   * @param {Place} place
+   */
   async #keepNewer(place) {
     const { status, found } = await get(place);
     if (status !== 200 || found.source === null || place !== this.#place) return;
@@ -185,13 +225,18 @@ export class ClassPrograms {
     return RETRY_DELAYS_MS[Math.min(this.#failures, RETRY_DELAYS_MS.length) - 1];
   }
 
+  /** @param {string} text */
   #say(text) {
     setText(this.element, text);
     this.element.hidden = !text;
   }
 }
 
-/** Return the class's answer: {status, found}; status 0 if it can't be reached. */
+/**
+ * Return the class's answer; status 0 if it can't be reached.
+ * @param {Place} place
+ * @returns {Promise<{status: number, found: KeptProgram | null}>}
+ */
 async function get({ scene, agent }) {
   try {
     const query = new URLSearchParams({ scene, agent, device: deviceId() });
@@ -202,7 +247,11 @@ async function get({ scene, agent }) {
   }
 }
 
-/** Send a program; return {status, problem, version}; status 0 if the class can't be reached. */
+/**
+ * Send a program; return {status, problem, version}; status 0 if the class can't be reached.
+ * @param {Program} program
+ * @param {RequestInit} [options]
+ */
 async function put({ place, source }, options = {}) {
   try {
     const answer = await fetch(ADDRESS, {
@@ -218,16 +267,21 @@ async function put({ place, source }, options = {}) {
   }
 }
 
+/** @param {Place} place */
 function keyOf({ scene, agent }) {
   return JSON.stringify([scene, agent]);
 }
 
-/** Return the latest version of a place's program that this browser has seen; 0 for none. */
+/**
+ * Return the latest version of a place's program that this browser has seen; 0 for none.
+ * @param {Place} place
+ */
 function versionOf(place) {
   const version = recall(versionKey(place), 0);
   return Number.isSafeInteger(version) && version > 0 ? version : 0;
 }
 
+/** @param {Place} place */
 function versionKey({ scene, agent }) {
   return `code-version-${roomOfPage()}/${scene}-${agent}`;
 }

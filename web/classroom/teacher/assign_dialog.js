@@ -1,5 +1,7 @@
 /** The dialog that gives a scene or a lesson to one, some or all rooms. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { command } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choice, choices, chosenIn, field, showForm } from "../../shared/form_dialog.js";
@@ -12,7 +14,8 @@ const PROGRAM_HINT = "Optional. The tab Code offers it; what students wrote stay
 
 /**
  * Ask for a scene or a lesson and for rooms, and assign it.
- * @param room id of the room that is chosen at first; "" for all
+ * @param {ClassState} state
+ * @param {string} [room] id of the room that is chosen at first; "" for all
  */
 export function showAssign(state, room = "") {
   const scene = sceneChoice(state, { withLessons: true });

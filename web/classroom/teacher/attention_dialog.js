@@ -1,5 +1,7 @@
 /** The dialog with which a teacher gets everybody's attention. */
 
+/** @import { Attention } from "../../types/class.js" */
+
 import { command } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
@@ -25,7 +27,10 @@ export const HELD = { pause: "All worlds are paused", blank: "All screens are bl
 /** The command that ends it. */
 export const END_ATTENTION = { do: "attention", kind: "", message: "", seconds: 0 };
 
-/** Return true while worlds are paused, screens are blank, or a message is shown. */
+/**
+ * Return true while worlds are paused, screens are blank, or a message is shown.
+ * @param {Attention} attention
+ */
 export function isHeld({ kind, message }) {
   return Boolean(kind || message);
 }

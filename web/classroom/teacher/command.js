@@ -4,10 +4,12 @@ import { tell } from "../../shared/dialog.js";
 
 const UNREACHABLE = "The class can't be reached. Is its program still running?";
 
+/** @typedef {{do: string, [argument: string]: unknown}} Command with its arguments */
+
 /**
  * Send a command.
- * @param {{do: string, [argument: string]: any}} command with its arguments
- * @returns {Promise<any>} the answer
+ * @param {Command} command
+ * @returns {Promise<{code?: string, minutes?: number}>} the answer, which only "move code" has
  * @throws {Error} with a sentence for the teacher if it can't be done
  */
 export async function command(command) {
@@ -26,7 +28,10 @@ export async function command(command) {
   throw new Error(problem ?? `The class answered with status ${answer.status}.`);
 }
 
-/** Send a command, and tell the teacher in a dialog if it can't be done. Return true if it was done. */
+/**
+ * Send a command, and tell the teacher in a dialog if it can't be done. Return true if it was done.
+ * @param {Command} wanted
+ */
 export async function commandOrTell(wanted) {
   try {
     await command(wanted);

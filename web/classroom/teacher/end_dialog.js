@@ -1,12 +1,17 @@
 /** The end of a class: export first, then forget everything. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { command } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choice, field, showForm } from "../../shared/form_dialog.js";
 
 export const EXPORT = "./teacher/export";
 
-/** @param {() => void} onForgotten called when everything was deleted */
+/**
+ * @param {ClassState} state
+ * @param {() => void} onForgotten called when everything was deleted
+ */
 export async function showEnd(state, onForgotten) {
   const download = element("a", { href: EXPORT, className: "ai4u-plain", textContent: "Export everything", download: "" });
   const without = element("input", { type: "checkbox" });

@@ -1,17 +1,24 @@
 /** The head of the teacher's page: how to join, small while a class runs, large while it gathers. */
 
+/** @import { ClassState, Seat } from "../../types/class.js" */
+
 import { commandOrTell } from "./command.js";
-import { element, keyed, setText } from "../../shared/dom.js";
+import { element, find, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { showMoveCode } from "./move_code_dialog.js";
 import { ask } from "../../shared/dialog.js";
 
-/** Words by a seat's state; "in" needs none. */
+/**
+ * Words by a seat's state; "in" needs none.
+ * @type {Record<string, string>}
+ */
 const STATES = { left: "left", kicked: "sent out; may join again", banned: "may not come back" };
-const find = (selector) => document.querySelector(selector);
 
 export class JoinHeader {
   #isOpen = true;
-  /** True or false once the teacher has chosen a size; until then it is large while nobody is here. */
+  /**
+   * True or false once the teacher has chosen a size; until then it is large while nobody is here.
+   * @type {boolean | null}
+   */
   #isLarge = null;
   #hasPeople = false;
 
@@ -27,6 +34,7 @@ export class JoinHeader {
     });
   }
 
+  /** @param {ClassState} state */
   show(state) {
     const here = state.seats.filter((seat) => seat.state === "in");
     this.#isOpen = state.open;
@@ -35,7 +43,7 @@ export class JoinHeader {
     setText(find("#code"), state.code);
     // at a JupyterHub students sign in, and need no code
     find("#code").parentElement.hidden = find("#new-code").hidden = !state.code;
-    if (find("#qr").src !== state.qr) find("#qr").src = state.qr;
+    setAttributes(find("#qr"), { src: state.qr });
     find("#qr").hidden = false;
     find("#open").setAttribute("aria-pressed", String(!state.open));
     setText(find("#count"), here.length ? `(${here.length})` : "");
@@ -54,12 +62,16 @@ export class JoinHeader {
   }
 }
 
-/** Show who was here, with a way back where seats have codes. */
+/**
+ * Show who was here, with a way back where seats have codes.
+ * @param {Seat[]} seats
+ * @param {boolean} hasCodes
+ */
 function showGone(seats, hasCodes) {
   const gone = find("#gone");
   gone.hidden = seats.length === 0;
   setText(gone.querySelector("summary"), `No longer here (${seats.length})`);
-  const make = (seat) => {
+  const make = (/** @type {Seat} */ seat) => {
     const code = element("button", { type: "button", className: "ai4u-plain", textContent: "Code…", hidden: !hasCodes });
     code.setAttribute("aria-label", `Code for ${seat.name}`);
     code.addEventListener("click", () => showMoveCode(seat));

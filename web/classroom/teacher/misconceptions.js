@@ -1,25 +1,35 @@
 /** The board of misconceptions: which mistake of which exercise was made how often, and what to say about it. */
 
+/** @import { ClassState, Misconception, Seat } from "../../types/class.js" */
+/** @import { RealNames } from "./real_names.js" */
+
 import { element } from "../../shared/dom.js";
 import { counted } from "../room_words.js";
+
+/** @typedef {Misconception & {names: string[]}} NamedMisconception */
 
 export class Misconceptions {
   #place;
   #realNames;
   #told = "";
 
+  /**
+   * @param {HTMLElement} place
+   * @param {RealNames} realNames
+   */
   constructor(place, realNames) {
     this.#place = place;
     this.#realNames = realNames;
   }
 
+  /** @param {ClassState} state */
   show({ seats, misconceptions = [] }) {
     const named = misconceptions.map((each) => ({ ...each, names: namesOf(each.seats, seats, this.#realNames) }));
     const told = JSON.stringify(named);
     if (told === this.#told) return;
     this.#told = told;
     const exercises = grouped(named);
-    const most = (group) => Math.max(...group.map((each) => each.count));
+    const most = (/** @type {NamedMisconception[]} */ group) => Math.max(...group.map((each) => each.count));
     const groups = [...exercises].sort(([, a], [, b]) => most(b) - most(a));
     const empty = "No mistakes yet. When a check of an exercise finds a known mistake, it is counted here.";
     this.#place.replaceChildren(
@@ -28,12 +38,19 @@ export class Misconceptions {
   }
 }
 
+/** @param {NamedMisconception[]} items */
 function grouped(items) {
+  /** @type {Map<string, NamedMisconception[]>} */
   const groups = new Map();
   for (const each of items) groups.set(each.exercise, [...(groups.get(each.exercise) ?? []), each]);
   return groups;
 }
 
+/**
+ * @param {number[]} numbers
+ * @param {Seat[]} seats
+ * @param {RealNames} realNames
+ */
 function namesOf(numbers, seats, realNames) {
   return numbers
     .map((number) => seats.find((seat) => seat.number === number))
@@ -41,6 +58,7 @@ function namesOf(numbers, seats, realNames) {
     .map((seat) => (realNames.of(seat) ? `${seat.name} (${realNames.of(seat)})` : seat.name));
 }
 
+/** @param {[string, NamedMisconception[]]} exercise */
 function section([exercise, group]) {
   const cards = [...group].sort((a, b) => b.count - a.count).map(mistakeCard);
   return element(
@@ -51,7 +69,10 @@ function section([exercise, group]) {
   );
 }
 
-/** Return a card with a mistake: how often it was made, what it is, what to say, and by whom. */
+/**
+ * Return a card with a mistake: how often it was made, what it is, what to say, and by whom.
+ * @param {{count: number, names: string[], sentence: string, guide: string, diagnosis?: string, examples?: string[]}} mistake
+ */
 export function mistakeCard({ count, names, sentence, guide, diagnosis = "", examples = [] }) {
   return element(
     "article",

@@ -1,8 +1,11 @@
 /** The dialog with the code for a seat whose browser has lost it, or that was sent out. */
 
+/** @import { Seat } from "../../types/class.js" */
+
 import { command } from "./command.js";
 import { ask, tell } from "../../shared/dialog.js";
 
+/** @param {Seat} seat */
 export async function showMoveCode(seat) {
   try {
     const { code, minutes } = await command({ do: "move code", seat: seat.number });

@@ -1,9 +1,12 @@
 /** The dialog for real names, which stay in this browser. */
 
+/** @import { RealNames } from "./real_names.js" */
+
 import { element, setText } from "../../shared/dom.js";
 import { field, showForm } from "../../shared/form_dialog.js";
 import { counted } from "../room_words.js";
 
+/** @param {RealNames} realNames */
 export function showNames(realNames) {
   const file = element("input", { type: "file", accept: ".csv,.tsv,.txt" });
   const loaded = element("p", { role: "status" });

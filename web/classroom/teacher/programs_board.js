@@ -1,5 +1,8 @@
 /** The board of programs: the mistakes that stopped them, and the beginning of each student's program. */
 
+/** @import { ClassState, ProgramRun, Seat, SeatProgram } from "../../types/class.js" */
+/** @import { RealNames } from "./real_names.js" */
+
 import { splitProgram } from "../../blocks/text.js";
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { mistakeCard } from "./misconceptions.js";
@@ -8,7 +11,10 @@ import { programFacts, programsOf } from "./room_programs.js";
 const EMPTY = "No programs yet. When students write programs in the tab Code, each of them appears here.";
 /** Time until the programs are read again while they are shown (ms). */
 const REFRESH_MS = 4000;
-/** Signs and words of how a program runs; a sign differs in shape. */
+/**
+ * Signs and words of how a program runs; a sign differs in shape.
+ * @type {Record<string, {sign: string, text: string}>}
+ */
 const RUNS = {
   running: { sign: "▶", text: "runs" },
   mistake: { sign: "!", text: "stopped by a mistake" },
@@ -18,7 +24,9 @@ export class ProgramsBoard {
   #place;
   #realNames;
   #onOpen;
+  /** @type {ClassState | null} */
   #state = null;
+  /** @type {SeatProgram[]} */
   #programs = [];
   #toldMistakes = "";
   #timer = 0;
@@ -28,16 +36,21 @@ export class ProgramsBoard {
   #list = element("ul", { className: "ai4u-glances", ariaLabel: "Programs" });
 
   /**
-   * @param place the panel of the tab
-   * @param realNames see classroom/teacher/real_names.js
-   * @param onOpen called with the number of the seat whose program is chosen
+   * @param {HTMLElement} place the panel of the tab
+   * @param {RealNames} realNames
+   * @param {(seat: number) => void} onOpen called with the number of the seat whose program is chosen
    */
   constructor(place, realNames, onOpen) {
-    [this.#place, this.#realNames, this.#onOpen] = [place, realNames, onOpen];
+    this.#place = place;
+    this.#realNames = realNames;
+    this.#onOpen = onOpen;
     place.append(this.#problem, this.#mistakes, this.#empty, this.#list);
   }
 
-  /** Show the class's state; while the tab is shown, programs are read again and again. */
+  /**
+   * Show the class's state; while the tab is shown, programs are read again and again.
+   * @param {ClassState} state
+   */
   show(state) {
     this.#state = state;
     this.#drawMistakes();
@@ -63,7 +76,7 @@ export class ProgramsBoard {
 
   #drawMistakes() {
     const { seats, program_mistakes: mistakes = [] } = this.#state;
-    const names = (numbers) => numbers.map((number) => this.#nameOf(seats.find((seat) => seat.number === number))).filter(Boolean);
+    const names = (/** @type {number[]} */ numbers) => numbers.map((number) => this.#nameOf(seats.find((seat) => seat.number === number))).filter(Boolean);
     const named = mistakes.map((each) => ({ ...each, names: names(each.seats) }));
     const told = JSON.stringify(named);
     if (told === this.#toldMistakes) return;
@@ -77,7 +90,7 @@ export class ProgramsBoard {
   #draw() {
     const { seats, runs = {} } = this.#state;
     const here = new Map(seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat]));
-    const isStopped = ({ seat }) => runs[seat]?.state === "mistake";
+    const isStopped = (/** @type {SeatProgram} */ { seat }) => runs[seat]?.state === "mistake";
     const shown = this.#programs.filter(({ seat }) => here.has(seat)).sort((a, b) => Number(isStopped(b)) - Number(isStopped(a)));
     this.#empty.hidden = shown.length > 0;
     keyed(
@@ -85,22 +98,30 @@ export class ProgramsBoard {
       shown,
       ({ seat }) => seat,
       ({ seat }) => this.#makeGlance(seat),
-      (item, program) => this.#update(item.firstChild, program, here.get(program.seat), runs[program.seat]),
+      (item, program) => this.#update(item.firstElementChild, program, here.get(program.seat), runs[program.seat]),
     );
   }
 
+  /** @param {number} seat */
   #makeGlance(seat) {
     const head = element("span", { className: "ai4u-glance-head" }, element("strong"), element("span", { className: "ai4u-facts" }));
     const parts = [head, element("span", { className: "ai4u-glance-run" }), element("span", { className: "ai4u-glance-code" })];
     return element("li", {}, element("button", { type: "button", className: "ai4u-glance", on: { click: () => this.#onOpen(seat) } }, ...parts));
   }
 
+  /**
+   * @param {Element} glance
+   * @param {SeatProgram} program
+   * @param {Seat} seat
+   * @param {ProgramRun | undefined} run
+   */
   #update(glance, program, seat, run) {
     const { python, isOfBlocks } = splitProgram(program.source);
     const { sign, text } = RUNS[run?.state] ?? { sign: "", text: "" };
     const isMistake = run?.state === "mistake";
     const line = isMistake && run.line ? `line ${run.line}: ` : "";
-    const [head, state, code] = glance.children;
+    const [head, state] = glance.children;
+    const code = /** @type {HTMLElement} */ (glance.lastElementChild);
     setText(head.firstChild, this.#nameOf(seat));
     setText(head.lastChild, [programFacts(program, this.#state), isOfBlocks && "made of blocks"].filter(Boolean).join(" · "));
     setText(state, sign && `${sign} ${isMistake ? `${line}${run.text}` : text}`);
@@ -108,6 +129,7 @@ export class ProgramsBoard {
     drawCode(code, python, isMistake ? run.line : 0);
   }
 
+  /** @param {Seat | undefined} seat */
   #nameOf(seat) {
     if (!seat) return "";
     const real = this.#realNames.of(seat);
@@ -115,7 +137,12 @@ export class ProgramsBoard {
   }
 }
 
-/** Show a program with its line numbers; the line with the mistake is marked. */
+/**
+ * Show a program with its line numbers; the line with the mistake is marked.
+ * @param {HTMLElement} place
+ * @param {string} python
+ * @param {number} mistake its line; 0 for none
+ */
 function drawCode(place, python, mistake) {
   const told = `${mistake} ${python}`;
   if (place.dataset.told === told) return;
@@ -128,6 +155,7 @@ function drawCode(place, python, mistake) {
       return made;
     }),
   );
+  /** @type {HTMLElement | null} */
   const marked = place.querySelector("[data-mistake]");
   place.scrollTop = marked ? marked.offsetTop - place.offsetTop - place.clientHeight / 2 : 0;
 }

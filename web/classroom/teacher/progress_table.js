@@ -1,10 +1,16 @@
 /** The tables of progress: students by exercises, and the stars of their programs by scenes. */
 
+/** @import { ClassState, ExerciseProgress, LessonExercises, LibraryScene, Seat } from "../../types/class.js" */
+/** @import { RealNames } from "./real_names.js" */
+
 import { element, setText, tableHead } from "../../shared/dom.js";
 import { counted } from "../room_words.js";
 import { starRow } from "../../scenes/stars.js";
 
-/** Signs and words of an exercise's state; a sign differs in shape. */
+/**
+ * Signs and words of an exercise's state; a sign differs in shape.
+ * @type {Record<string, {sign: string, text: string}>}
+ */
 const STATES = {
   solved: { sign: "✓", text: "solved" },
   hint: { sign: "?", text: "hint read" },
@@ -16,12 +22,19 @@ export class ProgressTable {
   #realNames;
   #told = "";
 
+  /**
+   * @param {HTMLElement} place
+   * @param {RealNames} realNames
+   */
   constructor(place, realNames) {
     this.#place = place;
     this.#realNames = realNames;
   }
 
-  /** Show the class's state; made anew only if something in it has changed. */
+  /**
+   * Show the class's state; drawn again only if something in it has changed.
+   * @param {ClassState} state
+   */
   show({ seats, exercises = [], progress = {}, scenes = [], stars = {} }) {
     const students = seats.filter((seat) => seat.state === "in");
     const told = JSON.stringify([students.map((s) => [s.number, s.name, this.#realNames.of(s)]), exercises, progress, stars]);
@@ -39,6 +52,7 @@ export class ProgressTable {
     this.#keepScroll(() => this.#place.replaceChildren(...tables.filter(Boolean)));
   }
 
+  /** @param {() => void} update */
   #keepScroll(update) {
     const box = this.#place.firstElementChild;
     const [left, top] = [box?.scrollLeft ?? 0, box?.scrollTop ?? 0];
@@ -46,7 +60,12 @@ export class ProgressTable {
     this.#place.firstElementChild.scrollTo(left, top);
   }
 
-  /** Return the table of stars; null if nobody has any. */
+  /**
+   * Return the table of stars; null if nobody has any.
+   * @param {Seat[]} students
+   * @param {LibraryScene[]} scenes
+   * @param {ClassState["stars"]} stars
+   */
   #starTable(students, scenes, stars) {
     const begun = new Set(Object.values(stars).flatMap(Object.keys));
     const shown = scenes.filter(({ name }) => begun.has(name));
@@ -66,10 +85,15 @@ export class ProgressTable {
     return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Stars of programs" }, table);
   }
 
+  /**
+   * @param {Seat[]} students
+   * @param {LessonExercises[]} lessons
+   * @param {ClassState["progress"]} progress
+   */
   #table(students, lessons, progress) {
     const ids = lessons.flatMap((lesson) => lesson.ids);
     const firsts = new Set(lessons.map((lesson) => lesson.ids[0]));
-    const isSolved = (seat, id) => progress[seat.number]?.[id]?.state === "solved";
+    const isSolved = (/** @type {Seat} */ seat, /** @type {string} */ id) => progress[seat.number]?.[id]?.state === "solved";
     const head = element(
       "thead",
       {},
@@ -101,6 +125,10 @@ export class ProgressTable {
   }
 }
 
+/**
+ * @param {ExerciseProgress | undefined} result
+ * @param {boolean} isFirst of its lesson
+ */
 function cell(result, isFirst) {
   const made = element("td", { dataset: isFirst ? { first: "" } : {} });
   const state = STATES[result?.state];

@@ -1,5 +1,7 @@
 /** The dialog that starts a race. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { command } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choice, field, select, showForm } from "../../shared/form_dialog.js";
@@ -12,6 +14,7 @@ const COUNTDOWNS = [
   ["60", "1 minute"],
 ];
 
+/** @param {ClassState} state */
 export function showRace(state) {
   const scene = sceneChoice(state);
   const countdown = select(COUNTDOWNS, "10");

@@ -1,5 +1,7 @@
 /** Real names of students, from a table that the teacher loads. They stay in this browser and are never sent. */
 
+/** @import { Seat } from "../../types/class.js" */
+
 import { forget, recall, remember } from "../../shared/storage.js";
 
 const STORAGE_KEY = "real-names";
@@ -8,20 +10,27 @@ const MAX_NAME_CHARS = 60;
 export class RealNames {
   /** Called when names were loaded or forgotten. */
   onchange = () => {};
-  /** Real names by a seat's number, or by its name in small letters. */
+  /**
+   * Real names by a seat's number, or by its name in small letters.
+   * @type {Record<string, string>}
+   */
   #names = recall(STORAGE_KEY, {});
 
   get count() {
     return Object.keys(this.#names).length;
   }
 
-  /** Return a seat's real name, or "". */
+  /**
+   * Return a seat's real name, or "".
+   * @param {Pick<Seat, "number" | "name">} seat
+   */
   of(seat) {
     return this.#names[seat.number] ?? this.#names[keyOf(seat.name)] ?? "";
   }
 
   /**
    * Load a table: a line for each student, with the seat's number or name, and the real name.
+   * @param {string} text
    * @throws {Error} with a sentence if it has no such line
    */
   load(text) {
@@ -41,8 +50,12 @@ export class RealNames {
   }
 }
 
-/** Return real names by key. Columns may be parted by commas, semicolons or tabs, and be in quotes. */
+/**
+ * Return real names by key. Columns may be parted by commas, semicolons or tabs, and be in quotes.
+ * @param {string} text
+ */
 export function parseNames(text) {
+  /** @type {Record<string, string>} */
   const names = {};
   for (const line of text.replace(/^\ufeff/, "").split(/\r?\n/)) {
     const cells = [...line.matchAll(/\s*(?:"((?:[^"]|"")*)"|([^,;\t]*))\s*(?:[,;\t]|$)/g)];
@@ -52,6 +65,7 @@ export function parseNames(text) {
   return names;
 }
 
+/** @param {string} name */
 function keyOf(name) {
   return name.toLowerCase().replace(/\s+/g, " ").trim();
 }

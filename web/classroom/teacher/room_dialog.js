@@ -1,5 +1,9 @@
 /** The dialog of one room: how it goes, and what the teacher can do about it. */
 
+/** @import { ClassState, Room, Seat } from "../../types/class.js" */
+/** @import { Command } from "./command.js" */
+/** @import { RealNames } from "./real_names.js" */
+
 import { clock } from "../../shared/numbers.js";
 import { showAssign } from "./assign_dialog.js";
 import { command, commandOrTell } from "./command.js";
@@ -10,10 +14,15 @@ import { ask, tell } from "../../shared/dialog.js";
 import { showPrograms } from "./room_programs.js";
 import { counted, roomName, seatsOf, statusOf } from "../room_words.js";
 
+/**
+ * @param {Room} room
+ * @param {ClassState} state
+ * @param {RealNames} realNames
+ */
 export function showRoom(room, state, realNames) {
   const seats = seatsOf(room, state);
   const isLocal = room.kind !== "remote";
-  const act = (text, wanted) =>
+  const act = (/** @type {string} */ text, /** @type {Command} */ wanted) =>
     action(text, async (button) => {
       closeDialogOf(button);
       await commandOrTell(wanted);
@@ -42,9 +51,10 @@ export function showRoom(room, state, realNames) {
     actions,
     element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames, Boolean(state.code)))),
   ];
-  return showForm({ title: roomName(room, state), content: content.filter(Boolean), no: "Close" });
+  return showForm({ title: roomName(room, state), content, no: "Close" });
 }
 
+/** @param {Room} room */
 function facts(room) {
   const { text } = statusOf(room);
   const first = [text, room.status === "driving" && clock(room.seconds), room.why].filter(Boolean).join(" · ");
@@ -59,10 +69,19 @@ function facts(room) {
   );
 }
 
+/**
+ * @param {string} name
+ * @param {string} value
+ */
 function pair(name, value) {
   return [element("dt", { textContent: name }), element("dd", { textContent: value })];
 }
 
+/**
+ * @param {Seat} seat
+ * @param {RealNames} realNames
+ * @param {boolean} hasCodes
+ */
 function person(seat, realNames, hasCodes) {
   const dot = element("span", { className: "ai4u-dot" });
   dot.style.background = seat.colour;
@@ -97,7 +116,11 @@ function person(seat, realNames, hasCodes) {
   );
 }
 
-/** Who is banned may join again with the code in another browser, unless the code changes. */
+/**
+ * Who is banned may join again with the code in another browser, unless the code changes.
+ * @param {Seat} seat
+ * @param {boolean} hasCodes
+ */
 async function showBan(seat, hasCodes) {
   const options = { new: "Set a new code. Whoever knows the old one can’t join again.", keep: "Keep the code" };
   const group = choices("Code of the class", "ban-code", options, "new");
@@ -107,9 +130,13 @@ async function showBan(seat, hasCodes) {
   );
 }
 
-/** Names are those of the list only: so nobody's real name gets to the class. */
+/**
+ * Names are those of the list only: so nobody's real name gets to the class.
+ * @param {Seat} seat
+ */
 async function showRename(seat) {
   try {
+    /** @type {{names: string[]}} */
     const { names } = await (await fetch("./api/names", { cache: "no-store" })).json();
     const group = choices("New name", "new-name", Object.fromEntries(names.map((name) => [name, name])), names[0]);
     const text = "Names come from a list. For a real name, use “Real names…”: it stays in this browser.";
@@ -121,6 +148,10 @@ async function showRename(seat) {
   }
 }
 
+/**
+ * @param {string} text
+ * @param {(button: HTMLButtonElement) => void} onClick
+ */
 function action(text, onClick) {
   const made = element("button", { type: "button", className: "ai4u-plain", textContent: text });
   made.addEventListener("click", () => onClick(made));

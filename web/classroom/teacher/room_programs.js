@@ -1,5 +1,7 @@
 /** The programs of a room's students, for the teacher to read. */
 
+/** @import { ClassState, Room, SeatProgram } from "../../types/class.js" */
+
 import { splitProgram } from "../../blocks/text.js";
 import { element } from "../../shared/dom.js";
 import { showForm } from "../../shared/form_dialog.js";
@@ -9,11 +11,17 @@ const UNREACHABLE = "The class can't be reached. Is its program still running?";
 const ELSEWHERE = "In this class, students' programs stay on their own machines.";
 /** Id of the agent of a scene that has one only. */
 const ONLY_AGENT = "0";
-/** Units of an age, the largest first: [seconds, word]. */
-/** @type {[number, string][]} */
+/**
+ * Units of an age, the largest first: [seconds, word].
+ * @type {[number, string][]}
+ */
 const UNITS = [[86400, "day"], [3600, "hour"], [60, "minute"]];
 
-/** Show the latest program of each seat of a room, as text that can't be changed. */
+/**
+ * Show the latest program of each seat of a room, as text that can't be changed.
+ * @param {Room} room
+ * @param {ClassState} state
+ */
 export function showPrograms(room, state) {
   const list = element("div", { className: "ai4u-programs" });
   const problem = element("p", { className: "ai4u-problem", role: "alert" });
@@ -41,7 +49,11 @@ export function showPrograms(room, state) {
   return shown;
 }
 
-/** Return the latest programs of a room's seats; of all seats their beginning if `room` is empty. */
+/**
+ * Return the latest programs of a room's seats; of all seats their beginning if `room` is empty.
+ * @param {string} room
+ * @returns {Promise<{programs: SeatProgram[]}>}
+ */
 export async function programsOf(room) {
   let answer;
   try {
@@ -55,12 +67,20 @@ export async function programsOf(room) {
   return found;
 }
 
-/** Return where a program is for, and when it was changed. */
+/**
+ * Return where a program is for, and when it was changed.
+ * @param {SeatProgram} program
+ * @param {ClassState} state
+ */
 export function programFacts({ scene, agent, age }, { scenes = [] }) {
   const title = scenes.find(({ name }) => name === scene)?.title ?? scene;
   return [title, agent !== ONLY_AGENT && `robot ${agent}`, ago(age)].filter(Boolean).join(" · ");
 }
 
+/**
+ * @param {SeatProgram} program
+ * @param {ClassState} state
+ */
 function programElement(program, state) {
   const { name, source } = program;
   const isAny = source !== null;
@@ -73,7 +93,10 @@ function programElement(program, state) {
   return element("section", {}, head, mistake && element("p", { className: "ai4u-problem", textContent: mistake }), text);
 }
 
-/** Return an age in words. */
+/**
+ * Return an age in words.
+ * @param {number} seconds
+ */
 export function ago(seconds) {
   const [unit, word] = UNITS.find(([length]) => seconds >= length) ?? [];
   if (!unit) return "changed just now";

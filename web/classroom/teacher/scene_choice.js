@@ -1,5 +1,7 @@
 /** Where a scene for the class comes from: the library, a student's room, or a file of the teacher. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { choices, chosenIn, field, select } from "../../shared/form_dialog.js";
 import { element } from "../../shared/dom.js";
 import { roomName } from "../room_words.js";
@@ -11,7 +13,8 @@ const MAX_SCENE_CHARS = 200_000;
 /**
  * Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`.
  *
- * @param withLessons true if a lesson of the course may be chosen too
+ * @param {ClassState} state
+ * @param {{withLessons?: boolean}} [options] true if a lesson of the course may be chosen too
  */
 export function sceneChoice(state, { withLessons = false } = {}) {
   const scenes = state.scenes.map(({ name, title }) => [name, title]);
@@ -36,7 +39,7 @@ export function sceneChoice(state, { withLessons = false } = {}) {
     const from = chosenIn(source);
     for (const [name, each] of Object.entries(fields)) each.hidden = name !== from;
     const lesson = state.lessons.find(({ number }) => number === ofLesson.value);
-    const chosen = { library: inLibrary.value, lesson: lesson?.scene }[from];
+    const chosen = from === "library" ? inLibrary.value : from === "lesson" ? lesson?.scene : "";
     const shown = state.scenes.filter(({ name }) => name === chosen);
     place.replaceChildren(...shown.map(({ picture, title }) => scenePicture(picture, title)));
   };
@@ -56,7 +59,10 @@ export function sceneChoice(state, { withLessons = false } = {}) {
   return { nodes: [source, ...Object.values(fields), place], value };
 }
 
-/** Return {node, value}: a field for a seed, and a function that returns it, or null if it is left empty. */
+/**
+ * Return {node, value}: a field for a seed, and a function that returns it, or null if it is left empty.
+ * @param {string} hint
+ */
 export function seedField(hint) {
   const input = element("input", { type: "number", min: 0, max: 2 ** 32 - 1, step: 1 });
   return { node: field("Seed (optional)", input, hint), value: () => (input.value === "" ? null : Number(input.value)) };

@@ -1,12 +1,16 @@
 /** The dialog that chooses what the projector page shows. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { command } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
 import { roomName } from "../room_words.js";
 
+/** @type {Record<string, string>} */
 const KINDS = { join: "How to join: address, code and QR code", board: "The wall", room: "One room, live", race: "The race", tournament: "The tournament" };
 
+/** @param {ClassState} state */
 export function showProjector(state) {
   const rooms = state.rooms.map((room) => [room.id, roomName(room, state)]);
   const kinds = { ...KINDS };

@@ -6,8 +6,9 @@
  */
 export function watchTabs(list, onShow) {
   const tabs = /** @type {HTMLElement[]} */ ([...list.querySelectorAll("[role=tab]")]);
-  const panelOf = (tab) => document.getElementById(tab.getAttribute("aria-controls"));
+  const panelOf = (/** @type {Element} */ tab) => document.getElementById(tab.getAttribute("aria-controls"));
 
+  /** @param {HTMLElement} chosen */
   function choose(chosen) {
     for (const tab of tabs) {
       tab.setAttribute("aria-selected", String(tab === chosen));
@@ -20,7 +21,9 @@ export function watchTabs(list, onShow) {
   for (const tab of tabs) tab.addEventListener("click", () => choose(tab));
   list.addEventListener("keydown", (event) => {
     const at = tabs.findIndex((tab) => tab === document.activeElement);
-    const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key];
+    /** @type {Record<string, number>} */
+    const ways = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 };
+    const to = ways[event.key];
     if (to === undefined || at < 0) return;
     event.preventDefault();
     const tab = tabs[(to + tabs.length) % tabs.length];

@@ -1,12 +1,14 @@
 /** The teacher's page: the wall of rooms, progress, misconceptions, and commands for the class. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { showAssign } from "./assign_dialog.js";
 import { END_ATTENTION, isHeld, showAttention } from "./attention_dialog.js";
 import { commandOrTell } from "./command.js";
 import { openClassSocket } from "../socket.js";
 import { ClassStrips } from "../strips.js";
 import { watchTabs } from "./tabs.js";
-import { setText } from "../../shared/dom.js";
+import { find, setText } from "../../shared/dom.js";
 import { showEnd } from "./end_dialog.js";
 import { JoinHeader } from "./join_header.js";
 import { Misconceptions } from "./misconceptions.js";
@@ -26,7 +28,7 @@ import { FILTERS } from "../wall/order.js";
 const BOTTOM_PX = 16;
 const MIN_WALL_PX = 240;
 const NOBODY = "Nobody is here yet. A card for each room appears as soon as somebody joins.";
-const find = (selector) => document.querySelector(selector);
+/** @type {ClassState | null} */
 let state = null;
 /** Sentence while the class can't be reached. */
 let lost = "";
@@ -73,11 +75,16 @@ openClassSocket(
   },
 );
 
-/** Call a function at a click, once there is a state. */
+/**
+ * Call a function at a click, once there is a state.
+ * @param {string} selector
+ * @param {() => void} onClick
+ */
 function onState(selector, onClick) {
   find(selector).addEventListener("click", () => state && onClick());
 }
 
+/** @param {ClassState} message */
 function show(message) {
   state = message;
   sayProblem();

@@ -1,5 +1,8 @@
 /** The tournament on the teacher's page: who handed in what, its start and end, and its results. */
 
+/** @import { ClassState, Contest, Entry, Game, Network, Results, Seat, Tournament } from "../../types/class.js" */
+/** @import { RealNames } from "../teacher/real_names.js" */
+
 import { commandOrTell } from "../teacher/command.js";
 import { element, tableHead } from "../../shared/dom.js";
 import { counted } from "../room_words.js";
@@ -17,28 +20,37 @@ const PHASES = { open: "Students hand in networks.", running: "The games are pla
 
 export class TournamentBoard {
   #realNames;
+  /** @type {ClassState | null} */
   #state = null;
-  #parts;
+  #parts = {
+    head: element("div", { className: "ai4u-tournament-head" }),
+    problem: element("p", { className: "ai4u-tournament-problem", role: "alert" }),
+    course: element("p", { role: "status" }),
+    results: element("div", { className: "ai4u-results" }),
+    networks: element("div"),
+  };
+  /**
+   * The facts that each part shows, as text.
+   * @type {Map<string, string>}
+   */
+  #told = new Map();
 
+  /**
+   * @param {HTMLElement} place
+   * @param {RealNames} realNames
+   */
   constructor(place, realNames) {
     this.#realNames = realNames;
-    const part = (tag, properties) => ({ element: element(tag, properties), told: "" });
-    this.#parts = {
-      head: part("div", { className: "ai4u-tournament-head" }),
-      problem: part("p", { className: "ai4u-tournament-problem", role: "alert" }),
-      course: part("p", { role: "status" }),
-      results: part("div", { className: "ai4u-results" }),
-      networks: part("div", {}),
-    };
-    place.append(...Object.values(this.#parts).map((each) => each.element));
+    place.append(...Object.values(this.#parts));
   }
 
+  /** @param {ClassState} state */
   show(state) {
     this.#state = state;
     const { tournament, handed_in: handedIn, seats } = state;
     const results = tournament?.results ?? null;
     // a part is told all that the tournament is, except for results, which are large
-    const about = { ...tournament, results: null };
+    const about = { ...tournament, results: {} };
     this.#draw("head", [about], () => this.#head());
     this.#draw("problem", [handedIn?.missing, tournament?.problem], () => [[handedIn?.missing, tournament?.problem].filter(Boolean).join(" ")]);
     this.#draw("course", [about, results?.games, results?.total], () => [tournament ? courseOf(tournament) : ""]);
@@ -47,16 +59,21 @@ export class TournamentBoard {
     this.#draw("results", [results, students], () => (results ? this.#results(results) : []));
   }
 
-  /** Draw a part anew if what it tells has changed; the focus stays where it was, or in the part. */
+  /**
+   * Draw a part again if its facts have changed; the focus stays where it was, or in the part.
+   * @param {"head" | "problem" | "course" | "results" | "networks"} name
+   * @param {unknown[]} facts
+   * @param {() => (Node | string)[]} make
+   */
   #draw(name, facts, make) {
     const part = this.#parts[name];
     const told = JSON.stringify(facts);
-    if (part.told === told) return;
-    part.told = told;
-    const focused = part.element.contains(document.activeElement) ? document.activeElement.textContent : null;
-    part.element.replaceChildren(...make());
+    if (this.#told.get(name) === told) return;
+    this.#told.set(name, told);
+    const focused = part.contains(document.activeElement) ? document.activeElement.textContent : null;
+    part.replaceChildren(...make());
     if (focused === null) return;
-    const controls = [...part.element.querySelectorAll("button, a")];
+    const controls = [.../** @type {NodeListOf<HTMLElement>} */ (part.querySelectorAll("button, a"))];
     (controls.find(({ textContent }) => textContent === focused) ?? controls[0])?.focus();
   }
 
@@ -65,10 +82,12 @@ export class TournamentBoard {
     const begin = button(tournament ? "Another tournament…" : "Tournament…", () => showBegin(this.#state), !tournament);
     if (!tournament) return [element("p", { className: "ai4u-empty", textContent: HOW }), element("p", { className: "ai4u-begin" }, begin)];
     const { phase, title } = tournament;
-    const actions = {
+    /** @type {Partial<Record<Tournament["phase"], HTMLElement[]>>} */
+    const byPhase = {
       open: [button("Start…", () => showStart(this.#state), true), begin, send("Close", "close tournament")],
       running: [send("Cancel", "cancel tournament")],
-    }[phase] ?? [button("Start again…", () => showStart(this.#state), phase !== "over"), begin, send("Close", "close tournament")];
+    };
+    const actions = byPhase[phase] ?? [button("Start again…", () => showStart(this.#state), phase !== "over"), begin, send("Close", "close tournament")];
     const project = button("Show on the projector", () => commandOrTell({ do: "show", kind: "tournament" }));
     const report = phase === "over" && element("a", { className: "ai4u-plain", href: "./teacher/tournament", target: "_blank", rel: "noopener", textContent: "Report" });
     return [element("h2", { textContent: `Tournament: ${title}` }), element("div", { className: "ai4u-actions" }, ...actions, project, report)];
@@ -95,6 +114,10 @@ export class TournamentBoard {
     return [element("table", { className: "ai4u-networks" }, caption, head, element("tbody", {}, ...rows)), rest];
   }
 
+  /**
+   * @param {Seat} seat
+   * @param {Network} network
+   */
   #row(seat, { part, file, verdict, reason }) {
     const { sign, text } = VERDICTS[verdict];
     const words = reason ? `${text}: ${reason}` : text;
@@ -107,8 +130,9 @@ export class TournamentBoard {
     );
   }
 
+  /** @param {Results} results */
   #results(results) {
-    const nameOf = (row) => this.#nameOf(this.#state.seats.find(({ number }) => number === row.seat) ?? row);
+    const nameOf = (/** @type {Entry} */ row) => this.#nameOf(this.#state.seats.find(({ number }) => number === row.seat) ?? row);
     const latest = results.latest.map((contest) =>
       element("li", {}, contestLine(contest), contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }), ...watched(contest, results).map(watch)),
     );
@@ -122,23 +146,32 @@ export class TournamentBoard {
     ].filter(Boolean);
   }
 
+  /** @param {Seat | Entry} seat */
   #nameOf(seat) {
-    const real = seat.number ? this.#realNames.of(seat) : "";
+    const real = "number" in seat ? this.#realNames.of(seat) : "";
     return real ? `${seat.name} (${real})` : seat.name;
   }
 }
 
+/** @param {Tournament} tournament */
 function courseOf({ phase, results, players }) {
   const games = results ? ` ${results.games} of ${counted(results.total, "game")}.` : "";
   return PHASES[phase] + (phase === "open" ? ` ${counted(players, "player")} can play.` : games);
 }
 
-/** Return the games of a contest that are offered to watch: both of a match, and the best drive of a race. */
+/**
+ * Return the games of a contest that are offered to watch: both of a match, and the best drive of a race.
+ * @param {Contest} contest
+ * @param {Results} results
+ */
 function watched({ entries, games }, { is_race: isRace }) {
   return isRace ? games.filter(({ who }) => who[0].seat === entries[0].seat).slice(0, 1) : games;
 }
 
-/** Return a link to the recording of a game. */
+/**
+ * Return a link to the recording of a game; empty if there is none.
+ * @param {Game} game
+ */
 function watch({ number, who, points }) {
   if (!number) return "";
   const text = `Watch game ${number}`;
@@ -146,25 +179,44 @@ function watch({ number, who, points }) {
   return element("a", { className: "ai4u-watch", href: `./teacher/tournament/${number}`, target: "_blank", rel: "noopener", title: label, "aria-label": label, textContent: text });
 }
 
-/** Return a button that shows the recording of a game to all. */
+/**
+ * Return a button that shows the recording of a game to all.
+ * @param {Game} game
+ */
 function project({ number }) {
   const shown = button("To the projector", () => commandOrTell({ do: "show", kind: "game", game: number }));
   shown.ariaLabel = `Game ${number} to the projector`;
   return shown;
 }
 
+/**
+ * @param {string} title
+ * @param {HTMLElement[]} items
+ */
 function listed(title, items) {
   return items.length > 0 && element("section", {}, element("h3", { textContent: title }), element("ol", { className: "ai4u-contests" }, ...items));
 }
 
+/**
+ * @param {string} label
+ * @param {HTMLElement} table
+ */
 function scrolled(label, table) {
   return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": label }, table);
 }
 
+/**
+ * @param {string} text
+ * @param {() => void} onClick
+ */
 function button(text, onClick, isMain = false) {
   return element("button", { type: "button", className: isMain ? "ai4u-button" : "ai4u-plain", textContent: text, on: { click: onClick } });
 }
 
+/**
+ * @param {string} text
+ * @param {string} wanted a command
+ */
 function send(text, wanted) {
   return button(text, () => commandOrTell({ do: wanted }));
 }

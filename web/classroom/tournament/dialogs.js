@@ -1,5 +1,7 @@
 /** The dialogs that begin a tournament, and start its games. */
 
+/** @import { ClassState } from "../../types/class.js" */
+
 import { command } from "../teacher/command.js";
 import { element, setText } from "../../shared/dom.js";
 import { choice, choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
@@ -10,15 +12,18 @@ const SEEDS = [1, 2, 3, 5, 10];
 const DEFAULT_SEED = "2";
 const SYSTEMS = { "round-robin": "All play all", swiss: "Neighbours in the standings (Swiss system): fewer games" };
 
-/** Ask for the scene of a tournament. */
+/**
+ * Ask for the scene of a tournament.
+ * @param {ClassState} state
+ */
 export function showBegin(state) {
   const scenes = [...state.scenes].sort((a, b) => Number(b.is_duel) - Number(a.is_duel));
   const scene = select(scenes.map(({ name, title, is_duel: isDuel }) => [name, `${title} (${isDuel ? "a duel" : "a race"})`]), "sumo");
   const hint = "In a duel two networks play against each other. In a race each drives alone on the same starts.";
   const place = element("div");
   const update = () => {
-    const { picture, title } = scenes.find(({ name }) => name === scene.value) ?? {};
-    place.replaceChildren(...(picture ? [scenePicture(picture, title)] : []));
+    const shown = scenes.filter(({ name, picture }) => name === scene.value && picture);
+    place.replaceChildren(...shown.map(({ picture, title }) => scenePicture(picture, title)));
   };
   scene.addEventListener("change", update);
   update();
@@ -28,7 +33,10 @@ export function showBegin(state) {
   );
 }
 
-/** Ask how a tournament is to be played, and start it. */
+/**
+ * Ask how a tournament is to be played, and start it.
+ * @param {ClassState} state
+ */
 export function showStart(state) {
   const { players, scene } = state.tournament;
   const isDuel = state.scenes.find(({ name }) => name === scene)?.is_duel ?? true;
@@ -42,11 +50,11 @@ export function showStart(state) {
     setText(games, `${counted(entries, "player")}: ${counted(count, "game")}.`);
   };
   const content = [
-    isDuel && system,
+    ...(isDuel ? [system] : []),
     field(isDuel ? "Matches of each pair" : "Races", seeds, isDuel ? "A match is two games from the same start, in which they change sides." : "Each from another start."),
     choice("The scene’s own player takes part, too", own),
     games,
-  ].filter(Boolean);
+  ];
   for (const each of content) each.addEventListener("change", update);
   update();
   const text = "Only networks that have passed their check take part. Games that were played before with the same networks are not played again.";
@@ -55,7 +63,12 @@ export function showStart(state) {
   );
 }
 
-/** Return the number of games; as Plan.games_for of the package. */
+/**
+ * Return the number of games; as Plan.games_for of the package.
+ * @param {number} entries
+ * @param {number} seeds
+ * @param {string} system
+ */
 function gameCount(entries, seeds, system) {
   if (system === "race") return entries * seeds;
   if (system === "round-robin") return entries * (entries - 1) * seeds;

@@ -1,22 +1,26 @@
 /** Tables of a tournament's results, for the teacher's page and the projector page. */
 
+/** @import { Contest, Results, Score, Standing } from "../../types/class.js" */
+
 import { element } from "../../shared/dom.js";
 
 /** Most entries of a cross table that can be read. */
 const MAX_CROSSED = 16;
+/** Most entries of a contest in its line. */
+const MAX_CONTESTANTS = 5;
 
 /**
  * Return the table of standings; with few entries also who won how often against whom, as in chess.
  *
- * @param results of the tournament
+ * @param {Results} results
  * @param {object} [options]
- * @param {(row: any) => string} [options.nameOf] returns the name of a row
+ * @param {(row: Standing) => string} [options.nameOf] returns the name of a row
  * @param {boolean} [options.isShort] without the points, for the projector
  */
 export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ name }) => name, isShort = false } = {}) {
   const isCrossed = !isRace && standings.length <= MAX_CROSSED;
   const numbers = isCrossed ? standings.map((_, index) => String(index + 1)) : [];
-  const heads = ["", "Name", ...numbers, "Won", "Drawn", "Lost", !isShort && (isRace ? "Reward" : "Points"), "Rating"].filter((each) => each !== false);
+  const heads = ["", "Name", ...numbers, "Won", "Drawn", "Lost", ...(isShort ? [] : [isRace ? "Reward" : "Points"]), "Rating"];
   const rows = standings.map((row, index) =>
     element(
       "tr",
@@ -34,7 +38,15 @@ export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ nam
   return element("table", { className: "ai4u-standings" }, element("caption", { textContent: caption }), element("thead", {}, head), element("tbody", {}, ...rows));
 }
 
-/** Return the cell of a row and the column of another entry. */
+/**
+ * Return the cell of a row and the column of another entry.
+ * @param {Standing} row
+ * @param {Standing[]} standings
+ * @param {number} index of the row
+ * @param {number} other index of the other entry
+ * @param {Score | null} counts
+ * @param {(row: Standing) => string} nameOf
+ */
 function crossing(row, standings, index, other, counts, nameOf) {
   if (other === index) return element("td", { className: "ai4u-crossing ai4u-own" });
   const [won, drawn, lost] = counts ?? [];
@@ -42,9 +54,12 @@ function crossing(row, standings, index, other, counts, nameOf) {
   return element("td", { className: "ai4u-crossing", title }, counts ? score(counts) : "");
 }
 
-/** Return a contest in words and numbers: who played, the points, and who won. */
-export function contestLine({ entries, has_failed: hasFailed }, count = 5) {
-  const shown = entries.slice(0, count);
+/**
+ * Return a contest in words and numbers: who played, the points, and who won.
+ * @param {Contest} contest
+ */
+export function contestLine({ entries, has_failed: hasFailed }) {
+  const shown = entries.slice(0, MAX_CONTESTANTS);
   const isDrawn = entries.every(({ rank }) => rank === entries[0].rank);
   const parts = shown.flatMap((entry, index) => [
     index > 0 && element("span", { className: "ai4u-versus", textContent: shown.length === 2 ? "–" : "" }),
@@ -60,24 +75,34 @@ export function contestLine({ entries, has_failed: hasFailed }, count = 5) {
   return element("span", { className: "ai4u-contest" }, ...parts, element("span", { className: "ai4u-end", textContent: end }));
 }
 
-/** Return a seat's colour as a dot. */
+/**
+ * Return a seat's colour as a dot.
+ * @param {{colour: string}} seat
+ */
 export function dot({ colour }) {
   const made = element("span", { className: "ai4u-dot", "aria-hidden": "true" });
   made.style.background = colour;
   return made;
 }
 
-/** Return points as in chess: "2½". */
+/**
+ * Return points as in chess: "2½".
+ * @param {Score} counts
+ */
 export function score([won, drawn]) {
   const halves = 2 * won + drawn;
   return `${halves > 1 || halves === 0 ? Math.floor(halves / 2) : ""}${halves % 2 ? "½" : ""}`;
 }
 
+/** @param {number | string} text */
 function cell(text) {
   return element("td", { textContent: text });
 }
 
-/** Return points with a real minus. */
+/**
+ * Return points with a real minus.
+ * @param {number} value
+ */
 function number(value) {
   return value.toFixed(1).replace("-", "−");
 }

@@ -5,22 +5,37 @@
  * drawn again only if something in it changed and it is in view.
  */
 
+/** @import { DrawingMessage, Poses } from "../../types/class.js" */
+
 import { Drawing } from "./drawing.js";
 
 /** Part of the window's height that the canvas extends beyond it, above and below. */
 const MARGIN = 0.3;
 
+/** @typedef {{x: number, y: number, width: number, height: number}} Box in the canvas's pixels */
+
 export class WallCanvas {
   #wall;
   #canvas;
   #context;
-  /** Drawings by room, kept while a room isn't shown. */
+  /**
+   * Drawings by room, kept while a room isn't shown.
+   * @type {Map<string, Drawing>}
+   */
   #drawings = new Map();
-  /** Poses that came before their drawing. */
+  /**
+   * Poses that came before their drawing.
+   * @type {Map<string, Poses>}
+   */
   #early = new Map();
-  /** Picture areas by room. */
+  /**
+   * Picture areas by room.
+   * @type {Map<string, Element>}
+   */
   #areas = new Map();
+  /** @type {Map<string, Box>} */
   #boxes = new Map();
+  /** @type {Set<string>} */
   #dirty = new Set();
   #isLaidOut = false;
   #frame = 0;
@@ -43,7 +58,10 @@ export class WallCanvas {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.layOut());
   }
 
-  /** Show these rooms: picture areas by room. */
+  /**
+   * Show these rooms.
+   * @param {Map<string, Element>} areas picture areas by room
+   */
   show(areas) {
     this.#areas = areas;
     this.layOut();
@@ -55,6 +73,7 @@ export class WallCanvas {
     this.#request();
   }
 
+  /** @param {DrawingMessage} message */
   setDrawing(message) {
     const drawing = new Drawing(message);
     this.#drawings.set(message.room, drawing);
@@ -64,7 +83,10 @@ export class WallCanvas {
     this.#markDirty(message.room);
   }
 
-  /** Take poses: {drawing, values} by room. */
+  /**
+   * Take poses.
+   * @param {Record<string, Poses>} rooms by room
+   */
   setPoses(rooms) {
     const now = performance.now();
     for (const [room, poses] of Object.entries(rooms)) {
@@ -75,7 +97,10 @@ export class WallCanvas {
     }
   }
 
-  /** Forget the drawings of all rooms but these. */
+  /**
+   * Forget the drawings of all rooms but these.
+   * @param {string[]} rooms
+   */
   keepOnly(rooms) {
     const kept = new Set(rooms);
     for (const map of [this.#drawings, this.#early]) {
@@ -83,6 +108,7 @@ export class WallCanvas {
     }
   }
 
+  /** @param {string} room */
   #markDirty(room) {
     this.#dirty.add(room);
     if (this.#areas.has(room)) this.#request();
@@ -92,6 +118,7 @@ export class WallCanvas {
     if (this.#frame === 0) this.#frame = requestAnimationFrame((now) => this.#draw(now));
   }
 
+  /** @param {number} now (ms) */
   #draw(now) {
     this.#frame = 0;
     const wall = this.#wall.getBoundingClientRect();
@@ -116,12 +143,17 @@ export class WallCanvas {
     }
   }
 
-  /** Put the canvas at a height of the wall, clear it, and measure where rooms are. */
+  /**
+   * Put the canvas at a height of the wall, clear it, and measure where rooms are.
+   * @param {DOMRect} wall
+   * @param {number} top
+   * @param {number} height
+   */
   #place(wall, top, height) {
     this.#isLaidOut = true;
     this.#top = Math.round(top);
     this.#ratio = Math.min(2, devicePixelRatio);
-    const pixels = (length) => Math.round(length * this.#ratio);
+    const pixels = (/** @type {number} */ length) => Math.round(length * this.#ratio);
     this.#canvas.style.top = `${this.#top}px`;
     this.#canvas.style.height = `${Math.round(height)}px`;
     this.#canvas.width = pixels(wall.width);
@@ -142,7 +174,13 @@ export class WallCanvas {
   }
 }
 
-/** Return true if a box of the canvas is in the window. */
+/**
+ * Return true if a box of the canvas is in the window.
+ * @param {Box} box
+ * @param {number} above height of the wall above the window
+ * @param {number} ratio
+ * @param {number} canvasTop
+ */
 function isInView(box, above, ratio, canvasTop) {
   const top = box.y / ratio + canvasTop;
   return top < above + innerHeight && top + box.height / ratio > above;

@@ -1,5 +1,7 @@
 /** The wall's filter, order and size of cards, which this browser remembers. */
 
+/** @import { Wall } from "./wall.js" */
+
 import { element, setText } from "../../shared/dom.js";
 import { recall, remember } from "../../shared/storage.js";
 import { FILTERS } from "./order.js";
@@ -11,9 +13,16 @@ const MAX_WIDTH_PX = 640;
 
 export class WallControls {
   #wall;
+  /**
+   * By filter.
+   * @type {Map<string, HTMLButtonElement>}
+   */
   #buttons = new Map();
 
-  /** @param {HTMLElement} place has elements for filters, order and size */
+  /**
+   * @param {HTMLElement} place has elements for filters, order and size
+   * @param {Wall} wall
+   */
   constructor(place, wall) {
     this.#wall = wall;
     const { by, size } = { by: "help", size: 0, ...recall(STORAGE_KEY, {}) };
@@ -46,12 +55,14 @@ export class WallControls {
     for (const [filter, button] of this.#buttons) setText(button.querySelector("small"), String(this.#wall.count(filter)));
   }
 
+  /** @param {string} chosen */
   #filter(chosen) {
     for (const [filter, button] of this.#buttons) button.setAttribute("aria-pressed", String(filter === chosen));
     this.#wall.look({ filter: chosen });
   }
 }
 
+/** @param {number} size */
 function widthOf(size) {
   return size === 0 ? 0 : MIN_WIDTH_PX * (MAX_WIDTH_PX / MIN_WIDTH_PX) ** (size / 100);
 }

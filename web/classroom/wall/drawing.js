@@ -1,5 +1,8 @@
 /** The drawing of one room on the wall: its ground and bodies, with poses interpolated between two messages. */
 
+/** @import { DrawingMessage, Shape } from "../../types/class.js" */
+/** @import { Box } from "./canvas.js" */
+
 /** Time between two poses of a room; the class sends 4 a second. */
 const STEP_MS = 250;
 /** Part of the drawing's size that a body moves in a step only if it was put there. */
@@ -10,16 +13,21 @@ const EDGE = "#1b2530";
 const FILLED = 0.97;
 const VALUES_PER_BODY = 4; // x, y (m), heading (rad), visibility
 
+/** @typedef {{colour: string, path: Path2D}} Painted */
+/** @typedef {{isAgent: boolean, shapes: Painted[]}} Body */
+
 export class Drawing {
   #bounds;
   #ground;
   #bodies;
   #jump;
+  /** @type {number[] | null} */
   #from = null;
+  /** @type {number[] | null} */
   #to = null;
   #since = -STEP_MS;
 
-  /** @param message of the type "drawing" */
+  /** @param {DrawingMessage} message */
   constructor({ number, bounds, ground, bodies }) {
     this.number = number;
     this.#bounds = bounds;
@@ -32,21 +40,31 @@ export class Drawing {
     }));
   }
 
-  /** Take poses: four numbers for each body. Without `glides`, they are shown at once. */
+  /**
+   * Take poses.
+   * @param {number[]} values four numbers for each body
+   * @param {number} now (ms)
+   * @param {boolean} glides else they are shown at once
+   */
   setPoses(values, now, glides) {
     this.#from = this.#to && glides ? this.#posesAt(now) : values;
     this.#to = values;
     this.#since = now;
   }
 
-  /** Return true while bodies are between two poses. */
+  /**
+   * Return true while bodies are between two poses.
+   * @param {number} now (ms)
+   */
   isMoving(now) {
     return this.#from !== this.#to && now < this.#since + STEP_MS;
   }
 
   /**
    * Draw into a box of a canvas, as large as fits.
-   * @param {{x: number, y: number, width: number, height: number}} box in the canvas's pixels
+   * @param {CanvasRenderingContext2D} context
+   * @param {Box} box
+   * @param {number} now (ms)
    */
   draw(context, box, now) {
     const [left, bottom, right, top] = this.#bounds;
@@ -69,6 +87,7 @@ export class Drawing {
     context.restore();
   }
 
+  /** @param {number} now (ms) */
   #posesAt(now) {
     const share = Math.max(0, Math.min(1, (now - this.#since) / STEP_MS)); // a frame's time may lie before it
     if (share >= 1 || this.#from === this.#to || this.#from?.length !== this.#to?.length) return this.#to;
@@ -83,6 +102,12 @@ export class Drawing {
   }
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Body} body
+ * @param {[number, number, number]} place scale, x and y of the drawing
+ * @param {[number, number, number]} pose
+ */
 function drawBody(context, body, [scale, x, y], [bodyX, bodyY, heading]) {
   const cos = scale * Math.cos(heading);
   const sin = scale * Math.sin(heading);
@@ -91,6 +116,12 @@ function drawBody(context, body, [scale, x, y], [bodyX, bodyY, heading]) {
   for (const shape of body.shapes) fill(context, shape);
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Painted[]} shapes
+ * @param {string} colour
+ * @param {number} width
+ */
 function outline(context, shapes, colour, width) {
   context.strokeStyle = colour;
   context.lineWidth = width;
@@ -98,11 +129,19 @@ function outline(context, shapes, colour, width) {
   for (const { path } of shapes) context.stroke(path);
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Painted} shape
+ */
 function fill(context, { colour, path }) {
   context.fillStyle = colour;
   context.fill(path);
 }
 
+/**
+ * @param {Shape} shape
+ * @returns {Painted}
+ */
 function painted({ colour, radius, points }) {
   const path = new Path2D();
   if (radius > 0) path.arc(points[0], points[1], radius, 0, 2 * Math.PI);

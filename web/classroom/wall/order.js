@@ -1,5 +1,7 @@
 /** Which rooms a wall shows, and in which order. */
 
+/** @import { Room } from "../../types/class.js" */
+
 import { needsHelp } from "../room_words.js";
 
 /** Needs of help that differ by less count as the same, so that cards don't change places all the time. */
@@ -7,6 +9,7 @@ const HELP_STEP = 10;
 /** Share of the largest width of cards with which they keep their places, such as when a strip appears above them. */
 const KEPT_SHARE = 0.6;
 
+/** @type {Record<string, {text: string, keeps: (room: Room) => boolean}>} */
 export const FILTERS = {
   all: { text: "All", keeps: () => true },
   help: { text: "Needs help", keeps: needsHelp },
@@ -17,18 +20,19 @@ export const FILTERS = {
 
 /**
  * Return rooms in the wall's order.
+ * @param {Room[]} rooms
  * @param {string} by "help" or "name"
- * @param {(room: object) => string} nameOf
+ * @param {(room: Room) => string} nameOf
  * @param {string[] | null} held ids of rooms in an order to keep; others follow
  */
 export function ordered(rooms, by, nameOf, held) {
   const names = new Map(rooms.map((room) => [room.id, nameOf(room)]));
-  const byName = (a, b) => names.get(a.id).localeCompare(names.get(b.id)) || a.id.localeCompare(b.id);
-  const need = (room) => Math.round((room.help ?? 0) / HELP_STEP);
+  const byName = (/** @type {Room} */ a, /** @type {Room} */ b) => names.get(a.id).localeCompare(names.get(b.id)) || a.id.localeCompare(b.id);
+  const need = (/** @type {Room} */ room) => Math.round((room.help ?? 0) / HELP_STEP);
   const sorted = [...rooms].sort((a, b) => (by === "help" && need(b) - need(a)) || byName(a, b));
   if (!held) return sorted;
   const places = new Map(held.map((id, index) => [id, index]));
-  const place = (room) => places.get(room.id) ?? held.length;
+  const place = (/** @type {Room} */ room) => places.get(room.id) ?? held.length;
   return sorted.sort((a, b) => place(a) - place(b));
 }
 

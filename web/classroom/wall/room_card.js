@@ -1,12 +1,20 @@
 /** A room's card on the wall: who is in it, how it goes, and an empty area that the wall's canvas shows through. */
 
+/** @import { ClassState, Room, Seat } from "../../types/class.js" */
+/** @import { Names } from "./wall.js" */
+
 import { element, setAttributes, setText } from "../../shared/dom.js";
 import { needsHelp, roomName, seatsOf, statusOf } from "../room_words.js";
 
 const MAX_DOTS = 8;
 const MAX_COLOUR_DOTS = 3;
 
-/** Return a card; `onOpen`, if given, is called with the room's id when a person chooses it. */
+/**
+ * Return a card.
+ * @param {Room} room
+ * @param {((room: string) => void) | null} onOpen called with the room's id when a person chooses it; null for a card that can't be
+ *   chosen
+ */
 export function roomCard(room, onOpen) {
   const parts = [
     element(
@@ -31,9 +39,16 @@ export function roomCard(room, onOpen) {
   return element("li", {}, open);
 }
 
-/** Bring a card up to date. */
+/**
+ * Bring a card up to date.
+ * @param {Element} card
+ * @param {Room} room
+ * @param {ClassState} state
+ * @param {Names} realNames
+ */
 export function updateCard(card, room, state, realNames) {
   const box = card.firstElementChild;
+  /** @type {(name: string) => HTMLElement} */
   const part = (name) => box.querySelector(`.ai4u-room-${name}`);
   const seats = seatsOf(room, state);
   const status = statusOf(room);
@@ -57,6 +72,10 @@ export function updateCard(card, room, state, realNames) {
   setAttributes(box, { "aria-label": told.filter(Boolean).join(", ") });
 }
 
+/**
+ * @param {HTMLElement} place
+ * @param {Seat[]} seats
+ */
 function showColours(place, seats) {
   const colours = seats.slice(0, MAX_COLOUR_DOTS).map((seat) => seat.colour);
   if (place.dataset.colours === colours.join()) return;
@@ -70,8 +89,16 @@ function showColours(place, seats) {
   );
 }
 
-/** Return the exercises of the last lesson that somebody of these seats has begun: {lesson, id, state}. */
+/** @typedef {{lesson: string, id: string, state: string}} Exercise */
+
+/**
+ * Return the exercises of the last lesson that somebody of these seats has begun.
+ * @param {Seat[]} seats
+ * @param {ClassState} state
+ * @returns {Exercise[]}
+ */
 function progressOf(seats, state) {
+  /** @type {Record<string, string>} */
   const found = {};
   for (const seat of seats) {
     for (const [id, { state: reached }] of Object.entries(state.progress?.[seat.number] ?? {})) {
@@ -82,6 +109,10 @@ function progressOf(seats, state) {
   return (lesson?.ids ?? []).map((id) => ({ lesson: lesson.lesson, id, state: found[id] ?? "" }));
 }
 
+/**
+ * @param {HTMLElement} place
+ * @param {Exercise[]} dots
+ */
 function showProgress(place, dots) {
   const told = dots.map((each) => each.state || "none").join(" ");
   if (place.dataset.told === told) return;

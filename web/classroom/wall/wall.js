@@ -1,5 +1,7 @@
 /** The wall: a card for each room, sorted, filtered and sized, with the drawings of all rooms behind them. */
 
+/** @import { ClassState, DrawingMessage, PosesMessage, Seat } from "../../types/class.js" */
+
 import { keyed } from "../../shared/dom.js";
 import { roomCard, updateCard } from "./room_card.js";
 import { roomName } from "../room_words.js";
@@ -13,13 +15,20 @@ const MIN_FOOT_PX = 170;
 /** How long a pointer that rests on a card holds the order. */
 const POINTER_HOLDS_MS = 10_000;
 
+/** @typedef {{of: (seat: Seat) => string}} Names real names, see classroom/teacher/real_names.js */
+
 export class Wall {
   #wall;
   #list;
   #canvas;
   #onOpen;
   #realNames;
+  /** @type {ClassState | null} */
   #state = null;
+  /**
+   * Ids of rooms.
+   * @type {string[]}
+   */
   #order = [];
   #pointerUntil = 0;
   #view = { by: "help", filter: "all", width: 0 };
@@ -30,7 +39,7 @@ export class Wall {
    * @param {HTMLElement} wall has a canvas and a list
    * @param {object} options
    * @param {((room: string) => void) | null} [options.onOpen] called with a room's id; without it, cards are no buttons
-   * @param {{of: (seat: any) => string}} [options.realNames] see classroom/teacher/real_names.js
+   * @param {Names} [options.realNames]
    * @param {() => number} options.heightLeft returns the height that all cards should fit into
    */
   constructor(wall, { onOpen = null, realNames = { of: () => "" }, heightLeft }) {
@@ -49,22 +58,31 @@ export class Wall {
   }
   #heightLeft;
 
+  /** @param {DrawingMessage} message */
   setDrawing(message) {
     this.#canvas.setDrawing(message);
   }
 
+  /** @param {PosesMessage} message */
   setPoses({ rooms }) {
     this.#canvas.setPoses(rooms);
   }
 
-  /** Show the class's state. */
+  /**
+   * Show the class's state.
+   * @param {ClassState} state
+   */
   show(state) {
     this.#state = state;
     this.#canvas.keepOnly(state.rooms.map((room) => room.id));
     this.#update();
   }
 
-  /** Change the view: `by` ("help" or "name"), `filter` (see classroom/wall/order.js), `width` of a card (0: so that all fit). */
+  /**
+   * Change the view.
+   * @param {{by?: string, filter?: string, width?: number}} view order ("help" or "name"), filter (see classroom/wall/order.js), and width of a
+   *   card (0: so that all fit)
+   */
   look(view) {
     Object.assign(this.#view, view);
     this.#order = [];
@@ -75,7 +93,10 @@ export class Wall {
     return this.#view.filter;
   }
 
-  /** Return how many rooms a filter keeps. */
+  /**
+   * Return how many rooms a filter keeps.
+   * @param {string} filter
+   */
   count(filter) {
     return this.#state?.rooms.filter(FILTERS[filter].keeps).length ?? 0;
   }
@@ -99,7 +120,7 @@ export class Wall {
     if (focused?.isConnected && focused !== document.activeElement) focused.focus({ preventScroll: true });
     if (!isOther) return;
     if (this.#onOpen) this.#makeTabStop(this.#list.querySelector("button[tabindex='0']") ?? this.#buttons()[0]);
-    const cards = [...this.#list.children];
+    const cards = /** @type {HTMLElement[]} */ ([...this.#list.children]);
     this.#canvas.show(new Map(cards.map((card) => [card.dataset.key, card.querySelector(".ai4u-room-picture")])));
     this.fit();
   }
@@ -124,6 +145,10 @@ export class Wall {
     this.#canvas.layOut();
   }
 
+  /**
+   * @param {number} count
+   * @param {number} width
+   */
   #fitting(count, width) {
     const isSame = count === this.#fitted.count && width === this.#fitted.width;
     const card = { minWidth: MIN_CARD_PX, heightOf, widthOf };
@@ -134,31 +159,42 @@ export class Wall {
     return [...this.#list.querySelectorAll("button")];
   }
 
-  /** The wall is one stop of the Tab key; arrows lead from card to card. */
+  /**
+   * The wall is one stop of the Tab key; arrows lead from card to card.
+   * @param {EventTarget | null} card
+   */
   #makeTabStop(card) {
     for (const each of this.#buttons()) each.tabIndex = each === card ? 0 : -1;
   }
 
+  /** @param {KeyboardEvent} event */
   #moveFocus(event) {
     const cards = this.#buttons();
     const columns = getComputedStyle(this.#list).gridTemplateColumns.split(" ").length;
-    const ways = { ArrowRight: 1, ArrowLeft: -1, ArrowDown: columns, ArrowUp: -columns };
-    const at = cards.indexOf(document.activeElement);
-    const to = { Home: 0, End: cards.length - 1 }[event.key] ?? (event.key in ways ? at + ways[event.key] : -1);
+    const at = cards.findIndex((card) => card === document.activeElement);
+    /** @type {Record<string, number>} */
+    const ways = { ArrowRight: at + 1, ArrowLeft: at - 1, ArrowDown: at + columns, ArrowUp: at - columns, Home: 0, End: cards.length - 1 };
+    const to = ways[event.key];
     if (at < 0 || !cards[to] || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     cards[to].focus();
   }
 }
 
-/** Return a card's height; as in styles/classroom/wall.css. */
+/**
+ * Return a card's height; as in styles/classroom/wall.css.
+ * @param {number} width
+ */
 function heightOf(width) {
   const fontSize = Math.min(34, Math.max(12, 0.052 * width));
   const lines = width < MIN_FOOT_PX ? 2 : 4;
   return 0.75 * (width - 2) + lines * fontSize + 4;
 }
 
-/** Return the largest width of a card of a height. */
+/**
+ * Return the largest width of a card of a height.
+ * @param {number} height
+ */
 function widthOf(height) {
   let width = (height / 0.75) | 0;
   while (width > 0 && heightOf(width) > height) width -= 1;
