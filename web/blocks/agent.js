@@ -1,9 +1,30 @@
 /** Blocks of an agent's own senses and actions, with their Python. */
 
+/** @import { ProgramActuator, ProgramSensor, PythonPart, RayLayout } from "../types/panel.js" */
+/** @import { Field } from "./kinds.js" */
+/** @import { SenseFields } from "./text.js" */
+
 import { ATOM, COMPARISON, PRODUCT, identifier } from "./words.js";
+
+/** @typedef {{code: string, order: number, functions: string[][]}} Value its code, how tightly it binds, and the functions that it needs */
+/** @typedef {{type: string, message: string, fields: Field[], output: string, python: (fields: SenseFields) => Value, tooltip: string}} Sense */
+/** @typedef {{type: string, message: string, fields: Field[], start: number, variable: string}} Action */
+/**
+ * @typedef {object} Part a number of an actuator; one without effect has a `rest` only
+ * @property {string} rest its value at rest, as code
+ * @property {string} [type] of its block
+ * @property {string} [title]
+ * @property {number} [low]
+ * @property {number} [high]
+ * @property {boolean} [isChoice]
+ * @property {string} [variable]
+ */
+/** @typedef {{name: string, parts: Part[]}} Output an actuator */
+/** @typedef {{senses: Sense[], actions: Action[], touches: ProgramSensor[], outputs: Output[]}} AgentBlocks */
 
 /** Rays that are "ahead": their largest angle to the heading (degrees). */
 const AHEAD_DEG = 20;
+/** @type {Record<string, string>} */
 const SECTORS = { around: "on any side", ahead: "ahead", left: "to the left", right: "to the right" };
 const STATISTICS = { min: "smallest", max: "largest", mean: "mean" };
 const TOUCHES = new Set(["TouchSensor", "GroupTouchSensor"]);
@@ -27,9 +48,8 @@ const FUNCTIONS = {
 
 /**
  * Return the blocks of an agent.
- * @param part the part "python" of the panel
- * @returns {{senses: object[], actions: object[], touches: object[], outputs: object[]}} blocks are
- *   {type, message, fields, output, python}: python returns {code, order, functions}
+ * @param {Partial<PythonPart>} part
+ * @returns {AgentBlocks}
  */
 export function agentBlocks({ sensors = [], actuators = [] }) {
   const known = sensors.filter(({ class: type, kind }) => kind !== "text" && !LEFT_OUT.has(type));
@@ -44,6 +64,10 @@ export function agentBlocks({ sensors = [], actuators = [] }) {
 
 // -- senses ----------------------------------------------------------------------------------------
 
+/**
+ * @param {ProgramSensor} sensor
+ * @returns {Sense[]}
+ */
 function senseBlocks(sensor) {
   const { key, shape, stack = 1, rays, slots = [] } = sensor;
   const reading = `percept[${JSON.stringify(key)}]${stack > 1 ? "[-1]" : ""}`;
@@ -53,50 +77,70 @@ function senseBlocks(sensor) {
   return slots.length ? [slotBlock(sensor, reading)] : [statisticBlock(sensor, reading)];
 }
 
+/**
+ * @param {ProgramSensor} sensor
+ * @param {string} reading
+ */
 function plainBlock({ key, kind, unit }, reading) {
   const output = kind === "bool" ? "Boolean" : "Number";
   return sense(`sense:${key}`, `${key}${unit && ` (${unit})`}`, [], output, () => value(reading));
 }
 
+/**
+ * @param {ProgramSensor} sensor
+ * @param {string} reading
+ */
 function touchBlock({ key }, reading) {
   return sense(`sense:${key}`, `${key} is touched`, [], "Boolean", () => value(`${reading} > 0`, COMPARISON));
 }
 
+/**
+ * @param {ProgramSensor} sensor
+ * @param {string} reading
+ */
 function slotBlock({ key, slots }, reading) {
-  const words = ({ name, unit }) => [name, unit && `(${unit})`].filter(Boolean).join(" ");
+  const words = (/** @type {ProgramSensor["slots"][number]} */ { name, unit }) => [name, unit && `(${unit})`].filter(Boolean).join(" ");
   const ranges = slots.map(({ name, low, high }) => [name, rangeWords(low, high)].filter(Boolean).join(": ")).join("; ");
   if (slots.length === 1) return sense(`sense:${key}`, `${key} ${words(slots[0])}`, [], "Number", () => value(`${reading}[0]`), ranges);
   const options = slots.map((slot, index) => [words(slot), String(index)]);
   return sense(`sense:${key}`, `${key} %1`, [list("SLOT", options)], "Number", ({ SLOT }) => value(`${reading}[${SLOT}]`), ranges);
 }
 
+/**
+ * @param {ProgramSensor} sensor
+ * @param {string} reading
+ */
 function statisticBlock({ key, unit }, reading) {
   const options = Object.entries(STATISTICS).map(([name, words]) => [words, name]);
   const message = `%1 of ${key}${unit && ` (${unit})`}`;
   return sense(`many:${key}`, message, [list("STAT", options)], "Number", ({ STAT }) => value(`${reading}.${STAT}()`));
 }
 
-/** Blocks of a flat fan of rays: the nearest thing, whether a group is seen, and where. */
+/**
+ * Return the blocks of a flat fan of rays: the nearest thing, whether a group is seen, and where.
+ * @param {ProgramSensor} sensor
+ * @param {string} reading
+ */
 function rayBlocks({ key, rays }, reading) {
   const angles = rays.angles_deg;
   const sectors = Object.keys(SECTORS).filter((name) => sideOf(name, angles).count);
   const sides = list("SIDE", sectors.map((name) => [SECTORS[name], name]));
   const groups = list("GROUP", rays.codes.map(([name]) => [name, name]));
-  const codeOf = (group) => number(rays.codes.find(([name]) => name === group)?.[1] ?? -1);
+  const codeOf = (/** @type {string} */ group) => number(rays.codes.find(([name]) => name === group)?.[1] ?? -1);
   const width = Number(rays.has_code) + Number(rays.has_distance);
-  const part = (name, offset) => `${reading}${slice(sideOf(name, angles), width, offset, angles.length)}`;
+  const part = (/** @type {string} */ name, /** @type {number} */ offset) => `${reading}${slice(sideOf(name, angles), width, offset, angles.length)}`;
   const made = [];
   if (rays.has_distance) {
     const factor = rays.reach === rays.reach_m ? "" : `${number(rays.reach_m)} * `;
-    const near = (side) => `${factor}nearest(${part(side, width - 1)}, ${number(rays.reach)})`;
-    const python = ({ SIDE }) => value(near(SIDE), factor ? PRODUCT : ATOM, FUNCTIONS.nearest);
+    const near = (/** @type {string} */ side) => `${factor}nearest(${part(side, width - 1)}, ${number(rays.reach)})`;
+    const python = (/** @type {SenseFields} */ { SIDE }) => value(near(SIDE), factor ? PRODUCT : ATOM, FUNCTIONS.nearest);
     made.push(sense(`near:${key}`, "distance %1 (m)", [sides], "Number", python, `How far it is to what is nearest, up to ${rays.reach_m} m.`));
   }
   if (!rays.has_code || !rays.codes.length) return made;
-  const sees = ({ GROUP, SIDE }) => value(`sees(${part(SIDE, 0)}, ${codeOf(GROUP)})`, ATOM, FUNCTIONS.sees);
+  const sees = (/** @type {SenseFields} */ { GROUP, SIDE }) => value(`sees(${part(SIDE, 0)}, ${codeOf(GROUP)})`, ATOM, FUNCTIONS.sees);
   made.push(sense(`sees:${key}`, "sees %1 %2", [groups, sides], "Boolean", sees, "True if a ray hits such a thing."));
   const rightward = `[${angles.map((angle) => number(-angle || 0)).join(", ")}]`;
-  const where = ({ GROUP }) => {
+  const where = (/** @type {SenseFields} */ { GROUP }) => {
     const [codes, code] = [part("around", 0), codeOf(GROUP)];
     return value(`direction(${codes}, ${code}, ${rightward})`, ATOM, FUNCTIONS.direction);
   };
@@ -104,17 +148,29 @@ function rayBlocks({ key, rays }, reading) {
   return made;
 }
 
-/** Return the rays of a side: {first, count}; angles rise from the right to the left. */
+/**
+ * Return the rays of a side: {first, count}; angles rise from the right to the left.
+ * @param {string} name of the side
+ * @param {RayLayout["angles_deg"]} angles
+ */
 export function sideOf(name, angles) {
-  const isIn = {
+  /** @type {Record<string, (angle: number) => boolean>} */
+  const sides = {
     around: () => true,
     ahead: (angle) => Math.abs(angle) <= AHEAD_DEG,
     left: (angle) => angle > AHEAD_DEG,
     right: (angle) => angle < -AHEAD_DEG,
-  }[name];
-  return { first: angles.findIndex((angle) => isIn(angle)), count: angles.filter((angle) => isIn(angle)).length };
+  };
+  return { first: angles.findIndex(sides[name]), count: angles.filter(sides[name]).length };
 }
 
+/**
+ * Return the Python that takes one number of each ray of a side.
+ * @param {{first: number, count: number}} side
+ * @param {number} width numbers of a ray
+ * @param {number} offset of the number in them
+ * @param {number} rays their count
+ */
 function slice({ first, count }, width, offset, rays) {
   const from = first * width + offset || "";
   const to = first + count === rays ? "" : (first + count) * width;
@@ -122,21 +178,42 @@ function slice({ first, count }, width, offset, rays) {
   return `[${from}:${to}:${width}]`;
 }
 
+/**
+ * @param {string} type
+ * @param {string} message
+ * @param {Field[]} fields
+ * @param {string} output
+ * @param {Sense["python"]} python
+ */
 function sense(type, message, fields, output, python, tooltip = "") {
   return { type, message, fields, output, python, tooltip };
 }
 
+/**
+ * @param {string} name
+ * @param {string[][]} options
+ * @returns {Field}
+ */
 function list(name, options) {
   return { type: "field_dropdown", name, options };
 }
 
-function value(code, order = ATOM, helper = null) {
-  return { code, order, functions: helper === null ? [] : [helper] };
+/**
+ * @param {string} code
+ * @param {string[][]} functions
+ * @returns {Value}
+ */
+function value(code, order = ATOM, ...functions) {
+  return { code, order, functions };
 }
 
 // -- actions ---------------------------------------------------------------------------------------
 
-/** Return the actuators with their numbers: a number with effect has a type of block and a variable. */
+/**
+ * Return the actuators with their numbers: a number with effect has a type of block and a variable.
+ * @param {ProgramActuator[]} actuators
+ * @returns {Output[]}
+ */
 function outputsOf(actuators) {
   const taken = new Set(["percept", "nearest", "sees", "direction", "random"]);
   const isAlone = actuators.length === 1;
@@ -152,6 +229,10 @@ function outputsOf(actuators) {
   }));
 }
 
+/**
+ * @param {Part} part
+ * @returns {Action}
+ */
 function actionBlock({ type, title, low, high, variable }) {
   // of all actuators, a turn above 0 goes to the right
   const range = title.endsWith("turn") && low < 0 ? `${low} left, ${high} right` : `${low} to ${high}`;
@@ -164,10 +245,15 @@ function actionBlock({ type, title, low, high, variable }) {
   };
 }
 
+/**
+ * @param {number | null} low
+ * @param {number | null} high
+ */
 function rangeWords(low, high) {
   return low === null || high === null ? "" : `${low} to ${high}`;
 }
 
+/** @param {number} value */
 function number(value) {
   return String(Math.round(value * 1e6) / 1e6);
 }

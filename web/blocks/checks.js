@@ -1,5 +1,7 @@
 /** The checks of the five steps: they look at what the robot senses and does, not at its blocks. */
 
+/** @import { PythonPart, RayLayout } from "../types/panel.js" */
+
 import { sideOf } from "./agent.js";
 
 /** Distances (m) of the robot's centre to a wall; its radius is 0.4. */
@@ -16,21 +18,32 @@ const FOLLOWED_DECISIONS = 300;
 const [MIN_NEAR_SHARE, MIN_DRIVING_SHARE] = [0.75, 0.55];
 const GOALS = 8;
 
+/** @typedef {{around: number, ahead: number, right: number, forward: number, turn: number}} Seen distances in metres */
+/** @typedef {{outcome: string}[]} Starts */
+/** @typedef {{isDone: boolean, words: string, see: (seen: Seen) => void, test: (starts: Starts) => void}} Check */
+
 /**
  * Return what a check looks at, of a decision; null if the robot has no such senses or actions.
- * @param part the part "python" of the panel
- * @returns {{around, ahead, right, forward, turn}} distances in metres
+ * @param {Pick<PythonPart, "sensors" | "actuators">} part
+ * @param {{percept: Record<string, unknown>, action: Record<string, number[]> | null}} decision
+ * @returns {Seen | null}
  */
 export function seen(part, { percept, action }) {
   const sensor = part.sensors.find(({ rays, stack }) => rays?.has_distance && stack === 1);
   const actuator = part.actuators.find(({ components }) => components.some(({ name }) => name === "forward"));
-  const [values, numbers] = [percept?.[sensor?.key], action?.[actuator?.name]];
+  const values = /** @type {number[]} */ (percept?.[sensor?.key]);
+  const numbers = action?.[actuator?.name];
   if (!values || !numbers) return null;
-  const number = (name) => numbers[actuator.components.findIndex((each) => each.name === name)] ?? 0;
+  const number = (/** @type {string} */ name) => numbers[actuator.components.findIndex((component) => component.name === name)] ?? 0;
   const [around, ahead, right] = ["around", "ahead", "right"].map((side) => nearest(sensor.rays, values, side));
   return { around, ahead, right, forward: number("forward"), turn: number("turn") };
 }
 
+/**
+ * @param {RayLayout} rays
+ * @param {number[]} values
+ * @param {string} side
+ */
 function nearest(rays, values, side) {
   const width = Number(rays.has_code) + Number(rays.has_distance);
   const { first, count } = sideOf(side, rays.angles_deg);
@@ -69,11 +82,12 @@ function turnsAway() {
 }
 
 function followsWall() {
+  /** @type {{isNear: boolean, drives: boolean}[]} */
   const latest = [];
   return check((its, { right, forward }) => {
     latest.push({ isNear: right > RIGHT_MIN_M && right < RIGHT_MAX_M, drives: forward > 0 });
     if (latest.length > FOLLOWED_DECISIONS) latest.shift();
-    const share = (name) => latest.filter((each) => each[name]).length / latest.length;
+    const share = (/** @type {"isNear" | "drives"} */ name) => latest.filter((decision) => decision[name]).length / latest.length;
     const isFull = latest.length === FOLLOWED_DECISIONS;
     its.isDone ||= isFull && share("isNear") >= MIN_NEAR_SHARE && share("drives") >= MIN_DRIVING_SHARE;
     its.words = `beside a wall in ${Math.round(100 * share("isNear"))}% of ${latest.length} decisions`;
@@ -90,8 +104,9 @@ function findsExit() {
   return its;
 }
 
+/** @param {(its: Check, seen: Seen) => void} see */
 function check(see) {
-  /** @type {{isDone: boolean, words: string, see: (decision: any) => void, test: (rows: any[]) => void}} */
-  const its = { isDone: false, words: "", see: (decision) => see(its, decision), test: () => {} };
+  /** @type {Check} */
+  const its = { isDone: false, words: "", see: (seen) => see(its, seen), test: () => {} };
   return its;
 }

@@ -1,12 +1,34 @@
 /** The blocks that every agent has: events, control, logic, numbers and memory. */
 
+/**
+ * @typedef {object} Field in the form of Blockly
+ * @property {string} type
+ * @property {string} name
+ * @property {string | null} [check]
+ * @property {string[][]} [options]
+ * @property {string} [variable]
+ * @property {number | string} [value]
+ * @property {string} [text]
+ * @property {number} [min]
+ * @property {number} [max]
+ * @property {number} [precision]
+ */
+/** @typedef {{type: string, message0: string, args0?: Field[], style: string, tooltip: string, [property: string]: unknown}} BlockKind */
+
+/** @type {{previousStatement: null, nextStatement: null}} */
 const STATEMENT = { previousStatement: null, nextStatement: null };
+/** @type {(name: string, check: string | null) => Field} */
 const value = (name, check) => ({ type: "input_value", name, check });
+/** @type {(name: string) => Field} */
 const body = (name) => ({ type: "input_statement", name });
+/** @type {(name: string, options: string[][]) => Field} */
 const list = (name, options) => ({ type: "field_dropdown", name, options });
 const variable = { type: "field_variable", name: "VAR", variable: "count" };
 
-/** Blocks in the form of Blockly, but for the colors, which come from the style. */
+/**
+ * Blocks in the form of Blockly, but for the colors, which come from the style.
+ * @type {BlockKind[]}
+ */
 export const KINDS = [
   hat("on_decision", "at each decision", [], "What stands below decides what the robot does next, again and again."),
   hat("on_begin", "when an episode begins", [], "Once, before the first decision of each episode."),
@@ -39,19 +61,42 @@ export const KINDS = [
 
 const ORDINARY = new Set(KINDS.map(({ type }) => type));
 
-/** Return {isOwn}: true for a type of block that is made of an agent's senses or actions. */
+/**
+ * Return {isOwn}: true for a type of block that is made of an agent's senses or actions.
+ * @param {string} type
+ */
 export function blockOf(type) {
   return { isOwn: !ORDINARY.has(type) };
 }
 
+/**
+ * @param {string} type
+ * @param {string} message0
+ * @param {Field[]} args0
+ * @param {string} tooltip
+ * @returns {BlockKind}
+ */
 function hat(type, message0, args0, tooltip) {
   return { type, message0, args0, nextStatement: null, style: "events", tooltip };
 }
 
+/**
+ * @param {string} type
+ * @param {string} style
+ * @param {string} message0
+ * @param {Field[]} args0
+ */
 function statement(type, style, message0, args0, tooltip = "") {
   return { type, message0, args0, ...STATEMENT, inputsInline: true, style, tooltip };
 }
 
+/**
+ * @param {string} type
+ * @param {string} style
+ * @param {string} message0
+ * @param {string | null} outputType
+ * @param {Field[]} args0
+ */
 function output(type, style, message0, outputType, args0, tooltip = "") {
   return { type, message0, args0, output: outputType, inputsInline: true, style, tooltip };
 }

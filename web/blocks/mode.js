@@ -1,5 +1,12 @@
 /** A program of blocks in the tab "Code": the switch to blocks and back, and the Python that they mean. */
 
+/** @import { CodePanel, PythonPart } from "../types/panel.js" */
+/** @import { AgentBlocks } from "./agent.js" */
+/** @import { Starts } from "./checks.js" */
+/** @import { BlockSteps } from "./steps.js" */
+/** @import { Program } from "./text.js" */
+/** @import { BlocksWorkspace } from "./workspace.js" */
+
 import { freeId } from "../shared/ids.js";
 import { joinProgram, splitProgram } from "./text.js";
 import { button, element, setText } from "../shared/dom.js";
@@ -11,6 +18,8 @@ const HELP =
   "T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. " +
   "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
 
+/** @typedef {typeof import("./agent.js") & typeof import("./python.js") & typeof import("./workspace.js") & typeof import("./steps.js")} Modules */
+
 export class BlocksMode {
   /**
    * Called with true or false when the person sees blocks, or no longer.
@@ -19,24 +28,37 @@ export class BlocksMode {
   onSwitch = () => {};
   #tab;
   #panel;
+  /** @type {PythonPart | null} */
   #part = null;
   #agentText = "";
+  /** @type {AgentBlocks | null} */
   #agent = null;
-  /** The blocks of the program, also of one that went on in Python; null if there are none. */
+  /**
+   * The blocks of the program, also of one that went on in Python; null if there are none.
+   * @type {Program | null}
+   */
   #blocks = null;
   #isOn = false;
-  /** The modules that are loaded with the first blocks. */
+  /**
+   * The modules that are loaded with the first blocks.
+   * @type {Modules | null}
+   */
   #loaded = null;
+  /** @type {BlocksWorkspace | null} */
   #workspace = null;
   /** Resolves when the latest blocks are shown. */
   #shown = Promise.resolve();
-  /** Ids of blocks by line. */
+  /**
+   * Ids of blocks by line.
+   * @type {string[]}
+   */
   #blockOfLine = [];
   #open = button("Blocks", () => this.#toBlocks(), { icon: "build", title: "Put the program together from blocks" });
   #leave = button("Continue in Python", () => this.#toPython(), { title: "The Python becomes yours to change; the blocks are kept" });
   #words = element("p", { className: "ai4u-soft", role: "status" });
   #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
+  /** @type {BlockSteps | null} */
   #steps = null;
   /** The steps that lead to a program; filled with the first blocks. */
   steps = element("div", {});
@@ -44,7 +66,7 @@ export class BlocksMode {
   element = element("div", { className: "ai4u-blocks", dataset: { ai4uKeys: "" } }, this.#words, this.#frame, this.#help);
 
   /**
-   * @param panel the panel
+   * @param {CodePanel} panel
    * @param {object} tab
    * @param {import("../code/editor.js").CodeEditor} tab.editor shows the blocks' Python
    * @param {() => void} tab.changed called when the person has changed the blocks
@@ -52,7 +74,8 @@ export class BlocksMode {
    * @param {(way: "run" | "step") => void} tab.run called when the person runs the program with a shortcut
    */
   constructor(panel, tab) {
-    [this.#panel, this.#tab] = [panel, tab];
+    this.#panel = panel;
+    this.#tab = tab;
     this.#frame.addEventListener("keydown", (event) => this.#onKey(event), { capture: true });
     this.element.addEventListener("keydown", (event) => event.stopPropagation());
     this.#draw();
@@ -62,7 +85,10 @@ export class BlocksMode {
     return this.#isOn;
   }
 
-  /** Offer the blocks of an agent. @param part the part "python" */
+  /**
+   * Offer the blocks of an agent.
+   * @param {PythonPart} part
+   */
   async setAgent(part) {
     const text = JSON.stringify([part.sensors, part.actuators]);
     if (text === this.#agentText) return;
@@ -74,12 +100,18 @@ export class BlocksMode {
     if (this.#isOn) this.#show(this.#blocks);
   }
 
-  /** Return a program as it is kept: its Python, and the blocks. */
+  /**
+   * Return a program as it is kept: its Python, and the blocks.
+   * @param {string} python
+   */
   join(python) {
     return joinProgram(python, this.#blocks, this.#isOn);
   }
 
-  /** Take a program that is shown: return its Python, and show its blocks if it is of blocks. */
+  /**
+   * Take a program that is shown: return its Python, and show its blocks if it is of blocks.
+   * @param {string} text
+   */
   take(text) {
     const { python, blocks, isOfBlocks } = splitProgram(text);
     this.#blocks = blocks;
@@ -88,17 +120,26 @@ export class BlocksMode {
     return python;
   }
 
-  /** Mark the blocks of lines that ran. */
+  /**
+   * Mark the blocks of lines that ran.
+   * @param {number[]} lines
+   */
   markRan(lines) {
     if (this.#isOn) this.#workspace?.markRan(lines.map((line) => this.#blockOfLine[line - 1]).filter(Boolean));
   }
 
-  /** Mark the block of a line with a mistake; null removes the mark. */
+  /**
+   * Mark the block of a line with a mistake; null removes the mark.
+   * @param {number | null} line
+   */
   markMistake(line) {
     if (this.#isOn) this.#workspace?.markMistake(line === null ? "" : (this.#blockOfLine[line - 1] ?? ""));
   }
 
-  /** Put the focus onto the block of a line. Returns false if there is none. */
+  /**
+   * Put the focus onto the block of a line. Returns false if there is none.
+   * @param {number} line
+   */
   goTo(line) {
     const block = this.#isOn ? this.#blockOfLine[line - 1] : "";
     if (block) this.#workspace.goTo(block);
@@ -110,12 +151,18 @@ export class BlocksMode {
     if (this.#isOn) this.#steps?.begin();
   }
 
-  /** Look at a decision of a run: {percept, action}. */
+  /**
+   * Look at a decision of a run.
+   * @param {Parameters<BlockSteps["note"]>[0]} detail
+   */
   note(detail) {
     if (this.#isOn) this.#steps?.note(detail);
   }
 
-  /** Look at the starts of a test. */
+  /**
+   * Look at the starts of a test.
+   * @param {Starts} rows
+   */
   tested(rows) {
     if (this.#isOn) this.#steps?.tested(rows);
   }
@@ -139,6 +186,7 @@ export class BlocksMode {
     this.#tab.editor.focus();
   }
 
+  /** @param {boolean} isOn */
   #set(isOn) {
     this.#isOn = isOn;
     this.#tab.editor.isReadOnly = isOn;
@@ -154,6 +202,7 @@ export class BlocksMode {
     this.#say("");
   }
 
+  /** @param {string} text */
   #say(text) {
     setText(this.#words, text);
     this.#words.hidden = !text;
@@ -162,6 +211,7 @@ export class BlocksMode {
 
   // -- the blocks --------------------------------------------------------------------------------
 
+  /** @param {Program} blocks */
   async #show(blocks) {
     const modules = await this.#load();
     if (modules === null || !this.#isOn || blocks !== this.#blocks) return;
@@ -176,9 +226,13 @@ export class BlocksMode {
     }
   }
 
-  #makeWorkspace({ BlocksWorkspace }) {
-    const ask = (question, start) => this.#ask(question, start);
-    const made = new BlocksWorkspace(this.#frame, { label: "Program of blocks", agent: this.#agent, ask });
+  /** @param {Modules} modules */
+  #makeWorkspace(modules) {
+    const made = new modules.BlocksWorkspace(this.#frame, {
+      label: "Program of blocks",
+      agent: this.#agent,
+      ask: (question, start) => this.#ask(question, start),
+    });
     made.onChange = () => {
       this.#blocks = made.blocks;
       this.#write();
@@ -215,12 +269,18 @@ export class BlocksMode {
     return this.#loaded;
   }
 
-  /** Ask the person for a name; null if there is no answer. */
+  /**
+   * Ask the person for a name; null if there is no answer.
+   * @param {string} question
+   * @param {string} start
+   * @returns {Promise<string | null>}
+   */
   #ask(question, start) {
     return new Promise((resolve) => {
       const input = element("input", { type: "text", value: start, maxLength: 40, id: freeId() });
       const label = element("label", { htmlFor: input.id, textContent: question });
       const form = element("form", { method: "dialog", className: "ai4u-blocks-name" }, label, input, button("OK", () => form.requestSubmit(), { kind: "main" }));
+      /** @type {string | null} */
       let answer = null;
       form.addEventListener("submit", () => (answer = input.value.trim() || null));
       const { dialog } = this.#panel.dialog("Memory", form);
@@ -230,6 +290,7 @@ export class BlocksMode {
   }
 
   /** Ctrl+Enter runs, as in the editor of Python. */
+  /** @param {KeyboardEvent} event */
   #onKey(event) {
     if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey)) return;
     event.preventDefault();

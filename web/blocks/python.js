@@ -1,16 +1,24 @@
 /** The Python that a program of blocks means. It reads the blocks as they are kept, so it needs no editor. */
 
+/** @import { AgentBlocks, Output } from "./agent.js" */
+/** @import { Block, Program } from "./text.js" */
+
 import { blockOf } from "./kinds.js";
 import { AND, ANY, ATOM, COMPARISON, identifier, NOT, OR, PRODUCT, SIGN, SUM } from "./words.js";
 
+/** @typedef {{text: string, block: string}} Row a line, and the id of its block; empty if there is none */
+/** @typedef {{code: string, order: number}} Code and how tightly it binds */
+
+/** @type {Record<string, [string, number]>} */
 const OPERATORS = { ADD: ["+", SUM], MINUS: ["-", SUM], MULTIPLY: ["*", PRODUCT], DIVIDE: ["/", PRODUCT] };
+/** @type {Record<string, string>} */
 const COMPARISONS = { LT: "<", LTE: "<=", GT: ">", GTE: ">=", EQ: "==", NEQ: "!=" };
 const INDENT = "    ";
 
 /**
  * Return the Python of blocks.
- * @param state as Blockly.serialization.workspaces.save() returns it
- * @param agent as agentBlocks() returns it
+ * @param {Program} state as Blockly.serialization.workspaces.save() returns it
+ * @param {AgentBlocks} agent
  * @returns {{text: string, blocks: string[]}} the id of the block by line, from line 1; empty where there is none
  */
 export function pythonOf(state, agent) {
@@ -23,10 +31,19 @@ class Writer {
   #events;
   /** Names of the program's own variables by the block editor's id. */
   #names;
+  /**
+   * Ids of variables that the program uses.
+   * @type {Set<string>}
+   */
   #used = new Set();
+  /** @type {Set<string[]>} */
   #functions = new Set();
   #needsRandom = false;
 
+  /**
+   * @param {Program} state
+   * @param {AgentBlocks} agent
+   */
   constructor(state, agent) {
     this.#agent = agent;
     this.#stacks = state.blocks?.blocks ?? [];
@@ -57,12 +74,19 @@ class Writer {
     return { text: `${rows.map(({ text }) => text).join("\n")}\n`, blocks: rows.map(({ block }) => block) };
   }
 
-  /** Return the first block under a hat; null if there is none. */
+  /**
+   * Return the first block under a hat; null if there is none.
+   * @param {string} type
+   */
   #stackOf(type) {
     return this.#stacks.find((each) => each.type === type)?.next?.block ?? null;
   }
 
-  /** Return true if some block of a stack senses or acts. */
+  /**
+   * Return true if some block of a stack senses or acts.
+   * @param {Block | undefined} block
+   * @returns {boolean}
+   */
   #isOwn(block) {
     if (!block) return false;
     if (blockOf(block.type).isOwn) return true;
@@ -70,6 +94,11 @@ class Writer {
     return [...inputs, block.next?.block].some((each) => this.#isOwn(each));
   }
 
+  /**
+   * @param {boolean} isEarly
+   * @param {Row[]} beginLines
+   * @param {number} eventCount
+   */
   #resets(isEarly, beginLines, eventCount) {
     const memory = [...this.#names].filter(([id]) => this.#used.has(id)).map(([, name]) => row(`self.${name} = 0`));
     const begins = isEarly ? [row("self.begins = True")] : [];
@@ -86,7 +115,10 @@ class Writer {
     return [...this.#functions].flatMap((lines) => ["", "", ...lines]).map((text) => row(text));
   }
 
-  /** Return the line that sets all actions to rest. */
+  /**
+   * Return the line that sets all actions to rest.
+   * @param {string} block its id
+   */
   #rests(block) {
     const parts = this.#agent.outputs.flatMap(({ parts }) => parts).filter(({ variable }) => variable);
     const values = [...new Set(parts.map(({ rest }) => rest))];
@@ -96,6 +128,10 @@ class Writer {
     });
   }
 
+  /**
+   * @param {Block} block
+   * @param {number} number
+   */
   #event(block, number) {
     const isTouch = block.type === "on_touch";
     const condition = isTouch ? `percept[${JSON.stringify(block.fields.KEY)}][0] > 0` : this.#input(block, "IF", ANY, "False");
@@ -109,21 +145,32 @@ class Writer {
 
   // -- statements --------------------------------------------------------------------------------
 
-  #statements(block) {
+  /**
+   * @param {Block | undefined} first of a stack
+   * @returns {Row[]}
+   */
+  #statements(first) {
     const rows = [];
-    for (let each = block; each; each = each.next?.block) rows.push(...this.#statement(each));
+    for (let block = first; block; block = block.next?.block) rows.push(...this.#statement(block));
     return rows;
   }
 
-  /** Return the lines of a branch, one step to the right. */
+  /**
+   * Return the lines of a branch, one step to the right.
+   * @param {Block | undefined} block
+   */
   #body(block) {
     const rows = this.#statements(block);
     return indented(rows.length ? rows : [row("pass")]);
   }
 
+  /**
+   * @param {Block} block
+   * @returns {Row[]}
+   */
   #statement(block) {
     const { type, id, fields = {} } = block;
-    const one = (text) => [row(text, id)];
+    const one = (/** @type {string} */ text) => [row(text, id)];
     if (type === "if" || type === "if_else") return this.#if(block, "if");
     if (type === "repeat") {
       return [row(`for _ in range(${Math.round(fields.TIMES)}):`, id), ...this.#body(block.inputs?.DO?.block)];
@@ -140,6 +187,11 @@ class Writer {
     return one(`pass  # this robot has no ${type.replace(/^act:/, "").replaceAll("\n", " ")}`);
   }
 
+  /**
+   * @param {Block} block
+   * @param {string} word
+   * @returns {Row[]}
+   */
   #if(block, word) {
     const head = row(`${word} ${this.#input(block, "IF", ANY, "False")}:`, block.id);
     const rows = [head, ...this.#body(block.inputs?.DO?.block)];
@@ -151,7 +203,13 @@ class Writer {
 
   // -- values ------------------------------------------------------------------------------------
 
-  /** Return the code of a value that goes into another one which binds with `order`. */
+  /**
+   * Return the code of a value that goes into another one which binds with `order`.
+   * @param {Block} block
+   * @param {string} name of the input
+   * @param {number} order
+   * @param {string} fallback if it is empty
+   */
   #input(block, name, order, fallback) {
     const input = block.inputs?.[name];
     const inner = input?.block ?? input?.shadow;
@@ -160,9 +218,13 @@ class Writer {
     return own > order ? `(${code})` : code;
   }
 
+  /**
+   * @param {Block} block
+   * @returns {Code}
+   */
   #value(block) {
     const { type, fields = {} } = block;
-    const two = (sign, order, right = order - 1, left = order) => ({
+    const two = (/** @type {string} */ sign, /** @type {number} */ order, right = order - 1, left = order) => ({
       code: `${this.#input(block, "A", left, "0")} ${sign} ${this.#input(block, "B", right, "0")}`,
       order,
     });
@@ -181,16 +243,25 @@ class Writer {
     }
   }
 
+  /**
+   * @param {Block} block
+   * @param {string} operator
+   */
   #logic(block, operator) {
     const order = operator === "and" ? AND : OR;
     return { code: `${this.#input(block, "A", order, "False")} ${operator} ${this.#input(block, "B", order, "False")}`, order };
   }
 
+  /** @param {Block} block */
   #random(block) {
     this.#needsRandom = true;
     return { code: `random.uniform(${this.#input(block, "A", ANY, "0")}, ${this.#input(block, "B", ANY, "1")})`, order: ATOM };
   }
 
+  /**
+   * @param {string} type
+   * @param {Block["fields"]} fields
+   */
   #sense(type, fields) {
     const known = this.#agent.senses.find((each) => each.type === type);
     if (!known) return { code: `percept[${JSON.stringify(type.replace(/^\w+:/, ""))}][0]`, order: ATOM }; // Run tells what is wrong
@@ -199,25 +270,36 @@ class Writer {
     return { code, order };
   }
 
+  /** @param {Block["fields"]} fields */
   #variable({ VAR }) {
     this.#used.add(VAR.id);
     return `self.${this.#names.get(VAR.id) ?? "x"}`;
   }
 }
 
+/**
+ * @param {string} text
+ * @returns {Row}
+ */
 function row(text, block = "") {
   return { text, block };
 }
 
+/** @param {Row[]} rows */
 function indented(rows) {
   return rows.map(({ text, block }) => row(text && INDENT + text, block));
 }
 
+/**
+ * @param {Row[]} resets
+ * @param {Row[]} body
+ */
 function classRows(resets, body) {
   const reset = [row("def reset(self):"), ...indented(resets)];
   return [row("class Program:"), ...indented([...reset, row(""), ...body])];
 }
 
+/** @param {Output} output */
 function outputCode({ name, parts }) {
   return `${JSON.stringify(name)}: [${parts.map(({ variable, rest }) => variable ?? rest).join(", ")}]`;
 }

@@ -1,5 +1,8 @@
 /** Five steps from one block to a program that follows walls: each is done when the robot does it. */
 
+/** @import { CodePanel, PythonPart } from "../types/panel.js" */
+/** @import { Check, Starts } from "./checks.js" */
+
 import { roomOfPage } from "../shared/room.js";
 import { CHECKS, seen } from "./checks.js";
 import { button, element, setAttributes, setText } from "../shared/dom.js";
@@ -54,11 +57,13 @@ const STEPS = [
 
 export class BlockSteps {
   #panel;
+  /** @type {PythonPart | null} */
   #part = null;
   /** How many are done; the next one is checked. */
   #done = 0;
   /** Number of the step that is shown, from 0. */
   #shown = 0;
+  /** @type {Check | null} */
   #check = null;
   #list = element("ol", { className: "ai4u-steps" });
   #text = element("div", { className: "ai4u-steps-text" });
@@ -68,6 +73,7 @@ export class BlockSteps {
   #open = button("Open the maze", () => this.#panel.send("open_scene", { name: SCENE, is_saved: false }), {});
   element;
 
+  /** @param {CodePanel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#done = Math.min(recall(this.#key, 0), STEPS.length);
@@ -79,7 +85,7 @@ export class BlockSteps {
     this.begin();
   }
 
-  /** @param part the part "python" of the agent whose program is shown */
+  /** @param {PythonPart} part of the agent whose program is shown */
   setAgent(part) {
     this.#part = part;
   }
@@ -91,7 +97,10 @@ export class BlockSteps {
     this.#draw();
   }
 
-  /** Look at a decision of a run: {percept, action}. */
+  /**
+   * Look at a decision of a run.
+   * @param {Parameters<typeof seen>[1]} detail
+   */
   note(detail) {
     if (this.#check === null || this.#part === null || !this.#isHere) return;
     const decision = seen(this.#part, detail);
@@ -100,7 +109,10 @@ export class BlockSteps {
     this.#judge();
   }
 
-  /** Look at the starts of a test. */
+  /**
+   * Look at the starts of a test.
+   * @param {Starts} rows
+   */
   tested(rows) {
     if (this.#check === null || !this.#isHere) return;
     this.#check.test(rows);
@@ -129,6 +141,10 @@ export class BlockSteps {
     setText(this.#status, isLast ? "All five steps are done. Well done!" : `“${title}” is done. On to the next step.`);
   }
 
+  /**
+   * @param {{title: string}} step
+   * @param {number} index
+   */
   #item({ title }, index) {
     const choose = element("button", { type: "button", title });
     choose.addEventListener("click", () => {
@@ -139,7 +155,7 @@ export class BlockSteps {
   }
 
   #draw() {
-    const { can_edit: canEdit = false } = this.#panel.part("scene") ?? {};
+    const canEdit = this.#panel.part("scene")?.can_edit ?? false;
     this.#elsewhere.parentElement.hidden = this.#isHere;
     this.#open.hidden = !canEdit;
     this.#list.hidden = this.#text.hidden = !this.#isHere;
@@ -162,7 +178,10 @@ export class BlockSteps {
   }
 }
 
-/** Return a text as nodes: what stands in stars is bold. */
+/**
+ * Return a text as nodes: what stands in stars is bold.
+ * @param {string} text
+ */
 function withBlocks(text) {
   return text.split("*").map((part, index) => (index % 2 ? element("b", { textContent: part }) : part));
 }

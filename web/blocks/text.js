@@ -1,17 +1,31 @@
 /** A program of blocks as text: its Python, and the blocks as a comment in the last line, so no copy loses them. */
 
+/** @typedef {{OP?: string, BOOL?: string, TEXT?: string, KEY?: string, NUM?: number, TIMES?: number, VAR?: {id: string}}} OwnFields */
+/** @typedef {{SLOT?: string, STAT?: string, SIDE?: string, GROUP?: string}} SenseFields */
+/**
+ * @typedef {object} Block in the form of Blockly
+ * @property {string} type
+ * @property {string} [id]
+ * @property {OwnFields & SenseFields} [fields]
+ * @property {Record<string, {block?: Block, shadow?: Block}>} [inputs]
+ * @property {{block?: Block}} [next]
+ * @property {number} [x]
+ * @property {number} [y]
+ */
+/** @typedef {{blocks?: {blocks?: Block[]}, variables?: {id: string, name: string}[]}} Program of blocks, in the form of Blockly */
+
 const MARK = "\n# blocks: ";
 const VERSION = 1;
 
 /**
  * Return a program's Python and its blocks.
  * @param {string} text
- * @returns {{python: string, blocks: object|null, isOfBlocks: boolean}} isOfBlocks is true if the Python is still the
+ * @returns {{python: string, blocks: Program | null, isOfBlocks: boolean}} isOfBlocks is true if the Python is still the
  *   one that the blocks mean, and nobody went on in Python
  */
 export function splitProgram(text) {
   const at = text.lastIndexOf(MARK);
-  /** @type {{python: string, blocks: object | null, isOfBlocks: boolean}} */
+  /** @type {ReturnType<typeof splitProgram>} */
   const none = { python: text, blocks: null, isOfBlocks: false };
   if (at < 0) return none;
   const [line, ...rest] = text.slice(at + MARK.length).split("\n");
@@ -29,7 +43,7 @@ export function splitProgram(text) {
 /**
  * Return the text of a program with blocks.
  * @param {string} python
- * @param {object | null} blocks
+ * @param {Program | null} blocks
  * @param {boolean} isOfBlocks as in splitProgram()
  */
 export function joinProgram(python, blocks, isOfBlocks) {

@@ -9,15 +9,17 @@ const COLORS = {
   memory: "#a33500",
 };
 
-/** Return the theme; the surfaces are the panel's own colors, so they follow the page's scheme. */
-export function blocksTheme(Blockly) {
+/** Return the theme in the form of Blockly; the surfaces are the panel's own colors, so they follow the page's scheme. */
+export function blocksTheme() {
+  /** @type {Record<string, {colourPrimary: string, hat: string}>} */
   const blockStyles = {};
+  /** @type {Record<string, {colour: string}>} */
   const categoryStyles = {};
   for (const [name, color] of Object.entries(COLORS)) {
     blockStyles[name] = { colourPrimary: color, hat: name === "events" ? "cap" : "" };
     categoryStyles[name] = { colour: color };
   }
-  return Blockly.Theme.defineTheme("ai4u", {
+  return {
     name: "ai4u",
     blockStyles,
     categoryStyles,
@@ -34,5 +36,5 @@ export function blocksTheme(Blockly) {
       insertionMarkerOpacity: 0.3,
     },
     fontStyle: { family: "system-ui, sans-serif", size: 11 },
-  });
+  };
 }

@@ -1,9 +1,18 @@
 /** The blocks to choose from, in groups. */
 
+/** @import { AgentBlocks } from "./agent.js" */
+/** @import { BlockKind } from "./kinds.js" */
+
 import { KINDS } from "./kinds.js";
 
-const shadow = (NUM) => ({ shadow: { type: "number", fields: { NUM } } });
-/** Values that blocks of the toolbox hold already, by type and input. */
+/** @typedef {{getId: () => string, getName: () => string}} Variable of Blockly */
+/** @typedef {Record<string, {shadow: {type: string, fields: {NUM: number}}}>} Inputs */
+
+const shadow = (/** @type {number} */ NUM) => ({ shadow: { type: "number", fields: { NUM } } });
+/**
+ * Values that blocks of the toolbox hold already, by type and input.
+ * @type {Record<string, Inputs>}
+ */
 const HELD = {
   repeat: {},
   compare: { A: shadow(0), B: shadow(0) },
@@ -13,7 +22,11 @@ const HELD = {
   random: { A: shadow(-1), B: shadow(1) },
 };
 
-/** Return the definitions of all blocks for Blockly. @param agent as agentBlocks() returns it */
+/**
+ * Return the definitions of all blocks for Blockly.
+ * @param {AgentBlocks} agent
+ * @returns {BlockKind[]}
+ */
 export function definitions(agent) {
   const senses = agent.senses.map(({ type, message, fields, output, tooltip }) => ({
     type,
@@ -23,7 +36,7 @@ export function definitions(agent) {
     style: "senses",
     tooltip,
   }));
-  const actions = agent.actions.map(({ type, message, fields }) => ({
+  const actions = agent.actions.map(/** @returns {BlockKind} */ ({ type, message, fields }) => ({
     type,
     message0: message,
     args0: fields,
@@ -36,46 +49,69 @@ export function definitions(agent) {
   return [...KINDS, ...senses, ...actions, ...restOf(agent), ...touchOf(agent)];
 }
 
-/** Return the toolbox. */
+/**
+ * Return the toolbox.
+ * @param {AgentBlocks} agent
+ */
 export function toolbox(agent) {
   const rests = restOf(agent);
   const actions = agent.actions.map(({ type, start }) => block(type, { VALUE: shadow(start) }));
   const touches = touchOf(agent);
-  const groups = [
-    ["Events", "events", [...touches.map(({ type }) => block(type)), block("on_becomes"), block("on_begin")]],
-    ["Actions", "actions", [...actions, ...rests.map(({ type }) => block(type))]],
-    ["Senses", "senses", agent.senses.map(({ type }) => block(type))],
-    ["Control", "control", ofStyle("control")],
-    ["Numbers", "numbers", ofStyle("numbers")],
+  const contents = [
+    category("Events", "events", [...touches.map(({ type }) => block(type)), block("on_becomes"), block("on_begin")]),
+    category("Actions", "actions", [...actions, ...rests.map(({ type }) => block(type))]),
+    category("Senses", "senses", agent.senses.map(({ type }) => block(type))),
+    category("Control", "control", ofStyle("control")),
+    category("Numbers", "numbers", ofStyle("numbers")),
+    { kind: "category", name: "Memory", categorystyle: "memory", custom: "AI4U_MEMORY" },
   ];
-  const categories = groups.map(([name, style, contents]) => ({ kind: "category", name, categorystyle: style, contents }));
-  const memory = { kind: "category", name: "Memory", categorystyle: "memory", custom: "AI4U_MEMORY" };
-  return { kind: "categoryToolbox", contents: [...categories, memory] };
+  return { kind: "categoryToolbox", contents };
 }
 
-/** Return what stands in the group "Memory": it depends on the variables of the program. */
+/**
+ * Return what stands in the group "Memory": it depends on the variables of the program.
+ * @param {{getVariableMap: () => {getAllVariables: () => Variable[]}}} workspace of Blockly
+ */
 export function memoryBlocks(workspace) {
   const button = { kind: "button", text: "New variable", callbackkey: "AI4U_NEW_VARIABLE" };
   const print = block("print", { VALUE: shadow(0) });
   const variables = workspace.getVariableMap().getAllVariables();
   if (!variables.length) return [button, print];
-  const field = (each) => ({ VAR: { id: each.getId(), name: each.getName() } });
+  const field = (/** @type {Variable} */ variable) => ({ VAR: { id: variable.getId(), name: variable.getName() } });
   const latest = field(variables.at(-1));
   const changing = [
     { ...block("variables_set", { VALUE: shadow(0) }), fields: latest },
     { ...block("math_change", { DELTA: shadow(1) }), fields: latest },
   ];
-  return [button, ...changing, ...variables.map((each) => ({ ...block("variables_get"), fields: field(each) })), print];
+  return [button, ...changing, ...variables.map((variable) => ({ ...block("variables_get"), fields: field(variable) })), print];
 }
 
+/**
+ * @param {string} name
+ * @param {string} categorystyle
+ * @param {object[]} contents
+ */
+function category(name, categorystyle, contents) {
+  return { kind: "category", name, categorystyle, contents };
+}
+
+/** @param {string} style */
 function ofStyle(style) {
   return KINDS.filter((kind) => kind.style === style).map(({ type }) => block(type, HELD[type]));
 }
 
+/**
+ * @param {string} type
+ * @param {Inputs} [inputs]
+ */
 function block(type, inputs = {}) {
   return { kind: "block", type, inputs };
 }
 
+/**
+ * @param {AgentBlocks} agent
+ * @returns {BlockKind[]}
+ */
 function restOf({ outputs }) {
   const isAny = outputs.some(({ parts }) => parts.some(({ type, isChoice }) => type && !isChoice));
   if (!isAny) return [];
@@ -83,6 +119,10 @@ function restOf({ outputs }) {
   return [{ type: "rest", message0: "stand still", previousStatement: null, nextStatement: null, style: "actions", tooltip }];
 }
 
+/**
+ * @param {AgentBlocks} agent
+ * @returns {BlockKind[]}
+ */
 function touchOf({ touches }) {
   if (!touches.length) return [];
   const options = touches.map(({ key }) => [key, key]);

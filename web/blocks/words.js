@@ -11,6 +11,7 @@ const KEYWORDS = new Set(
 
 /**
  * Return a name of Python for some words.
+ * @param {string} words
  * @param {Set<string>} taken names that are used already; gets the new one
  */
 export function identifier(words, taken) {

@@ -1,5 +1,8 @@
 /** The editor of blocks: Blockly with an agent's own blocks. Loaded when a person chooses blocks. */
 
+/** @import { AgentBlocks } from "./agent.js" */
+/** @import { Block, Program } from "./text.js" */
+
 import { blocksTheme } from "./theme.js";
 import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
 import { Blockly } from "../vendor/blockly.js?v=e631db10";
@@ -19,6 +22,10 @@ export class BlocksWorkspace {
   onChange = () => {};
   #workspace;
   #kept = "";
+  /**
+   * Ids of the blocks that ran in the latest decision.
+   * @type {string[]}
+   */
   #ran = [];
   #mistake = "";
 
@@ -26,17 +33,19 @@ export class BlocksWorkspace {
    * @param {HTMLElement} parent element that gets the editor
    * @param {object} options
    * @param {string} options.label accessible name
-   * @param {ReturnType<typeof import("./agent.js").agentBlocks>} options.agent
+   * @param {AgentBlocks} options.agent
    * @param {(question: string, start: string) => Promise<string | null>} options.ask returns what the person answers to a
    *   question, or null
    */
   constructor(parent, { label, agent, ask }) {
     define(agent);
-    Blockly.dialog.setPrompt(async (question, start, answer) => answer(await ask(question, start)));
+    /** @type {(question: string, start: string, answer: (text: string | null) => void) => Promise<void>} */
+    const prompt = async (question, start, answer) => answer(await ask(question, start));
+    Blockly.dialog.setPrompt(prompt);
     const scale = matchMedia("(pointer: coarse)").matches ? TOUCH_SCALE : SCALE;
     this.#workspace = Blockly.inject(parent, {
       toolbox: toolbox(agent),
-      theme: blocksTheme(Blockly),
+      theme: Blockly.Theme.defineTheme("ai4u", blocksTheme()),
       renderer: "thrasos",
       media: NO_MEDIA,
       sounds: false,
@@ -48,15 +57,17 @@ export class BlocksWorkspace {
       zoom: { startScale: scale, minScale: 0.5, maxScale: 2, pinch: true },
     });
     // lists and fields hover over the page, outside of the panel
-    for (const each of [Blockly.WidgetDiv.getDiv(), Blockly.DropDownDiv.getContentDiv().parentElement]) {
-      each.dataset.ai4uKeys = "";
-      each.addEventListener("keydown", (event) => event.stopPropagation());
+    /** @type {HTMLElement[]} */
+    const floating = [Blockly.WidgetDiv.getDiv(), Blockly.DropDownDiv.getContentDiv().parentElement];
+    for (const element of floating) {
+      element.dataset.ai4uKeys = "";
+      element.addEventListener("keydown", (event) => event.stopPropagation());
     }
     const memory = () => memoryBlocks(this.#workspace);
     this.#workspace.registerToolboxCategoryCallback("AI4U_MEMORY", memory);
     this.#workspace.registerButtonCallback("AI4U_NEW_VARIABLE", () => Blockly.Variables.createVariableButtonHandler(this.#workspace));
     this.#workspace.addChangeListener(Blockly.Events.disableOrphans);
-    this.#workspace.addChangeListener((event) => this.#onEvent(event));
+    this.#workspace.addChangeListener((/** @type {{isUiEvent: boolean}} */ event) => this.#onEvent(event));
     parent.querySelector("svg.blocklySvg, .blocklySvg")?.setAttribute("aria-label", label);
     new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
     keepFocus(parent);
@@ -64,7 +75,10 @@ export class BlocksWorkspace {
     addEventListener("scroll", ({ target }) => target instanceof Node && target.contains(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
   }
 
-  /** The blocks with their ids, as blocks/python.js reads them. */
+  /**
+   * The blocks with their ids, as blocks/python.js reads them.
+   * @returns {Program}
+   */
   get state() {
     return Blockly.serialization.workspaces.save(this.#workspace);
   }
@@ -74,9 +88,12 @@ export class BlocksWorkspace {
     return withoutIds(this.state);
   }
 
-  /** Show other blocks; it does not count as a change by the person. */
+  /**
+   * Show other blocks; it does not count as a change by the person.
+   * @param {Program} blocks
+   */
   load(blocks) {
-    for (const type of typesIn(blocks)) if (!Blockly.Blocks[type]) define(null, type, blocks);
+    for (const type of typesIn(blocks)) if (!Blockly.Blocks[type]) Blockly.common.defineBlocksWithJsonArray([strangeBlock(type, blocks)]);
     Blockly.hideChaff();
     Blockly.serialization.workspaces.load(blocks, this.#workspace);
     if (!this.#workspace.getBlocksByType("on_decision").length) this.#addMain();
@@ -85,13 +102,19 @@ export class BlocksWorkspace {
     this.#mistake = "";
   }
 
-  /** Offer another agent's blocks. */
+  /**
+   * Offer another agent's blocks.
+   * @param {AgentBlocks} agent
+   */
   setAgent(agent) {
     define(agent);
     this.#workspace.updateToolbox(toolbox(agent));
   }
 
-  /** Mark the blocks that ran in the latest decision, and no others. */
+  /**
+   * Mark the blocks that ran in the latest decision, and no others.
+   * @param {string[]} ids
+   */
   markRan(ids) {
     const wanted = new Set(ids);
     for (const id of this.#ran) if (!wanted.has(id)) this.#toggle(id, "ai4u-blocks-ran", false);
@@ -99,7 +122,10 @@ export class BlocksWorkspace {
     this.#ran = [...wanted];
   }
 
-  /** Mark the block of a mistake, and show it; empty removes the mark. */
+  /**
+   * Mark the block of a mistake, and show it; empty removes the mark.
+   * @param {string} id
+   */
   markMistake(id) {
     this.#toggle(this.#mistake, "ai4u-blocks-mistake", false);
     this.#mistake = id;
@@ -107,7 +133,10 @@ export class BlocksWorkspace {
     if (id) this.#workspace.centerOnBlock(id);
   }
 
-  /** Put the focus onto a block. */
+  /**
+   * Put the focus onto a block.
+   * @param {string} id
+   */
   goTo(id) {
     const block = this.#workspace.getBlockById(id);
     if (block) Blockly.getFocusManager().focusNode(block);
@@ -123,6 +152,11 @@ export class BlocksWorkspace {
     Blockly.svgResize(this.#workspace);
   }
 
+  /**
+   * @param {string} id
+   * @param {string} name of a class
+   * @param {boolean} isOn
+   */
   #toggle(id, name, isOn) {
     this.#workspace.getBlockById(id)?.getSvgRoot().classList.toggle(name, isOn);
   }
@@ -135,6 +169,7 @@ export class BlocksWorkspace {
     block.moveBy(FIRST_PLACE.x, FIRST_PLACE.y);
   }
 
+  /** @param {{isUiEvent: boolean}} event */
   #onEvent(event) {
     if (event.isUiEvent) return;
     const kept = JSON.stringify(this.blocks);
@@ -144,45 +179,61 @@ export class BlocksWorkspace {
   }
 }
 
-/** Give the focus back to what Blockly moves: a frame after a highlight it puts blocks in another order. */
+/**
+ * Give the focus back to what Blockly moves: a frame after a highlight it puts blocks in another order.
+ * @param {HTMLElement} parent
+ */
 function keepFocus(parent) {
+  /** @type {HTMLElement | null} */
   let latest = null;
-  parent.addEventListener("focusin", ({ target }) => (latest = target));
+  parent.addEventListener("focusin", ({ target }) => (latest = /** @type {HTMLElement} */ (target)));
   new MutationObserver((changes) => {
     if (document.activeElement !== document.body || !latest?.isConnected) return;
     const moved = changes.flatMap(({ removedNodes }) => [...removedNodes]);
-    if (moved.some((each) => each.contains(latest))) latest.focus();
+    if (moved.some((node) => node.contains(latest))) latest.focus();
   }).observe(parent, { childList: true, subtree: true });
 }
 
-/** Define an agent's blocks, or a block that it does not have, with its fields as they are. */
-function define(agent, type = "", blocks = null) {
-  const made = agent === null ? [strangeBlock(type, blocks)] : definitions(agent);
-  if (agent !== null) for (const each of Object.keys(Blockly.Blocks)) delete Blockly.Blocks[each]; // another agent's
-  Blockly.common.defineBlocksWithJsonArray(made);
+/**
+ * Define an agent's blocks.
+ * @param {AgentBlocks} agent
+ */
+function define(agent) {
+  for (const type of Object.keys(Blockly.Blocks)) delete Blockly.Blocks[type]; // another agent's
+  Blockly.common.defineBlocksWithJsonArray(definitions(agent));
 }
 
-/** Return a block of another agent: it shows its name, and keeps its values. */
+/**
+ * Return a block of another agent, in the form of Blockly: it shows its name, and keeps its values.
+ * @param {string} type
+ * @param {Program} blocks that have one of the type
+ */
 function strangeBlock(type, blocks) {
-  const { fields = {} } = blocksIn(blocks).find((each) => each.type === type);
+  const { fields = {} } = blocksIn(blocks).find((block) => block.type === type);
   const words = Object.keys(fields).map((name, index) => ({ type: "field_label_serializable", name, text: String(index) }));
   const marks = words.map((_, index) => ` %${index + 1}`).join("");
   const isAction = type.startsWith("act:") || type === "rest";
   const isHat = type.startsWith("on_");
   const inputs = isAction && type !== "rest" ? [{ type: "input_value", name: "VALUE" }] : [];
+  /** @type {Record<string, null>} */
   const shape = isHat ? { nextStatement: null } : isAction ? { previousStatement: null, nextStatement: null } : { output: null };
   const message0 = `(not of this robot) ${type.replace(/^\w+:/, "").replaceAll("%", "%%")}${marks}${inputs.length ? ` %${words.length + 1}` : ""}`;
   return { type, message0, args0: [...words, ...inputs], ...shape, style: isHat ? "events" : isAction ? "actions" : "senses" };
 }
 
+/** @param {Program} blocks */
 function typesIn(blocks) {
   return new Set(blocksIn(blocks).map(({ type }) => type));
 }
 
-/** Return all blocks of a state, inner ones, too. */
+/**
+ * Return all blocks of a state, inner ones, too.
+ * @param {Program} state
+ */
 function blocksIn(state) {
+  /** @type {Block[]} */
   const found = [];
-  const visit = (block) => {
+  const visit = (/** @type {Block | undefined} */ block) => {
     if (!block) return;
     found.push(block);
     for (const { block: inner, shadow } of Object.values(block.inputs ?? {})) [inner, shadow].forEach(visit);
@@ -192,6 +243,7 @@ function blocksIn(state) {
   return found;
 }
 
+/** @param {Program} state */
 function withoutIds(state) {
   const copy = structuredClone(state);
   for (const block of blocksIn(copy)) {

@@ -1,5 +1,7 @@
 /** The editor of a program: CodeMirror with our marks and colors. Loaded when the tab "Code" is opened. */
 
+/** @import { CompletionContext, Doc, EffectType, Mark, MarkRange, Transaction } from "../vendor/codemirror.js?v=b595b00f" */
+
 import {
   autocompletion,
   bracketMatching,
@@ -41,15 +43,18 @@ const ACTION_NAME = /\breturn\s*\{\s*(?:.*,\s*)?["'][^"']*$/;
 /** How much further than its first row a line's other rows are indented (characters). */
 const HANG_CHARS = 2;
 
+/** @type {EffectType<number[]>} */
 const setMistake = StateEffect.define();
+/** @type {EffectType<number[]>} */
 const setRan = StateEffect.define();
+/** @type {EffectType<boolean>} */
 const setReadOnly = StateEffect.define();
 const mistakes = lineMarks(setMistake, Decoration.line({ class: "ai4u-code-mistake-line" }));
 const ran = lineMarks(setRan, Decoration.line({ class: "ai4u-code-ran-line" }));
 
 const readOnly = StateField.define({
   create: () => false,
-  update: (value, { effects }) => effects.findLast((each) => each.is(setReadOnly))?.value ?? value,
+  update: (value, { effects }) => effects.findLast((effect) => effect.is(setReadOnly))?.value ?? value,
   provide: (field) => [EditorState.readOnly.from(field), EditorView.editable.from(field, (value) => !value)],
 });
 
@@ -66,6 +71,7 @@ export class CodeEditor {
    */
   onChange = () => {};
   #view;
+  /** @type {{readings: string[], outputs: string[]}} */
   #names = { readings: [], outputs: [] };
   #isSetting = false;
 
@@ -117,7 +123,10 @@ export class CodeEditor {
     this.#isSetting = false;
   }
 
-  /** True if the person can read and copy the text, but not change it. */
+  /**
+   * True if the person can read and copy the text, but not change it.
+   * @param {boolean} value
+   */
   set isReadOnly(value) {
     this.#view.dispatch({ effects: setReadOnly.of(value) });
   }
@@ -126,31 +135,46 @@ export class CodeEditor {
     this.#view.focus();
   }
 
-  /** Offer these names in `percept["..."]` and in `return {"..."}`. */
+  /**
+   * Offer these names in `percept["..."]` and in `return {"..."}`.
+   * @param {{readings: string[], outputs: string[]}} names
+   */
   setNames({ readings, outputs }) {
     this.#names = { readings, outputs };
   }
 
-  /** Mark the line of a mistake, and scroll to it; null removes the mark. */
+  /**
+   * Mark the line of a mistake, and scroll to it; null removes the mark.
+   * @param {number | null} line
+   */
   markMistake(line) {
-    const effects = [setMistake.of(this.#lines([line]))];
-    if (effects[0].value.length) effects.push(EditorView.scrollIntoView(effects[0].value[0], { y: "center" }));
-    this.#view.dispatch({ effects });
+    const lines = this.#lines([line]);
+    const scrolls = lines.map((from) => EditorView.scrollIntoView(from, { y: "center" }));
+    this.#view.dispatch({ effects: [setMistake.of(lines), ...scrolls] });
   }
 
-  /** Mark the lines that ran in the latest decision. */
+  /**
+   * Mark the lines that ran in the latest decision.
+   * @param {number[]} lines
+   */
   markRan(lines) {
     this.#view.dispatch({ effects: setRan.of(this.#lines(lines)) });
   }
 
-  /** Put the cursor into a line, and the focus into the editor. */
+  /**
+   * Put the cursor into a line, and the focus into the editor.
+   * @param {number} line
+   */
   goTo(line) {
     const [at] = this.#lines([line]);
     if (at !== undefined) this.#view.dispatch({ selection: { anchor: at }, scrollIntoView: true });
     this.#view.focus();
   }
 
-  /** Insert a text in place of the selection. */
+  /**
+   * Insert a text in place of the selection.
+   * @param {string} text
+   */
   insert(text) {
     if (this.#view.state.readOnly) return;
     this.#view.dispatch(this.#view.state.replaceSelection(text));
@@ -165,18 +189,23 @@ export class CodeEditor {
     dom.addEventListener("keydown", (event) => (event.key !== "Escape" || hasList) && event.stopPropagation());
   }
 
-  /** Return where lines begin, in order, each once; numbers that no line has are left out. */
+  /**
+   * Return where lines begin, in order, each once; numbers that no line has are left out.
+   * @param {(number | null)[]} numbers
+   */
   #lines(numbers) {
     const { doc } = this.#view.state;
     const found = new Set(numbers.filter((number) => number >= 1 && number <= doc.lines));
     return [...found].sort((a, b) => a - b).map((number) => doc.line(number).from);
   }
 
+  /** @param {Transaction} update */
   #onUpdate(update) {
     if (!update.docChanged || this.#isSetting) return;
     this.onChange(this.text);
   }
 
+  /** @param {CompletionContext} context */
   #complete(context) {
     const { readings, outputs } = this.#names;
     for (const { pattern, names } of [{ pattern: PERCEPT_KEY, names: readings }, { pattern: ACTION_NAME, names: outputs }]) {
@@ -189,12 +218,16 @@ export class CodeEditor {
   }
 }
 
-/** Return a field that marks the lines of the latest effect; the marks move with the text. */
+/**
+ * Return a field that marks the lines of the latest effect; the marks move with the text.
+ * @param {EffectType<number[]>} effect
+ * @param {Mark} mark
+ */
 function lineMarks(effect, mark) {
   return StateField.define({
     create: () => Decoration.none,
     update: (marks, transaction) => {
-      const latest = transaction.effects.findLast((each) => each.is(effect));
+      const latest = transaction.effects.findLast((other) => other.is(effect));
       if (latest) return Decoration.set(latest.value.map((from) => mark.range(from)));
       return marks.map(transaction.changes);
     },
@@ -202,8 +235,12 @@ function lineMarks(effect, mark) {
   });
 }
 
-/** Return marks by which the rows of a long line stay to the right of its beginning. */
+/**
+ * Return marks by which the rows of a long line stay to the right of its beginning.
+ * @param {Doc} doc
+ */
 function hangingIndents(doc) {
+  /** @type {MarkRange[]} */
   const marks = [];
   for (let number = 1; number <= doc.lines; number += 1) {
     const { from, text } = doc.line(number);

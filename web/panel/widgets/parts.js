@@ -5,7 +5,13 @@ import { icon } from "../../shared/icons.js";
 import { freeId } from "../../shared/ids.js";
 import { recall, remember } from "../../shared/storage.js";
 
-/** A section that folds, and remembers it. Put more children into `.content`. */
+/**
+ * Return a section that folds, and remembers it. Put more children into `.content`.
+ * @param {string} key under which it is remembered
+ * @param {string} title
+ * @param {{isOpen?: boolean, detailsOnly?: boolean}} [options]
+ * @param {(Node | string | false)[]} children
+ */
 export function section(key, title, { isOpen = true, detailsOnly = false } = {}, ...children) {
   const content = element("div", { className: "ai4u-section-content" }, ...children);
   const made = element(
@@ -19,7 +25,11 @@ export function section(key, title, { isOpen = true, detailsOnly = false } = {},
   return Object.assign(made, { content });
 }
 
-/** A switch with a label. `set` shows a state without calling `onChange`. */
+/**
+ * Return a switch with a label. `set` shows a state without calling `onChange`.
+ * @param {string} label
+ * @param {(isOn: boolean) => void} onChange
+ */
 export function toggle(label, onChange, { title = "" } = {}) {
   const made = element(
     "button",
@@ -27,7 +37,7 @@ export function toggle(label, onChange, { title = "" } = {}) {
     element("i", { ariaHidden: "true" }),
     element("span", { textContent: label }),
   );
-  const set = (isOn) => setAttributes(made, { "aria-checked": isOn ? "true" : "false" });
+  const set = (/** @type {boolean} */ isOn) => setAttributes(made, { "aria-checked": isOn ? "true" : "false" });
   setAttributes(made, { role: "switch" });
   set(false);
   made.addEventListener("click", () => {
@@ -38,7 +48,13 @@ export function toggle(label, onChange, { title = "" } = {}) {
   return { element: made, set };
 }
 
-/** A labelled list to choose from. An option with a reason can't be chosen; the reason stands behind it. */
+/** @typedef {{value: string, text: string, reason?: string}} Option one with a reason can't be chosen; the reason stands behind it */
+
+/**
+ * Return a labelled list to choose from.
+ * @param {string} label
+ * @param {(value: string) => void} onChange
+ */
 export function choice(label, onChange) {
   const select = element("select", { id: freeId() });
   const made = element(
@@ -49,7 +65,7 @@ export function choice(label, onChange) {
   );
   let shown = "";
   select.addEventListener("change", () => onChange(select.value));
-  const set = (options, value) => {
+  const set = (/** @type {Option[]} */ options, /** @type {string} */ value) => {
     const key = JSON.stringify(options);
     if (key !== shown) {
       shown = key;
@@ -60,18 +76,24 @@ export function choice(label, onChange) {
   return { element: made, set };
 }
 
+/** @param {Option} option */
 function optionElement({ value, text, reason }) {
   const words = reason ? `${text} – ${reason}` : text;
   return element("option", { value, textContent: words, disabled: Boolean(reason) });
 }
 
-/** A row of buttons of which one is pressed. */
+/**
+ * Return a row of buttons of which one is pressed.
+ * @param {string} label
+ * @param {{value: string, text: string, title?: string}[]} options
+ * @param {(value: string) => void} onChange
+ */
 export function segments(label, options, onChange) {
   const buttons = options.map(({ value, text, title = "" }) =>
     element("button", { type: "button", textContent: text, title, value, on: { click: () => onChange(value) } }),
   );
   const made = element("div", { className: "ai4u-segments", role: "group", ariaLabel: label }, ...buttons);
-  const set = (value) => {
+  const set = (/** @type {string | null} */ value) => {
     for (const each of buttons) setAttributes(each, { "aria-pressed": each.value === value ? "true" : "false" });
   };
   set(null);
@@ -79,8 +101,9 @@ export function segments(label, options, onChange) {
 }
 
 /**
- * A card of a gallery.
- * @param tile.reason why it can't be chosen; empty if it can
+ * Return a card of a gallery.
+ * @param {{title: string, text?: string, note?: string, reason?: string}} tile `reason`: why it can't be chosen; empty if it can
+ * @param {() => void} onClick
  */
 export function tile({ title, text = "", note = "", reason = "" }, onClick) {
   const made = element(
@@ -97,14 +120,20 @@ export function tile({ title, text = "", note = "", reason = "" }, onClick) {
   return made;
 }
 
-/** A grid of tiles. */
+/**
+ * Return a grid of tiles.
+ * @param {HTMLElement[]} children
+ */
 export function tiles(...children) {
   return element("div", { className: "ai4u-tiles" }, ...children);
 }
 
-/** A line with a name and a value. `set` changes the value. */
+/**
+ * Return a line with a name and a value. `set` changes the value.
+ * @param {string} name
+ */
 export function fact(name) {
   const value = element("dd");
   const made = element("div", { className: "ai4u-fact" }, element("dt", { textContent: name }), value);
-  return { element: made, set: (text) => setText(value, text) };
+  return { element: made, set: (/** @type {string} */ text) => setText(value, text) };
 }
