@@ -6,11 +6,14 @@ import { section } from "../panel/widgets/parts.js";
 const MAX_LINES = 200;
 const MAX_LINE_CHARS = 2000;
 
+/** @typedef {{number: number | "", line: string}} Line with the number of its decision, or none */
+
 export class CodeConsole {
   #lines = element("ol");
   /** A role of its own would take the list's, and with it the meaning of its items. */
   #log = element("div", { className: "ai4u-code-output", role: "log", ariaLabel: "Output", tabIndex: 0 }, this.#lines);
   #none = element("p", { className: "ai4u-hint-text", textContent: "What your program prints appears here." });
+  /** @type {Line[]} */
   #waiting = [];
   element = section("code-output", "Output", {}, this.#none, this.#log);
 
@@ -24,10 +27,14 @@ export class CodeConsole {
     this.#show();
   }
 
-  /** Add what a decision printed; 0 is before the first one. */
+  /**
+   * Add what a decision printed.
+   * @param {number} number of the decision; 0 is before the first one
+   * @param {string} text
+   */
   add(number, text) {
     const lines = text.replace(/\n$/, "").split("\n").slice(-MAX_LINES);
-    this.#waiting.push(...lines.map((line, index) => ({ number: index ? "" : number || "", line: line.slice(0, MAX_LINE_CHARS) })));
+    lines.forEach((line, index) => this.#waiting.push({ number: index ? "" : number || "", line: line.slice(0, MAX_LINE_CHARS) }));
     if (this.#waiting.length === lines.length) requestAnimationFrame(() => this.#flush());
   }
 
@@ -48,6 +55,7 @@ export class CodeConsole {
   }
 }
 
+/** @param {Line} line */
 function lineElement({ number, line }) {
   return element("li", {}, element("b", { textContent: number }), element("span", { textContent: line || " " }));
 }

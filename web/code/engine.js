@@ -1,5 +1,7 @@
 /** Python in the browser: starts the worker of a student's program, and ends it if it does not answer. */
 
+/** @import { Reading, Value } from "../types/remote.js" */
+
 import { limits } from "../shared/limits.js";
 
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
@@ -14,17 +16,42 @@ const UNAVAILABLE = "Python could not be loaded. Is the world still running? Rel
 /** Numbers that JSON does not have, as host.py reads them. */
 const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan"]]);
 
-/** Files that all workers share; the compiled module, too, so that only the first worker waits for it. */
+/**
+ * @typedef {object} Answer of host.py
+ * @property {boolean} ok
+ * @property {string} [kind] of a mistake
+ * @property {string} [text]
+ * @property {number} [line] 0 for none
+ * @property {string} [printed]
+ * @property {number[]} [lines] that ran
+ * @property {Record<string, string>} [variables]
+ * @property {Record<string, number[]>} [values] the action, by actuator
+ */
+/** @typedef {{wasm: WebAssembly.Module, library: Uint8Array<ArrayBuffer>, program: Uint8Array<ArrayBuffer>}} Parts */
+/** @typedef {{outputs: Record<string, [low: number[], high: number[]]>, readings: Pick<Reading, "key" | "dtype">[]}} Facts of an agent */
+
+/**
+ * Files that all workers share; the compiled module, too, so that only the first worker waits for it.
+ * @type {Promise<Parts> | null}
+ */
 let parts = null;
 
-/** An answer in the form of host.py for what happens outside of it. */
+/**
+ * Return an answer in the form of host.py for what happens outside of it.
+ * @param {string} kind
+ * @param {string} text
+ * @returns {Answer}
+ */
 function problem(kind, text, line = 0) {
   return { ok: false, kind, text, line, printed: "", lines: [], variables: {} };
 }
 
-/** Return JSON for host.py. */
+/**
+ * Return JSON for host.py.
+ * @param {unknown} value
+ */
 function json(value) {
-  return JSON.stringify(value, (_, each) => (Object.is(each, -0) ? "-0" : (NUMBER_WORDS.get(each) ?? each)));
+  return JSON.stringify(value, (_, part) => (Object.is(part, -0) ? "-0" : (NUMBER_WORDS.get(part) ?? part)));
 }
 
 /**
@@ -34,17 +61,25 @@ function json(value) {
  * for the next one.
  */
 export class CodeEngine {
-  /** The worker that has the program, or will have the next one. */
+  /**
+   * The worker that has the program, or will have the next one.
+   * @type {Runtime | null}
+   */
   #runtime = null;
-  /** A worker that is ready for when the other one is ended. */
+  /**
+   * A worker that is ready for when the other one is ended.
+   * @type {Runtime | null}
+   */
   #spare = null;
   /** Counts ends of programs: what was asked before is not done later. */
   #ends = 0;
-  /** The end of the latest call. */
-  /** @type {Promise<any>} */
+  /**
+   * The end of the latest call.
+   * @type {Promise<unknown>}
+   */
   #last = Promise.resolve();
   /** Until the spare worker is started. */
-  #timer;
+  #timer = 0;
   #isLoaded = false;
 
   /** Load Python ahead of the first program. Rejects with a sentence if it can't be loaded. */
@@ -62,17 +97,21 @@ export class CodeEngine {
    * Load a program.
    *
    * @param {string} source
-   * @param {object} room
-   * @param {Object<string, [number[], number[]]>} room.outputs lowest and highest values by actuator
-   * @param {{key: string, dtype: string}[]} room.readings those of RemoteClient.welcome
+   * @param {Facts} facts
    * @param {number} spareDelay time until the worker of the program after it is started (ms)
-   * @returns {Promise<{ok: boolean, text?: string, line?: number, kind?: string}>}
+   * @returns {Promise<Answer>}
    */
-  load(source, room, spareDelay = SPARE_DELAY_MS) {
+  load(source, facts, spareDelay = SPARE_DELAY_MS) {
     const ends = this.#ends;
-    return this.#queue(() => this.#load(source, room, spareDelay, () => ends !== this.#ends));
+    return this.#queue(() => this.#load(source, facts, spareDelay, () => ends !== this.#ends));
   }
 
+  /**
+   * @param {string} source
+   * @param {Facts} facts
+   * @param {number} spareDelay (ms)
+   * @param {() => boolean} isOver
+   */
   async #load(source, { outputs, readings }, spareDelay, isOver) {
     this.#isLoaded = false;
     if (this.#runtime?.isUsed) this.#replace();
@@ -106,7 +145,7 @@ export class CodeEngine {
   /**
    * Let the program decide.
    *
-   * @param {Object<string, any>} percept readings by key
+   * @param {Record<string, Value>} percept readings by key
    * @param {number} number of the decision, which stands beside what the program prints
    */
   decide(percept, number) {
@@ -123,6 +162,10 @@ export class CodeEngine {
     this.#isLoaded = false;
   }
 
+  /**
+   * @param {string} method
+   * @param {string} text
+   */
   #callLoaded(method, text) {
     return this.#queue(() => (this.#isLoaded ? this.#call(method, text) : problem("not_loaded", NOT_LOADED)));
   }
@@ -139,6 +182,10 @@ export class CodeEngine {
     return answer;
   }
 
+  /**
+   * @param {string} method
+   * @param {string} text
+   */
   async #call(method, text) {
     const runtime = this.#runtime;
     if (runtime === null) return problem("ended", NOT_LOADED); // while Python was loaded
@@ -162,7 +209,10 @@ class Runtime {
   #worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
   #isEnded = false;
   #lastId = 0;
-  /** Functions that take an answer's text, by the id of the call. */
+  /**
+   * Functions that take an answer's text, by the id of the call.
+   * @type {Map<number, (text: string) => void>}
+   */
   #waiting = new Map();
   /** The line of the program that ran last, as far as it was reported. */
   #line = 0;
@@ -186,10 +236,16 @@ class Runtime {
     this.ready.catch(() => {}); // whoever waits for it is told
   }
 
-  /** Call a function of host.py; give up after a while. */
+  /**
+   * Call a function of host.py; give up after a while.
+   * @param {string} method
+   * @param {string} text
+   * @returns {Promise<Answer>}
+   */
   async call(method, text) {
     this.#line = 0;
-    let timer;
+    let timer = 0;
+    /** @type {Promise<string>} */
     const late = new Promise((resolve) => {
       timer = setTimeout(resolve, limits.beginMs, "");
       this.#onbegun = () => {
@@ -225,6 +281,10 @@ class Runtime {
     if (answer.ok === false) throw new Error(answer.text);
   }
 
+  /**
+   * @param {{method: string, text?: string, parts?: Parts}} message
+   * @returns {Promise<string>}
+   */
   #ask(message) {
     if (this.#isEnded) return Promise.resolve(ENDED_ANSWER);
     const id = (this.#lastId += 1);
@@ -235,6 +295,7 @@ class Runtime {
   }
 }
 
+/** @returns {Promise<Parts>} */
 async function fetchParts() {
   try {
     const [wasm, library, program] = await Promise.all([
@@ -248,6 +309,7 @@ async function fetchParts() {
   }
 }
 
+/** @param {string} path */
 async function fetched(path) {
   const answer = await fetch(new URL(path, import.meta.url));
   if (!answer.ok) throw new Error(UNAVAILABLE);

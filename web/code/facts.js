@@ -1,7 +1,11 @@
 /** Lists beside a program: what the agent senses and can do, and the variables of the latest decision. */
 
+/** @import { Names } from "./start.js" */
+
 import { element, keyed, setText } from "../shared/dom.js";
 import { section } from "../panel/widgets/parts.js";
+
+/** @typedef {{code: string, words: string}} Item */
 
 /** Names to put into the program by a click. */
 export class NameList {
@@ -18,19 +22,23 @@ export class NameList {
     this.#outputs,
   );
 
-  /** @param onChoose called with the code of a name that is clicked */
+  /** @param {(code: string) => void} onChoose called with the code of a name that is clicked */
   constructor(onChoose) {
     this.#onChoose = onChoose;
   }
 
-  /** @param names as namesOf() in code/start.js gives them */
+  /** @param {Names} names */
   update({ readings, outputs }) {
     this.#fill(this.#readings, readings.map(({ key, words }) => ({ code: `percept["${key}"]`, words })));
     this.#fill(this.#outputs, outputs.map(({ name, words }) => ({ code: `"${name}"`, words })));
   }
 
+  /**
+   * @param {HTMLElement} list
+   * @param {Item[]} items
+   */
   #fill(list, items) {
-    const make = ({ code }) => {
+    const make = (/** @type {Item} */ { code }) => {
       const insert = element("button", { type: "button", title: `Insert ${code}` }, element("code", { textContent: code }));
       insert.addEventListener("click", () => this.#onChoose(code));
       return element("li", {}, insert, element("span"));

@@ -8,16 +8,25 @@ const MAX_RUNS = 50;
 /** Most characters of all of them together. */
 const MAX_RUNS_CHARS = 200_000;
 
+/** @typedef {{at: number, source: string}} KeptRun at milliseconds since 1970 */
+
 export class KeptPrograms {
   #key = "";
 
-  /** Use the programs of an agent in a scene. */
+  /**
+   * Use the programs of an agent in a scene.
+   * @param {string} scene
+   * @param {string} agent
+   */
   open(scene, agent) {
     const room = roomOfPage(); // students of a class may use one device in turn
     this.#key = `${room && `${room}/`}${scene}-${agent}`;
   }
 
-  /** The present program; null if the person has written none. */
+  /**
+   * The present program; null if the person has written none.
+   * @returns {string | null}
+   */
   get source() {
     return recall(`code-${this.#key}`, null);
   }
@@ -27,13 +36,19 @@ export class KeptPrograms {
     else remember(`code-${this.#key}`, source);
   }
 
-  /** The programs of the latest runs, newest first: {at, source}, at in milliseconds since 1970. */
+  /**
+   * The programs of the latest runs, newest first.
+   * @returns {KeptRun[]}
+   */
   get runs() {
     const runs = recall(`code-runs-${this.#key}`, []);
     return Array.isArray(runs) ? runs.filter(({ source }) => typeof source === "string") : [];
   }
 
-  /** Keep a program that runs, unless it is that of the run before. */
+  /**
+   * Keep a program that runs, unless it is that of the run before.
+   * @param {string} source
+   */
   addRun(source) {
     const before = this.runs;
     if (before[0]?.source === source) return;
@@ -43,7 +58,11 @@ export class KeptPrograms {
   }
 }
 
-/** Give the person a text as a file. */
+/**
+ * Give the person a text as a file.
+ * @param {string} name
+ * @param {string} text
+ */
 export function downloadText(name, text) {
   const url = URL.createObjectURL(new Blob([text], { type: "text/x-python" }));
   const link = document.createElement("a");

@@ -1,9 +1,13 @@
 /** The moment of the past that the world shows, beside the program: what it did there, and steps from there. */
 
+/** @import { CodePanel, PlayedEpisode } from "../types/panel.js" */
+/** @import { Told } from "./timeline.js" */
+
 import { button, element, setText } from "../shared/dom.js";
 
 export class CodeMoment {
   #panel;
+  /** @type {PlayedEpisode | null} */
   #playing = null;
   #text = element("p", { role: "status" });
   #printed = element("pre");
@@ -12,6 +16,7 @@ export class CodeMoment {
   #live;
   element;
 
+  /** @param {CodePanel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#back = button("", () => this.#step(-1), { icon: "back", label: "Decision before" });
@@ -23,9 +28,9 @@ export class CodeMoment {
 
   /**
    * Show a moment.
-   * @param playing as of the part "past"; null in the present
-   * @param told as CodeTimeline.at() returns it
-   * @param isSame true if the program in the editor is the one that ran
+   * @param {PlayedEpisode | null} playing null in the present
+   * @param {Told | null} [told] null if nothing is known
+   * @param {boolean} [isSame] true if the program in the editor is the one that ran
    */
   update(playing, told, isSame) {
     this.#playing = playing;
@@ -38,12 +43,18 @@ export class CodeMoment {
     this.#forward.disabled = playing.step >= playing.steps;
   }
 
+  /** @param {number} by */
   #step(by) {
     const { step, steps } = this.#playing;
     this.#panel.send("step", { step: Math.min(Math.max(step + by, 0), steps) }, { quiet: true });
   }
 }
 
+/**
+ * @param {PlayedEpisode} playing
+ * @param {Told | null} told
+ * @param {boolean} isSame
+ */
 function momentWords({ step, steps }, told, isSame) {
   if (step >= steps) return `The end of the episode, after ${steps} decisions.`;
   const where = `Decision ${step + 1} of ${steps}`;

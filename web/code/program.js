@@ -1,13 +1,14 @@
 /** The section "Your program": where the program comes from, and where it is kept. */
 
+/** @import { CodePanel } from "../types/panel.js" */
+
 import { splitProgram } from "../blocks/text.js";
 import { handoutFor, handouts } from "../classroom/student/handout.js";
 import { ClassPrograms } from "../classroom/student/programs.js";
 import { freeId } from "../shared/ids.js";
 import { downloadText, KeptPrograms } from "./keep.js";
-import { button, element } from "../shared/dom.js";
+import { button, element, fileButton } from "../shared/dom.js";
 import { section } from "../panel/widgets/parts.js";
-import { fileButton } from "../panel/world/scene_files.js";
 import { copyLink } from "../scenes/share.js";
 import { SharedOffer, sharedFor, sharedPrograms } from "../scenes/shared_program.js";
 
@@ -27,7 +28,10 @@ export class ProgramSection {
   });
   #scene = "";
   #agent = "";
-  /** Name of the file; null before the first program. */
+  /**
+   * Name of the file; null before the first program.
+   * @type {string | null}
+   */
   #name = null;
   /** The program that a person begins with. */
   #first = "";
@@ -38,14 +42,15 @@ export class ProgramSection {
   offer = button("Take the program from your teacher", () => this.#takeRun("teacher"), { icon: "download" });
 
   /**
-   * @param panel the panel
+   * @param {CodePanel} panel
    * @param {object} tab
    * @param {() => string} tab.text returns the program in the editor
    * @param {(text: string) => void} tab.show puts another one there, and forgets how the one before ended
    * @param {() => boolean} tab.isBusy returns true while the program drives
    */
   constructor(panel, tab) {
-    [this.#panel, this.#tab] = [panel, tab];
+    this.#panel = panel;
+    this.#tab = tab;
     this.#runs.addEventListener("change", () => this.#takeRun(this.#runs.value));
     const label = element("label", { htmlFor: this.#runs.id, textContent: "Earlier runs" });
     const tools = element(
@@ -62,7 +67,12 @@ export class ProgramSection {
     sharedPrograms.addEventListener("change", () => this.#draw());
   }
 
-  /** Show the program of an agent in a scene; the first one if there is no other. */
+  /**
+   * Show the program of an agent in a scene; the first one if there is no other.
+   * @param {string} scene
+   * @param {string} agent
+   * @param {string} first
+   */
   open(scene, agent, first) {
     [this.#scene, this.#agent, this.#name, this.#first] = [scene, agent, `${scene}-${agent}`, first];
     this.#kept.open(scene, agent);
@@ -71,20 +81,27 @@ export class ProgramSection {
     this.#draw();
   }
 
-  /** Keep a program that the person has changed. */
+  /**
+   * Keep a program that the person has changed.
+   * @param {string} text
+   */
   changed(text) {
     this.#kept.source = text;
     this.#class.changed(text);
     if (this.#runs.value !== NOW) this.#runs.value = NOW;
   }
 
-  /** Keep a program that runs. */
+  /**
+   * Keep a program that runs.
+   * @param {string} text
+   */
   ran(text) {
     this.#kept.addRun(text);
     this.#class.ran(text);
     this.#draw();
   }
 
+  /** @param {File} file */
   async #openFile(file) {
     if (file.size > MAX_FILE_BYTES) {
       this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
@@ -93,7 +110,10 @@ export class ProgramSection {
     this.replace((await file.text()).replaceAll("\r\n", "\n"));
   }
 
-  /** Take another program; the present one is kept among the runs. */
+  /**
+   * Take another program; the present one is kept among the runs.
+   * @param {string} text
+   */
   replace(text) {
     this.#kept.addRun(this.#tab.text());
     this.#tab.show(text);
@@ -101,7 +121,10 @@ export class ProgramSection {
     this.#draw();
   }
 
-  /** Take the program that the class has, from another device. */
+  /**
+   * Take the program that the class has, from another device.
+   * @param {string} source
+   */
   #takeFromClass(source) {
     if (this.#kept.source !== null) this.#kept.addRun(this.#kept.source);
     this.#kept.source = source;
@@ -109,6 +132,7 @@ export class ProgramSection {
     this.#draw();
   }
 
+  /** @param {string} source */
   #keepAsRun(source) {
     if (this.#kept.runs.some((run) => run.source === source)) return;
     this.#kept.addRun(source);
@@ -123,10 +147,14 @@ export class ProgramSection {
     this.#draw();
   }
 
+  /** @param {string} value of the list of runs */
   #takeRun(value) {
     if (value === "start") this.replace(this.#first);
     else if (value === "teacher") this.#takeHandout();
-    else if (value !== NOW) this.replace(this.#kept.runs.find(({ at }) => String(at) === value).source);
+    else {
+      const run = this.#kept.runs.find(({ at }) => String(at) === value);
+      if (run !== undefined) this.replace(run.source); // else another page of this browser has kept more runs since
+    }
   }
 
   #takeHandout() {
@@ -157,6 +185,7 @@ export class ProgramSection {
   }
 }
 
+/** @param {number} at milliseconds since 1970 */
 function when(at) {
   const date = new Date(at);
   const isToday = date.toDateString() === new Date().toDateString();

@@ -1,5 +1,24 @@
 /** A run of the person's program: it senses, decides and acts until the episode is over, a mistake, or Stop. */
 
+/** @import { EmitterClass } from "../types/events.js" */
+/** @import { Percept, Value, Welcome } from "../types/remote.js" */
+/** @import { RemoteClient } from "../remote/client.js" */
+/** @import { Answer, CodeEngine, Facts } from "./engine.js" */
+/** @import { Told } from "./timeline.js" */
+
+/** @typedef {Told & {episode: number, number: number, source: string}} Decision */
+/** @typedef {Decision & {percept: Record<string, Value>, action: Record<string, number[]> | null}} RunDecision */
+/**
+ * @typedef {object} RunEnd
+ * @property {"over" | "tested" | "stopped" | "mistake" | "lost"} reason
+ * @property {string} text
+ * @property {number | null} line
+ * @property {string} [kind] of a mistake
+ * @property {Percept | null} percept the last one, if the episode is over
+ */
+/** @typedef {{change: null, decision: RunDecision, printed: {number: number, text: string}, end: RunEnd}} RunEvents */
+/** @typedef {{agent: string, mode: "realtime" | "lockstep"}} Connecting */
+
 /** Interval at which a world that waits between two steps is asked to wait longer (ms). */
 const WAIT_MS = 400;
 const NO_STEPS =
@@ -9,17 +28,16 @@ export const STOPPED = Symbol("stopped");
 
 /** A sentence about a program that can't go on, with the line or null. */
 export class ProgramMistake extends Error {
+  /** @param {Answer} answer */
   constructor({ text, line = 0, kind = "" }) {
     super(text);
-    Object.assign(this, { line: line || null, kind }); // 0 is no line
+    this.line = line || null; // 0 is no line
+    this.kind = kind;
   }
 }
 
-/**
- * Events: "change" (phase, decision), "decision" (what it told, with percept, action, episode, number and source), "printed", and "end", whose detail is
- * {reason: "over" | "stopped" | "mistake" | "lost", text, line, kind, percept}.
- */
-export class CodeRun extends EventTarget {
+/** Its event "change" is of phase and decision. */
+export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget) {
   /** "off", "loading" (Python), "joining" (the world gives the agent), "running", or "stepping". */
   phase = "off";
   /** Number of the latest decision in its episode; 0 before the first one of a run. */
@@ -29,21 +47,30 @@ export class CodeRun extends EventTarget {
   /** Id of the agent that the latest run drove. */
   agent = "";
   #parts;
+  /** @type {Promise<CodeEngine> | null} */
   #engine = null;
   #isWarm = false;
+  /** @type {RemoteClient | null} */
   #client = null;
-  /** The end of the latest connection, or of its attempt. */
+  /**
+   * The end of the latest connection, or of its attempt.
+   * @type {Promise<void>}
+   */
   #ended = Promise.resolve();
   #ticket = 0;
+  /** @type {string | null} */
   #source = null;
-  /** The percept that the next step decides about. */
+  /**
+   * The percept that the next step decides about.
+   * @type {Percept | null}
+   */
   #pending = null;
   #timer = 0;
 
   /**
    * @param {object} parts
-   * @param {() => any} [parts.makeEngine] returns a CodeEngine
-   * @param {(options: any) => Promise<any>} [parts.connect] as RemoteClient.connect
+   * @param {() => Promise<CodeEngine>} [parts.makeEngine]
+   * @param {(options: Connecting) => Promise<RemoteClient>} [parts.connect]
    * @param {() => Promise<void>} [parts.prepare] called before each start; lets a paused world run
    * @param {() => Promise<boolean>} [parts.beginAgain] begins another episode while nobody drives; returns false if it can't
    */
@@ -87,7 +114,11 @@ export class CodeRun extends EventTarget {
     });
   }
 
-  /** Make one decision, and have the world wait before the next one. */
+  /**
+   * Make one decision, and have the world wait before the next one.
+   * @param {string} source
+   * @param {string} agent
+   */
   async step(source, agent) {
     const isNext = this.phase === "stepping" && source === this.#source;
     if (isNext && this.#pending === null) return; // the decision before is not over yet
@@ -108,7 +139,10 @@ export class CodeRun extends EventTarget {
     if (this.isOn) this.#end({ reason: text ? "lost" : "stopped", text });
   }
 
-  /** Call a function with a ticket, and end the run if it throws. */
+  /**
+   * Call a function with a ticket, and end the run if it throws.
+   * @param {(ticket: number) => Promise<void>} work
+   */
   async #guarded(work) {
     const ticket = ++this.#ticket;
     try {
@@ -121,7 +155,14 @@ export class CodeRun extends EventTarget {
     }
   }
 
-  /** Connect, load the program, and return the first percept. */
+  /**
+   * Connect, load the program, and return the first percept.
+   * @param {string} source
+   * @param {string} agent
+   * @param {Connecting["mode"]} mode
+   * @param {number} ticket
+   * @param {{seed?: number | null, isFresh?: boolean}} [from]
+   */
   async #start(source, agent, mode, ticket, { seed = null, isFresh = false } = {}) {
     // from Step to Run and back, the same program goes on with what it remembers
     const goesOn = seed === null && !isFresh && this.isOn && this.#client !== null && source === this.#source;
@@ -144,6 +185,11 @@ export class CodeRun extends EventTarget {
     return percept;
   }
 
+  /**
+   * @param {string} agent
+   * @param {Connecting["mode"]} mode
+   * @param {number} ticket
+   */
   async #join(agent, mode, ticket) {
     this.agent = agent;
     await this.#until(this.#parts.prepare(), ticket);
@@ -153,7 +199,12 @@ export class CodeRun extends EventTarget {
     return this.#until(client.sense(), ticket);
   }
 
-  /** Connect when the connection before has ended: the world gives an agent to one at a time. */
+  /**
+   * Connect when the connection before has ended: the world gives an agent to one at a time.
+   * @param {string} agent
+   * @param {Connecting["mode"]} mode
+   * @param {number} ticket
+   */
   #connect(agent, mode, ticket) {
     const connected = this.#ended.then(async () => {
       if (this.#isStale(ticket)) throw STOPPED;
@@ -166,6 +217,11 @@ export class CodeRun extends EventTarget {
     return connected;
   }
 
+  /**
+   * @param {string} agent
+   * @param {Connecting["mode"]} mode
+   * @param {number} ticket
+   */
   async #beginAgain(agent, mode, ticket) {
     this.#leave();
     await this.#until(this.#parts.beginAgain(), ticket);
@@ -175,12 +231,20 @@ export class CodeRun extends EventTarget {
     return this.#until(this.#client.sense(), ticket);
   }
 
+  /**
+   * @param {number} seed
+   * @param {number} ticket
+   */
   async #resetTo(seed, ticket) {
     await this.#until(this.#client.reset(seed), ticket);
     return this.#until(this.#client.sense(), ticket);
   }
 
-  /** Make one decision, and return the next percept; the end of the episode ends the run. */
+  /**
+   * Make one decision, and return the next percept; the end of the episode ends the run.
+   * @param {Percept} percept
+   * @param {number} ticket
+   */
   async #decide(percept, ticket) {
     const engine = await this.#engine;
     const number = percept.step + 1;
@@ -199,20 +263,30 @@ export class CodeRun extends EventTarget {
     return next;
   }
 
-  /** Tell what an answer of the engine printed; throw if it tells of a mistake. */
+  /**
+   * Tell what an answer of the engine printed; throw if it tells of a mistake.
+   * @param {Answer} answer
+   */
   #checked(answer, number = 0) {
     if (answer.printed) this.#emit("printed", { number, text: answer.printed });
     if (!answer.ok) throw new ProgramMistake(answer);
   }
 
+  /**
+   * @template Result
+   * @param {Promise<Result>} promise
+   * @param {number} ticket
+   */
   #until(promise, ticket) {
     return valid(promise, () => this.#isStale(ticket));
   }
 
+  /** @param {number} ticket */
   #isStale(ticket) {
     return ticket !== this.#ticket;
   }
 
+  /** @param {Partial<RunEnd> & Pick<RunEnd, "reason">} detail */
   #end(detail) {
     this.#ticket += 1;
     this.#leave();
@@ -238,41 +312,66 @@ export class CodeRun extends EventTarget {
     this.#client = null;
   }
 
+  /** @param {string} phase */
   #set(phase) {
     this.phase = phase;
     this.#emit("change");
   }
 
+  /**
+   * @template {keyof RunEvents} Type
+   * @param {Type} type
+   * @param {RunEvents[Type]} detail
+   */
   #emit(type, detail = null) {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 }
 
+/** @returns {Promise<CodeEngine>} */
 async function makeEngine() {
   return new (await import("./engine.js")).CodeEngine();
 }
 
+/**
+ * @param {Connecting} options
+ * @returns {Promise<RemoteClient>}
+ */
 export async function connect(options) {
   return (await import("../remote/client.js")).RemoteClient.connect(options);
 }
 
-/** Return what a promise gives, unless the run was stopped meanwhile. */
+/**
+ * Return what a promise gives, unless the run was stopped meanwhile.
+ * @template Result
+ * @param {Promise<Result>} promise
+ * @param {() => boolean} isStale
+ */
 export async function valid(promise, isStale) {
   const value = await promise;
   if (isStale()) throw STOPPED;
   return value;
 }
 
+/** @param {Percept} percept */
 export function isOver({ terminated, truncated }) {
   return terminated || truncated;
 }
 
-/** Return what an answer of the engine tells of a decision, for CodeTimeline. */
+/**
+ * Return what an answer of the engine tells of a decision, for CodeTimeline.
+ * @param {Answer} answer
+ * @returns {Told}
+ */
 export function toldBy({ lines = [], variables = {}, printed = "" }) {
   return { lines, variables, printed };
 }
 
-/** Return what CodeEngine.load takes, from the world's welcome. */
+/**
+ * Return what CodeEngine.load takes, from the world's welcome.
+ * @param {Welcome} welcome
+ * @returns {Facts}
+ */
 export function programFacts({ readings, outputs }) {
   return { readings, outputs: Object.fromEntries(outputs.map(({ name, low, high }) => [name, [low, high]])) };
 }

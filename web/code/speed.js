@@ -1,13 +1,19 @@
 /** The world's speed during a test, and how it comes back to what it was. */
 
+/** @import { CodePanel } from "../types/panel.js" */
+
 import { limits } from "../shared/limits.js";
 
 export class WorldSpeed {
   #panel;
-  /** The speed to come back to; null while the world has it. */
+  /**
+   * The speed to come back to; null while the world has it.
+   * @type {number | "max" | null}
+   */
   #before = null;
   #isFast = false;
 
+  /** @param {CodePanel} panel */
   constructor(panel) {
     this.#panel = panel;
     panel.addEventListener("part:run", ({ detail }) => {
@@ -36,17 +42,23 @@ export class WorldSpeed {
   }
 }
 
-/** Return the panel's word for the end of an episode: "fell", "lost" or "over". */
+/**
+ * Return the panel's word for the end of an episode: "fell", "lost" or "over".
+ * @param {CodePanel} panel
+ * @param {{step: number}} percept the last one
+ * @param {number} seed
+ * @returns {Promise<string>}
+ */
 export function outcomeOf(panel, { step }, seed) {
   return new Promise((resolve) => {
-    const end = (word) => {
+    const end = (/** @type {string} */ word) => {
       clearTimeout(timer);
       panel.removeEventListener("part:run", check);
       resolve(word);
     };
     const check = () => {
-      const { result, decision, seed: present } = panel.part("run") ?? {};
-      if (result && decision === step && present === String(seed)) end(result);
+      const run = panel.part("run");
+      if (run?.result && run.decision === step && run.seed === String(seed)) end(run.result);
     };
     const timer = setTimeout(end, limits.outcomeMs, "over");
     panel.addEventListener("part:run", check);

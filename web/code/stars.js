@@ -1,5 +1,9 @@
 /** The goals of a scene of the library, and the stars that the person's program earns with a run or a test. */
 
+/** @import { CodePanel, StarGoals } from "../types/panel.js" */
+/** @import { CodeRun, RunEnd } from "./run.js" */
+/** @import { CodeTest, Start } from "./test.js" */
+
 import { syncStars } from "../classroom/student/stars.js";
 import { averageDecisions, STARTS } from "./test.js";
 import { element, setAttributes, setText } from "../shared/dom.js";
@@ -24,9 +28,9 @@ export class CodeStars {
   #isHelped = false;
 
   /**
-   * @param panel the panel
-   * @param run a CodeRun
-   * @param test a CodeTest
+   * @param {CodePanel} panel
+   * @param {CodeRun} run
+   * @param {CodeTest} test
    */
   constructor(panel, run, test) {
     this.#panel = panel;
@@ -71,14 +75,21 @@ export class CodeStars {
     });
   }
 
+  /**
+   * @param {number} count
+   * @param {string} agent
+   */
   #earn(count, agent) {
-    const { scene, agents = [] } = this.#panel.part("scene") ?? {};
-    if (this.#goals === null || agent !== agents[0]?.id) return;
-    if (earn(scene, Math.min(count, this.#goals.count))) this.#panel.notice(NOTICES[count - 1]);
+    const scene = this.#panel.part("scene");
+    if (this.#goals === null || agent !== scene.agents[0]?.id) return;
+    if (earn(scene.scene, Math.min(count, this.#goals.count))) this.#panel.notice(NOTICES[count - 1]);
   }
 }
 
-/** Return the goals of a scene as sentences. */
+/**
+ * Return the goals of a scene as sentences.
+ * @param {StarGoals} goals
+ */
 export function goalWords({ count, few_decisions: few }) {
   const all = [
     "Reach the goal once, with Run.",
@@ -88,12 +99,21 @@ export function goalWords({ count, few_decisions: few }) {
   return all.slice(0, count);
 }
 
-/** Return the stars that a run earns: 1 if it ended at the goal. */
+/**
+ * Return the stars that a run earns: 1 if it ended at the goal.
+ * @param {Pick<RunEnd, "reason" | "percept">} end
+ * @param {string} success
+ */
 export function starsOfRun({ reason, percept }, success) {
   return reason === "over" && success && percept.terms?.[success] > 0 ? 1 : 0;
 }
 
-/** Return the stars that a test earns. */
+/**
+ * Return the stars that a test earns.
+ * @param {Start[]} rows
+ * @param {RunEnd["reason"]} reason
+ * @param {StarGoals | null} goals
+ */
 export function starsOfTest(rows, reason, goals) {
   const reached = rows.filter(({ outcome }) => outcome === "goal").length;
   if (reason !== "tested" || reached < STARTS) return reached > 0 ? 1 : 0;

@@ -1,5 +1,11 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
+/** @import { Emitter } from "../types/events.js" */
+/** @import { AgentPart, CodePanel } from "../types/panel.js" */
+/** @import { Decision, RunDecision, RunEnd } from "./run.js" */
+/** @import { Names } from "./start.js" */
+/** @import { Told } from "./timeline.js" */
+
 import { BlocksMode } from "../blocks/mode.js";
 import { freeId } from "../shared/ids.js";
 import { CodeConsole } from "./console.js";
@@ -26,7 +32,10 @@ export class CodeTab {
   #panel;
   #run;
   #test;
-  /** What ran last: the run or the test. */
+  /**
+   * What ran last.
+   * @type {CodeRun | CodeTest}
+   */
   #active;
   #editor;
   #blocks;
@@ -36,17 +45,28 @@ export class CodeTab {
   #variables = new VariableList();
   #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", { seed: this.#test.failure }));
   #nameList = new NameList((code) => this.#editor.insert(code));
+  /** @type {string | null} */
   #key = null;
+  /** @type {AgentPart | null} */
   #agent = null;
-  /** How the latest run ended; null before the first one. */
+  /**
+   * How the latest run ended; null before the first one.
+   * @type {(RunEnd & {summary?: string}) | null}
+   */
   #end = null;
   /** Python: "loading", "ready", or a sentence about what went wrong. */
   #python = "loading";
-  /** The latest decision. */
+  /**
+   * The latest decision.
+   * @type {RunDecision | null}
+   */
   #latest = null;
   #timeline = new CodeTimeline();
   #moment;
-  /** Names that the program reads and writes, and the same as text. */
+  /**
+   * Names that the program reads and writes, and the same as text.
+   * @type {Names}
+   */
   #names = { readings: [], outputs: [] };
   #namesText = "";
   #isDue = false;
@@ -67,7 +87,11 @@ export class CodeTab {
   #goTo = button("Go to the line", () => this.#blocks.goTo(this.#end.line) || this.#editor.goTo(this.#end.line), {});
   #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
 
-  /** @param parts of CodeRun and CodeTest */
+  /**
+   * @param {HTMLElement} root
+   * @param {CodePanel} panel
+   * @param {ConstructorParameters<typeof CodeRun>[0]} [parts] of CodeRun and CodeTest
+   */
   constructor(root, panel, parts = {}) {
     this.#panel = panel;
     this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
@@ -116,7 +140,7 @@ export class CodeTab {
     this.#warm();
   }
 
-  /** @param agent as "agent" in the protocol */
+  /** @param {AgentPart} agent */
   update(agent) {
     const python = this.#panel.part("python");
     if (python?.agent !== agent.id) return; // it comes next
@@ -128,6 +152,10 @@ export class CodeTab {
     this.#open();
   }
 
+  /**
+   * @param {Names} names
+   * @param {string} text
+   */
   #setNames(names, text) {
     this.#namesText = text;
     this.#names = names;
@@ -139,16 +167,7 @@ export class CodeTab {
   }
 
   #listen() {
-    for (const each of [this.#run, this.#test]) {
-      each.addEventListener("decision", ({ detail }) => {
-        this.#timeline.add(detail.episode, detail.number, detail.source, detail);
-        this.#panel.program = { agent: each.agent, episode: detail.episode, isTest: each === this.#test };
-      });
-      each.addEventListener("change", () => {
-        this.#panel.hasProgram = this.#active.isOn && this.#active.phase !== "loading";
-        this.#drawSoon();
-      });
-    }
+    for (const run of [this.#run, this.#test]) this.#watch(run);
     this.#test.addEventListener("end", ({ detail }) => {
       this.#onEnd({ ...detail, summary: testWords(this.#test) });
       if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
@@ -177,6 +196,18 @@ export class CodeTab {
     document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
   }
 
+  /** @param {Emitter<{change: null, decision: Decision}> & {agent: string}} run the run, or the test */
+  #watch(run) {
+    run.addEventListener("decision", ({ detail }) => {
+      this.#timeline.add(detail.episode, detail.number, detail.source, detail);
+      this.#panel.program = { agent: run.agent, episode: detail.episode, isTest: run === this.#test };
+    });
+    run.addEventListener("change", () => {
+      this.#panel.hasProgram = this.#active.isOn && this.#active.phase !== "loading";
+      this.#drawSoon();
+    });
+  }
+
   // -- the program -------------------------------------------------------------------------------
 
   /** Show the program of the present agent and scene. */
@@ -193,6 +224,7 @@ export class CodeTab {
     this.#program.open(scene, this.#agent.id, startProgram(this.#names));
   }
 
+  /** @param {string} text */
   #showProgram(text) {
     this.#editor.text = this.#blocks.take(text);
     this.#forget();
@@ -205,7 +237,11 @@ export class CodeTab {
 
   // -- runs --------------------------------------------------------------------------------------
 
-  /** Begin to run, or make a step. Returns true: the key is used. */
+  /**
+   * Begin to run, or make a step. Returns true: the key is used.
+   * @param {"run" | "step"} way
+   * @param {Parameters<CodeRun["run"]>[2]} [from] of a run
+   */
   #go(way, from = {}) {
     if (this.#agent === null) return true;
     this.#test.stop();
@@ -213,7 +249,8 @@ export class CodeTab {
     const source = this.#editor.text;
     if (this.#run.phase === "off" || way === "run") this.#console.clear();
     this.#noteStart(source);
-    this.#run[way](source, this.#agent.id, from);
+    if (way === "run") this.#run.run(source, this.#agent.id, from);
+    else this.#run.step(source, this.#agent.id);
     return true;
   }
 
@@ -227,7 +264,10 @@ export class CodeTab {
     this.#test.run(this.#editor.text, this.#agent.id);
   }
 
-  /** Begin an episode with a seed, for the person to watch. */
+  /**
+   * Begin an episode with a seed, for the person to watch.
+   * @param {number} seed
+   */
   #begin(seed) {
     this.#stopAll();
     this.#panel.send("seed", { seed: String(seed) });
@@ -238,7 +278,10 @@ export class CodeTab {
     this.#test.stop(text);
   }
 
-  /** Keep a program that runs, and forget how the one before ended. */
+  /**
+   * Keep a program that runs, and forget how the one before ended.
+   * @param {string} source
+   */
   #noteStart(source) {
     this.#forget();
     this.#blocks.begin();
@@ -256,6 +299,7 @@ export class CodeTab {
     this.#drawSoon();
   }
 
+  /** @param {RunEnd & {summary?: string}} end */
   #onEnd(end) {
     this.#end = end;
     setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
@@ -335,23 +379,30 @@ export class CodeTab {
     this.#drawTold(told, isSame);
   }
 
+  /**
+   * @param {Told | null} told
+   * @param {boolean} isSame
+   */
   #drawTold(told, isSame) {
     this.#markRan(isSame ? told.lines : []);
     this.#variables.update(told?.variables ?? {});
   }
 
+  /** @param {number[]} lines */
   #markRan(lines) {
     this.#editor.markRan(lines);
     this.#blocks.markRan(lines);
   }
 
+  /** @param {number | null} line */
   #markMistake(line) {
     this.#editor.markMistake(line);
     this.#blocks.markMistake(line);
   }
 
   #drawState() {
-    const { phase, decision, success, start, isOn } = this.#active;
+    const { phase, decision, isOn } = this.#active;
+    const [{ success }, { start }] = [this.#run, this.#test];
     const isPaused = Boolean(this.#panel.part("run")?.is_paused);
     const shown = { phase, decision, success, start, isPerson: this.#isPerson, isPaused, python: this.#python, end: this.#end };
     const { kind, text, count } = runWords(shown);

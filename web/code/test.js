@@ -1,5 +1,11 @@
 /** A test of the person's program: it drives several starts that it has not seen, as fast as the world goes. */
 
+/** @import { EmitterClass } from "../types/events.js" */
+/** @import { Percept, Welcome } from "../types/remote.js" */
+/** @import { RemoteClient } from "../remote/client.js" */
+/** @import { Answer, CodeEngine } from "./engine.js" */
+/** @import { Connecting, Decision, RunEnd } from "./run.js" */
+
 import { connect, isOver, ProgramMistake, programFacts, STOPPED, toldBy, valid } from "./run.js";
 
 export const STARTS = 10;
@@ -13,31 +19,39 @@ const REFUSED =
 const INTERRUPTED = "Another episode began in the middle of a start, so the test was ended.";
 
 /**
- * Events: "change" (phase, rows), "decision" (what it told, with episode, number and source), and "end", whose detail is {reason: "tested" | "stopped" | "mistake" | "lost", text, line}.
+ * @typedef {object} Start
+ * @property {number} number from 1
+ * @property {number} seed
+ * @property {string} outcome "goal", "time", "fell", "over", "mistake", or empty before the end
+ * @property {number} decisions
+ * @property {number} seconds
  */
-export class CodeTest extends EventTarget {
+/** @typedef {<Result>(promise: Promise<Result>) => Promise<Result>} Until returns what a promise gives; throws if the test was ended meanwhile */
+
+/** Its event "change" is of phase and rows. */
+export class CodeTest extends /** @type {EmitterClass<{change: null, decision: Decision, end: RunEnd}>} */ (EventTarget) {
   /** "off", "loading" (Python), "joining" (the world gives the agent), or "testing". */
   phase = "off";
-  /**
-   * The starts: {number, seed, outcome, decisions, seconds}. The outcome is "goal", "time", "fell", "over", "mistake", or
-   * empty before the end.
-   */
+  /** @type {Start[]} */
   rows = [];
   /** Id of the agent that is tested. */
   agent = "";
   #parts;
+  /** @type {RemoteClient | null} */
   #client = null;
+  /** @type {CodeEngine | null} */
   #engine = null;
   #ticket = 0;
+  /** @type {Start | null} */
   #current = null;
 
   /**
    * @param {object} parts
-   * @param {() => Promise<any>} parts.warm returns a CodeEngine with Python loaded
-   * @param {{max: () => any, restore: () => any}} parts.speed of the world
-   * @param {(options: any) => Promise<any>} [parts.connect] as RemoteClient.connect
+   * @param {() => Promise<CodeEngine>} parts.warm returns an engine with Python loaded
+   * @param {{max: () => Promise<void>, restore: () => Promise<void>}} parts.speed of the world
+   * @param {(options: Connecting) => Promise<RemoteClient>} [parts.connect]
    * @param {() => Promise<void>} [parts.prepare] called before the start; lets a paused world run
-   * @param {(percept: any, seed: number) => Promise<string>} [parts.outcome] returns the world's word for an episode that ended
+   * @param {(percept: Percept, seed: number) => Promise<string>} [parts.outcome] returns the world's word for an episode that ended
    *   without the goal
    * @param {() => number[]} [parts.draw] returns the seeds
    */
@@ -65,7 +79,11 @@ export class CodeTest extends EventTarget {
     return this.rows.find(({ outcome }) => outcome && outcome !== "goal")?.seed ?? null;
   }
 
-  /** Drive an agent with a program from each start. */
+  /**
+   * Drive an agent with a program from each start.
+   * @param {string} source
+   * @param {string} agent
+   */
   async run(source, agent) {
     this.stop();
     const ticket = ++this.#ticket;
@@ -98,7 +116,11 @@ export class CodeTest extends EventTarget {
     this.#emit("change");
   }
 
-  /** @param until returns what a promise gives, and throws if the test was ended meanwhile */
+  /**
+   * @param {string} source
+   * @param {string} agent
+   * @param {Until} until
+   */
   async #drive(source, agent, until) {
     this.#set("loading");
     this.#engine = await until(this.#parts.warm());
@@ -115,6 +137,12 @@ export class CodeTest extends EventTarget {
     for (const row of this.rows) await this.#driveStart(row, source, client, until);
   }
 
+  /**
+   * @param {Start} row
+   * @param {string} source
+   * @param {RemoteClient} client
+   * @param {Until} until
+   */
   async #driveStart(row, source, client, until) {
     const engine = this.#engine;
     // nothing that the program remembers of the start before is there in a new interpreter; the next one loads meanwhile
@@ -143,6 +171,7 @@ export class CodeTest extends EventTarget {
     this.#emit("change");
   }
 
+  /** @param {Partial<RunEnd> & Pick<RunEnd, "reason">} detail */
   #end(detail) {
     this.#ticket += 1;
     Promise.resolve(this.#client?.close()).catch(() => {}); // it is gone already
@@ -154,11 +183,13 @@ export class CodeTest extends EventTarget {
     this.dispatchEvent(new CustomEvent("end", { detail: { text: "", line: null, percept: null, ...detail } }));
   }
 
+  /** @param {string} phase */
   #set(phase) {
     this.phase = phase;
     this.#emit("change");
   }
 
+  /** @param {string} type */
   #emit(type) {
     this.dispatchEvent(new Event(type));
   }
@@ -172,10 +203,16 @@ class Tally {
   #reward = 0;
   seconds = 0;
 
+  /**
+   * @param {Welcome} welcome
+   * @param {number} firstTick
+   */
   constructor(welcome, firstTick) {
-    [this.#welcome, this.#firstTick] = [welcome, firstTick];
+    this.#welcome = welcome;
+    this.#firstTick = firstTick;
   }
 
+  /** @param {Percept} percept */
   add({ tick, reward, terms }) {
     this.#reward += reward;
     this.#success += terms[this.#welcome.success] ?? 0;
@@ -186,24 +223,32 @@ class Tally {
     return !this.#welcome.maxSteps && this.seconds >= MAX_EPISODE_S;
   }
 
-  /** A scene that names no success has one all the same: an end that pays. */
+  /**
+   * A scene that names no success has one all the same: an end that pays.
+   * @param {Percept} percept
+   */
   isGoal({ terminated }) {
     return this.#welcome.success ? this.#success > 0 : terminated && this.#reward > 0;
   }
 }
 
-/** Return how many decisions the starts took on average. */
+/**
+ * Return how many decisions the starts took on average.
+ * @param {Start[]} rows
+ */
 export function averageDecisions(rows) {
   return rows.reduce((sum, { decisions }) => sum + decisions, 0) / rows.length;
 }
 
 /** Return different seeds that nobody can foresee. */
 function drawSeeds() {
+  /** @type {Set<number>} */
   const seeds = new Set();
   while (seeds.size < STARTS) seeds.add(crypto.getRandomValues(new Uint32Array(1))[0] % SEEDS);
   return [...seeds];
 }
 
+/** @param {Answer} answer */
 function checked(answer) {
   if (!answer.ok) throw new ProgramMistake(answer);
   return answer;

@@ -1,14 +1,20 @@
 /** The results of a test: a sentence, and a table of its starts. */
 
+/** @import { CodeTest, Start } from "./test.js" */
+
 import { averageDecisions, STARTS } from "./test.js";
 import { button, element, keyed, setAttributes, setText, tableHead } from "../shared/dom.js";
 import { seconds } from "../shared/numbers.js";
 import { section } from "../panel/widgets/parts.js";
 
 const HEADS = ["No.", "Seed", "End", "Decisions", "Time"];
+/** @type {Record<string, string>} */
 const WORDS = { goal: "goal", won: "goal", time: "time is up", fell: "fell", lost: "lost", mistake: "mistake" };
 
-/** Return the sentence about a test. */
+/**
+ * Return the sentence about a test.
+ * @param {Pick<CodeTest, "rows" | "isOn">} test
+ */
 export function testWords({ rows, isOn }) {
   const ended = rows.filter(({ outcome }) => outcome);
   const goals = ended.filter(({ outcome }) => outcome === "goal").length;
@@ -28,8 +34,8 @@ export class TestTable {
   element;
 
   /**
-   * @param onChoose called with the seed of a start that is clicked
-   * @param onWatch called when the first failure is to be shown
+   * @param {(seed: number) => void} onChoose called with the seed of a start that is clicked
+   * @param {() => void} onWatch called when the first failure is to be shown
    */
   constructor(onChoose, onWatch) {
     this.#watch = button("Watch the first failure", onWatch, { icon: "play" });
@@ -42,7 +48,7 @@ export class TestTable {
     this.element.hidden = true;
   }
 
-  /** @param test a CodeTest */
+  /** @param {CodeTest} test */
   update(test) {
     const { rows, isOn, start, failure } = test;
     this.element.hidden = rows.length === 0;
@@ -54,6 +60,7 @@ export class TestTable {
   }
 }
 
+/** @param {Start} start */
 function makeRow({ number, seed }) {
   const again = element("button", { type: "button", textContent: seed, title: `Begin start ${number}, seed ${seed}` });
   return element(
@@ -67,6 +74,10 @@ function makeRow({ number, seed }) {
   );
 }
 
+/**
+ * @param {HTMLElement} row
+ * @param {Start & {isNow: boolean, isBegun: boolean}} start
+ */
 function updateRow(row, { outcome, decisions, seconds: time, isNow, isBegun }) {
   const [, , end, count, duration] = row.children;
   setAttributes(row, { "data-outcome": outcome || null, "aria-current": isNow ? "step" : null });

@@ -1,16 +1,27 @@
 /** What a program told at each of its decisions, for when the person goes back in time; the oldest are dropped. */
 
+/** @typedef {{lines: number[], variables: Record<string, string>, printed: string}} Told lines that ran, variables at the end, and output */
+
 const MAX_DECISIONS = 20_000;
 /** Most characters of all variables and outputs. */
 const MAX_CHARS = 4_000_000;
 
 export class CodeTimeline {
-  /** Episodes by the world's number, the oldest first: {source, decisions}, decisions by number. */
+  /**
+   * Episodes by the world's number, the oldest first, with their decisions by number.
+   * @type {Map<number, {source: string, decisions: Map<number, Told>}>}
+   */
   #episodes = new Map();
   #count = 0;
   #chars = 0;
 
-  /** Note what a program with a source told at a decision of an episode. */
+  /**
+   * Note what a program told at a decision of an episode.
+   * @param {number} episode
+   * @param {number} number
+   * @param {string} source
+   * @param {Told} told
+   */
   add(episode, number, source, { lines, variables, printed }) {
     const before = this.#episodes.get(episode);
     // an edited world counts from 1 again
@@ -23,7 +34,11 @@ export class CodeTimeline {
     while (this.#count > MAX_DECISIONS || this.#chars > MAX_CHARS) this.#dropOldest();
   }
 
-  /** Return what was told at a decision: {source, lines, variables, printed}; null if nothing is known. */
+  /**
+   * Return what was told at a decision, with the program's source; null if nothing is known.
+   * @param {number} episode
+   * @param {number} number
+   */
   at(episode, number) {
     const kept = this.#episodes.get(episode);
     const told = kept?.decisions.get(number);
@@ -44,6 +59,7 @@ export class CodeTimeline {
     if (!decisions.size) this.#episodes.delete(episode);
   }
 
+  /** @param {number} episode */
   #drop(episode) {
     const { decisions } = this.#episodes.get(episode);
     this.#count -= decisions.size;
@@ -52,6 +68,7 @@ export class CodeTimeline {
   }
 }
 
+/** @param {Told} told */
 function size({ lines, variables, printed }) {
   const texts = Object.entries(variables).flat();
   return printed.length + lines.length + texts.reduce((sum, text) => sum + text.length, 0);

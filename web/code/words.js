@@ -3,6 +3,8 @@
 /** Size of Python's files, which are loaded once (MB). */
 const PYTHON_MB = 13;
 
+/** @import { RunEnd } from "./run.js" */
+
 /**
  * Return {kind, text, count}: kind is "off", "busy", "on", "done" or "bad"; count changes too often to be announced.
  * @param {object} run
@@ -13,7 +15,7 @@ const PYTHON_MB = 13;
  * @param {boolean} run.isPerson true while the person drives in the program's place
  * @param {boolean} run.isPaused true while the world is paused
  * @param {string} run.python "loading", "ready", or a sentence about what went wrong
- * @param {any} run.end the detail of the event "end"; null while there is none
+ * @param {(RunEnd & {summary?: string}) | null} run.end null while there is none; of a test it has a summary
  */
 export function runWords({ phase, decision, start, success, isPerson, isPaused, python, end }) {
   if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);
@@ -29,10 +31,16 @@ export function runWords({ phase, decision, start, success, isPerson, isPaused, 
   return python === "ready" ? line("off", "Ready") : line("bad", python);
 }
 
+/** @param {number} start */
 function startWords(start) {
   return start ? `start ${start}` : "";
 }
 
+/**
+ * @param {RunEnd & {summary?: string}} end
+ * @param {number} decision
+ * @param {string} success
+ */
 function endWords({ reason, percept, line: number, summary }, decision, success) {
   const at = decision ? ` at decision ${decision}` : "";
   if (reason === "tested") return line("done", summary);
@@ -43,6 +51,10 @@ function endWords({ reason, percept, line: number, summary }, decision, success)
   return line(isGoal ? "done" : "off", `${isGoal ? "Goal reached" : "The episode is over"}${at}`);
 }
 
+/**
+ * @param {string} kind
+ * @param {string} text
+ */
 function line(kind, text, count = "") {
   return { kind, text, count };
 }

@@ -9,6 +9,8 @@
  * the call has begun, and {line} which line of the program is about to run.
  */
 
+/** @import { Parts } from "./engine.js" */
+
 import createPyodideModule from "../vendor/pyodide/pyodide.asm.mjs?v=f7cdc8ec";
 import { loadPyodide } from "../vendor/pyodide/pyodide.mjs?v=6f1d60f7";
 
@@ -36,6 +38,7 @@ const LANGUAGE = new Set(
 );
 
 const send = self.postMessage.bind(self);
+/** @type {Record<string, (text: string) => string>} */
 let methods;
 
 self.addEventListener("message", async ({ data: { id, method, text, parts } }) => {
@@ -51,25 +54,32 @@ self.addEventListener("message", async ({ data: { id, method, text, parts } }) =
   send({ id, text: answer });
 });
 
+/**
+ * @param {string} kind
+ * @param {string} text
+ */
 function problem(kind, text) {
   return JSON.stringify({ ok: false, kind, text, line: 0, printed: "", lines: [], variables: {} });
 }
 
-/** Load Python with the files that the page has fetched; return the functions of host.py by name. */
+/**
+ * Load Python with the files that the page has fetched; return the functions of host.py by name.
+ * @param {Parts} parts
+ */
 async function start({ wasm, library, program }) {
   checkPolicy();
   // Pyodide fetches two files by itself, of which one is compiled already
   self.fetch = async (url) => new Response(String(url).endsWith(".zip") ? library : null);
   WebAssembly.instantiateStreaming = async (_, imports) => ({
     module: wasm,
-    instance: await WebAssembly.instantiate(/** @type {WebAssembly.Module} */ (wasm), imports),
+    instance: await WebAssembly.instantiate(wasm, imports),
   });
   const python = await loadPyodide({
     createPyodideModule,
     indexURL: new URL("../vendor/pyodide/", import.meta.url).href,
     lockFileContents: LOCK,
     jsglobals: {},
-    stdin: () => null,
+    stdin: /** @returns {null} */ () => null,
     stdout: () => {},
     stderr: () => {},
   });
@@ -77,7 +87,7 @@ async function start({ wasm, library, program }) {
   python.runPython(`import sys; sys.path.insert(0, "${PROGRAM_PATH}")`);
   const host = python.pyimport("ai4u_edu.program.host");
   const { load, begin, decide } = host;
-  host.watch((line) => send({ line }));
+  host.watch((/** @type {number} */ line) => send({ line }));
   for (const name of ["js", "pyodide_js"]) python.unregisterJsModule(name);
   python.runPython(`import sys; [sys.modules.pop(name, None) for name in ("js", "pyodide_js")]`);
   removeConnections();

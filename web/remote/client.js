@@ -1,5 +1,8 @@
 /** An agent of the page's own world, driven from the page over the protocol for scripts. */
 
+/** @import { Percept } from "../types/remote.js" */
+/** @import { Flow, Step } from "./dialogue.js" */
+
 import { randomId } from "../shared/ids.js";
 import { ConnectionLostError, Dialogue, RemoteError } from "./dialogue.js";
 import { SUBPROTOCOL } from "./messages.js";
@@ -17,7 +20,7 @@ export class RemoteClient {
   #connection = new Connection();
   /**
    * The end of the method that was called last.
-   * @type {Promise<any>}
+   * @type {Promise<unknown>}
    */
   #last = Promise.resolve();
 
@@ -41,21 +44,20 @@ export class RemoteClient {
     return client;
   }
 
-  /** The world's description of the agent; see `welcome` and READING, OUTPUT in remote/messages.js. */
+  /** The world's description of the agent. */
   get welcome() {
     return this.#dialogue.welcome;
   }
 
-  /** Lowest and highest values by actuator, as CodeEngine.load takes them. */
+  /** Lowest and highest values by actuator. */
   get outputs() {
-    return Object.fromEntries(this.welcome.outputs.map((/** @type {any} */ { name, low, high }) => [name, [low, high]]));
+    return Object.fromEntries(this.welcome.outputs.map(({ name, low, high }) => [name, [low, high]]));
   }
 
   /**
    * Return the current percept; after an action, wait until its decision is over.
    *
-   * @returns {Promise<{values: object, episode: number, step: number, seq: number, tick: number, reward: number,
-   *   terms: object, terminated: boolean, truncated: boolean, paused: boolean, stopped: boolean}>}
+   * @returns {Promise<Percept>}
    */
   sense() {
     return this.#run(this.#dialogue.sense());
@@ -93,7 +95,7 @@ export class RemoteClient {
   /**
    * Carry out a dialogue's steps, after those of the method before, and return the result.
    * @template Result
-   * @param {import("./dialogue.js").Flow<Result>} flow
+   * @param {Flow<Result>} flow
    * @returns {Promise<Result>}
    */
   #run(flow) {
@@ -104,7 +106,7 @@ export class RemoteClient {
 
   /**
    * @template Result
-   * @param {import("./dialogue.js").Flow<Result>} flow
+   * @param {Flow<Result>} flow
    * @returns {Promise<Result>}
    */
   async #carryOut(flow) {
@@ -140,16 +142,16 @@ class Connection {
   #wake = () => {};
 
   /**
-   * @param {import("./dialogue.js").Step} step
-   * @returns {Promise<any>}
+   * @param {Step} step
+   * @returns {Promise<Uint8Array | null>}
    */
   async carryOut({ open, send, receive, pause, close }) {
-    if (send) return this.#send(send);
-    if (close) return this.#close();
-    if (open) return this.#open(open);
     if (receive) return this.#receive(receive);
-    await this.#happened(() => false, pause);
-    return undefined;
+    if (send) this.#send(send);
+    else if (close) this.#close();
+    else if (open) await this.#open(open);
+    else await this.#happened(() => false, pause);
+    return null;
   }
 
   /**
@@ -184,7 +186,7 @@ class Connection {
     if (socket.readyState !== WebSocket.OPEN) throw new ConnectionLostError("no answer");
   }
 
-  /** @param {any} frame */
+  /** @param {Uint8Array<ArrayBuffer>} frame */
   #send(frame) {
     if (this.#socket?.readyState !== WebSocket.OPEN) {
       throw this.#lost ?? new ConnectionLostError("the connection is closing");

@@ -6,6 +6,8 @@
  * last frame; if the connection is lost, it reconnects, as long as the world keeps the agent for it.
  */
 
+/** @import { Percept, Problem, Welcome } from "../types/remote.js" */
+
 import { limits } from "../shared/limits.js";
 import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./messages.js";
 
@@ -21,7 +23,7 @@ const MIN_OPEN_TIMEOUT_MS = 100;
 /** Close code of a server in front of the world that refuses. */
 const CLOSE_REFUSED = 1008;
 
-/** @typedef {{open?: number, send?: Uint8Array, receive?: number, pause?: number, close?: true}} Step */
+/** @typedef {{open?: number, send?: Uint8Array<ArrayBuffer>, receive?: number, pause?: number, close?: true}} Step */
 /**
  * @template Result
  * @typedef {Generator<Step, Result, Uint8Array | null>} Flow
@@ -52,12 +54,12 @@ export class ConnectionLostError extends Error {
 export class Dialogue {
   /**
    * The world's description of the agent.
-   * @type {any}
+   * @type {Welcome | null}
    */
   welcome = null;
   /**
    * The latest percept; null before the first.
-   * @type {any}
+   * @type {Percept | null}
    */
   percept = null;
 
@@ -71,10 +73,10 @@ export class Dialogue {
   #secret;
   /**
    * The frame that is repeated if no answer arrives.
-   * @type {any}
+   * @type {Uint8Array<ArrayBuffer> | null}
    */
   #lastFrame = null;
-  /** @type {Uint8Array | null} */
+  /** @type {Uint8Array<ArrayBuffer> | null} */
   #lastHello = null;
   /** The latest percept has an answer. */
   #isAnswered = true;
@@ -104,7 +106,7 @@ export class Dialogue {
 
   /**
    * Return the percept that has no answer yet, as soon as it is there.
-   * @returns {Flow<any>}
+   * @returns {Flow<Percept>}
    */
   *sense() {
     this.#checkOpen();
@@ -143,7 +145,7 @@ export class Dialogue {
   /**
    * Begin an episode, and return its first percept.
    * @param {number | null} [seed]
-   * @returns {Flow<any>}
+   * @returns {Flow<Percept>}
    */
   *reset(seed = null) {
     const { episode, seq } = yield* this.sense();
@@ -216,6 +218,7 @@ export class Dialogue {
   *#attempt(deadline) {
     yield { open: Math.max(deadline - performance.now(), MIN_OPEN_TIMEOUT_MS) };
     const session = this.welcome?.session ?? "";
+    /** @type {unknown[]} */
     const hello = ["hello", VERSION, this.#agent, "", this.#mode, [], session, this.#secret];
     const frame = frameOf(...hello, ...(this.#onMissing ? [this.#onMissing] : []));
     let timeout = FIRST_TIMEOUT_MS;
@@ -235,7 +238,7 @@ export class Dialogue {
 
   /**
    * Resume the session over a new connection, within the world's grace time.
-   * @param {any} lost what was thrown
+   * @param {unknown} lost what was thrown
    * @returns {Flow<void>}
    */
   *#reconnect(lost) {
@@ -250,7 +253,7 @@ export class Dialogue {
   }
 
   /**
-   * @param {Uint8Array} frame
+   * @param {Uint8Array<ArrayBuffer>} frame
    * @param {number} seq number of the percept that it answers
    * @returns {Flow<void>}
    */
@@ -294,7 +297,7 @@ export class Dialogue {
   }
 
   /**
-   * @param {{[field: string]: any}} problem
+   * @param {Problem} problem
    * @param {number} latest number of the latest percept
    */
   #handleProblem({ code, text, seq }, latest) {
@@ -316,7 +319,7 @@ export class Dialogue {
 
   /**
    * Throw what is no lost connection, or one that the world closed on purpose.
-   * @param {any} lost what was thrown
+   * @param {unknown} lost what was thrown
    */
   #throwUnlessLost(lost) {
     if (!(lost instanceof ConnectionLostError)) throw lost;

@@ -3,6 +3,8 @@
  * A frame is one msgpack array: the kind of message, then its fields.
  */
 
+/** @import { Message, PerceptMessage, Reading, Value } from "../types/remote.js" */
+
 import { decode, Encoder } from "../vendor/msgpack.js?v=269ec7b2";
 
 export const VERSION = 1;
@@ -40,17 +42,6 @@ export const FIELDS = {
   problem: ["code", "text", "seq"],
   bye: ["reason"],
 };
-/**
- * @typedef {object} Reading
- * @property {string} key
- * @property {string} kind
- * @property {string | number} sensorType
- * @property {keyof typeof NUMBERS} dtype
- * @property {number[]} shape
- * @property {number} offset
- * @property {any} low
- * @property {any} high
- */
 export const READING = ["key", "kind", "sensorType", "dtype", "shape", "offset", "low", "high", "unit", "isInput"];
 export const OUTPUT = ["name", "kind", "low", "high", "isOutput"];
 /**
@@ -70,8 +61,8 @@ const floats = new Encoder({ forceIntegerToFloat: true });
 
 /**
  * Return the frame of a message: its kind and fields.
- * @param {any[]} fields
- * @returns {Uint8Array}
+ * @param {unknown[]} fields
+ * @returns {Uint8Array<ArrayBuffer>}
  */
 export function frameOf(...fields) {
   return plain.encode(fields);
@@ -91,17 +82,16 @@ export function actionFrame({ episode, step, seq }, values) {
  * Return the message in a frame, with its fields by name and its type.
  *
  * @param {Uint8Array} frame
- * @returns {{type: string, [field: string]: any}}
+ * @returns {Message}
  * @throws {Error} there is no message in it
  */
 export function messageIn(frame) {
   const [type, ...fields] = decode(frame);
   if (!Object.hasOwn(FIELDS, type)) throw new Error(`a message of an unknown type, ${String(type).slice(0, 40)}`);
-  /** @type {{type: string, [field: string]: any}} */
   const message = { type, ...named(FIELDS[/** @type {keyof typeof FIELDS} */ (type)], fields) };
   if (type === "welcome") {
-    message.readings = message.readings.map((/** @type {any[]} */ values) => readingOf(named(READING, values)));
-    message.outputs = message.outputs.map((/** @type {any[]} */ values) => named(OUTPUT, values));
+    message.readings = message.readings.map((/** @type {unknown[]} */ values) => readingOf(named(READING, values)));
+    message.outputs = message.outputs.map((/** @type {unknown[]} */ values) => named(OUTPUT, values));
   }
   return message;
 }
@@ -109,7 +99,8 @@ export function messageIn(frame) {
 /**
  * Return a percept's readings by key: numbers, booleans, texts, and nested arrays of them.
  * @param {Reading[]} readings
- * @param {{data: Uint8Array<ArrayBuffer>, texts: string[]}} percept
+ * @param {Pick<PerceptMessage, "data" | "texts">} percept
+ * @returns {Record<string, Value>}
  */
 export function valuesOf(readings, { data, texts }) {
   return Object.fromEntries(readings.map((reading) => [reading.key, valueOf(reading, data, texts)]));
@@ -119,6 +110,7 @@ export function valuesOf(readings, { data, texts }) {
  * @param {Reading} reading
  * @param {Uint8Array<ArrayBuffer>} data
  * @param {string[]} texts
+ * @returns {Value}
  */
 function valueOf({ kind, sensorType, dtype, shape, offset }, data, texts) {
   if (kind === "text") return sensorType === SEVERAL_TEXTS ? JSON.parse(texts[offset]) : texts[offset];
@@ -142,7 +134,7 @@ function numbersIn(data, dtype, offset, count) {
 /**
  * @param {(number | boolean)[]} flat
  * @param {number[]} shape
- * @returns {any}
+ * @returns {Value}
  */
 function nested(flat, shape) {
   if (shape.length === 0) return flat[0];
@@ -154,7 +146,7 @@ function nested(flat, shape) {
 
 /**
  * Return a reading whose lowest and highest values are numbers: one for all entries, or one for each.
- * @param {Reading} reading
+ * @param {Omit<Reading, "low" | "high"> & {low: Uint8Array<ArrayBuffer>, high: Uint8Array<ArrayBuffer>}} reading
  */
 function readingOf(reading) {
   if (reading.kind === "text") return { ...reading, low: [], high: [] };
@@ -165,8 +157,8 @@ function readingOf(reading) {
 
 /**
  * @param {string[]} names
- * @param {any[]} fields
- * @returns {any}
+ * @param {unknown[]} fields
+ * @returns {any} with what the world has sent
  */
 function named(names, fields) {
   return Object.fromEntries(names.map((name, place) => [name, fields[place]]));

@@ -76,6 +76,23 @@ export function button(text, onClick, { icon = "", label = "", kind = "", ...pro
 }
 
 /**
+ * Create a button that asks for a file.
+ * @param {string} text
+ * @param {string} accept types of files, as an input has them
+ * @param {(file: File) => void} onFile
+ */
+export function fileButton(text, accept, onFile) {
+  const input = element("input", { type: "file", accept, hidden: true, tabIndex: -1 });
+  input.addEventListener("change", () => {
+    const [file] = input.files;
+    input.value = ""; // so that the same file can be chosen again
+    if (file) onFile(file);
+  });
+  const made = button(text, () => input.click(), { icon: "open" });
+  return element("span", { className: "ai4u-file" }, made, input);
+}
+
+/**
  * Return a table's head: one row with the names of the columns.
  * @param {string[]} names
  */

@@ -1,5 +1,8 @@
 /** Tells the class how the person's program runs, and which mistake stopped it: the teacher sees who needs help. */
 
+/** @import { RunEnd } from "../../code/run.js" */
+/** @import { Emitter } from "../../types/events.js" */
+
 import { roomOfPage } from "../../shared/room.js";
 
 const ADDRESS = "../../api/program/run";
@@ -14,7 +17,6 @@ const MAX_TEXT_CHARS = 600;
 const KINDS = { endless: "endless", too_large: "memory" };
 
 /** @typedef {{state: string, kind?: string, text?: string, line?: number}} Report */
-/** @typedef {{reason: string, text: string, line: number | null, kind?: string}} RunEnd see CodeRun */
 
 export class ProgramReports {
   #isInClass = roomOfPage() !== "";
@@ -25,12 +27,12 @@ export class ProgramReports {
   #isBusy = false;
   #timer = 0;
 
-  /** @param {(EventTarget & {phase: string})[]} runs a CodeRun and a CodeTest */
+  /** @param {(Emitter<{end: RunEnd}> & {phase: string})[]} runs a CodeRun and a CodeTest */
   constructor(...runs) {
     if (!this.#isInClass) return;
     for (const run of runs) {
       run.addEventListener("change", () => ["running", "stepping", "testing"].includes(run.phase) && this.#tell({ state: "running" }));
-      run.addEventListener("end", (event) => this.#tell(reportOf(/** @type {CustomEvent<RunEnd>} */ (event).detail)));
+      run.addEventListener("end", ({ detail }) => this.#tell(reportOf(detail)));
     }
   }
 

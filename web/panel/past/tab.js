@@ -1,12 +1,11 @@
 /** The tab "Past": finished episodes, and the player of the chosen one. */
 
-import { button, element, keyed } from "../../shared/dom.js";
+import { button, element, fileButton, keyed } from "../../shared/dom.js";
 import { Comparison } from "./compare.js";
 import { EpisodeCard } from "./episode_card.js";
 import { PaidTerms } from "./paid.js";
 import { section } from "../widgets/parts.js";
 import { Player } from "./player.js";
-import { fileButton } from "../world/scene_files.js";
 
 /** Number that stands for the episode that is still running. */
 const RUNNING_EPISODE = 0;

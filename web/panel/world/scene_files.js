@@ -4,7 +4,7 @@
  * @import { WorldPart } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
  */
-import { button, element, setText } from "../../shared/dom.js";
+import { button, element, fileButton, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 import { section } from "../widgets/parts.js";
 import { copyLink, isThisComputer } from "../../scenes/share.js";
@@ -112,18 +112,6 @@ function keptWords(canSave, isAutosaved) {
     "Episodes in Past and the steps of Undo are gone: download the episodes that you want to keep.",
   ];
   return scenes.join(" ");
-}
-
-/** Return a button that asks for a file. */
-export function fileButton(text, accept, onFile) {
-  const input = element("input", { type: "file", accept, hidden: true, tabIndex: -1 });
-  input.addEventListener("change", () => {
-    const [file] = input.files;
-    input.value = ""; // so that the same file can be chosen again
-    if (file) onFile(file);
-  });
-  const made = button(text, () => input.click(), { icon: "open" });
-  return element("span", { className: "ai4u-file" }, made, input);
 }
 
 function saveFile(name, text) {
