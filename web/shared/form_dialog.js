@@ -15,7 +15,7 @@ import { element } from "./dom.js";
 export async function showForm({ title, text = "", content, yes = "", no = "Cancel", isDanger = false }, send = async () => {}) {
   const heading = element("h2", { textContent: title });
   const problem = element("p", { className: "ai4u-problem", role: "alert" });
-  const accept = yes && element("button", { className: "ai4u-button", textContent: yes });
+  const accept = yes ? element("button", { className: "ai4u-button", textContent: yes }) : null;
   if (accept && isDanger) accept.dataset.kind = "danger";
   const cancel = element("button", { type: "button", className: "ai4u-plain", textContent: no });
   const form = element(
@@ -25,12 +25,13 @@ export async function showForm({ title, text = "", content, yes = "", no = "Canc
     text && element("p", { textContent: text }),
     ...content,
     problem,
-    element("div", { className: "ai4u-answers" }, cancel, accept || null),
+    element("div", { className: "ai4u-answers" }, cancel, accept),
   );
   const dialog = element("dialog", { className: "ai4u-question ai4u-form" }, form);
   cancel.addEventListener("click", () => dialog.close());
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
+    if (accept === null) return;
     accept.disabled = true;
     problem.textContent = "";
     try {
