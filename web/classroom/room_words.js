@@ -9,7 +9,7 @@ const MIN_HELP = 30;
  * Words and a sign by status; a sign differs in shape, not only in color.
  * @type {Record<string, {text: string, sign: string}>}
  */
-export const STATUSES = {
+const STATUSES = {
   waiting: { text: "not begun", sign: "○" },
   driving: { text: "driving", sign: "▶" },
   solved: { text: "solved", sign: "✓" },

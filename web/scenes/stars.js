@@ -4,7 +4,7 @@ import { element, setAttributes, setText } from "../shared/dom.js";
 import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
 
-export const MAX_STARS = 3;
+const MAX_STARS = 3;
 /** Most scenes whose stars are kept. */
 const MAX_SCENES = 200;
 

@@ -54,7 +54,7 @@ function step({ name, colour, text }, index, all) {
   return made;
 }
 
-export function isSoundOn() {
+function isSoundOn() {
   return recall(SOUND_KEY, false) === true;
 }
 

@@ -6,14 +6,12 @@ import { command } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choice, field, showForm } from "../../shared/form_dialog.js";
 
-export const EXPORT = "./teacher/export";
-
 /**
  * @param {ClassState} state
  * @param {() => void} onForgotten called when everything was deleted
  */
 export async function showEnd(state, onForgotten) {
-  const download = element("a", { href: EXPORT, className: "ai4u-plain", textContent: "Export everything", download: "" });
+  const download = element("a", { href: "./teacher/export", className: "ai4u-plain", textContent: "Export everything", download: "" });
   const without = element("input", { type: "checkbox" });
   const code = element("input", { autocomplete: "off", spellcheck: false, maxLength: 12, className: "ai4u-code-input" });
   download.addEventListener("click", () => (without.checked = true));
