@@ -14,12 +14,14 @@ from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
 from ai4u_edu.page.server.limits.attempts import Attempts, Verdict, client_address
-from ai4u_edu.page.server.limits.concurrency_limit import (
-    TRY_LATER,
-    ConcurrencyLimit,
-    TooManyOpenError,
-)
+from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit, TooManyOpenError
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.socket_close import (
+    NOT_ALLOWED,
+    TRY_LATER,
+    close_reason,
+    refuse_socket,
+)
 from ai4u_edu.wire.class_link import (
     SUBPROTOCOL,
     VERSION,
@@ -53,9 +55,6 @@ MAX_STATE_BYTES = 2**18
 MAX_MISTAKES = 5
 """Malformed messages in a row after which a link is ended."""
 MAX_WAITING_ACKS = 1000
-NOT_ALLOWED = 1008
-
-
 FindRoom = Callable[[str, str], Awaitable[LiveRoom | None]]
 
 
@@ -99,9 +98,9 @@ class LinkEndpoint:
                     await self._serve(socket, room)
             except TooManyOpenError as error:
                 if socket.application_state is WebSocketState.CONNECTING:
-                    await socket.accept(subprotocol)  # a close has a reason, a refusal has none
-                if socket.application_state is WebSocketState.CONNECTED:
-                    await socket.close(TRY_LATER, _close_reason(str(error)))
+                    await refuse_socket(scope, receive, send, TRY_LATER, str(error))
+                elif socket.application_state is WebSocketState.CONNECTED:
+                    await socket.close(TRY_LATER, close_reason(str(error)))
 
     async def _serve(self, socket: WebSocket, room: LiveRoom) -> None:
         """Serve the link of a room."""
@@ -147,7 +146,7 @@ class LinkEndpoint:
         try:
             elsewhere = await self._find_room(hello.secret, address) if self._find_room else None
         except AI4UError as error:
-            await socket.close(TRY_LATER, _close_reason(str(error)))
+            await socket.close(TRY_LATER, close_reason(str(error)))
             return None
 
         def is_right() -> bool:
@@ -284,7 +283,7 @@ class Link:
         """End the link for good."""
         self._states.clear()
         self._replies.append(Problem("message" if code == "message" else "over", sentence))
-        self._closing = (NOT_ALLOWED, _close_reason(sentence))
+        self._closing = (NOT_ALLOWED, close_reason(sentence))
         self._wake.set()
 
     def close_later(self) -> None:
@@ -348,9 +347,4 @@ def _decoded(frame: bytes) -> FromRoom:
 async def _refuse(socket: WebSocket, problem: Problem) -> None:
     if socket.application_state is WebSocketState.CONNECTED:
         await socket.send_bytes(encode_from_class(problem))
-        await socket.close(NOT_ALLOWED, _close_reason(problem.text))
-
-
-def _close_reason(text: str) -> str:
-    """Return a text as the reason of a close, which has at most 123 bytes."""
-    return text.encode("ascii", "replace")[:100].decode()
+        await socket.close(NOT_ALLOWED, close_reason(problem.text))

@@ -14,10 +14,11 @@ from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.join import seat_of
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
-from ai4u_edu.classroom.room_proxy import NOT_ALLOWED, TRY_LATER, RoomProxy
+from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
 from ai4u_edu.page.server.token_auth import PageCookie
 from ai4u_edu.page.server.token_page import wants_page
 
@@ -156,7 +157,7 @@ class RoomEntrance:
 
 async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
-        await _close(scope, receive, send, NOT_ALLOWED, LEFT)
+        await refuse_socket(scope, receive, send, NOT_ALLOWED, LEFT)
         return
     response: Response = PlainTextResponse("this is not your world; join the class at /\n", 403)
     if scope["method"] == "GET" and wants_page(HTTPConnection(scope)):
@@ -167,14 +168,7 @@ async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
 
 async def _say_not_ready(text: str, scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
-        await _close(scope, receive, send, TRY_LATER, text)
+        await refuse_socket(scope, receive, send, TRY_LATER, text)
         return
     headers = {"Retry-After": "2", "Refresh": "2", "Cache-Control": "no-store"}
     await PlainTextResponse(text + "\n", 503, headers)(scope, receive, send)
-
-
-async def _close(scope: Scope, receive: Receive, send: Send, code: int, reason: str) -> None:
-    socket = WebSocket(scope, receive, send)
-    # a browser tells a script why a socket was closed, but not why a handshake failed
-    await socket.accept(next(iter(scope["subprotocols"]), None))
-    await socket.close(code, reason)

@@ -18,6 +18,7 @@ from websockets.typing import Subprotocol
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.page.server.limits.request_target import target_of
+from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER
 from ai4u_edu.page.server.proxy import SCRIPT_KEY_HEADER, connect_viser, pass_up
 from ai4u_edu.page.server.socket_pump import pump_sockets, sendable_code
 
@@ -44,10 +45,6 @@ OPEN_TIMEOUT_S = 10.0
 ANSWER_TIMEOUT_S = 30.0
 """Time for a room's answer to a request, or for its next part."""
 NORMAL = 1000
-NOT_ALLOWED = 1008
-"""Code of a close: this seat may not enter."""
-TRY_LATER = 1013
-"""Code of a close: the room does not answer; try again later."""
 
 
 @dataclass(eq=False)

@@ -14,12 +14,12 @@ from urllib.parse import urlencode
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
-from starlette.websockets import WebSocket
 
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.join import NO_STORE
 from ai4u_edu.page.server.limits.attempts import client_address
+from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
 from ai4u_edu.page.server.token_auth import is_same_secret
 from ai4u_edu.page.server.token_page import wants_page
 
@@ -172,10 +172,8 @@ def _read_state(cookie: str) -> dict[str, str] | None:
 
 async def _refuse(text: str, status: int, scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
-        socket = WebSocket(scope, receive, send)
-        # a browser tells a script why a socket was closed, but not why a handshake failed
-        await socket.accept(next(iter(scope["subprotocols"]), None))
-        await socket.close(1013 if status == 503 else 1008, text[:100])
+        code = TRY_LATER if status == 503 else NOT_ALLOWED
+        await refuse_socket(scope, receive, send, code, text)
         return
     response: Response = PlainTextResponse(f"{text}\n", status, NO_STORE)
     await response(scope, receive, send)

@@ -14,11 +14,11 @@ from urllib.parse import quote, urlencode
 from starlette.requests import HTTPConnection
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
-from starlette.websockets import WebSocket
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.page.server.host_origin import is_loopback
 from ai4u_edu.page.server.limits.attempts import TOO_MANY, Attempts, Verdict, client_address
+from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
 from ai4u_edu.page.server.token_page import TokenPage, wants_page
 
 MIN_TOKEN_CHARS = 8
@@ -171,10 +171,8 @@ class TokenAuth:
         if is_limited:
             why = TOO_MANY.format(seconds=seconds)
         if scope["type"] == "websocket":
-            socket = WebSocket(scope, receive, send)
-            # a browser tells a script why a socket was closed, but not why a handshake failed
-            await socket.accept(next(iter(scope["subprotocols"]), None))
-            await socket.close(1013 if is_limited else 1008, why)
+            code = TRY_LATER if is_limited else NOT_ALLOWED
+            await refuse_socket(scope, receive, send, code, why)
             return
         response: Response = PlainTextResponse(f"token: {why}\n")
         if self._token_page and wants_page(given):

@@ -16,6 +16,7 @@ json_body          bodies of any size, and JSON that other sites send
 concurrency_limit  one seat or network that keeps everything busy that is open at the same time
 rate_limit         floods of messages and requests
 attempts           guessing of tokens and join codes
+socket_close       sockets that a browser would be refused without a reason
 keepalive          networks that are gone without a word: pages hear from the server, or reconnect
 ================== ================================================================================
 """

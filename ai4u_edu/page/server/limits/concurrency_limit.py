@@ -10,9 +10,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.page.server.limits.connections import max_connections
+from ai4u_edu.page.server.limits.socket_close import TRY_LATER, close_reason
 
-TRY_LATER = 1013
-"""Code of a close: too many are open; try again later."""
 RETRY_AFTER_S = 5
 
 
@@ -88,9 +87,8 @@ class ConcurrencyLimit:
         except TooManyOpenError as error:
             if "websocket.accept" in sent:
                 with suppress(RuntimeError, OSError):  # it is closed already
-                    await send(
-                        {"type": "websocket.close", "code": TRY_LATER, "reason": str(error)[:100]}
-                    )
+                    reason = close_reason(str(error))
+                    await send({"type": "websocket.close", "code": TRY_LATER, "reason": reason})
             elif not sent:
                 headers = {"Retry-After": str(RETRY_AFTER_S), "Cache-Control": "no-store"}
                 await PlainTextResponse(f"{error}\n", 503, headers)(scope, receive, send)
