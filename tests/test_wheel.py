@@ -106,7 +106,7 @@ def test_the_wheel_holds_the_page_and_the_scenes_and_no_tests(wheel: Path) -> No
     }
     assert {name for name in names if name.startswith("ai4u_edu/web/")} == web
     assert "ai4u_edu/web/vendor/pyodide/pyodide.asm.wasm.gz" in web
-    assert "ai4u_edu/classroom/results_page.html" in names
+    assert "ai4u_edu/classroom/results.html" in names
     assert "ai4u_edu/scenes/library/box_chase.yaml" in names
     assert "ai4u_edu/lessons/course/02_drive.py" in names
     assert "ai4u_edu/py.typed" in names

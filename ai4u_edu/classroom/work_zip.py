@@ -1,4 +1,4 @@
-"""ZIP files with the work of a class: all of it for the teacher, or one seat's own."""
+"""ZIP files with the work of a class and its results, or with one seat's own work."""
 
 import json
 import re
@@ -15,15 +15,19 @@ from starlette.responses import StreamingResponse
 from ai4u_edu.base.atomic_write import PREFIX
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.html_report import html_report
+from ai4u_edu.classroom.class_event import misconceptions
+from ai4u_edu.classroom.course_index import course_index
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import remote_id
 from ai4u_edu.classroom.programs import FOLDER as PROGRAMS
 from ai4u_edu.classroom.progress import Entry
 from ai4u_edu.classroom.race import FOLDER as RACES
-from ai4u_edu.classroom.results_page import results_page, star_rows
+from ai4u_edu.classroom.race import WINNING
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
+from ai4u_edu.classroom.tournament.runner import VIEW
 from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.lessons import progress_file
 from ai4u_edu.scenes import Scene
@@ -32,6 +36,10 @@ CHUNK_BYTES = 2**18
 HEADER = ("seat", "name", "exercise", "state", "checks", "hints", "minutes")
 SCENES = "scenes"
 Files = Iterator[tuple[str, bytes]]
+_Rows = list[tuple[object, ...]]
+_ENDS = {"fell": "fell", "lost": "lost", "time": "time was up", "over": "not reached"}
+"""Words for the end of a drive that did not reach the goal."""
+_STATES = {"solved": "solved", "tried": "not yet", "hint": "not yet, with hints"}
 
 
 def class_zip(live: LiveClass) -> IO[bytes]:
@@ -67,9 +75,9 @@ def _zipped(files: Files) -> IO[bytes]:
 
 
 def _class_files(live: LiveClass) -> Files:
-    yield "results.html", results_page(live).encode()
+    yield "results.html", _results_page(live).encode()
     yield "progress.csv", _table(live).encode()
-    yield "stars.csv", csv_table(("name", "scene", "stars"), star_rows(live)).encode()
+    yield "stars.csv", csv_table(("name", "scene", "stars"), _star_rows(live)).encode()
     remote = [remote_id(each.number) for each in live.seats.all()]
     for each in [*live.seats.scenes(), *remote]:
         name = _room_name(live, each)
@@ -214,3 +222,79 @@ def _table(live: LiveClass) -> str:
 
 def _cells(entry: Entry) -> tuple[object, ...]:
     return entry.state, entry.tries, entry.hints, round(entry.seconds / 60, 1)
+
+
+def _results_page(live: LiveClass) -> str:
+    """Return the results as one HTML page that needs nothing else.
+
+    Exercises that nobody has begun are left out.
+    """
+    begun = {exercise for _, exercise in live.progress.entries}
+    return html_report(
+        "classroom/results.html",
+        seats=live.seats.all(),
+        exercises=[each for one in course_index() for each in one.ids if each in begun],
+        entries=live.progress.entries,
+        words=_STATES,
+        stars=_star_rows(live),
+        mistakes=[
+            (row["exercise"], len(row["seats"]), row["count"], row["sentence"], row["guide"])
+            for row in misconceptions(live.progress.mistakes)
+        ],
+        program_mistakes=[
+            (row["title"], len(row["seats"]), row["count"], row["guide"])
+            for row in live.program_runs.mistakes()
+        ],
+        races=_race_results(live),
+        tournaments=_standings(live),
+    )
+
+
+def _star_rows(live: LiveClass) -> Iterator[tuple[str, str, int]]:
+    """Yield a seat's name, a scene's name and the stars of the seat's program there."""
+    for seat in live.seats.all():
+        for scene, count in sorted(live.stars.of_seat(seat.number).items()):
+            yield seat.name, scene, count
+
+
+def _race_results(live: LiveClass) -> Iterator[tuple[str, _Rows]]:
+    """Yield the title of each race and the best result of each room, also without the goal."""
+    for race, title in live.store.query("select id, title from races order by rowid"):
+        results = live.store.query(
+            "select room, outcome, min(seconds) from race_results where race = ? "
+            "and (verdict = 'right' or outcome not in ('goal', 'won')) group by room, outcome "
+            "order by outcome not in ('goal', 'won'), min(seconds)",
+            [race],
+        )
+        best: dict[str, tuple[str, float]] = {}
+        for room, outcome, seconds in results:
+            best.setdefault(room, (outcome, seconds))
+        rows: _Rows = []
+        for place, (room, (outcome, seconds)) in enumerate(best.items(), 1):
+            names = " & ".join(each.name for each in live.all_seats_of(room)) or room
+            is_winner = outcome in WINNING
+            end = f"{seconds:.2f} s" if is_winner else _ENDS.get(outcome, outcome)
+            rows.append((place if is_winner else "", names, end))
+        yield title, rows
+
+
+def _standings(live: LiveClass) -> Iterator[tuple[str, _Rows]]:
+    """Yield the title and the standings of each tournament that was played."""
+    tournaments = live.tournament.tournaments
+    for tournament in tournaments.all():
+        try:
+            view = json.loads((tournaments.work_of(tournament) / VIEW).read_bytes())
+        except (OSError, ValueError):  # it was not played
+            continue
+        yield (
+            tournament.title,
+            [
+                (
+                    place,
+                    row["name"],
+                    f"{row['rating']} ± {row['range']}",
+                    *(row[name] for name in ("won", "drawn", "lost", "points")),
+                )
+                for place, row in enumerate(view["standings"] if view else (), 1)
+            ],
+        )

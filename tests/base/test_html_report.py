@@ -19,7 +19,7 @@ VALUES: dict[str, object] = {
 
 
 def test_values_are_text() -> None:
-    page = html_report("classroom/results_page.html", **VALUES)
+    page = html_report("classroom/results.html", **VALUES)
     assert not {"<script", "<b>", "<i>"} & {*page.replace(">", "> ").split()}
     assert "&lt;script&gt;" in page
     assert "<h2>Race: &lt;i&gt;</h2>" in page
@@ -29,4 +29,4 @@ def test_values_are_text() -> None:
 def test_a_missing_value_is_an_error() -> None:
     values = {each: value for each, value in VALUES.items() if each != "races"}
     with pytest.raises(UndefinedError, match="races"):
-        html_report("classroom/results_page.html", **values)
+        html_report("classroom/results.html", **values)
