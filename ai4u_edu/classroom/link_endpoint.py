@@ -105,7 +105,7 @@ class LinkEndpoint:
     async def _serve(self, socket: WebSocket, room: LiveRoom) -> None:
         """Serve the link of a room."""
         self._live.ensure_ticking()
-        link = Link(socket)
+        link = LinkSender(socket)
         sender = asyncio.create_task(link.run())
         self._live.connect(room, link)
         try:
@@ -164,7 +164,7 @@ class LinkEndpoint:
             return None
         return found[0]
 
-    async def _receive(self, socket: WebSocket, room: LiveRoom, link: "Link") -> None:
+    async def _receive(self, socket: WebSocket, room: LiveRoom, link: "LinkSender") -> None:
         limit, mistakes = RateLimit(MESSAGES_PER_S), 0
         while True:
             if wait_s := limit.take():
@@ -186,7 +186,7 @@ class LinkEndpoint:
             if room.link is link:  # what a link sends after its end does not count
                 await self._take(room, link, message)
 
-    async def _take(self, room: LiveRoom, link: "Link", message: FromRoom) -> None:
+    async def _take(self, room: LiveRoom, link: "LinkSender", message: FromRoom) -> None:
         match message:
             case EpisodeResult() | ExerciseResult():
                 self._take_result(room, link, message)
@@ -209,7 +209,7 @@ class LinkEndpoint:
                 room.problem = message.problem
         self._live.note_change()
 
-    async def _take_network(self, room: LiveRoom, link: "Link", network: Network) -> None:
+    async def _take_network(self, room: LiveRoom, link: "LinkSender", network: Network) -> None:
         """Keep a network, and acknowledge it when it is on disk."""
         problem = ""
         if not room.seat:
@@ -230,7 +230,7 @@ class LinkEndpoint:
             return
         link.add(Ack(network.key))
 
-    def _take_result(self, room: LiveRoom, link: "Link", result: Result) -> None:
+    def _take_result(self, room: LiveRoom, link: "LinkSender", result: Result) -> None:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():
             text = f"exercise: no exercise is called {result.exercise[:40]!r}; "
             link.add(
@@ -249,7 +249,7 @@ class LinkEndpoint:
         self._live.results.add(Received(room.id, seats, result, done))
 
 
-class Link:
+class LinkSender:
     """Sending side of a link: a state that was not sent yet is replaced by the next one.
 
     Belongs to the event loop; :meth:`run` is its task.

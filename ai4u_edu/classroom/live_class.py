@@ -22,7 +22,7 @@ from ai4u_edu.classroom.race import RaceRunner, Races
 from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
-from ai4u_edu.classroom.seats import Seats, State
+from ai4u_edu.classroom.seats import Seats, SeatState
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.member.room_state import read_counts
@@ -160,7 +160,7 @@ class LiveClass:
         """Return the seats of all rooms, also of those that seats bring along, by the room's id."""
         found: dict[str, list[SeatRow]] = defaultdict(list)
         for each in self.seats.all():
-            if each.state == State.IN.value:
+            if each.state == SeatState.IN.value:
                 found[each.room].append(each)
                 found[remote_id(each.number)].append(each)
         return found

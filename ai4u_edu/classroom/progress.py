@@ -20,7 +20,7 @@ ExerciseState = Literal["tried", "hint", "solved"]
 
 
 @dataclass(frozen=True)
-class Entry:
+class SeatProgress:
     """Progress of one seat in one exercise."""
 
     state: ExerciseState = "tried"
@@ -42,7 +42,7 @@ Mistake = tuple[int, str, str]
 class Staged:
     """Changes that are on disk and not yet in memory."""
 
-    entries: dict[Place, Entry]
+    entries: dict[Place, SeatProgress]
     mistakes: Counter[Mistake]
 
 
@@ -64,8 +64,8 @@ class Progress:
         rows = self._store.query(
             "select seat, exercise, state, tries, hints, seconds from progress"
         )
-        self.entries: dict[Place, Entry] = {
-            (seat, exercise): Entry(*rest) for seat, exercise, *rest in rows
+        self.entries: dict[Place, SeatProgress] = {
+            (seat, exercise): SeatProgress(*rest) for seat, exercise, *rest in rows
         }
         rows = self._store.query("select seat, diagnosis, exercise, count from diagnoses")
         self.mistakes: Counter[Mistake] = Counter(
@@ -94,7 +94,7 @@ class Progress:
             database: in a transaction.
             results: number of the seat, seconds to count, and the result.
         """
-        entries: dict[Place, Entry] = {}
+        entries: dict[Place, SeatProgress] = {}
         mistakes: Counter[Mistake] = Counter()
         for seat, seconds, result in results:
             place = seat, result.exercise
@@ -132,14 +132,14 @@ class Progress:
         return dict(found)
 
 
-def advanced(entry: Entry | None, result: ExerciseResult, seconds: float) -> Entry:
+def advanced(entry: SeatProgress | None, result: ExerciseResult, seconds: float) -> SeatProgress:
     """Return an entry after one more result; a solved one does not change.
 
     >>> wrong = ExerciseResult("k1234567", "04.2", "wrong", "04.2/narrow")
     >>> advanced(None, wrong, 30)
-    Entry(state='tried', tries=1, hints=0, seconds=30.0)
+    SeatProgress(state='tried', tries=1, hints=0, seconds=30.0)
     """
-    entry = entry or Entry()
+    entry = entry or SeatProgress()
     if entry.state == "solved":
         return entry
     entry = replace(entry, seconds=entry.seconds + seconds)

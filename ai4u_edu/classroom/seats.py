@@ -43,7 +43,7 @@ COOKIE_SETTING = "seat_cookie"
 """Name of the setting with the name of the seats' cookie."""
 
 
-class State(Enum):
+class SeatState(Enum):
     """State of a seat."""
 
     IN = "in"
@@ -188,9 +188,9 @@ class Seats:
             if moved:
                 own = [self._seats[moved]]
             if not is_teachers:  # with the teacher's code, the teacher has decided
-                if any(each.state == State.BANNED.value for each in own):
+                if any(each.state == SeatState.BANNED.value for each in own):
                     raise JoinError("You may not join this class. Ask your teacher.")
-                if any(each.state != State.IN.value for each in own) or not own:
+                if any(each.state != SeatState.IN.value for each in own) or not own:
                     self._check_open()
             if own:
                 seat = self._take_again(own[0], request, token, replaced)
@@ -206,7 +206,7 @@ class Seats:
     ) -> SeatRow:
         """Store another device of a seat, in the place of its own token before, and return it."""
         before = [each for each in self._tokens.values() if each.seat == seat.number]
-        if seat.state != State.IN.value:  # whoever was sent out with it stays out
+        if seat.state != SeatState.IN.value:  # whoever was sent out with it stays out
             before = []
             self._make_room()
         kept = [each for each in before if each not in replaced][-(MAX_DEVICES - 1) :]
@@ -215,7 +215,7 @@ class Seats:
         others = [
             each for each in replaced if each.seat != seat.number and each.seat in self._seats
         ]
-        seat = replace(seat, state=State.IN.value)
+        seat = replace(seat, state=SeatState.IN.value)
         for each in others:  # a device that moves to another seat leaves its own
             left = self._seats[each.seat]
             self._store.update_seat(left, [one for one in self._of(left) if one != each])
@@ -243,7 +243,7 @@ class Seats:
         if not room:
             room = secrets.token_hex(ROOM_ID_BYTES)
             new_room = RoomRow(room, self._scene)
-        seat = SeatRow(number, name, colour_of(number), room, State.IN.value)
+        seat = SeatRow(number, name, colour_of(number), room, SeatState.IN.value)
         device = replace(device, seat=number)
         self._store.add_seat(seat, device, new_room)
         if new_room is not None:
@@ -266,7 +266,7 @@ class Seats:
         Raises:
             JoinError: there is no such seat.
         """
-        taken = [each for each in self._seats.values() if each.state == State.IN.value]
+        taken = [each for each in self._seats.values() if each.state == SeatState.IN.value]
         if len(taken) < MAX_SEATS:
             return
         before = self._clock() - UNOPENED_S
@@ -307,14 +307,14 @@ class Seats:
             # tokens are found by their digest, so the time that it takes tells nothing of them
             device = self._tokens.get(hash_of(token))
             seat = None if device is None else self._seats[device.seat]
-        return seat if seat is not None and seat.state == State.IN.value else None
+        return seat if seat is not None and seat.state == SeatState.IN.value else None
 
     def by_identity(self, identity: bytes) -> SeatRow | None:
         """Return the seat of a person; None if there is none that may enter; see :meth:`admit`."""
         with self._lock:
             device = self._tokens.get(identity)
             seat = None if device is None else self._seats[device.seat]
-        return seat if seat is not None and seat.state == State.IN.value else None
+        return seat if seat is not None and seat.state == SeatState.IN.value else None
 
     def admit(self, identity: bytes) -> SeatRow:
         """Return the seat of a person whom another system has identified; a new one if needed.
@@ -335,11 +335,11 @@ class Seats:
                     raise JoinError("The class has no name left. Ask your teacher.")
                 return self._new_seat(names[0], TokenRow(identity, 0, identity.hex()))
             seat = self._seats[device.seat]
-            if seat.state == State.BANNED.value:
+            if seat.state == SeatState.BANNED.value:
                 raise JoinError("You may not join this class. Ask your teacher.")
-            if seat.state != State.IN.value:
+            if seat.state != SeatState.IN.value:
                 self._check_open()
-                seat = replace(seat, state=State.IN.value)
+                seat = replace(seat, state=SeatState.IN.value)
                 self._store.update_seat(seat)
                 self._seats[seat.number] = seat
             return seat
@@ -364,7 +364,7 @@ class Seats:
         with self._lock:
             return self._move_codes.is_open(number)
 
-    def set_state(self, number: int, state: State) -> None:
+    def set_state(self, number: int, state: SeatState) -> None:
         """Store that somebody left, was kicked (and may join again) or banned.
 
         Raises:

@@ -29,7 +29,7 @@ from ai4u_edu.classroom.names import MOVE_CODE_LIFE_S
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
-from ai4u_edu.classroom.seats import State
+from ai4u_edu.classroom.seats import SeatState
 from ai4u_edu.classroom.store import TEACHER_SETTING
 from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.runner import System
@@ -277,7 +277,7 @@ class Teacher:
             case _BeginTournament(scene=name):
                 await live.tournament.begin(name)
             case _StartTournament():
-                seats = [each for each in self._seats.all() if each.state == State.IN.value]
+                seats = [each for each in self._seats.all() if each.state == SeatState.IN.value]
                 await live.tournament.start(
                     seats, wanted.seeds, wanted.system, has_own_player=wanted.own_player
                 )
@@ -298,9 +298,9 @@ class Teacher:
                 await asyncio.to_thread(self._seats.rename, wanted.seat, wanted.name)
                 return
             case "kick":
-                await asyncio.to_thread(self._seats.set_state, wanted.seat, State.KICKED)
+                await asyncio.to_thread(self._seats.set_state, wanted.seat, SeatState.KICKED)
             case "ban":
-                await asyncio.to_thread(self._seats.set_state, wanted.seat, State.BANNED)
+                await asyncio.to_thread(self._seats.set_state, wanted.seat, SeatState.BANNED)
                 if wanted.new_code:
                     await asyncio.to_thread(self._seats.change_code)
         self._proxy.end(wanted.seat, "your teacher has sent you out; ask before you join again")

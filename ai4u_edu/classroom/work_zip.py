@@ -21,7 +21,7 @@ from ai4u_edu.classroom.course_index import course_index
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import remote_id
 from ai4u_edu.classroom.programs import FOLDER as PROGRAMS
-from ai4u_edu.classroom.progress import Entry
+from ai4u_edu.classroom.progress import SeatProgress
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.race import WINNING
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
@@ -220,7 +220,7 @@ def _table(live: LiveClass) -> str:
     )
 
 
-def _cells(entry: Entry) -> tuple[object, ...]:
+def _cells(entry: SeatProgress) -> tuple[object, ...]:
     return entry.state, entry.tries, entry.hints, round(entry.seconds / 60, 1)
 
 

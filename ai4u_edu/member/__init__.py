@@ -14,7 +14,7 @@ from ai4u_edu.member.joining import (
 )
 from ai4u_edu.member.link import ClassLinkSettings, Link, LinkTimeouts, Receive
 from ai4u_edu.member.member import ClassMember
-from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.member.outbox import ResultOutbox
 
 __all__ = [
     "ClassLinkSettings",
@@ -24,8 +24,8 @@ __all__ = [
     "LinkClient",
     "LinkTimeouts",
     "NotJoinedError",
-    "Outbox",
     "Receive",
+    "ResultOutbox",
     "Seat",
     "SeatFile",
     "UnreachableError",

@@ -15,9 +15,9 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketExce
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
-from ai4u_edu.member.dialogue import LinkDialogue, Phase, PresentState
+from ai4u_edu.member.dialogue import LinkDialogue, LinkPhase, PresentState
 from ai4u_edu.member.link import LinkTimeouts
-from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     PATH,
@@ -64,10 +64,10 @@ class LinkClient:
         secret: str,
         kind: Literal["room", "notebook"],
         receive: Callable[[FromClass], object],
-        outbox: Outbox | None = None,
+        outbox: ResultOutbox | None = None,
         timeouts: LinkTimeouts | None = None,
     ) -> None:
-        self.outbox = Outbox() if outbox is None else outbox
+        self.outbox = ResultOutbox() if outbox is None else outbox
         self._timeouts = timeouts or LinkTimeouts()
         self._url = url.rstrip("/") + PATH
         self._receive = receive
@@ -87,12 +87,12 @@ class LinkClient:
     @property
     def is_connected(self) -> bool:
         """True while the class has accepted the link."""
-        return self._dialogue.phase is Phase.LINKED
+        return self._dialogue.phase is LinkPhase.LINKED
 
     @property
     def is_over(self) -> bool:
         """True after the class has ended the link; :attr:`problem` says why."""
-        return self._dialogue.phase is Phase.OVER
+        return self._dialogue.phase is LinkPhase.OVER
 
     @property
     def problem(self) -> str:
@@ -240,7 +240,7 @@ class LinkClient:
     def _next_frame(self) -> bytes | None:
         """Wait for a frame to send; return None when the connection is to be closed."""
         with self._changed:
-            while self._closed is None and self._dialogue.phase is not Phase.OVER:
+            while self._closed is None and self._dialogue.phase is not LinkPhase.OVER:
                 now = time.monotonic()
                 frame = self._dialogue.next_frame(now)
                 if frame is not None:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from enum import Enum
 
 from ai4u_edu.member.link import LinkTimeouts
-from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     Ack,
@@ -42,7 +42,7 @@ PresentState = Drawing | Poses | State | Work | Applied
 _ORDER: tuple[type, ...] = (Drawing, Poses, State, Work, Applied)
 
 
-class Phase(Enum):
+class LinkPhase(Enum):
     """Phase of a link."""
 
     WAITING = "waiting"
@@ -55,12 +55,12 @@ class Phase(Enum):
     """The class has ended the link; it is opened again only if somebody asks for that."""
 
 
-_NEXT: dict[Phase, frozenset[Phase]] = {
-    Phase.WAITING: frozenset({Phase.OPENING}),
-    Phase.OPENING: frozenset({Phase.GREETING, Phase.WAITING}),
-    Phase.GREETING: frozenset({Phase.LINKED, Phase.WAITING, Phase.OVER}),
-    Phase.LINKED: frozenset({Phase.WAITING, Phase.OVER}),
-    Phase.OVER: frozenset({Phase.WAITING}),
+_NEXT: dict[LinkPhase, frozenset[LinkPhase]] = {
+    LinkPhase.WAITING: frozenset({LinkPhase.OPENING}),
+    LinkPhase.OPENING: frozenset({LinkPhase.GREETING, LinkPhase.WAITING}),
+    LinkPhase.GREETING: frozenset({LinkPhase.LINKED, LinkPhase.WAITING, LinkPhase.OVER}),
+    LinkPhase.LINKED: frozenset({LinkPhase.WAITING, LinkPhase.OVER}),
+    LinkPhase.OVER: frozenset({LinkPhase.WAITING}),
 }
 
 
@@ -77,11 +77,11 @@ class LinkDialogue:
     def __init__(
         self,
         hello: Hello,
-        outbox: Outbox,
+        outbox: ResultOutbox,
         jitter: Callable[[], float] = random.random,
         timeouts: LinkTimeouts | None = None,
     ) -> None:
-        self.phase = Phase.WAITING
+        self.phase = LinkPhase.WAITING
         self.problem = ""
         """Sentence on why there is no link, or why the class refused a message; empty if all is
         well."""
@@ -101,11 +101,11 @@ class LinkDialogue:
 
     def open(self) -> None:
         """Begin an attempt to connect."""
-        self._enter(Phase.OPENING)
+        self._enter(LinkPhase.OPENING)
 
     def opened(self, now: float) -> bytes:
         """Return the first frame of a connection that was opened."""
-        self._enter(Phase.GREETING)
+        self._enter(LinkPhase.GREETING)
         self._greeted_at = now
         return encode_from_room(self._hello)
 
@@ -117,31 +117,31 @@ class LinkDialogue:
             why: the reason, without a full stop.
             code: of the WebSocket's close; 0 if it had none.
         """
-        if self.phase is Phase.OVER:
+        if self.phase is LinkPhase.OVER:
             return
         if code == POLICY_VIOLATION:
             self.problem = why or "The class has ended this link."
-            self._enter(Phase.OVER)
+            self._enter(LinkPhase.OVER)
             return
         self.problem = f"The class can't be reached ({why}). Results are kept and sent later."
-        self._enter(Phase.WAITING)
+        self._enter(LinkPhase.WAITING)
         self.retry_at = now + self._backoff_s * (0.5 + self._jitter() / 2)
         self._backoff_s = min(2 * self._backoff_s, MAX_BACKOFF_S)
 
     def stop(self) -> None:
         """Note that the connection was closed on purpose."""
-        if self.phase not in (Phase.WAITING, Phase.OVER):
-            self._enter(Phase.WAITING)
+        if self.phase not in (LinkPhase.WAITING, LinkPhase.OVER):
+            self._enter(LinkPhase.WAITING)
 
     def renew(self, now: float) -> None:
         """Try again although the class has ended the link."""
-        if self.phase is Phase.OVER:
+        if self.phase is LinkPhase.OVER:
             self.problem, self.retry_at = "", now
-            self._enter(Phase.WAITING)
+            self._enter(LinkPhase.WAITING)
 
     def is_overdue(self, now: float) -> bool:
         """Return True if the class has not answered the hello in time."""
-        return self.phase is Phase.GREETING and now >= self._greeted_at + self._timeouts.welcome
+        return self.phase is LinkPhase.GREETING and now >= self._greeted_at + self._timeouts.welcome
 
     # -- from the class --------------------------------------------------------------------------
 
@@ -150,7 +150,7 @@ class LinkDialogue:
 
         A frame that can't be read is ignored.
         """
-        if self.phase not in (Phase.GREETING, Phase.LINKED):
+        if self.phase not in (LinkPhase.GREETING, LinkPhase.LINKED):
             return None
         try:
             message = decode_from_class(frame)
@@ -158,7 +158,7 @@ class LinkDialogue:
             self.problem = f"The class sent a message that this version can't read: {error}"
             return None
         match message:
-            case Welcome() if self.phase is Phase.GREETING:
+            case Welcome() if self.phase is LinkPhase.GREETING:
                 self._begin()
             case Ack(key):
                 self._in_flight.pop(key, None)
@@ -168,11 +168,11 @@ class LinkDialogue:
                 self.problem = text
             case Problem(text=text):
                 self.problem = text
-                self._enter(Phase.OVER)
+                self._enter(LinkPhase.OVER)
         return message
 
     def _begin(self) -> None:
-        self._enter(Phase.LINKED)
+        self._enter(LinkPhase.LINKED)
         self.problem = ""
         self._backoff_s = MIN_BACKOFF_S
         self._in_flight.clear()
@@ -196,7 +196,7 @@ class LinkDialogue:
 
     def next_frame(self, now: float) -> bytes | None:
         """Return the next frame to send; None if there is none at present."""
-        if self.phase is not Phase.LINKED:
+        if self.phase is not LinkPhase.LINKED:
             return None
         keys = self._outbox.keys()
         self._in_flight = {key: due for key, due in self._in_flight.items() if key in keys}
@@ -224,17 +224,17 @@ class LinkDialogue:
     def wait_s(self, now: float) -> float | None:
         """Return the seconds until this dialogue has to be asked again; None: at an event only."""
         match self.phase:
-            case Phase.WAITING:
+            case LinkPhase.WAITING:
                 due = self.retry_at
-            case Phase.GREETING:
+            case LinkPhase.GREETING:
                 due = self._greeted_at + self._timeouts.welcome
-            case Phase.LINKED if self._in_flight:
+            case LinkPhase.LINKED if self._in_flight:
                 due = min(self._in_flight.values())
             case _:
                 return None
         return max(0.0, due - now)
 
-    def _enter(self, phase: Phase) -> None:
+    def _enter(self, phase: LinkPhase) -> None:
         if phase not in _NEXT[self.phase]:
             raise RuntimeError(f"expected a phase after {self.phase.name}, got {phase.name}")
         self.phase = phase

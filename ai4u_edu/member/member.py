@@ -22,7 +22,7 @@ from ai4u_edu.member.client import LinkClient
 from ai4u_edu.member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.member.holds import Holds
 from ai4u_edu.member.link import ClassLinkSettings, Link, Receive
-from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.member.race_run import RaceRun, ShowGhosts
 from ai4u_edu.member.room_state import RoomState
 from ai4u_edu.member.thumbnail import Thumbnail
@@ -301,5 +301,5 @@ class ClassMember:
 
 
 def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> Link:
-    outbox = Outbox(None if folder is None else folder / OUTBOX)
+    outbox = ResultOutbox(None if folder is None else folder / OUTBOX)
     return LinkClient(settings.url, settings.secret, settings.kind, receive, outbox)

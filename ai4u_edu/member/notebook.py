@@ -16,7 +16,7 @@ from ai4u_edu.member.client import LinkClient
 from ai4u_edu.member.dialogue import PresentState
 from ai4u_edu.member.joining import Seat, SeatFile, join_at_hub
 from ai4u_edu.member.link import LinkTimeouts, Receive
-from ai4u_edu.member.outbox import Outbox
+from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.class_link import (
     MAX_NETWORK_BYTES,
@@ -71,7 +71,7 @@ class ClassConnection:
     ) -> None:
         self.seat, self.folder = seat, folder
         self._clock = clock
-        outbox = Outbox(folder / "outbox")
+        outbox = ResultOutbox(folder / "outbox")
         self.client = LinkClient(seat.url, seat.token, "notebook", self._receive, outbox, timeouts)
         self._assignment = ""
         """Id of the latest assignment; the class sends it again after each reconnect."""

@@ -21,7 +21,7 @@ MAX_BYTES = 32 * 2**20
 ENDING = ".result"
 
 
-class Outbox:
+class ResultOutbox:
     """Results in the order in which they were added, until they are acknowledged. Thread-safe.
 
     With a folder, each result is a file there, so that a process that was killed delivers it at its

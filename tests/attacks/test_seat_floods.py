@@ -11,7 +11,7 @@ from ai4u_edu.classroom import ClassStore, RoomRule, Seats
 from ai4u_edu.classroom import join as join_routes
 from ai4u_edu.classroom.errors import JoinError, NewSeatError
 from ai4u_edu.classroom.programs import Programs
-from ai4u_edu.classroom.seats import MAX_SEATS, UNOPENED_S, State
+from ai4u_edu.classroom.seats import MAX_SEATS, UNOPENED_S, SeatState
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.page.server.rooms import Clock
 from tests.waiting import LIMIT_S
@@ -70,8 +70,8 @@ def test_a_seat_that_opened_its_room_or_has_work_keeps_its_place(
     assert seats.by_token(opened[1]) is not None
 
 
-@pytest.mark.parametrize("state", [State.KICKED, State.BANNED])
-def test_a_seat_that_was_sent_out_gives_its_place_back(seats: Seats, state: State) -> None:
+@pytest.mark.parametrize("state", [SeatState.KICKED, SeatState.BANNED])
+def test_a_seat_that_was_sent_out_gives_its_place_back(seats: Seats, state: SeatState) -> None:
     flood = fill(seats)
     for number, _ in flood:
         seats.note_opened(number)
@@ -83,7 +83,7 @@ def test_a_seat_that_was_sent_out_gives_its_place_back(seats: Seats, state: Stat
 
 def test_a_banned_seat_comes_back_with_its_work_by_the_teachers_code(seats: Seats) -> None:
     number, token = join(seats, "student")
-    seats.set_state(number, State.BANNED)
+    seats.set_state(number, SeatState.BANNED)
     seats.set_open(False)
     own = seats.new_move_code(number)
     with pytest.raises(JoinError, match="may not join"):
@@ -104,7 +104,7 @@ def test_a_lost_cookie_takes_no_new_seat_with_the_teachers_code(seats: Seats) ->
 
 def test_a_device_whose_seat_makes_room_moves_to_another_one(seats: Seats, clock: Clock) -> None:
     banned, _ = join(seats, "student")
-    seats.set_state(banned, State.BANNED)
+    seats.set_state(banned, SeatState.BANNED)
     others = fill(seats)
     clock.now += UNOPENED_S
     code = seats.new_move_code(banned, is_teachers=True)

@@ -12,7 +12,7 @@ import pytest
 
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.course_index import known_exercises
-from ai4u_edu.classroom.progress import MAX_GAP_S, Entry, Progress
+from ai4u_edu.classroom.progress import MAX_GAP_S, Progress, SeatProgress
 from ai4u_edu.classroom.store import FILE
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.wire.class_link import Ack, ExerciseResult, Hello, Welcome
@@ -55,7 +55,7 @@ def test_time_counts_from_arrival_or_the_result_before_and_not_a_break(store: Cl
     note(store, progress, (1, check("wrong")))
     now += 10 * MAX_GAP_S
     note(store, progress, (1, check("right")))
-    assert progress.entries[1, "04.2"] == Entry("solved", 2, 0, 60 + MAX_GAP_S)
+    assert progress.entries[1, "04.2"] == SeatProgress("solved", 2, 0, 60 + MAX_GAP_S)
     assert progress.by_seat() == {"1": {"04.2": {"state": "solved", "tries": 2, "minutes": 16.0}}}
 
 

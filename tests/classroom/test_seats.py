@@ -9,7 +9,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.classroom import ClassStore, RoomRule, Seats
 from ai4u_edu.classroom.errors import JoinError, NameTakenError, StoreError, WrongCodeError
 from ai4u_edu.classroom.names import CODE_LENGTH, CODE_LETTERS, LANGUAGES, is_name, words_of
-from ai4u_edu.classroom.seats import MAX_SEATS, State, digest_of
+from ai4u_edu.classroom.seats import MAX_SEATS, SeatState, digest_of
 from ai4u_edu.classroom.store import SeatRow
 
 
@@ -113,11 +113,11 @@ def test_a_rule_that_is_none_is_refused(text: str) -> None:
 
 def test_who_was_sent_out_may_join_again_and_who_was_banned_may_not(seats: Seats) -> None:
     kicked, token = joined(seats, "a")
-    seats.set_state(kicked.number, State.KICKED)
+    seats.set_state(kicked.number, SeatState.KICKED)
     assert seats.by_token(token) is None
     again, token = joined(seats, "a")
     assert (again.number, again.room) == (kicked.number, kicked.room)
-    seats.set_state(again.number, State.BANNED)
+    seats.set_state(again.number, SeatState.BANNED)
     for request, held in (("a", ""), ("another", token)):
         with pytest.raises(JoinError, match="may not join"):
             seats.join(seats.code, "Wise Owl", request, held)
@@ -212,7 +212,7 @@ def test_a_device_that_moves_to_another_seat_leaves_its_own(seats: Seats) -> Non
 def test_whoever_was_sent_out_comes_back_with_one_device(seats: Seats) -> None:
     seat, held = joined(seats, "a")
     _, second = seats.join(seats.new_move_code(seat.number), "", "b")
-    seats.set_state(seat.number, State.KICKED)
+    seats.set_state(seat.number, SeatState.KICKED)
     _, token = seats.join(seats.code, "", "a", held)
     assert seats.by_token(token) is not None
     assert seats.by_token(second) is None

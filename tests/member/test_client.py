@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.member import LinkClient, Outbox
+from ai4u_edu.member import LinkClient, ResultOutbox
 from ai4u_edu.member import client as client_module
 from ai4u_edu.wire.class_link import Attention, FromClass, Problem, State, Welcome
 from tests.member.messages import drawing, poses, result, state
@@ -27,7 +27,7 @@ def there() -> Iterator[TinyClass]:
 @contextmanager
 def linked(
     url: str,
-    outbox: Outbox | None = None,
+    outbox: ResultOutbox | None = None,
     secret: str = SECRET,
     heard: list[FromClass] | None = None,
 ) -> Iterator[LinkClient]:
@@ -39,7 +39,7 @@ def linked(
 def running(
     url: str,
     receive: Callable[[FromClass], object],
-    outbox: Outbox | None = None,
+    outbox: ResultOutbox | None = None,
     secret: str = SECRET,
 ) -> Iterator[LinkClient]:
     client = LinkClient(url, secret, "room", receive, outbox, PATIENT)
@@ -111,7 +111,7 @@ def test_a_silent_link_has_no_timeout_of_reading(
 
 def test_a_class_that_begins_later_gets_what_was_sent_before(tmp_path: Path) -> None:
     there = TinyClass()
-    with linked(there.url, Outbox(tmp_path)) as client:
+    with linked(there.url, ResultOutbox(tmp_path)) as client:
         client.send_result(result(1))
         until(lambda: "can't be reached" in client.problem)
         assert "Results are kept and sent later." in client.problem
@@ -119,7 +119,7 @@ def test_a_class_that_begins_later_gets_what_was_sent_before(tmp_path: Path) -> 
             until(lambda: not len(client.outbox))
             assert client.problem == ""
     assert there.results == [result(1).key]
-    assert len(Outbox(tmp_path)) == 0
+    assert len(ResultOutbox(tmp_path)) == 0
 
 
 def test_stop_waits_for_what_is_pending(there: TinyClass) -> None:

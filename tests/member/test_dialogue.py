@@ -4,13 +4,13 @@ from random import Random
 
 import pytest
 
-from ai4u_edu.member import LinkTimeouts, Outbox
+from ai4u_edu.member import LinkTimeouts, ResultOutbox
 from ai4u_edu.member.dialogue import (
     MAX_BACKOFF_S,
     MAX_RESULTS_IN_FLIGHT,
     MIN_BACKOFF_S,
     LinkDialogue,
-    Phase,
+    LinkPhase,
 )
 from ai4u_edu.wire.class_link import (
     VERSION,
@@ -36,8 +36,8 @@ WELCOME = Welcome(VERSION, "Red Fox", "#d55e00")
 class Talk:
     """A dialogue and a clock."""
 
-    def __init__(self, outbox: Outbox | None = None) -> None:
-        self.outbox = outbox or Outbox()
+    def __init__(self, outbox: ResultOutbox | None = None) -> None:
+        self.outbox = outbox or ResultOutbox()
         self.dialogue = LinkDialogue(HELLO, self.outbox, lambda: 1.0, TIMEOUTS)
         self.now = 100.0
 
@@ -122,7 +122,7 @@ def test_the_pause_between_attempts_doubles_up_to_a_limit_and_begins_anew_after_
 def test_rooms_of_a_class_do_not_come_back_in_the_same_moment() -> None:
     times = set()
     for number in range(10):
-        dialogue = LinkDialogue(HELLO, Outbox(), Random(number).random)
+        dialogue = LinkDialogue(HELLO, ResultOutbox(), Random(number).random)
         dialogue.open()
         dialogue.lost(0.0, "gone")
         assert MIN_BACKOFF_S / 2 <= dialogue.retry_at <= MIN_BACKOFF_S
@@ -176,7 +176,7 @@ def test_every_result_arrives_once_whatever_is_lost(seed: int) -> None:
         talk.now += chance.uniform(0, 3)
         if to_come and chance.random() < 0.3:
             talk.outbox.add(to_come.pop(0))
-        if talk.dialogue.phase is Phase.WAITING and talk.now >= talk.dialogue.retry_at:
+        if talk.dialogue.phase is LinkPhase.WAITING and talk.now >= talk.dialogue.retry_at:
             talk.greet()
             if chance.random() < 0.3:  # the welcome is lost
                 talk.lose()
@@ -203,7 +203,7 @@ def test_a_permanent_problem_ends_the_link(code: str) -> None:
     problem = Problem(code, "This seat is not known. Join again.")  # type: ignore[arg-type]
     assert talk.hear(problem) == problem
     talk.lose()
-    assert talk.dialogue.phase is Phase.OVER
+    assert talk.dialogue.phase is LinkPhase.OVER
     assert talk.dialogue.problem == problem.text
     assert talk.dialogue.wait_s(talk.now) is None
     with pytest.raises(RuntimeError, match="OPENING"):
@@ -217,14 +217,14 @@ def test_a_permanent_problem_ends_the_link(code: str) -> None:
 def test_a_close_for_good_ends_the_link_with_its_reason() -> None:
     talk = Talk().link()
     talk.dialogue.lost(talk.now, "You may not join this class.", 1008)
-    assert talk.dialogue.phase is Phase.OVER
+    assert talk.dialogue.phase is LinkPhase.OVER
     assert talk.dialogue.problem == "You may not join this class."
 
 
 def test_a_refused_message_and_a_frame_that_is_none_leave_the_link() -> None:
     talk = Talk().link()
     assert talk.hear(Problem("message", "scene: too long")) is not None
-    assert (talk.dialogue.phase, talk.dialogue.problem) == (Phase.LINKED, "scene: too long")
+    assert (talk.dialogue.phase, talk.dialogue.problem) == (LinkPhase.LINKED, "scene: too long")
     assert talk.dialogue.receive(b"\x93\x01") is None
     assert "can't read" in talk.dialogue.problem
     attention = Attention("pause", "Look here", 0.0)
@@ -232,8 +232,8 @@ def test_a_refused_message_and_a_frame_that_is_none_leave_the_link() -> None:
 
 
 def test_phases_can_not_be_skipped() -> None:
-    dialogue = LinkDialogue(HELLO, Outbox())
+    dialogue = LinkDialogue(HELLO, ResultOutbox())
     with pytest.raises(RuntimeError, match="expected a phase after WAITING, got GREETING"):
         dialogue.opened(0.0)
     assert dialogue.receive(encode_from_class(WELCOME)) is None
-    assert dialogue.phase is Phase.WAITING
+    assert dialogue.phase is LinkPhase.WAITING
