@@ -15,7 +15,7 @@ from starlette.responses import StreamingResponse
 from ai4u_edu.base.atomic_write import PREFIX
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.base.html_report import html_report
+from ai4u_edu.base.html_template import render_html
 from ai4u_edu.classroom.class_event import misconceptions
 from ai4u_edu.classroom.course_index import course_index
 from ai4u_edu.classroom.live_class import LiveClass
@@ -230,7 +230,7 @@ def _results_page(live: LiveClass) -> str:
     Exercises that nobody has begun are left out.
     """
     begun = {exercise for _, exercise in live.progress.entries}
-    return html_report(
+    return render_html(
         "classroom/results.html",
         seats=live.seats.all(),
         exercises=[each for one in course_index() for each in one.ids if each in begun],

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.base.html_report import html_report
+from ai4u_edu.base.html_template import render_html
 from ai4u_edu.lessons.course import exercise_ids, is_ticket, lessons
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import Exercise, find
@@ -64,7 +64,7 @@ class ClassProgress:
         ]
         exercises = [each for _, columns in course for each in columns]
         hardest = sorted(exercises, key=lambda each: -each.stuck)[:HARDEST]
-        return html_report(
+        return render_html(
             "lessons/collecting.html",
             collected=self,
             course=course,

@@ -1,17 +1,15 @@
 """A running world and its page inside the notebook."""
 
-import html
-import json
 import os
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
-from pathlib import Path
 from secrets import token_urlsafe
 from typing import TYPE_CHECKING
 
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.html_template import render_html
 from ai4u_edu.lessons.class_feed import NotebookFeed
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
 from ai4u_edu.lessons.page_watch import GONE_AT_HUB_S, GONE_S, PageWatch
@@ -28,7 +26,6 @@ if TYPE_CHECKING:
 TOKEN = token_urlsafe(24)
 """Token of all pages of this process. Many may share one notebook server under any host name, so
 a page asks for the token whatever the host."""
-TEMPLATE = Path(__file__).with_name("embed.html")
 MAX_REPLAY_S = 120
 """Longest episode (s) that is replayed for an animation; more would take too long."""
 
@@ -187,18 +184,14 @@ class Live:
             "hub": os.environ.get("JUPYTERHUB_SERVICE_PREFIX", ""),
             "height": height,
         }
-        parts = {
-            "ID": self.handle,
-            "URL": html.escape(self.url),
-            "TITLE": html.escape(self.title),
-            "STILL": image(self._still(), "the world as it begins"),
-            # within a script nothing may look like its end
-            "SPEC": json.dumps(spec).replace("<", "\\u003c"),
-        }
-        text = TEMPLATE.read_text(encoding="utf-8")
-        for name, part in parts.items():
-            text = text.replace("{{" + name + "}}", part)
-        return text
+        return render_html(
+            "lessons/embed.html",
+            id=self.handle,
+            url=self.url,
+            title=self.title,
+            still=image(self._still(), "the world as it begins"),
+            spec=spec,
+        )
 
     def _still(self) -> bytes:
         return picture(self.runner.latest, longest=PICTURE_SIZE_PX)

@@ -8,7 +8,7 @@ from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.colors import PALETTE
-from ai4u_edu.base.html_report import html_report
+from ai4u_edu.base.html_template import render_html
 from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook import EXERCISE
@@ -48,7 +48,7 @@ def page(progress: ProgressFile, name: str = "") -> str:
                 for each in begun
             ]
             work.append((lesson.title, exercises, guessed))
-    return html_report(
+    return render_html(
         "lessons/report_page.html",
         student=name,
         passed=sum(entry.passed for _, exercises, _ in work for _, entry, _, _ in exercises),

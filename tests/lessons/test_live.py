@@ -1,7 +1,6 @@
 """``show`` and ``film``: the live world, and what stands in its place."""
 
 import io
-import re
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -131,9 +130,9 @@ def test_titles_are_escaped_and_end_no_script() -> None:
     named = Scene(scene.description.model_copy(update={"title": title}))
     text = show(named).page(300)
     assert title not in text
-    assert "&lt;/script&gt;&lt;b&gt;&quot;x" in text
+    assert "&lt;/script&gt;&lt;b&gt;&#34;x" in text
     assert text.count("</script>") == 1
-    assert not re.findall(r"{{[A-Z]+}}", text)
+    assert "{{" not in text
 
 
 def test_a_hub_says_where_its_proxy_is(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,7 @@ import base64
 import hashlib
 from collections.abc import Iterator
 
-from ai4u_edu.base.html_report import html_report
+from ai4u_edu.base.html_template import render_html
 from ai4u_edu.games.tournament.standings import MAX_SURE_SIGMA, Standing
 from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.recording import Episode, Replay
@@ -25,7 +25,7 @@ def page_of(done: Tournament) -> str:
         for name in result.contest.names
         for reason in result.reasons(name)
     ]
-    return html_report(
+    return render_html(
         "games/tournament/page.html",
         plan=plan,
         plan_hash=hashlib.sha256(plan.text.encode()).hexdigest(),

@@ -14,7 +14,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from ai4u_edu.base.colors import PALETTE
-from ai4u_edu.base.html_report import html_report
+from ai4u_edu.base.html_template import render_html
 from ai4u_edu.learn.training.evaluating import Evaluation
 from ai4u_edu.learn.training.settings import NO_REWARD
 from ai4u_edu.learn.training.sweep.plan import SweepPlan
@@ -46,7 +46,7 @@ def page_of(
     names = [each.name for each in plan.parameters]
     order = ranked(results)
     has_equal_settings = len({each.label for each in results}) < len(results)
-    return html_report(
+    return render_html(
         "learn/training/sweep/page.html",
         plan=plan,
         scene=str(plan.scene["name"]).removesuffix(".yaml").removesuffix(".yml"),

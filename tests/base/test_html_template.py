@@ -1,9 +1,9 @@
-"""Reports from templates: texts are escaped, and no value may be missing."""
+"""HTML from templates: texts are escaped, and no value may be missing."""
 
 import pytest
 from jinja2 import UndefinedError
 
-from ai4u_edu.base.html_report import html_report
+from ai4u_edu.base.html_template import render_html
 
 VALUES: dict[str, object] = {
     "seats": [],
@@ -19,7 +19,7 @@ VALUES: dict[str, object] = {
 
 
 def test_values_are_text() -> None:
-    page = html_report("classroom/results.html", **VALUES)
+    page = render_html("classroom/results.html", **VALUES)
     assert not {"<script", "<b>", "<i>"} & {*page.replace(">", "> ").split()}
     assert "&lt;script&gt;" in page
     assert "<h2>Race: &lt;i&gt;</h2>" in page
@@ -29,4 +29,4 @@ def test_values_are_text() -> None:
 def test_a_missing_value_is_an_error() -> None:
     values = {each: value for each, value in VALUES.items() if each != "races"}
     with pytest.raises(UndefinedError, match="races"):
-        html_report("classroom/results.html", **values)
+        render_html("classroom/results.html", **values)
