@@ -8,7 +8,7 @@ import sys
 import threading
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +18,7 @@ from websockets.typing import Origin
 
 from tests import evidence
 from tests.waiting import LIMIT_S, until
+from tests.without import code_without
 
 
 @dataclass(eq=False)
@@ -74,10 +75,20 @@ class Played:
 
 
 @contextlib.contextmanager
-def played(*args: str, waits_for_key: bool = False) -> Iterator[Played]:
-    """Serves a scene: ``played("box_chase", "--seed", "1")``."""
+def played(
+    *args: str, waits_for_key: bool = False, without: Sequence[str] = ()
+) -> Iterator[Played]:
+    """Serve a scene: ``played("box_chase", "--seed", "1")``.
+
+    Args:
+        args: arguments of ``ai4u-edu play``.
+        waits_for_key: True lets the world wait for a person's first key.
+        without: packages whose imports are refused.
+    """
     wait = "--wait-for-key" if waits_for_key else "--no-wait-for-key"
-    command = [sys.executable, "-m", "ai4u_edu", "play", *args, "--port", "0", "--no-open", wait]
+    main = code_without(without, "from ai4u_edu.cli.main import main; main()")
+    program = ["-c", main] if without else ["-m", "ai4u_edu"]
+    command = [sys.executable, *program, "play", *args, "--port", "0", "--no-open", wait]
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
     )

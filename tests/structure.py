@@ -4,7 +4,9 @@ A stranger pays for what a piece of code reaches, for circles, and for each way 
 figures that may only get better stand in ``structure.json``; ``--write`` puts today's there.
 
 An import inside a function counts, and so does a name given to ``import_module``. Names that a
-package imports at first access count where they are used.
+package imports at first access count where they are used. The modules that ``base/options.py``
+names do not count, since whatever loads one works without it; ``tests/room/test_options.py`` and
+``tests/learn/envs/test_without_page.py`` refuse them and try that.
 """
 
 import argparse

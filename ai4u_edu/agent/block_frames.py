@@ -6,13 +6,12 @@ import sysconfig
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType, TracebackType
+from types import CodeType, FrameType, TracebackType
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.events import Event
 from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import Block
-from ai4u_edu.program.endless import line_at
 
 KINDS: tuple[tuple[type[Block], str], ...] = (
     (Sensor, "Sensor"),
@@ -95,6 +94,20 @@ def calls_of_error(trace: TracebackType | None) -> list[tuple[FrameType, int]]:
         calls.append((trace.tb_frame, line_at(trace.tb_frame.f_code, trace.tb_lasti)))
         trace = trace.tb_next
     return calls
+
+
+def line_at(code: CodeType, instruction: int) -> int:
+    """Return the line of an instruction, or the one before it for an instruction without a line.
+
+    Python gives no line to some jumps back to a loop's head; ``frame.f_lineno`` and
+    ``traceback.tb_lineno`` are None there.
+
+    Args:
+        code: the function's.
+        instruction: offset of the instruction, such as ``frame.f_lasti``.
+    """
+    lines = [line for start, _, line in code.co_lines() if line and start <= instruction]
+    return lines[-1] if lines else code.co_firstlineno
 
 
 def describe(block: Block) -> str:

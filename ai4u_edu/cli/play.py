@@ -1,5 +1,6 @@
 """``ai4u-edu play``: serve a scene in the browser."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -8,10 +9,12 @@ from typing import TYPE_CHECKING
 import typer
 
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
+from ai4u_edu.base.options import COURSE, DRIVERS, MissingOptionError, load_option
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, expect_scene, load_own_blocks
 
 if TYPE_CHECKING:
+    from ai4u_edu.page.server.start_page import Lesson
     from ai4u_edu.room import Room, RoomSettings
 
 
@@ -47,7 +50,6 @@ def play(
 ) -> None:
     """Serve a scene in the browser; drive with W, A, S, D."""
     expect_scene("play", [scene, *context.args])
-    from ai4u_edu.lessons.course import lessons
     from ai4u_edu.page.editing.autosave import unsaved_folder
     from ai4u_edu.page.server import Rules, hosts_for, token_for
     from ai4u_edu.room import RoomSettings
@@ -63,7 +65,7 @@ def play(
         allowed_hosts=hosts_for(host),
         proxy_hosts=tuple(allow_host or ()),
         rules=Rules(grace, receive_timeout, token, seeded_resets, lockstep, on_missing or ""),
-        lessons=lessons,
+        lessons=_lessons(),
         record=record,
         keep=keep,
         ghost=ghost,
@@ -74,15 +76,21 @@ def play(
         autosave=autosave,
     )
     if brain:
-        from ai4u_edu.learn.training.assigned import (
-            with_drivers,  # loads packages that most don't need
-        )
-
-        settings = replace(settings, build=partial(with_drivers, specs=brain, is_served=True))
+        build = load_option(DRIVERS, "--brain").with_drivers
+        settings = replace(settings, build=partial(build, specs=brain, is_served=True))
     settings = _with_class(_with_work(settings), class_url, code, name_choice, port)
     if autosave and settings.saved_scenes is None and settings.class_folder is None:
         settings = replace(settings, saved_scenes=_own_scenes())
     _serve(settings, host, port, open_page, connections)
+
+
+def _lessons() -> "Callable[[], Sequence[Lesson]]":
+    """Return the function that lists the course's lessons; without the course there are none."""
+    try:
+        lessons: Callable[[], Sequence[Lesson]] = load_option(COURSE, "the start page").lessons
+    except MissingOptionError:
+        return list
+    return lessons
 
 
 def _own_scenes() -> Path | None:

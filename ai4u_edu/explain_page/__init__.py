@@ -5,4 +5,4 @@ from ai4u_edu.explain_page.option import ExplainOption
 __all__ = ["ExplainOption", "page_option"]
 
 page_option = ExplainOption
-"""Makes the option of a world's page; see :mod:`ai4u_edu.room.options`."""
+"""Makes the option of a world's page; see :mod:`ai4u_edu.base.options`."""

@@ -7,8 +7,8 @@ import sysconfig
 from dataclasses import dataclass
 from pathlib import Path
 
+from ai4u_edu.agent.block_frames import line_at
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.program.endless import line_at
 
 _OURS = str(Path(__file__).resolve().parent.parent)
 _LIBRARIES = tuple({*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix})

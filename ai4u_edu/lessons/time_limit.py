@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from types import FrameType, TracebackType
 from typing import Any, Self
 
+from ai4u_edu.agent.block_frames import line_at
 from ai4u_edu.base.syntax import parsed
 from ai4u_edu.lessons.student_errors import is_students, line_words
-from ai4u_edu.program.endless import line_at, loop_around, suspicion, why_endless
+from ai4u_edu.program.endless import loop_around, suspicion, why_endless
 
 CALL_LIMIT_S = 5.0
 """Longest time that one call of a student's function may take."""

@@ -1,13 +1,16 @@
 """A running world and its page: the one place that puts picture, panel and server together."""
 
+import logging
 import threading
 from collections.abc import Callable, Collection, Sequence
-from typing import Self
+from typing import Protocol, Self
 
 from starlette.applications import Starlette
 
+from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, load_option
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel import PanelContext, PanelSockets
+from ai4u_edu.page.panel.socket import PanelOption
 from ai4u_edu.page.server import LOOPBACK, Rules, ServerThread, lock_viser_port, room_app
 from ai4u_edu.page.server.class_feed import ClassFeed
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
@@ -15,14 +18,22 @@ from ai4u_edu.page.server.scripts import Report
 from ai4u_edu.page.server.start_page import Lesson
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.page.viewer import Viewer
+from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption
 from ai4u_edu.recording import Ghosts
-from ai4u_edu.room.options import OPTIONS, Option, load_options
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 
 DEFAULT_TITLE = "AI4U Edu"
 STOP_S = 2.0
 """Time that all threads of a page usually have to end."""
+_logger = logging.getLogger(__name__)
+
+
+class Option(PanelOption, PictureOption, Protocol):
+    """An option of one world's page: it adds parts of picture and panel, and commands."""
+
+    def stop(self) -> None:
+        """End its threads, without waiting for code of a student that may not return."""
 
 
 def serve_world(
@@ -39,7 +50,7 @@ def serve_world(
     lessons: Callable[[], Sequence[Lesson]] | None = None,
     class_feed: ClassFeed | None = None,
     script_report: Report | None = None,
-    options: Sequence[str] = OPTIONS,
+    options: Sequence[str] = PAGE_OPTIONS,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> "ServedWorld":
     """Serve the page and the API of a running world, for this machine, until it is stopped.
@@ -65,7 +76,9 @@ def serve_world(
             out, there is no start page. It needs an editor.
         class_feed: of the class that the world belongs to; pages show it.
         script_report: of what happens with scripts.
-        options: modules of what is added to the page; see :mod:`ai4u_edu.room.options`.
+        options: modules that add to the page, each with a function ``page_option``, which takes the
+            runner and the player and returns an :class:`Option`; those that can't be imported are
+            left out.
         timeouts: time limits of connections and answers.
 
     Raises:
@@ -82,7 +95,7 @@ def serve_world(
     >>> runner.stop()
     """
     player, ghosts = ReplayPlayer(runner), ghosts or Ghosts()
-    added = load_options(options, runner, player)
+    added = _load(options, runner, player)
     title = title or (DEFAULT_TITLE if editor is None else editor.title)
     viewer = Viewer(runner, title=title, editor=editor, ghosts=ghosts, options=added)
     lock_viser_port(viewer.server, viser_secret)
@@ -175,3 +188,17 @@ class ServedWorld:
 
     def __exit__(self, *_: object) -> None:
         self.stop()
+
+
+def _load(modules: Sequence[str], runner: Runner, player: ReplayPlayer) -> list[Option]:
+    """Return the options of a world's page; one that can't be imported is left out."""
+    options: list[Option] = []
+    for name in modules:
+        try:
+            make: Callable[[Runner, ReplayPlayer], Option]
+            make = load_option(name, "the whole page").page_option
+        except MissingOptionError as error:
+            _logger.info("%s", error)
+        else:
+            options.append(make(runner, player))
+    return options

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ai4u_edu.agent.block_frames import line_at
 from ai4u_edu.lessons import check, film
 from ai4u_edu.lessons.checking import judge
 from ai4u_edu.lessons.course import lesson
@@ -16,7 +17,6 @@ from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.progress_file import ProgressFile
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
-from ai4u_edu.program.endless import line_at
 from tests.lessons.workbook import run, tried
 from tests.waiting import LIMIT_S
 

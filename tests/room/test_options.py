@@ -4,43 +4,40 @@ import subprocess
 import sys
 from uuid import uuid4
 
+import httpx
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.base.options import PAGE_OPTIONS
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.room import serve_world
-from ai4u_edu.room.options import OPTIONS
 from ai4u_edu.runtime.runner import Runner
 from tests.page.panel.rooms import PanelPage, PanelRoom, picture
 from tests.page.server.rooms import PATIENT
+from tests.playing import played
 from tests.room import greeting
 from tests.waiting import LIMIT_S, until
+from tests.without import code_without
 
-WITHOUT_EXPLANATIONS = """
-import sys
-
-sys.modules["ai4u_edu.explain"] = sys.modules["ai4u_edu.explain_page"] = None
-
-from ai4u_edu.cli import play  # the command's module itself
+OPTIONS = {
+    "explain": ["ai4u_edu.explain", "ai4u_edu.explain_page"],
+    "games": ["ai4u_edu.games"],
+    "learn": ["ai4u_edu.learn"],
+    "lessons": ["ai4u_edu.lessons"],
+    "program": ["ai4u_edu.program"],
+}
+"""Packages of each option."""
+STEPS = """
 from ai4u_edu.learn.envs import SceneEnv
-from ai4u_edu.remote import connect
-from ai4u_edu.room import Room, RoomSettings
-from ai4u_edu.page.server import ServerThread
-from tests.page.panel.rooms import PanelPage
-from tests.page.server.rooms import PATIENT
-
-with Room(RoomSettings(scene="box_chase", wait_for_key=False)) as room:
-    with ServerThread(room.page.app, timeouts=PATIENT) as server:
-        with PanelPage(server.url + "ws/panel") as page:
-            page.part("run")
-            page.done("new_start")
-            print(page.failed("why", on=True)["text"])
-        with connect(server.url, agent="0") as robot:
-            robot.act(move=[1, 0, 0, 0])
-            print("done" in robot.sense())
 env = SceneEnv("box_chase")
 env.reset(seed=1)
 env.step(env.action_space.sample())
+"""
+ACT = """
+from ai4u_edu.remote import connect
+with connect({url!r}, agent="0") as robot:
+    robot.act(move=[1, 0, 0, 0])
+    print("done" in robot.sense())
 """
 
 
@@ -51,7 +48,7 @@ def test_an_option_from_elsewhere_adds_a_command_and_parts() -> None:
     runner.paused = True
     runner.start()
     page_id = uuid4().hex
-    modules = (*OPTIONS, greeting.__name__)
+    modules = (*PAGE_OPTIONS, greeting.__name__)
     with serve_world(runner, options=modules, timeouts=PATIENT) as world:
         option, other = greeting.made[-1], PanelPage(world.url + "ws/panel")
         room = PanelRoom(runner, world.viewer, editor, world.context, world.url)
@@ -82,10 +79,34 @@ def test_a_page_does_without_an_option_that_is_not_there() -> None:
 
 
 @pytest.mark.slow
-def test_play_scripts_and_environments_work_without_explanations() -> None:
-    command = [sys.executable, "-c", WITHOUT_EXPLANATIONS]
+@pytest.mark.parametrize("option", OPTIONS)
+def test_play_scripts_and_environments_work_without_an_option(option: str) -> None:
+    refused = OPTIONS[option]
+    with played("box_chase", without=refused) as world:
+        with PanelPage(world.url + "ws/panel") as page:
+            page.part("run")
+            page.part("scene", title="Box chase")
+            page.done("new_start")
+            page.send({"type": "show", "agent": "0", "tabs": ["agent", "blocks", "world", "past"]})
+            for name in ("agent", "blocks", "world", "past", "view"):
+                page.part(name)
+            if option == "explain":
+                answer = page.failed("why", on=True)
+                assert answer["text"].startswith("no command is called 'why'")
+            else:
+                page.done("why", on=True)
+        lessons = httpx.get(f"{world.url}api/lessons", timeout=LIMIT_S).json()["lessons"]
+        assert bool(lessons) == (option != "lessons")
+        steps = "" if option == "learn" else STEPS
+        command = [sys.executable, "-c", code_without(refused, steps + ACT.format(url=world.url))]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr, done.stdout) == (0, "", "True\n")
+
+
+@pytest.mark.slow
+def test_a_driver_from_a_missing_option_is_an_error_that_says_so() -> None:
+    main = code_without(OPTIONS["learn"], "from ai4u_edu.cli.main import main; main()")
+    command = [sys.executable, "-c", main, "play", "box_chase", "--brain", "zoo:box_chase"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    refused, has_sensed = done.stdout.splitlines()
-    assert refused.startswith("no command is called 'why'")
-    assert has_sensed == "True"
+    assert done.returncode == 1
+    assert "--brain needs ai4u_edu.learn.training.assigned, which" in done.stderr

@@ -1,12 +1,14 @@
 """A scene as a Gymnasium environment: one agent learns, the others follow their brains."""
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import gymnasium
 
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.options import ENV_PAGE, LivePage, load_option
 from ai4u_edu.blocks import Percept
 from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning, warn_of_default_agent
@@ -15,9 +17,6 @@ from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
-
-if TYPE_CHECKING:
-    from ai4u_edu.learn.envs.live_page import LivePage
 
 SceneLike = Scene | str | Path
 
@@ -42,7 +41,8 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         agent: the id of the agent that learns; left out, the one that acts first, with a warning
             that names it if there are several.
         render_mode: ``"rgb_array"``: drawn without a browser; ``"human"``: serves the page
-            (``page_url``), at the pace of the wall clock.
+            (``page_url``), at the pace of the wall clock. The page is an option; see
+            :mod:`ai4u_edu.base.options`.
 
     >>> import gymnasium, ai4u_edu
     >>> env = gymnasium.make("ai4u_edu/BoxChase-v0", observation="flat")
@@ -91,10 +91,10 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self.metadata = {**self.metadata, "render_fps": fps}
         self._page: LivePage | None = None
         if render_mode == "human":
-            # only who wants the page loads it
-            from ai4u_edu.learn.envs import live_page
-
-            self._page = live_page.LivePage(self.sim, self.scene.description.title)
+            make: Callable[[ControlRequestor, str], LivePage] = load_option(
+                ENV_PAGE, 'render_mode="human" (but not "rgb_array")'
+            ).EnvPage
+            self._page = make(self.sim, self.scene.description.title)
         self._share_chance()
 
     @property
@@ -160,7 +160,12 @@ class SceneEnv(gymnasium.Env[Any, Any]):
     def decide(self, action: Any) -> Percept:
         """Run one decision and return the observation after it; the agent knows the rest."""
         self._brain.action = {self._output: action} if self._one_output else action
-        return self._page.step(self.agent) if self._page else self.sim.step(self.agent)
+        if self._page is None:
+            return self.sim.step(self.agent)
+        agent, before = self.agent, self.agent.steps
+        while not agent.done and agent.steps == before:
+            self._page.advance()
+        return agent.percept
 
     def render(self) -> Any:
         """Return the world from above, (height, width, 3) uint8; None in mode ``"human"``."""

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from ai4u_edu import AI4UError, Scene
-from ai4u_edu.learn.envs import SceneEnv, live_page
+from ai4u_edu.learn.envs import SceneEnv
+from ai4u_edu.room import env_page
 from ai4u_edu.runtime.runner import Runner
 from tests.runtime.clocks import ManualClock
 from tests.waiting import LIMIT_S
@@ -18,7 +19,7 @@ def test_the_page_shows_the_steps_at_the_pace_of_its_clock(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     clock = ManualClock()
-    monkeypatch.setattr(live_page, "Runner", partial(Runner, clock=clock))
+    monkeypatch.setattr(env_page, "Runner", partial(Runner, clock=clock))
     env = gymnasium.make("ai4u_edu/BoxChase-v0", render_mode="human", observation="flat")
     bare = env.unwrapped
     assert isinstance(bare, SceneEnv)

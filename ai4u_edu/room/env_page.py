@@ -1,18 +1,17 @@
 """Page of an environment: shows the world while a learner steps it."""
 
-from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.blocks import Percept
+from ai4u_edu.base.options import LivePage
 from ai4u_edu.page.server import open_on_desktop
-from ai4u_edu.room import serve_world
+from ai4u_edu.room.served_world import serve_world
 from ai4u_edu.runtime.runner import Runner
 
 
-class LivePage:
+class EnvPage(LivePage):
     """Server of a world that an environment steps, at the pace of the wall clock.
 
-    Requests from the page (pause, speed, reset) are carried out between steps.
+    Requests from the page (pause, speed, reset) are carried out between ticks.
 
     Args:
         sim: the world and its agents.
@@ -23,17 +22,13 @@ class LivePage:
         self._runner = Runner(sim)
         self._served = serve_world(self._runner, title=title)
         self.url = self._served.url
-        """Where the page is."""
         open_on_desktop(self.url)
 
-    def step(self, agent: BasicAgent) -> Percept:
-        """Run the world in real time until an agent's decision is over."""
-        runner, before = self._runner, agent.steps
-        while not agent.done and agent.steps == before:
-            runner.advance()
-            if runner.error:
-                raise AI4UError(runner.error)
-        return agent.percept
+    def advance(self) -> None:
+        """Run one tick when it is due."""
+        self._runner.advance()
+        if self._runner.error:
+            raise AI4UError(self._runner.error)
 
     def close(self) -> None:
         """Stop serving the page."""

@@ -1,0 +1,66 @@
+"""The options: modules that the rest of the package works without.
+
+This is the one list of them. Whatever uses an option loads it by its name from here, at the moment
+it is needed; no import names it. So its folder may be missing, and so may packages that it needs.
+"""
+
+from importlib import import_module
+from types import ModuleType
+from typing import Protocol
+
+from ai4u_edu.base.errors import SetupError
+
+PAGE_OPTIONS = ("ai4u_edu.explain_page",)
+"""Add to the page of a world: each has a function ``page_option``; see
+:class:`ai4u_edu.room.served_world.Option`."""
+ENV_PAGE = "ai4u_edu.room.env_page"
+"""Shows an environment's world: ``EnvPage`` makes its :class:`LivePage`."""
+COURSE = "ai4u_edu.lessons.course"
+"""Has the lessons that a start page lists: ``lessons`` returns them."""
+DRIVERS = "ai4u_edu.learn.training.assigned"
+"""Lets networks and programs drive in a world: ``with_drivers`` builds it."""
+
+
+class MissingOptionError(SetupError):
+    """An option can't be imported; the text says what needs it, and how to get it."""
+
+
+class LivePage(Protocol):
+    """Page of a world whose ticks are run by the caller, at the pace of the wall clock."""
+
+    url: str
+    """Where the page is."""
+
+    def advance(self) -> None:
+        """Wait until the next tick is due, carry out what pages asked for, and tick.
+
+        Raises:
+            AI4UError: a block failed; the text names it.
+        """
+
+    def close(self) -> None:
+        """Stop serving the page."""
+
+
+def load_option(module: str, purpose: str) -> ModuleType:
+    """Import an option's module.
+
+    Args:
+        module: one of those above, or one from elsewhere.
+        purpose: what needs it, as the beginning of an error's sentence.
+
+    Raises:
+        MissingOptionError: it can't be imported.
+
+    >>> load_option("no_such_option", "--brain")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    ai4u_edu.base.options.MissingOptionError: --brain needs no_such_option, which can't be ...
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        raise MissingOptionError(
+            f"{purpose} needs {module}, which can't be imported here: {error}; install it with: "
+            "pip install ai4u-edu"
+        ) from error

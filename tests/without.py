@@ -1,0 +1,45 @@
+"""Refuse imports of packages, as if their folders were deleted.
+
+For a process of its own: ``python -c "from tests.without import refuse; refuse('viser'); ..."``.
+"""
+
+import importlib.abc
+import sys
+from collections.abc import Sequence
+from importlib.machinery import ModuleSpec
+from types import ModuleType
+
+
+class Refusal(importlib.abc.MetaPathFinder):
+    """Finder of modules that raises an error for those of some packages.
+
+    Args:
+        packages: their full names.
+    """
+
+    def __init__(self, packages: Sequence[str]) -> None:
+        self._packages = packages
+
+    def find_spec(
+        self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """Raise an error for a refused module, and leave all others to the next finder.
+
+        Raises:
+            ModuleNotFoundError: the module is one of a refused package.
+        """
+        if any(f"{name}.".startswith(f"{package}.") for package in self._packages):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+        return None
+
+
+def refuse(*packages: str) -> None:
+    """Refuse from now on the packages of these names, none of which is loaded yet."""
+    loaded = sorted({*packages} & {*sys.modules})
+    assert not loaded, f"expected to refuse them before they are imported: {loaded}"
+    sys.meta_path.insert(0, Refusal(packages))
+
+
+def code_without(packages: Sequence[str], code: str) -> str:
+    """Return a program that runs some code without packages."""
+    return f"from tests.without import refuse\nrefuse(*{packages!r})\n{code}"
