@@ -18,7 +18,6 @@ from websockets.typing import Origin
 
 from tests import evidence
 from tests.waiting import LIMIT_S, until
-from tests.without import code_without
 
 
 @dataclass(eq=False)
@@ -76,18 +75,16 @@ class Played:
 
 @contextlib.contextmanager
 def played(
-    *args: str, waits_for_key: bool = False, without: Sequence[str] = ()
+    *args: str, waits_for_key: bool = False, program: Sequence[str] = ("-m", "ai4u_edu")
 ) -> Iterator[Played]:
     """Serve a scene: ``played("box_chase", "--seed", "1")``.
 
     Args:
         args: arguments of ``ai4u-edu play``.
         waits_for_key: True lets the world wait for a person's first key.
-        without: packages whose imports are refused.
+        program: Python's arguments that run the command line.
     """
     wait = "--wait-for-key" if waits_for_key else "--no-wait-for-key"
-    main = code_without(without, "from ai4u_edu.cli.main import main; main()")
-    program = ["-c", main] if without else ["-m", "ai4u_edu"]
     command = [sys.executable, *program, "play", *args, "--port", "0", "--no-open", wait]
     process = subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1

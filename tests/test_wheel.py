@@ -12,6 +12,8 @@ import pytest
 from ai4u_edu.base.version import __version__
 from ai4u_edu.page.server.web_files import FOLDERS
 from ai4u_edu.world.native.compiled import library_name
+from tests.playing import played
+from tests.without import ACT, OPTIONS, STEPS
 
 REPO = Path(__file__).resolve().parent.parent
 EPISODE = """
@@ -189,3 +191,21 @@ def test_the_command_lists_the_scenes(installed: list[str | Path], tmp_path: Pat
 
 def test_an_episode_runs_without_a_browser(installed: list[str | Path], tmp_path: Path) -> None:
     ran(installed, EPISODE, tmp_path)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("option", OPTIONS)
+def test_it_works_without_the_folders_of_an_option(
+    pure_wheel: Path, tmp_path: Path, option: str
+) -> None:
+    with zipfile.ZipFile(pure_wheel) as packed:
+        packed.extractall(tmp_path)
+    for name in OPTIONS[option]:
+        shutil.rmtree(tmp_path / name.replace(".", "/"))
+    first = f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
+    main = f"{first}from ai4u_edu.cli.main import main; main()"
+    with played("box_chase", program=["-I", "-c", main]) as world:
+        steps = "" if option == "learn" else STEPS
+        code = first + steps + ACT.format(url=world.url)
+        assert run(sys.executable, "-I", "-c", code, cwd=tmp_path) == "True\n"
+        assert world.health()["scene"] == "Box chase"

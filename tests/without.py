@@ -9,6 +9,29 @@ from collections.abc import Sequence
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 
+OPTIONS = {
+    "explain": ["ai4u_edu.explain", "ai4u_edu.explain_page"],
+    "games": ["ai4u_edu.games"],
+    "learn": ["ai4u_edu.learn"],
+    "lessons": ["ai4u_edu.lessons"],
+    "program": ["ai4u_edu.program"],
+}
+"""Packages of each option."""
+STEPS = """
+from ai4u_edu.learn.envs import SceneEnv
+env = SceneEnv("box_chase")
+env.reset(seed=1)
+env.step(env.action_space.sample())
+"""
+"""Program that steps an environment."""
+ACT = """
+from ai4u_edu.remote import connect
+with connect({url!r}, agent="0") as robot:
+    robot.act(move=[1, 0, 0, 0])
+    print("done" in robot.sense())
+"""
+"""Program that drives a robot at an address."""
+
 
 class Refusal(importlib.abc.MetaPathFinder):
     """Finder of modules that raises an error for those of some packages.

@@ -5,8 +5,9 @@ it is needed; no import names it. So its folder may be missing, and so may packa
 """
 
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from ai4u_edu.base.errors import SetupError
 
@@ -25,11 +26,23 @@ class MissingOptionError(SetupError):
     """An option can't be imported; the text says what needs it, and how to get it."""
 
 
+class OptionTab(NamedTuple):
+    """A tab of the panel that an option of a page brings."""
+
+    name: str
+    """Name in the page, in lower-case letters; the tab is given the option's part of this name."""
+    title: str
+    """Text on the tab."""
+    script: Path
+    """File of its JavaScript module, which exports a class ``Tab``, like those in ``web/panel/``.
+    Pages load it below ``options/``, beside our folders, so that it may import from them."""
+
+
 class LivePage(Protocol):
     """Page of a world whose ticks are run by the caller, at the pace of the wall clock."""
 
     url: str
-    """Where the page is."""
+    """Address of the page."""
 
     def advance(self) -> None:
         """Wait until the next tick is due, carry out what pages asked for, and tick.

@@ -48,6 +48,7 @@ class ExplainOption:
     """
 
     agent_parts = frozenset({"why", "maps"})
+    tab = None
 
     def __init__(self, runner: Runner, player: ReplayPlayer) -> None:
         def latest() -> Snapshot:

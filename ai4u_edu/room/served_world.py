@@ -2,14 +2,19 @@
 
 import logging
 import threading
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Protocol, Self
 
+import msgspec
 from starlette.applications import Starlette
 
-from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, load_option
+from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, OptionTab, load_option
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel import PanelContext, PanelSockets
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.messages.base import Command
+from ai4u_edu.page.panel.page_view import PageView
+from ai4u_edu.page.panel.parts.due import Parts
 from ai4u_edu.page.panel.socket import PanelOption
 from ai4u_edu.page.server import LOOPBACK, Rules, ServerThread, lock_viser_port, room_app
 from ai4u_edu.page.server.class_feed import ClassFeed
@@ -30,7 +35,11 @@ _logger = logging.getLogger(__name__)
 
 
 class Option(PanelOption, PictureOption, Protocol):
-    """An option of one world's page: it adds parts of picture and panel, and commands."""
+    """An option of one world's page: it adds parts of picture and panel, commands and a tab."""
+
+    @property
+    def tab(self) -> OptionTab | None:
+        """Its tab of the panel; None if it brings none."""
 
     def stop(self) -> None:
         """End its threads, without waiting for code of a student that may not return."""
@@ -99,6 +108,7 @@ def serve_world(
     title = title or (DEFAULT_TITLE if editor is None else editor.title)
     viewer = Viewer(runner, title=title, editor=editor, ghosts=ghosts, options=added)
     lock_viser_port(viewer.server, viser_secret)
+    tabs = [option.tab for option in added if option.tab is not None]
     context = PanelContext(runner, viewer.viewer_clients, player, ghosts, editor, timeouts)
     app = room_app(
         runner,
@@ -108,7 +118,8 @@ def serve_world(
         allowed_hosts=allowed_hosts,
         proxy_hosts=proxy_hosts,
         rules=rules,
-        panel=PanelSockets(context, added),
+        panel=PanelSockets(context, [*added, _TabList(tabs)] if tabs else added),
+        tab_scripts={tab.name: tab.script for tab in tabs},
         editor=None if lessons is None else editor,
         lessons=lessons or list,
         class_feed=class_feed,
@@ -188,6 +199,21 @@ class ServedWorld:
 
     def __exit__(self, *_: object) -> None:
         self.stop()
+
+
+class _TabList(PanelOption):
+    """Part "tabs" of the panel: the tabs that options bring."""
+
+    commands: Mapping[type[Command], Handler] = {}
+    agent_parts = ()
+
+    def __init__(self, tabs: Sequence[OptionTab]) -> None:
+        shown = [{"name": tab.name, "title": tab.title} for tab in tabs]
+        self._json = msgspec.json.encode({"type": "part", "name": "tabs", "tabs": shown})
+
+    def panel_parts(self, context: PanelContext, view: PageView) -> Parts:  # noqa: ARG002
+        """Yield the part, which is the same for all pages."""
+        yield "tabs", self._json
 
 
 def _load(modules: Sequence[str], runner: Runner, player: ReplayPlayer) -> list[Option]:

@@ -1,9 +1,11 @@
-"""An option outside the package: a command, a part of the panel, and a part of the picture."""
+"""An option outside the package: a command, a tab with its part, and a part of the picture."""
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 import msgspec
 
+from ai4u_edu.base.options import OptionTab
 from ai4u_edu.page.messages import Command, Name
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.answers import Answer
@@ -49,6 +51,7 @@ class Greeting:
     """The option, of one world."""
 
     agent_parts = frozenset({KEY})
+    tab = OptionTab(KEY, "Greeting", Path(__file__).with_suffix(".js"))
 
     def __init__(self, runner: Runner, player: ReplayPlayer) -> None:
         self.commands: Mapping[type[Command], Handler] = {Greet: self._greet}

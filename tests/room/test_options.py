@@ -17,28 +17,7 @@ from tests.page.server.rooms import PATIENT
 from tests.playing import played
 from tests.room import greeting
 from tests.waiting import LIMIT_S, until
-from tests.without import code_without
-
-OPTIONS = {
-    "explain": ["ai4u_edu.explain", "ai4u_edu.explain_page"],
-    "games": ["ai4u_edu.games"],
-    "learn": ["ai4u_edu.learn"],
-    "lessons": ["ai4u_edu.lessons"],
-    "program": ["ai4u_edu.program"],
-}
-"""Packages of each option."""
-STEPS = """
-from ai4u_edu.learn.envs import SceneEnv
-env = SceneEnv("box_chase")
-env.reset(seed=1)
-env.step(env.action_space.sample())
-"""
-ACT = """
-from ai4u_edu.remote import connect
-with connect({url!r}, agent="0") as robot:
-    robot.act(move=[1, 0, 0, 0])
-    print("done" in robot.sense())
-"""
+from tests.without import ACT, OPTIONS, STEPS, code_without
 
 
 def test_an_option_from_elsewhere_adds_a_command_and_parts() -> None:
@@ -61,6 +40,10 @@ def test_an_option_from_elsewhere_adds_a_command_and_parts() -> None:
             assert label.texts[0] == f"Hello world at {runner.latest.tick}"
             assert "expected str" in page.failed("greet", who=3)["text"]
             page.done("why", on=True)  # those of the package are there too
+            page.part("tabs", tabs=[{"name": "greeting", "title": "Greeting"}])
+            script = httpx.get(f"{world.url}web/options/greeting.js", timeout=LIMIT_S)
+            assert script.headers["content-type"].startswith("text/javascript")
+            assert "export class Tab" in script.text
             other.done("reduce_motion", on=True)
             assert "greeting" not in other.parts
     assert option.is_stopped
@@ -82,7 +65,8 @@ def test_a_page_does_without_an_option_that_is_not_there() -> None:
 @pytest.mark.parametrize("option", OPTIONS)
 def test_play_scripts_and_environments_work_without_an_option(option: str) -> None:
     refused = OPTIONS[option]
-    with played("box_chase", without=refused) as world:
+    main = code_without(refused, "from ai4u_edu.cli.main import main; main()")
+    with played("box_chase", program=["-c", main]) as world:
         with PanelPage(world.url + "ws/panel") as page:
             page.part("run")
             page.part("scene", title="Box chase")

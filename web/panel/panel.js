@@ -19,7 +19,7 @@ import { recall, remember } from "../shared/storage.js";
 
 const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["code", "Code"], ["past", "Past"]];
 const MAX_FILE_NAME_CHARS = 80;
-/** Name of the part that a tab shows. */
+/** Name of the part that a tab shows; that of an option's tab is the tab's own. */
 const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", code: "agent", past: "past" };
 /** Modules of the tabs that are loaded when they are first opened. */
 const LOADERS = {
@@ -56,6 +56,7 @@ export class Panel extends EventTarget {
   /** The person drives with it: {agent, take(), letGo()} of the page. */
   driving;
   #parts = new Map();
+  #loaders = { ...LOADERS };
   #opened = new Map();
   #socket;
   #run;
@@ -93,6 +94,7 @@ export class Panel extends EventTarget {
     returnFocus(this.element);
     this.#setDetails(this.details);
     this.addEventListener("part:scene", (event) => this.#onScene(/** @type {CustomEvent} */ (event).detail));
+    this.addEventListener("part:tabs", (event) => this.#addTabs(/** @type {CustomEvent} */ (event).detail));
   }
 
   /** Put the panel into the page and connect it. */
@@ -213,7 +215,7 @@ export class Panel extends EventTarget {
     if (message.type === "part") {
       this.#parts.set(message.name, message);
       this.dispatchEvent(new CustomEvent(`part:${message.name}`, { detail: message }));
-      if (PART_OF_TAB[this.#tabs.open] === message.name) this.#opened.get(this.#tabs.open)?.update(message);
+      if ((PART_OF_TAB[this.#tabs.open] ?? this.#tabs.open) === message.name) this.#opened.get(this.#tabs.open)?.update(message);
       this.#showHistory();
     } else if (message.type === "note") {
       this.notice(message.text, message.level);
@@ -235,13 +237,23 @@ export class Panel extends EventTarget {
     if (!isThere && scene.agents.length) this.show({ agent: scene.agents[0].id });
   }
 
+  /** Add the tabs of options: {tabs: [{name, title}]}. */
+  #addTabs({ tabs }) {
+    for (const { name, title } of tabs) {
+      if (name in this.#loaders) continue; // the part comes again after a reconnect
+      this.#loaders[name] = async () => (await import(`../options/${name}.js`)).Tab;
+      this.#tabs.add(name, title);
+    }
+  }
+
   async #openTab(name, root) {
-    this.show({ tabs: name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : [PART_OF_TAB[name]] });
+    const parts = name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : [PART_OF_TAB[name] ?? []].flat();
+    this.show({ tabs: parts });
     this.#showHistory();
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);
       try {
-        const Tab = await retried(LOADERS[name]);
+        const Tab = await retried(this.#loaders[name]);
         this.#opened.set(name, new Tab(root, this));
       } catch (error) {
         this.#opened.delete(name);
@@ -249,7 +261,7 @@ export class Panel extends EventTarget {
         return;
       }
     }
-    const part = this.part(PART_OF_TAB[name]);
+    const part = this.part(PART_OF_TAB[name] ?? name);
     if (part !== null && this.#tabs.open === name) this.#opened.get(name)?.update(part);
   }
 

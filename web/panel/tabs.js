@@ -21,7 +21,7 @@ export class Tabs {
    */
   constructor(tabs, onOpen) {
     this.#onOpen = onOpen;
-    for (const [name, title] of tabs) this.#add(name, title);
+    for (const [name, title] of tabs) this.add(name, title);
     this.#list.addEventListener("keydown", (event) => this.#onKey(event));
     this.#wanted = recall("panel-tab", tabs[0][0]);
   }
@@ -36,7 +36,25 @@ export class Tabs {
   }
 
   start() {
-    this.choose(this.#tabs.has(this.#wanted) ? this.#wanted : this.#visible[0]);
+    const isThere = this.#tabs.has(this.#wanted); // an option's tab is added later
+    this.choose(isThere ? this.#wanted : this.#visible[0], { isWanted: isThere });
+  }
+
+  /** Add a tab at the end; it opens if it is the one that the person chose. */
+  add(name, title) {
+    const ids = { tab: `ai4u-tab-${name}`, panel: `ai4u-tabpanel-${name}` };
+    const tab = element("button", { type: "button", role: "tab", id: ids.tab, textContent: title });
+    const panel = element("div", { className: "ai4u-tabpanel", role: "tabpanel", id: ids.panel, hidden: true });
+    setAttributes(tab, { "aria-controls": ids.panel });
+    setAttributes(panel, { "aria-labelledby": ids.tab });
+    tab.addEventListener("click", () => {
+      this.choose(name);
+      if (SMALL.matches) this.#list.scrollIntoView(); // else only a line or two of it would be seen
+    });
+    this.#tabs.set(name, { tab, panel });
+    this.#list.append(tab);
+    this.#panels.append(panel);
+    this.setVisible(name, true);
   }
 
   /** Hide or show a tab; if the open one is hidden, the first one opens. */
@@ -60,21 +78,6 @@ export class Tabs {
 
   get #visible() {
     return [...this.#tabs].filter(([, { tab }]) => !tab.hidden).map(([name]) => name);
-  }
-
-  #add(name, title) {
-    const ids = { tab: `ai4u-tab-${name}`, panel: `ai4u-tabpanel-${name}` };
-    const tab = element("button", { type: "button", role: "tab", id: ids.tab, textContent: title });
-    const panel = element("div", { className: "ai4u-tabpanel", role: "tabpanel", id: ids.panel, hidden: true });
-    setAttributes(tab, { "aria-controls": ids.panel });
-    setAttributes(panel, { "aria-labelledby": ids.tab });
-    tab.addEventListener("click", () => {
-      this.choose(name);
-      if (SMALL.matches) this.#list.scrollIntoView(); // else only a line or two of it would be seen
-    });
-    this.#tabs.set(name, { tab, panel });
-    this.#list.append(tab);
-    this.#panels.append(panel);
   }
 
   #onKey(event) {

@@ -1,10 +1,13 @@
 """The web app of one room: a running world, its page, and the API."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
 from functools import partial
+from pathlib import Path
 
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import FileResponse, Response
 from starlette.routing import Match, Mount, Route, WebSocketRoute
 from starlette.types import ASGIApp, Scope
 
@@ -26,7 +29,7 @@ from ai4u_edu.page.server.token_auth import TokenAuth
 from ai4u_edu.page.server.token_page import PUBLIC_FILES, TokenPage
 from ai4u_edu.page.server.vendor_files import VendorFiles, program_zip
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
-from ai4u_edu.page.server.web_files import WEB_PATHS
+from ai4u_edu.page.server.web_files import ALWAYS_ASK, WEB_PATHS
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.native import PROBLEMS
 
@@ -41,6 +44,7 @@ def room_app(
     proxy_hosts: Collection[str] = (),
     rules: Rules | None = None,
     panel: ASGIApp | None = None,
+    tab_scripts: Mapping[str, Path] | None = None,
     editor: SceneEditor | None = None,
     lessons: Callable[[], Sequence[Lesson]] = list,
     class_feed: ClassFeed | None = None,
@@ -59,6 +63,7 @@ def room_app(
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
         panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
+        tab_scripts: modules of the tabs that options bring, by the tab's name.
         editor: lets pages open and share scenes; without it the scene stays as it is, and there is
             no start page.
         lessons: returns the lessons that the start page lists.
@@ -88,6 +93,7 @@ def room_app(
     return Starlette(
         routes=[
             Route("/", page.index, middleware=page_auth),
+            *_script_routes(tab_scripts or {}, auth),
             *_file_routes(page, auth),
             Route("/program.zip", program_zip, middleware=auth),
             Route("/healthz", state.health, middleware=auth),
@@ -115,6 +121,20 @@ def room_app(
             Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
         ],
     )
+
+
+def _script_routes(scripts: Mapping[str, Path], auth: list[Middleware]) -> list[Route]:
+    def route_of(script: Path) -> Callable[[Request], Awaitable[Response]]:
+        async def route(_: Request) -> Response:
+            return FileResponse(script, headers=ALWAYS_ASK, media_type="text/javascript")
+
+        return route
+
+    return [
+        Route(f"{folder}/options/{name}.js", route_of(script), middleware=auth)
+        for folder in WEB_PATHS
+        for name, script in scripts.items()
+    ]
 
 
 def _file_routes(page: Page, auth: list[Middleware]) -> list[Route]:
