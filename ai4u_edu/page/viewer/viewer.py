@@ -14,9 +14,9 @@ from ai4u_edu.page.viewer.scene.bodies import Bodies
 from ai4u_edu.page.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.page.viewer.scene.ghost_bodies import GhostBodies
 from ai4u_edu.page.viewer.scene.ground import Ground
+from ai4u_edu.page.viewer.scene.handles import PageHandles
 from ai4u_edu.page.viewer.scene.labels import Labels
 from ai4u_edu.page.viewer.scene.light import set_up_lights
-from ai4u_edu.page.viewer.scene.page_handles import PageHandles
 from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption, SenseOverlay
 from ai4u_edu.page.viewer.scene.trails import Trails
 from ai4u_edu.page.viewer.viewer_client import ViewerClients

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu.page.viewer.scene.geometry import circle
-from ai4u_edu.page.viewer.scene.grid import grid_in, grid_step
+from ai4u_edu.page.viewer.scene.ground import grid_in, grid_step
 
 PLATE = np.array([(5.0, 5.0), (-5.0, 5.0), (-5.0, -5.0), (5.0, -5.0)])
 

@@ -4,8 +4,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ai4u_edu.page.viewer.scene.bodies import SHADOW_OFFSET_M, Poses, compute_poses
 from ai4u_edu.page.viewer.scene.layers import Layers
-from ai4u_edu.page.viewer.scene.poses import SHADOW_OFFSET_M, Poses, compute_poses
 from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.worlds import busy_sim, picture
 

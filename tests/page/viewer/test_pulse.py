@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from ai4u_edu.page.viewer.scene.pulse import PULSE_S, Pulse, reached_target
+from ai4u_edu.page.viewer.scene.bodies import PULSE_S, Pulse, reached_target
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 

@@ -5,7 +5,13 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.blocks import RayPicture
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.light import line_colours, surface_colours
-from ai4u_edu.page.viewer.scene.rays import Rays, RayStyle, ray_dots, ray_lines, weight_colours
+from ai4u_edu.page.viewer.scene.sense_overlay import (
+    Rays,
+    RayStyle,
+    ray_dots,
+    ray_lines,
+    weight_colours,
+)
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot.theme import RAY_MISS, WALL, group_colours
 

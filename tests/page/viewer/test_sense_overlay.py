@@ -20,7 +20,7 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.page.viewer import Viewer
-from ai4u_edu.page.viewer.scene.pointers import RING_RADIUS, pointer
+from ai4u_edu.page.viewer.scene.sense_overlay import RING_RADIUS, pointer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot.block_info import SensorInfo
 from tests.page.viewer.pages import Page, page, publish, shown

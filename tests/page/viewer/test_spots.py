@@ -6,7 +6,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.light import surface_colours
-from ai4u_edu.page.viewer.scene.spots import Spots
+from ai4u_edu.page.viewer.scene.sense_overlay import Spots
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from ai4u_edu.snapshot.theme import SPOT_LIT, SPOT_UNLIT
 

@@ -5,9 +5,11 @@ some frames later. Labels are nodes, so they would run ahead of batched bodies: 
 labels are nodes of their own.
 """
 
+import math
+import time
 from collections import defaultdict
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +22,148 @@ from ai4u_edu.page.viewer.scene.geometry import Array, cap, join_meshes, prism, 
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
-from ai4u_edu.page.viewer.scene.poses import Poses, compute_poses
-from ai4u_edu.page.viewer.scene.pulse import Pulse
 from ai4u_edu.page.viewer.scene.subtree import Subtree
-from ai4u_edu.snapshot import Snapshot, StaticScene
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import DARK, LIGHT, half_width
 from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, label_text, mix_colours
 from ai4u_edu.world import CircleShape
+
+PULSE_S = 1.0
+"""Duration of a pulse, wall time (s)."""
+_PULSE_COUNT = 2
+"""Times that a body grows and shrinks during a pulse."""
+_PULSE_GROWTH = 0.22
+"""Share by which a body grows."""
+_MAX_GAP_M = 0.15
+"""Largest gap (m) between an agent and the body that it has reached."""
+
+
+def reached_target(snapshot: Snapshot, agent: AgentState) -> str:
+    """Return the name of the target that an agent has reached; empty if it has reached none.
+
+    It is the nearest body with the tag ``target`` within reach of an agent whose episode has ended
+    with success.
+    """
+    if not (agent.succeeded and (agent.terminated or agent.truncated)):
+        return ""
+    shapes = {body.name: body for body in snapshot.static_scene.bodies}
+    states = {body.name: body for body in snapshot.bodies}
+    own, reach = states[agent.body], shapes[agent.body].shape.reach
+    gaps = {
+        name: math.hypot(states[name].x - own.x, states[name].y - own.y) - body.shape.reach - reach
+        for name, body in shapes.items()
+        if "target" in body.tags and name != agent.body and not states[name].fallen
+    }
+    nearest = min(gaps, key=gaps.__getitem__, default="")
+    return nearest if nearest and gaps[nearest] <= _MAX_GAP_M else ""
+
+
+class Pulse:
+    """Scales of bodies: above 1 while one pulses.
+
+    Args:
+        clock: wall clock (s); replaced in tests.
+        is_motion_reduced: returns True while nothing may pulse.
+    """
+
+    def __init__(
+        self,
+        clock: Callable[[], float] = time.monotonic,
+        is_motion_reduced: Callable[[], bool] = lambda: False,
+    ) -> None:
+        self._clock, self._is_motion_reduced = clock, is_motion_reduced
+        self._began: dict[tuple[str, int, int], tuple[str, float]] = {}
+
+    def scales(self, snapshot: Snapshot) -> Array:
+        """Return the scale of each body of a snapshot, shape (n,)."""
+        now, began = self._clock(), {}
+        for agent in snapshot.agents:
+            name = reached_target(snapshot, agent)
+            if name:
+                episode = agent.id, snapshot.episode, agent.episode
+                began[episode] = self._began.get(episode, (name, now))
+        self._began = began
+        pulses = () if self._is_motion_reduced() else began.values()
+        sizes = {name: _pulse_scale(now - start) for name, start in pulses}
+        return np.array([sizes.get(body.name, 1.0) for body in snapshot.bodies])
+
+
+def _pulse_scale(seconds: float) -> float:
+    """Return a body's scale a time after it was reached.
+
+    >>> [round(_pulse_scale(seconds), 2) for seconds in (0.0, 0.25, 0.5, 0.75, 1.0, 9.0)]
+    [1.0, 1.22, 1.0, 1.22, 1.0, 1.0]
+    """
+    if not 0.0 <= seconds < PULSE_S:
+        return 1.0
+    return 1.0 + _PULSE_GROWTH * math.sin(math.pi * _PULSE_COUNT * seconds / PULSE_S) ** 2
+
+
+_SHADOW_DIRECTION = np.array([0.6, -0.8])
+"""Unit vector along which shadows fall."""
+SHADOW_OFFSET_M = 0.11
+"""Distance (m) of the shadow from a body that stands on the ground."""
+_SHADOW_OFFSET_PER_HEIGHT = 0.5
+"""Additional distance for each metre above the ground."""
+_MIN_FALLING_SCALE = 0.35
+"""Scale of a body at the height at which it leaves the world."""
+
+
+class Poses(NamedTuple):
+    """The drawn poses of all bodies, one row for each."""
+
+    positions: Array
+    """(n, 3)"""
+    wxyzs: Array
+    """(n, 4) quaternions w, x, y, z."""
+    scales: Array
+    """(n,) 1 normally, less while a body falls, 0 for bodies that left the world."""
+    depths: Array
+    """(n,) 0 on or above the lowest floor, 1 at the height at which a body leaves the world."""
+    shadow_positions: Array
+    """(n, 3)"""
+    shadow_scales: Array
+    """(n,) 0 where there is no ground for the shadow."""
+
+
+def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
+    """Return the drawn poses of all bodies of a snapshot.
+
+    It runs in every frame, mostly for few bodies: so it makes few calls of numpy.
+    """
+    bodies, static_scene = snapshot.bodies, snapshot.static_scene
+    grounds = [_ground(snapshot, body) for body in bodies]
+    numbers = np.array(
+        [(b.x, b.y, b.z, b.heading, g or 0.0) for b, g in zip(bodies, grounds, strict=True)]
+    ).reshape(-1, 5)
+    heights, half_headings, ground_heights = numbers[:, 2], numbers[:, 3] / 2, numbers[:, 4]
+    is_gone = np.array([body.fallen for body in bodies], dtype=bool)
+    is_void = np.array([ground is None for ground in grounds], dtype=bool)
+    lowest = static_scene.lowest_floor
+    reach = max(lowest - static_scene.settings.fall_threshold, 0.1)
+    depths = np.minimum(np.maximum((lowest - heights) / reach, 0.0), 1.0)
+    scales = 1 - (1 - _MIN_FALLING_SCALE) * depths
+    scales[is_gone] = 0.0
+    rise = np.maximum(heights - ground_heights, 0.0)
+    rise[is_void] = 0.0
+    positions = numbers[:, :3] + (0.0, 0.0, layers.body)
+    wxyzs = np.zeros((len(bodies), 4))
+    wxyzs[:, 0], wxyzs[:, 3] = np.cos(half_headings), np.sin(half_headings)
+    shadow_positions = np.empty((len(bodies), 3))
+    offset = SHADOW_OFFSET_M + _SHADOW_OFFSET_PER_HEIGHT * rise
+    shadow_positions[:, :2] = numbers[:, :2] + offset[:, None] * _SHADOW_DIRECTION
+    shadow_positions[:, 2] = ground_heights + layers.shadow
+    shadow_scales = np.ones(len(bodies))
+    shadow_scales[is_void | is_gone] = 0.0
+    return Poses(positions, wxyzs, scales, depths, shadow_positions, shadow_scales)
+
+
+def _ground(snapshot: Snapshot, body: BodyState) -> float | None:
+    """Return the height of the ground under a body; None over the void."""
+    if body.on_ground:
+        return body.z
+    return snapshot.static_scene.floor_under(body.x, body.y, body.z)
+
 
 BLACK: Rgb = (0, 0, 0)
 MAX_SHADOW_BLUR_M = 0.16

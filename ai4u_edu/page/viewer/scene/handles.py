@@ -1,15 +1,19 @@
-"""Handles with which a person moves, rotates and resizes things, on one page."""
+"""Handles with which a person moves, rotates and resizes things, on the pages in move mode."""
 
 import math
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 from viser import (
     BatchedMeshHandle,
     CommandHandle,
+    FrameHandle,
+    LineSegmentsHandle,
     SceneNodeDragEvent,
     SceneNodePointerEvent,
 )
@@ -18,25 +22,169 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.page.editing import ChangeResult, SceneEditor
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.arena import arena_size
-from ai4u_edu.page.viewer.scene.chosen_mark import ChosenMark
 from ai4u_edu.page.viewer.scene.drags import Action, Drag, Goal, Thing
-from ai4u_edu.page.viewer.scene.geometry import heading_wxyz, prism
-from ai4u_edu.page.viewer.scene.handle_places import Region, centre_at, extent, plate_z, surface_z
+from ai4u_edu.page.viewer.scene.geometry import (
+    Array,
+    cap,
+    circle,
+    grow,
+    heading_wxyz,
+    prism,
+    segments,
+)
 from ai4u_edu.page.viewer.scene.layers import Layers
+from ai4u_edu.page.viewer.scene.light import line_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
+from ai4u_edu.page.viewer.scene.resize import corner_of, outline_of
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
-from ai4u_edu.page.viewer.viewer_client import ViewerClient
+from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
+from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
-from ai4u_edu.world import BodyDescription
+from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.shapes import Shape
 
-HANDLE_MARGIN = 0.015
+_Region = FloorDescription | AreaDescription
+
+
+def _extent(thing: Thing) -> tuple[Array, Array]:
+    """Return the centre and the size of a rectangle around a thing, in its own frame."""
+    outline = np.asarray(outline_of(thing.shape))
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    return (low + high) / 2, high - low
+
+
+def _centre_at(
+    centre: Array, x: float, y: float, heading: float, z: float
+) -> tuple[float, float, float]:
+    """Return the place in the world of a point in the frame of a thing at (x, y)."""
+    along, across = centre
+    cos, sin = math.cos(heading), math.sin(heading)
+    return x + cos * along - sin * across, y + sin * along + cos * across, z
+
+
+def _surface_z(region: _Region, static_scene: StaticScene) -> float:
+    """Return the height of a floor's surface, or of the surface under an area."""
+    if isinstance(region, FloorDescription):
+        return region.top
+    ground = static_scene.floor_under(*region.position)
+    return static_scene.lowest_floor if ground is None else ground
+
+
+def _plate_z(region: _Region, static_scene: StaticScene) -> float:
+    """Return the height of the invisible plate by which a region is clicked.
+
+    It lies below the surface, since an invisible plate above would hide translucent areas. Areas'
+    plates lie above floors', so that areas can be clicked.
+    """
+    layers = Layers.of(static_scene)
+    depth = layers.area_plate if isinstance(region, AreaDescription) else layers.floor_plate
+    return _surface_z(region, static_scene) + depth
+
+
+_KNOB_RADIUS, _KNOB_DISTANCE = 0.02, 0.05
+"""Radius of the knobs and the rotation knob's distance, as shares of the arena's size."""
+_OUTLINE_MARGIN = 0.006
+"""Distance of the outline from the thing, as a share of the arena's size."""
+_INK: Rgb = rgb("vermillion")
+_SIZE_INK: Rgb = rgb("blue")
+
+
+class _ChosenMark:
+    """The mark around the chosen thing: outline, rotation knob, resize knob.
+
+    Args:
+        viewer_client: the page.
+    """
+
+    def __init__(self, viewer_client: ViewerClient) -> None:
+        self._scene = viewer_client.client.scene
+        self._subtree = Subtree(self._scene, "chosen")
+        self.thing: Thing | None = None
+        self.frame: FrameHandle | None = None
+        self.turn_knob: BatchedMeshHandle | None = None
+        self.size_knob: BatchedMeshHandle | None = None
+        self.plate: BatchedMeshHandle | None = None
+        """An invisible plate over a chosen floor or area, by which it is moved."""
+        self._edge: LineSegmentsHandle | None = None
+        self._unit = 1.0
+
+    def build(self, thing: Thing | None, static_scene: StaticScene, _plate_z: float = 0.0) -> None:
+        """Build the mark for another thing.
+
+        Args:
+            thing: None removes the mark.
+            static_scene: has the arena's size.
+            _plate_z: height (m) of a floor's or an area's plate relative to the mark.
+        """
+        self.thing, self._unit = thing, arena_size(static_scene)
+        self.frame = self.turn_knob = self.size_knob = self.plate = self._edge = None
+        with self._subtree.rebuild() as parent:
+            if thing is None:
+                return
+            node = f"{parent}/frame"
+            self.frame = self._scene.add_frame(node, show_axes=False)
+            lines = self._lines(thing.shape)
+            self._edge = self._scene.add_line_segments(
+                f"{node}/edge",
+                lines,
+                line_colours(_INK),
+                thickness=3.0,
+                thickness_units="screen",
+            )
+            drawer = MeshDrawer(self._scene, node)
+            self.turn_knob = self._knob(drawer, "knob", self._turn_place(thing.shape), _INK)
+            self.size_knob = self._knob(drawer, "size", corner_of(thing.shape), _SIZE_INK)
+            if not isinstance(thing, BodyDescription):
+                plate = cap(outline_of(thing.shape))
+                self.plate = drawer.batch("plate", plate, [_INK], opacity=0.0)
+                self.plate.batched_scales = np.ones(1, np.float32)
+                self.plate.batched_positions = np.array([(0.0, 0.0, _plate_z)], np.float32)
+
+    def place(
+        self, x: float, y: float, z: float, heading: float, *, is_visible: bool = True
+    ) -> None:
+        """Move the mark (m, radians)."""
+        if self.frame is not None:
+            self.frame.visible = is_visible
+            self.frame.position = (x, y, z)
+            self.frame.wxyz = heading_wxyz(heading)
+
+    def show_shape(self, shape: Shape) -> None:
+        """Show another shape as the outline, during a drag."""
+        if self._edge is not None and self.size_knob is not None and self.turn_knob is not None:
+            self._edge.points = self._lines(shape)
+            self.size_knob.batched_positions = np.array([(*corner_of(shape), 0.0)], np.float32)
+            self.turn_knob.batched_positions = np.array(
+                [(*self._turn_place(shape), 0.0)], np.float32
+            )
+
+    def _lines(self, shape: Shape) -> npt.NDArray[np.float32]:
+        outline = np.asarray(outline_of(shape))
+        near, far = float(outline[:, 0].max()), self._turn_place(shape)[0]
+        edge = segments(grow(outline, _OUTLINE_MARGIN * self._unit))
+        lines = np.concatenate([edge, np.array([[(near, 0, 0), (far, 0, 0)]])])
+        return lines.astype(np.float32)
+
+    def _turn_place(self, shape: Shape) -> tuple[float, float]:
+        return max(x for x, _ in outline_of(shape)) + _KNOB_DISTANCE * self._unit, 0.0
+
+    def _knob(
+        self, drawer: MeshDrawer, name: str, place: tuple[float, float], ink: Rgb
+    ) -> BatchedMeshHandle:
+        radius = _KNOB_RADIUS * self._unit
+        knob = drawer.batch(name, prism(circle(radius, corners=24), radius, 0.0), [ink])
+        knob.batched_scales = np.ones(1, np.float32)
+        knob.batched_positions = np.array([(*place, 0.0)], np.float32)
+        return knob
+
+
+_HANDLE_MARGIN = 0.015
 """Margin of a handle around its body, as a share of the arena's size; it helps with thin walls."""
 FREE_MODIFIER: Literal["alt"] = "alt"
 """Key that is held to move freely, without the grid."""
-INK: Rgb = rgb("vermillion")
-BOX = prism([(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)], 1.0, 0.0)
+_BOX = prism([(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)], 1.0, 0.0)
 
 
 class Handles:
@@ -70,14 +218,14 @@ class Handles:
         self.snap_m = 0.0
         """Distance (m) of the grid to which things snap; 0 for free places."""
         self._subtree = Subtree(viewer_client.client.scene, "handles")
-        self._mark = ChosenMark(viewer_client)
+        self._mark = _ChosenMark(viewer_client)
         self._lock = threading.Lock()
         self.drag: Drag | None = None
         """The drag in progress."""
         self._goal: Goal | None = None
         self._pending: Future[None] | None = None
         self._bodies: tuple[BodyDescription, ...] = ()
-        self._regions: tuple[Region, ...] = ()
+        self._regions: tuple[_Region, ...] = ()
         self.states: dict[str, BodyState] = {}
         self._boxes: BatchedMeshHandle | None = None
         self._plates: BatchedMeshHandle | None = None
@@ -121,7 +269,7 @@ class Handles:
         self.states = {state.name: state for state in snapshot.bodies}
         is_on = on and not snapshot.past and self._viewer_client.view.mode is not Mode.EYES
         bodies = static_scene.bodies if is_on else ()
-        all_regions: tuple[Region, ...] = (*static_scene.floors, *static_scene.areas)
+        all_regions: tuple[_Region, ...] = (*static_scene.floors, *static_scene.areas)
         regions = all_regions if is_on else ()
         things: tuple[Thing, ...] = (*bodies, *regions)
         thing = next((each for each in things if each.name == chosen), None)
@@ -148,17 +296,17 @@ class Handles:
         with self._subtree.rebuild() as parent:
             drawer = MeshDrawer(self._viewer_client.client.scene, parent)
             if self._bodies:
-                boxes = drawer.batch("boxes", BOX, [INK] * len(self._bodies), opacity=0.0)
+                boxes = drawer.batch("boxes", _BOX, [_INK] * len(self._bodies), opacity=0.0)
                 boxes.on_click(report_errors(self._on_click))
                 _listen_to_drags(boxes, self._on_drag)
                 self._boxes = boxes
             if self._regions:
-                plates = drawer.batch("plates", BOX, [INK] * len(self._regions), opacity=0.0)
+                plates = drawer.batch("plates", _BOX, [_INK] * len(self._regions), opacity=0.0)
                 plates.on_click(report_errors(self._on_region_click))
                 self._plates = plates
                 self._place_plates(plates, static_scene)
-        extents = [extent(body) for body in self._bodies]
-        margin = HANDLE_MARGIN * arena_size(static_scene)
+        extents = [_extent(body) for body in self._bodies]
+        margin = _HANDLE_MARGIN * arena_size(static_scene)
         self._centres = np.array([each[0] for each in extents]).reshape(-1, 2)
         self._sizes = np.array([(*each[1], 0.0) for each in extents]).reshape(-1, 3) + margin
 
@@ -167,12 +315,12 @@ class Handles:
         headings = [math.radians(region.heading_deg) for region in self._regions]
         plates.batched_wxyzs = np.array([heading_wxyz(heading) for heading in headings])
         plates.batched_scales = np.array(
-            [(*extent(region)[1], thickness) for region in self._regions]
+            [(*_extent(region)[1], thickness) for region in self._regions]
         )
         plates.batched_positions = np.array(
             [
-                centre_at(
-                    extent(region)[0], *region.position, heading, plate_z(region, static_scene)
+                _centre_at(
+                    _extent(region)[0], *region.position, heading, _plate_z(region, static_scene)
                 )
                 for region, heading in zip(self._regions, headings, strict=True)
             ]
@@ -182,7 +330,7 @@ class Handles:
         depth = 0.0
         if thing is not None and not isinstance(thing, BodyDescription):
             above_others = 0.3 * Layers.of(static_scene).unit
-            depth = plate_z(thing, static_scene) + above_others - self._mark_z(thing, static_scene)
+            depth = _plate_z(thing, static_scene) + above_others - self._mark_z(thing, static_scene)
         self._mark.build(thing, static_scene, depth)
         for handle, action in (
             (self._mark.turn_knob, Action.TURN),
@@ -200,7 +348,9 @@ class Handles:
             lift = self._lift
             positions = np.array(
                 [
-                    centre_at(centre, state.x, state.y, state.heading, state.z + body.height + lift)
+                    _centre_at(
+                        centre, state.x, state.y, state.heading, state.z + body.height + lift
+                    )
                     for body, centre, state in zip(self._bodies, self._centres, states, strict=True)
                 ]
             )
@@ -213,16 +363,16 @@ class Handles:
             return  # during such a drag the mark is the preview
         if isinstance(thing, BodyDescription):
             state = self.states[thing.name]
-            margin = 2 * HANDLE_MARGIN * arena_size(static_scene)
+            margin = 2 * _HANDLE_MARGIN * arena_size(static_scene)
             top = state.z + thing.height + self._lift + margin
             self._mark.place(state.x, state.y, top, state.heading, is_visible=not state.fallen)
         else:
             top = self._mark_z(thing, static_scene)
             self._mark.place(*thing.position, top, math.radians(thing.heading_deg))
 
-    def _mark_z(self, region: Region, static_scene: StaticScene) -> float:
+    def _mark_z(self, region: _Region, static_scene: StaticScene) -> float:
         """Return the height of the mark around a floor or an area."""
-        return surface_z(region, static_scene) + self._lift
+        return _surface_z(region, static_scene) + self._lift
 
     # -- events; in viser's event loop, one after the other --------------------------------------
 
@@ -366,3 +516,47 @@ def _listen_to_drags(
 
 def _name(things: tuple[Thing, ...], index: int | None) -> str:
     return things[index].name if index is not None and 0 <= index < len(things) else ""
+
+
+class PageHandles:
+    """The handles of each page in move mode.
+
+    Args:
+        viewer_clients: the pages.
+        editor: changes the things.
+    """
+
+    def __init__(self, viewer_clients: ViewerClients, editor: SceneEditor) -> None:
+        self._viewer_clients, self._editor = viewer_clients, editor
+        self.pages: dict[int, Handles] = {}
+
+    def build(self, static_scene: StaticScene) -> None:  # noqa: ARG002 - handles find it in snapshots
+        """Draw all pages' handles anew, at once."""
+        self._turns = PageTurns(SENSES_PER_S)
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Move the handles to the things, and remove those of pages that left the move mode."""
+        for gone in self.pages.keys() - self._viewer_clients.keys():
+            del self.pages[gone]
+        for number in self._turns.due(self._viewer_clients.keys()):
+            client = self._viewer_clients[number]
+            if number not in self.pages and not (client.page_id and client.is_move_mode):
+                continue
+            if number not in self.pages:
+                self.pages[number] = Handles(
+                    client, self._editor, partial(_select_for, client), partial(_report, client)
+                )
+            handles = self.pages[number]
+            handles.snap_m = client.snap_m
+            handles.draw(snapshot, client.selected, on=client.is_move_mode)
+
+
+def _select_for(client: ViewerClient, name: str) -> None:
+    client.selected = name
+    if client.panel is not None:
+        client.panel.on_selected(name)
+
+
+def _report(client: ViewerClient, change: "Future[ChangeResult]") -> None:
+    if client.panel is not None:
+        client.panel.on_dropped(change)

@@ -7,16 +7,9 @@ from collections.abc import Callable
 from enum import StrEnum
 
 import numpy as np
-from viser import CameraHandle, ClientHandle
+from viser import CameraHandle, ClientHandle, SceneApi
 
 from ai4u_edu.page.viewer.scene.arena import arena_size, camera_bounds
-from ai4u_edu.page.viewer.scene.eye import (
-    EYE_FAR_IN_ARENAS,
-    EYE_FIELD_OF_VIEW_RAD,
-    EYE_NEAR_M,
-    Daylight,
-    eye_pose,
-)
 from ai4u_edu.page.viewer.scene.framing import (
     FIELD_OF_VIEW_RAD,
     Bounds,
@@ -26,7 +19,70 @@ from ai4u_edu.page.viewer.scene.framing import (
     visible_height,
 )
 from ai4u_edu.page.viewer.scene.geometry import Array
-from ai4u_edu.snapshot import AgentState, BodyState, Snapshot
+from ai4u_edu.page.viewer.scene.layers import Layers
+from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
+
+_EYE_FIELD_OF_VIEW_RAD = math.radians(65)
+"""Vertical field of view."""
+_EYE_NEAR_M = 0.05
+"""Near clipping distance."""
+_EYE_FAR_IN_ARENAS = 12.0
+"""Far clipping distance, as a multiple of the arena's size."""
+_DOWNWARD_SLOPE = 0.12
+"""Slope at which the eye looks down: metres down for each metre ahead."""
+
+_SKY = np.linspace((132, 170, 206), (226, 235, 242), 64).astype(np.uint8)[:, None]
+"""Background image, 64 x 1 pixels, bluest on top."""
+_SIDE_LIGHTS = (((1.0, 0.55, 0.0), 2.6), ((-1.0, -0.55, 0.0), 1.6), ((-0.55, 1.0, 0.0), 2.0))
+"""Horizontal lights as (direction, intensity): they light walls, which the light from above does
+not, and add nothing to surfaces that face up."""
+
+_Position = tuple[float, float, float]
+
+
+class _Daylight:
+    """A sky and side lights, on one page, while its camera is in an agent's eye.
+
+    Args:
+        scene: viser's scene of the page.
+    """
+
+    def __init__(self, scene: SceneApi) -> None:
+        self._scene = scene
+        scene.set_background_image(_SKY, format="png")
+        self._lights = [
+            scene.add_light_directional(
+                f"/daylight/{number}", intensity=intensity, position=position
+            )
+            for number, (position, intensity) in enumerate(_SIDE_LIGHTS)
+        ]
+
+    def remove(self) -> None:
+        """Remove the sky and the lights."""
+        self._scene.set_background_image(None)
+        for light in self._lights:
+            light.remove()
+
+
+def _eye_pose(
+    static_scene: StaticScene, agent: AgentState, body: BodyState
+) -> tuple[_Position, _Position]:
+    """Return the eye's position and a point about 1 m ahead of it; world frame, metres.
+
+    The eye is that of the agent's first ray sensor, else a point near the top of its body.
+    """
+    eyes = [sensor.eye for sensor in agent.sensor_infos if sensor.eye is not None]
+    forward, left, up = eyes[0] if eyes else _default_eye(static_scene, body)
+    cos, sin = math.cos(body.heading), math.sin(body.heading)
+    x, y = body.x + cos * forward - sin * left, body.y + sin * forward + cos * left
+    z = body.z + Layers.of(static_scene).body + up  # bodies are drawn that much higher
+    return (x, y, z), (x + cos, y + sin, z - _DOWNWARD_SLOPE)
+
+
+def _default_eye(static_scene: StaticScene, body: BodyState) -> _Position:
+    (height,) = (each.height for each in static_scene.bodies if each.name == body.name)
+    return 0.0, 0.0, 0.8 * height
+
 
 FOLLOW_HEIGHT_IN_RADII = 22.0
 """Height of the window that follows an agent, as a multiple of the agent's radius."""
@@ -38,7 +94,7 @@ NORTH = (0.0, 1.0, 0.0)
 
 
 class Mode(StrEnum):
-    """Position of a page's camera, by the name that a page sends."""
+    """_Position of a page's camera, by the name that a page sends."""
 
     ARENA = "arena"
     """Over the whole arena."""
@@ -69,7 +125,7 @@ class View:
         self._has_arrived = False
         self._is_moved_by_user = False
         self._followed = ""
-        self._daylight: Daylight | None = None
+        self._daylight: _Daylight | None = None
         self._moved_at = 0.0
         client.camera.on_update(self._on_report)
 
@@ -121,16 +177,16 @@ class View:
     ) -> None:
         """Put the camera in the agent's eye."""
         camera = self._client.camera
-        place, ahead = eye_pose(snapshot.static_scene, agent, body)
+        place, ahead = _eye_pose(snapshot.static_scene, agent, body)
         with self._client.atomic():
             if is_new:
-                self._daylight = Daylight(self._client.scene)
+                self._daylight = _Daylight(self._client.scene)
                 camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
                 camera.up_direction = (0.0, 0.0, 1.0)
-                camera.fov = EYE_FIELD_OF_VIEW_RAD
+                camera.fov = _EYE_FIELD_OF_VIEW_RAD
                 camera.near, camera.far = (
-                    EYE_NEAR_M,
-                    EYE_FAR_IN_ARENAS * arena_size(snapshot.static_scene),
+                    _EYE_NEAR_M,
+                    _EYE_FAR_IN_ARENAS * arena_size(snapshot.static_scene),
                 )
             camera.position = place
             camera.look_at = ahead
