@@ -1,10 +1,13 @@
 """Explanations of a running world's agents, also in a recorded episode that its pages look at."""
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
+from typing import Any
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Brain, Percept
+from ai4u_edu.explain import LIMITS
 from ai4u_edu.explain.baseline import mean_of
 from ai4u_edu.explain.elsewhere import PoseTrial
 from ai4u_edu.explain.live import (
@@ -13,12 +16,15 @@ from ai4u_edu.explain.live import (
     Floats,
     LiveExplainer,
     NamedBaseline,
+    Why,
 )
 from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.explain.map_colours import CIVIDIS, value_range
+from ai4u_edu.explain.map_maker import LiveMap
+from ai4u_edu.explain.sentence import MIN_SHARE
 from ai4u_edu.explain_page.choice import choice_of
 from ai4u_edu.explain_page.commands import WhyCommands
 from ai4u_edu.explain_page.compare import CompareCommands
-from ai4u_edu.explain_page.parts import maps_part, why_part
 from ai4u_edu.explain_page.policy_maps import PolicyMaps
 from ai4u_edu.explain_page.stand_in import StandIns
 from ai4u_edu.page.panel import PanelContext
@@ -31,7 +37,102 @@ from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, SENSES_PER_S
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.world import AreaDescription, BodyDescription
+
+_TOP_SLOTS = 6
+"""Most slots in the list of those that matter most."""
+_MAX_FACED = 12
+"""Most things in the list of what the agent can look at."""
+_SOURCES = {
+    "critic": "what its critic expects from there on, which may be wrong",
+    "rollouts": "what one episode from there pays, later rewards counting less",
+}
+"""The sources of values in words."""
+
+
+def _why_part(why: Why) -> dict[str, Any]:
+    """Return an explanation for the page.
+
+    ``slots`` are in the order of the sensors' numbers; of rays from the leftmost on, row by row.
+    ``share`` is the largest movement of any number of the action, as a share of its range.
+    """
+    sizes = [max(map(abs, shares), default=0.0) for shares in why.shares]
+    slots = [
+        {
+            "key": group.key,
+            "name": group.name,
+            "sees": group.sees,
+            "share": round(size, 4),
+            "shares": [round(each, 4) for each in shares],
+        }
+        for group, size, shares in zip(why.groups, sizes, why.shares, strict=True)
+    ]
+    order = sorted(range(len(slots)), key=lambda index: -sizes[index])[:_TOP_SLOTS]
+    return {
+        "type": "part",
+        "name": "why",
+        "agent": why.agent,
+        "problem": why.problem,
+        "sentence": why.sentence,
+        "baseline": why.baseline,
+        "also": why.also,
+        "explained": why.explained,
+        "limits": LIMITS,
+        "components": [axis.name.replace("_", " ") for axis in why.axes],
+        "slots": slots,
+        "top": [slots[index] for index in order if sizes[index] >= MIN_SHARE],
+    }
+
+
+def _maps_part(
+    snapshot: Snapshot, agent: AgentState, maps: Sequence[LiveMap | None]
+) -> dict[str, Any]:
+    """Return the state of an agent's maps; those of which nothing is known yet are left out."""
+    found = {each.request.kind: each for each in maps if each is not None}
+    return {
+        "type": "part",
+        "name": "maps",
+        "agent": agent.id,
+        "problem": next((each.problem for each in found.values() if each.problem), ""),
+        "faced": _faced_things(snapshot, agent),
+        "field": _progress(found.get("field")),
+        "values": _values(found.get("values")),
+    }
+
+
+def _faced_things(snapshot: Snapshot, agent: AgentState) -> list[str]:
+    """Return the things that the agent could look at from each place.
+
+    These are the targets of its sensors, and things that alone have one of their tags, as a goal
+    has and walls have not.
+    """
+    scene = snapshot.static_scene
+    all_things: tuple[BodyDescription | AreaDescription, ...] = (*scene.bodies, *scene.areas)
+    things = [each for each in all_things if each.name != agent.body]
+    counts = Counter(tag for each in things for tag in each.tags)
+    targets = {name for info in agent.sensor_infos for name in info.targets}
+    return [
+        each.name
+        for each in things
+        if each.name in targets or any(counts[tag] == 1 for tag in each.tags)
+    ][:_MAX_FACED]
+
+
+def _progress(told: LiveMap | None) -> dict[str, Any] | None:
+    if told is None or told.problem:
+        return None
+    return {"done": told.done, "count": len(told.poses), "seconds": round(told.time, 2)}
+
+
+def _values(told: LiveMap | None) -> dict[str, Any] | None:
+    progress = _progress(told)
+    if told is None or progress is None:
+        return None
+    low, high = value_range(told.values) or (None, None)
+    words = _SOURCES.get(told.source, "")
+    return progress | {"low": low, "high": high, "words": words, "colours": CIVIDIS}
+
 
 EXPORT_TIMEOUT_S = 2.0
 """Time that the world's thread has to describe its world."""
@@ -77,13 +178,13 @@ class ExplainOption:
         if agent is None or "agent" not in view.show.tabs:
             return
         if choice.is_why_shown and (why := self.explainer.why(agent.id)) is not None:
-            yield "why", context.cache.of_snapshot(snapshot, ("why", why), lambda: why_part(why))
+            yield "why", context.cache.of_snapshot(snapshot, ("why", why), lambda: _why_part(why))
         if requests := choice.maps.requests(agent.id):
             maps = [self.maps.ask(request) for request in requests]
             key = "maps", agent.id, choice.maps, *maps
             yield (
                 "maps",
-                context.cache.of_snapshot(snapshot, key, lambda: maps_part(snapshot, agent, maps)),
+                context.cache.of_snapshot(snapshot, key, lambda: _maps_part(snapshot, agent, maps)),
             )
 
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:

@@ -1,20 +1,23 @@
 """A running world and its page inside the notebook."""
 
 import os
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from itertools import count
 from secrets import token_urlsafe
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.block_errors import sentence_of
+from ai4u_edu.agent.block_frames import frames_of_thread
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.html_template import render_html
-from ai4u_edu.lessons.class_feed import NotebookFeed
 from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
-from ai4u_edu.lessons.page_watch import GONE_AT_HUB_S, GONE_S, PageWatch
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
-from ai4u_edu.lessons.stall_watch import StallWatch
+from ai4u_edu.lessons.student_errors import is_students, line_of, mistake_in
+from ai4u_edu.lessons.time_limit import CALL_LIMIT_S, TimeLimitError, endless_call, raise_in
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
@@ -22,12 +25,17 @@ from ai4u_edu.scenes import Scene
 if TYPE_CHECKING:
     from ai4u_edu.member import ClassMember
     from ai4u_edu.member.notebook import ClassConnection
+    from ai4u_edu.page.server.class_feed import ClassFeed
 
 TOKEN = token_urlsafe(24)
 """Token of all pages of this process. Many may share one notebook server under any host name, so
 a page asks for the token whatever the host."""
 MAX_REPLAY_S = 120
 """Longest episode (s) that is replayed for an animation; more would take too long."""
+_GONE_S = 60.0
+"""Time without a page after which a world ends; a reload or a short sleep takes less."""
+_GONE_AT_HUB_S = 300.0
+"""The same at a JupyterHub: pages are gone, too, while the hub and its proxy are restarted."""
 
 _numbers = count(1)
 
@@ -61,7 +69,7 @@ class Live:
         self.runner = Runner(sim, seed=seed, recorder=recorder, wait_for_key=True)
         self._stall_watch = StallWatch(self.runner)
         self._class_member: ClassMember | None = None
-        self._class_feed = NotebookFeed()
+        self._class_feed = _NotebookFeed()
         self._editor = None if scene is None else SceneEditor(self.runner, scene)
         self.runner.start()
         self._stall_watch.start()
@@ -106,7 +114,7 @@ class Live:
         self._page_watch = PageWatch(
             lambda: len(self._served.viewer.viewer_clients),
             lambda: end(self),
-            GONE_AT_HUB_S if is_at_hub else GONE_S,
+            _GONE_AT_HUB_S if is_at_hub else _GONE_S,
         )
         self._page_watch.start()
 
@@ -200,9 +208,134 @@ class Live:
         """Show nothing more: the cell shows the world already."""
 
 
+class PageWatch:
+    """Thread that calls a function once a page was open, and then none is for a while.
+
+    Args:
+        count: returns the number of open pages; called from the thread.
+        gone: called once, from the thread.
+        gone_s: time without a page, seconds.
+        poll_s: interval of the counts, seconds.
+    """
+
+    def __init__(
+        self,
+        count: Callable[[], int],
+        gone: Callable[[], object],
+        gone_s: float = _GONE_S,
+        poll_s: float = 1.0,
+    ) -> None:
+        self._count, self._gone = count, gone
+        self._gone_s, self._poll_s = gone_s, poll_s
+        self._stopped = threading.Event()
+        self._thread = threading.Thread(target=self._watch, name="page-watch", daemon=True)
+
+    def start(self) -> None:
+        """Begin to count."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop counting; the function is not called any more."""
+        self._stopped.set()
+
+    def _watch(self) -> None:
+        was_open, empty = False, 0
+        while not self._stopped.wait(self._poll_s):
+            # counts and not a clock: a computer that slept has not waited
+            empty = 0 if self._count() else empty + 1
+            was_open = was_open or not empty
+            if was_open and empty * self._poll_s > self._gone_s:
+                self._gone()
+                return
+
+
+class _NotebookFeed:
+    """The feed of the class that the notebook is in; without one, pages show nothing of a class."""
+
+    def __init__(self) -> None:
+        self._feed: ClassFeed | None = None
+        self._base = 0
+
+    def follow(self, feed: "ClassFeed | None") -> None:
+        """Show another feed from now on."""
+        base = self.version + 1
+        self._feed, self._base = feed, base
+
+    @property
+    def version(self) -> int:
+        """A number that grows with every change."""
+        return self._base + (self._feed.version if self._feed is not None else 0)
+
+    def event(self, role: str, seat: int) -> dict[str, Any] | None:
+        """Return the event for a page; None without a class."""
+        return None if self._feed is None else self._feed.event(role, seat)
+
+
 def _animated(episode: Episode) -> bytes:
     if episode.seconds > MAX_REPLAY_S:
         return b""
     with suppress(AI4UError, RuntimeError):  # blocks of a student's own may not play again
         return animation(episode)
     return b""
+
+
+class StallWatch:
+    """Thread that raises an error in a world's thread when a student's code does not return.
+
+    The page then shows a sentence with the line, as it does for other errors of that code.
+
+    Args:
+        runner: runs the world; its errors are described by this object from now on.
+        limit_s: longest time of one call, seconds.
+        poll_s: interval of the looks, seconds.
+    """
+
+    def __init__(self, runner: Runner, limit_s: float = CALL_LIMIT_S, poll_s: float = 0.5) -> None:
+        self._runner, self._limit_s, self._poll_s = runner, limit_s, poll_s
+        self._text = ""
+        self._stopped = threading.Event()
+        self._thread = threading.Thread(target=self._watch, name="stall-watch", daemon=True)
+        runner.describe_error = self.describe
+
+    def start(self) -> None:
+        """Begin to look."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the thread, and a loop that outlives the world; call it after ``Runner.stop``."""
+        self._stopped.set()
+        if self._runner.is_left_behind:
+            self._interrupt()
+
+    def describe(self, error: BaseException, agents: Sequence[BasicAgent]) -> str:
+        """Return the sentence on an error: with the student's line if there is one."""
+        mistake = mistake_in(error) if line_of(error) else None
+        if isinstance(error, TimeLimitError):
+            text = self._text
+        elif mistake is not None:
+            text = mistake.text
+        else:
+            text = sentence_of(error, agents)
+        return text.replace("`", '"')  # the page shows no code in a sentence
+
+    def _watch(self) -> None:
+        seen = None
+        while not self._stopped.wait(self._poll_s):
+            stall = self._runner.stall
+            since = None if stall is None or stall.seconds < self._limit_s else stall.since
+            # looked at twice: a computer that slept goes on in the middle of a call
+            if since is not None and since == seen:
+                self._interrupt()
+            seen = since
+
+    def _interrupt(self) -> None:
+        """Raise an error in the world's thread if it is in a student's code."""
+        thread = self._runner.thread_id
+        calls = [
+            frame
+            for frame in reversed(frames_of_thread(thread))
+            if is_students(frame.f_code.co_filename)
+        ]
+        if calls:
+            self._text = endless_call(calls, self._limit_s)
+            raise_in(thread, TimeLimitError)

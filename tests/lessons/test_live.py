@@ -14,7 +14,7 @@ from ai4u_edu import CircleShape, Episode, Scene, World
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.lessons import film, filming, live, readiness, ready, show, showing, stop
 from ai4u_edu.lessons import notebook_output as out
-from ai4u_edu.lessons.page_watch import PageWatch
+from ai4u_edu.lessons.live import PageWatch
 from ai4u_edu.lessons.rollouts import drives
 from tests.builders import small_sim
 from tests.page.panel.rooms import PanelPage

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from ai4u_edu.lessons import show, stop
+from ai4u_edu.lessons.live import StallWatch
 from ai4u_edu.lessons.notebook import Cell
-from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.runtime.runner import Runner
 from tests.lessons.workbook import run
 from tests.waiting import LIMIT_S, until

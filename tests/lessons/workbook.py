@@ -15,8 +15,8 @@ from ai4u_edu.lessons.course import Lesson, is_ticket
 from ai4u_edu.lessons.exercise import EXERCISES, Exercise, find
 from ai4u_edu.lessons.exercises import lesson_15
 from ai4u_edu.lessons.exit_ticket import TICKETS
+from ai4u_edu.lessons.live import StallWatch
 from ai4u_edu.lessons.notebook import Cell
-from ai4u_edu.lessons.stall_watch import StallWatch
 from ai4u_edu.lessons.time_limit import TimeLimit
 from tests.waiting import LIMIT_MS, LIMIT_S
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu.program import Program, ProgramError, host
-from ai4u_edu.program.action import Outputs
+from ai4u_edu.program.program import Outputs
 
 OUTPUTS: Outputs = {"move": ([-1.0, -1.0], [1.0, 1.0]), "respawn": ([], [])}
 PERCEPT = {"eyes": [0.0, 0.5, 1.0], "speed": 0.25}

@@ -1,32 +1,160 @@
 """Python for robots."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.blocks import LightSensor, LocalBrain, Percept
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
-from ai4u_edu.lessons.exercises.lesson_01_worlds import (
-    DECISIONS_A_SECOND,
-    EYES,
-    LIGHT_REACH_M,
-    NEAR_M,
-    WORDS,
-    carry_out,
-    has_arrived,
-    posts_around,
-    race,
-    robot_with,
-    two_eyed,
-    with_lamp,
+from ai4u_edu.blocks import (
+    Brain,
+    LightSensor,
+    LocalBrain,
+    Percept,
+    RBMoveActuator,
+    RewardFunc,
+    TouchRewardFunc,
 )
+from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.worlds import plate
-from ai4u_edu.world import Variation
+from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.world import BoxShape, CircleShape, Variation, World
+
+_TOP_SPEED = 8.0
+"""Speed of the robot in 01.1 for an action of 1, m/s."""
+_DECISIONS_A_SECOND = 12
+_NEAR_M = 2.0
+"""Distance below which a post in 01.4 is near."""
+_STEP_DECISIONS = 6
+"""Decisions for a word of a plan in 01.5: a metre, or a quarter turn."""
+_LIGHT_REACH_M = 4.0
+_EYES = {"left": 60.0, "right": -60.0}
+"""Directions of the eyes in 01.6, degrees."""
+_WORDS = {
+    "forward": [1.0, 0.0, 0.0, 0.0],
+    "left": [0.0, -1.0, 0.0, 0.0],
+    "right": [0.0, 1.0, 0.0, 0.0],
+}
+"""Actions for the words of a plan."""
+
+
+def race(speed: float, distance: float, seconds: int) -> Drive:
+    """Drive at a speed for a time, on a plate with a line at a distance."""
+    share = max(-1.0, min(1.0, speed / _TOP_SPEED))
+    world = World()
+    world.add_floor("plate", BoxShape(size=(10, 4)), position=(4, 0))
+    line = BoxShape(size=(0.15, 3))
+    world.add_area("line", line, position=(distance, 0), colour="black", paint=True)
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",))
+    agent = _robot_with(
+        LocalBrain(controller=lambda _: {"move": [share, 0, 0, 0]}), move=_TOP_SPEED
+    )
+    return drive(ControlRequestor(world, [agent]), agent, 1, seconds * _DECISIONS_A_SECOND)
+
+
+def _robot_with(
+    brain: Brain,
+    *,
+    move: float,
+    turn: float = 3.0,
+    eyes: Sequence[LightSensor] = (),
+    goal: str = "",
+) -> BasicAgent:
+    """Return a robot.
+
+    Args:
+        brain: its brain.
+        move: speed for an action of 1, m/s.
+        turn: turning speed for an action of 1, rad/s.
+        eyes: its sensors.
+        goal: the body at whose touch it is paid 1, and the episode ends; none if empty.
+    """
+    rewards: list[RewardFunc] = []
+    if goal:
+        rewards = [
+            TouchRewardFunc(name="arrived", target=goal, reward=1, cause_episode_to_end=True)
+        ]
+    return BasicAgent(
+        body="robot",
+        sensors=list(eyes),
+        actuators=[RBMoveActuator(move_amount=move, turn_amount=turn)],
+        rewards=rewards,
+        brains=[brain],
+    )
+
+
+def _has_arrived(done: Drive) -> bool:
+    """Return True if a robot touched its goal."""
+    return is_close(done.agent.ledger.episode_total, 1, 1e-6)
+
+
+def _with_lamp(size: tuple[float, float], **robot: Any) -> World:
+    """Return a plate with a lamp in the middle, and a robot."""
+    world = World()
+    world.add_floor("plate", BoxShape(size=size))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), **robot)
+    world.add_body("lamp", CircleShape(radius=0.4), kind="static", tags=("lamp",), colour="yellow")
+    return world
+
+
+def _posts_around(distances: list[float]) -> bytes:
+    """Return a picture of a robot with posts around it."""
+    world = World()
+    world.add_floor("plate", BoxShape(size=(10, 10)))
+    world.add_body("robot", CircleShape(radius=0.5), tags=("agent",))
+    for number, away in enumerate(distances):
+        angle = math.tau * number / len(distances)
+        place = (away * math.cos(angle), away * math.sin(angle))
+        colour = "orange" if away < _NEAR_M else "grey"
+        shape = CircleShape(radius=0.25)
+        world.add_body(f"post {number}", shape, kind="static", position=place, colour=colour)
+    agent = _robot_with(LocalBrain(controller=lambda _: {}), move=1)
+    sim = ControlRequestor(world, [agent])
+    sim.reset(1)
+    return picture(capture_snapshot(sim))
+
+
+def _carry_out(words: list[str], ahead: int, left: int) -> Drive:
+    """Carry out a plan in a world with a flag."""
+    world = World()
+    world.add_floor("plate", BoxShape(size=(14, 14)))
+    flag = BoxShape(size=(0.8, 0.8))
+    world.add_area("flag", flag, position=(ahead, left), colour="green", paint=True)
+    world.add_body("robot", CircleShape(radius=0.4), tags=("agent",))
+    actions = [_WORDS[word] for word in words for _ in range(_STEP_DECISIONS)]
+    queue = iter(actions)
+    brain = LocalBrain(controller=lambda _: {"move": next(queue)})
+    metres, quarter = 1.0, math.pi / 2
+    a_second = _DECISIONS_A_SECOND / _STEP_DECISIONS
+    agent = _robot_with(brain, move=metres * a_second, turn=quarter * a_second)
+    return drive(ControlRequestor(world, [agent]), agent, 1, len(actions))
+
+
+def _two_eyed(brain: Brain, seed: int) -> ControlRequestor:
+    """Return a world with a robot that sees a lamp in front of it or beside it."""
+    chance = np.random.default_rng(seed)
+    around, away = chance.uniform(-math.pi, math.pi), chance.uniform(3, 5)
+    aside = chance.uniform(20, 90) * chance.choice([-1.0, 1.0])
+    world = _with_lamp(
+        (12, 12),
+        position=(away * math.cos(around), away * math.sin(around)),
+        heading_deg=math.degrees(around) + 180 + aside,
+    )
+    eyes = [
+        LightSensor(
+            perception_key=f"{side} eye", group="lamp", angle_deg=angle, reach=_LIGHT_REACH_M
+        )
+        for side, angle in _EYES.items()
+    ]
+    return ControlRequestor(world, [_robot_with(brain, move=2, eyes=eyes, goal="lamp")])
+
 
 AHEAD_DEG = 10
 """Largest angle at which the box in 01.2 counts as ahead."""
@@ -112,11 +240,11 @@ def turns_to_the_side(turn_for: Any) -> Done:
         turn = max(-1.0, min(1.0, said[side]))
         return {"move": [1.0 if side == "ahead" else 0.0, turn, 0, 0]}
 
-    agent = robot_with(LocalBrain(controller=steer), move=2, goal="box")
+    agent = _robot_with(LocalBrain(controller=steer), move=2, goal="box")
     sim = ControlRequestor(plate(), [agent])
     for seed in seeds_of("01.2", 12):
         done = drive(sim, agent, seed, 100)
-        if not has_arrived(done):
+        if not _has_arrived(done):
             shown = ", ".join(f'"{side}": {turn:g}' for side, turn in said.items())
             raise done.not_yet(
                 f"The robot did not get to the box ({{where}}). Your function said: {shown}.",
@@ -159,13 +287,13 @@ def _turning_mistake(said: dict[str, float]) -> str:
 )
 def flies_like_a_moth(moth: Any) -> Done:
     """Check the speed in the dark, in dim light and close to the lamp."""
-    agent = robot_with(
+    agent = _robot_with(
         as_brain(moth),
         move=3,
-        eyes=[LightSensor(perception_key="light", group="lamp", reach=LIGHT_REACH_M)],
+        eyes=[LightSensor(perception_key="light", group="lamp", reach=_LIGHT_REACH_M)],
     )
     start = Variation(x=(-10.5, -3), y=(0, 0.01))
-    sim = ControlRequestor(with_lamp((24, 6), random=start), [agent])
+    sim = ControlRequestor(_with_lamp((24, 6), random=start), [agent])
     speeds: dict[str, set[float]] = {}
     reason: NotYet | None = None
     for seed in seeds_of("01.3", 8):
@@ -184,7 +312,7 @@ def flies_like_a_moth(moth: Any) -> Done:
                     )
             light.append(float(done.agent.percept["light"][0]))
 
-        done = drive(sim, agent, seed, 12 * DECISIONS_A_SECOND, watch)
+        done = drive(sim, agent, seed, 12 * _DECISIONS_A_SECOND, watch)
     if reason is not None:
         reason.hint = _moth_mistake(speeds, moth)
         raise reason
@@ -238,7 +366,7 @@ def is_without_errors(to_the_lamp: Any) -> Done:
     """Check that the function runs, and takes the robot to the lamp."""
     brain = as_brain(to_the_lamp)
     for seed in seeds_of("01.6", 10):
-        sim = two_eyed(brain, seed)
+        sim = _two_eyed(brain, seed)
         actions: list[tuple[float, float]] = []
         towards: list[float] = []  # turns times the difference of the eyes before
 
@@ -247,15 +375,15 @@ def is_without_errors(to_the_lamp: Any) -> Done:
             actions: list[tuple[float, float]] = actions,
             towards: list[float] = towards,
         ) -> None:
-            left, right = (float(done.agent.percept[f"{side} eye"][0]) for side in EYES)
+            left, right = (float(done.agent.percept[f"{side} eye"][0]) for side in _EYES)
             if done.steps:
                 speed, turn = (*next(iter(done.agent.last_action.values()), ()), 0.0, 0.0)[:2]
                 actions.append((speed, turn))
                 towards[-1] *= turn
             towards.append(right - left)
 
-        done = drive(sim, sim.agents[0], seed, 15 * DECISIONS_A_SECOND, watch)
-        if not has_arrived(done):
+        done = drive(sim, sim.agents[0], seed, 15 * _DECISIONS_A_SECOND, watch)
+        if not _has_arrived(done):
             how = "fell off the plate" if done.fell else "did not get to the lamp"
             raise done.not_yet(
                 f"The robot {how} ({{where}}).", _lamp_mistake(actions, sum(towards[:-1]))
@@ -296,30 +424,30 @@ def counts_the_near_ones(count_near: Any) -> Done:
     for near, far in ((2, 3), (0, 4), (5, 0), (1, 2), (3, 4), (4, 1), (2, 1), (1, 5)):
         away = [*chance.uniform(1.2, 1.9, near), *chance.uniform(2.1, 4.2, far)]
         if far:
-            away[-1] = NEAR_M  # just not near
+            away[-1] = _NEAR_M  # just not near
         distances = [round(float(each), 1) for each in chance.permutation(away)]
         asked.append((distances, finite_number(count_near(list(distances)))))
     for distances, found in asked:
-        exact = sum(each < NEAR_M for each in distances)
+        exact = sum(each < _NEAR_M for each in distances)
         if not is_close(found, exact, 1e-6):
             raise NotYet(
                 f"For {distances} expected {exact}, got {found:g}.",
                 hint=_counting_mistake(asked),
-                picture=posts_around(distances),
+                picture=_posts_around(distances),
             )
-    return Done("Eight places, and every count was right.", posts_around(asked[-1][0]))
+    return Done("Eight places, and every count was right.", _posts_around(asked[-1][0]))
 
 
 def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
     """Return the diagnosis that explains all counts."""
     mistakes: dict[str, Callable[[list[float]], float]] = {
-        "early": lambda given: float(given[0] < NEAR_M),
-        "reset": lambda given: float(given[-1] < NEAR_M),
+        "early": lambda given: float(given[0] < _NEAR_M),
+        "reset": lambda given: float(given[-1] < _NEAR_M),
         "all": lambda given: float(len(given)),
-        "limit": lambda given: float(sum(each <= NEAR_M for each in given)),
-        "far": lambda given: float(sum(each > NEAR_M for each in given)),
-        "far ": lambda given: float(sum(each >= NEAR_M for each in given)),
-        "sum": lambda given: float(sum(each for each in given if each < NEAR_M)),
+        "limit": lambda given: float(sum(each <= _NEAR_M for each in given)),
+        "far": lambda given: float(sum(each > _NEAR_M for each in given)),
+        "far ": lambda given: float(sum(each >= _NEAR_M for each in given)),
+        "sum": lambda given: float(sum(each for each in given if each < _NEAR_M)),
     }
     for name, wrong in mistakes.items():
         if all(is_close(found, wrong(given), 1e-6) for given, found in asked):
@@ -353,7 +481,7 @@ def plans_the_way(plan: Any) -> Done:
     drawn = [tuple(int(each) for each in chance.integers(1, 6, 2)) for _ in range(4)]
     for ahead, left in ((3, 1), (1, 4), (5, 2), *drawn):
         words = _words_of(plan(ahead, left))
-        done = carry_out(words, ahead, left)
+        done = _carry_out(words, ahead, left)
         x, y = done.agent.body.position
         if not math.hypot(x - ahead, y - left) < 0.3:
             shown = ", ".join(words[:8]) + (" ..." if len(words) > 8 else "")
@@ -378,8 +506,8 @@ def _words_of(given: Any) -> list[str]:
     if len(given) > MAX_WORDS:
         raise NotYet(f"Your plan has {len(given)} words; {MAX_WORDS} are enough.", hint="count")
     for each in given:
-        if not isinstance(each, str) or each not in WORDS:
-            raise NotYet(f"The robot knows {', '.join(WORDS)}; got {named(each)}.", hint="words")
+        if not isinstance(each, str) or each not in _WORDS:
+            raise NotYet(f"The robot knows {', '.join(_WORDS)}; got {named(each)}.", hint="words")
     return list(given)
 
 

@@ -14,8 +14,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.learn.training.algorithms import load_model
-from ai4u_edu.learn.training.eval_callback import EvalCallback
-from ai4u_edu.learn.training.learning import resume, train
+from ai4u_edu.learn.training.learning import EvalCallback, resume, train
 from ai4u_edu.learn.training.notebook import export_checkpoints
 from ai4u_edu.learn.training.run import Check, Run, run_of
 from ai4u_edu.learn.training.settings import ALGORITHMS, Algorithm
@@ -149,7 +148,7 @@ def test_the_best_is_kept_not_the_last(tmp_path: Path, monkeypatch: pytest.Monke
         reward = next(ranks)
         return [EpisodeStats(seed, False, reward, 5, False) for seed in seeds]
 
-    monkeypatch.setattr("ai4u_edu.learn.training.eval_callback._trials", pretending)
+    monkeypatch.setattr("ai4u_edu.learn.training.learning._trials", pretending)
     done = small_training(tmp_path, "sac", sac=small_settings().sac.model_dump() | {"steps": 300})
     assert done.best.steps == 200
     assert load_model("sac", tmp_path / "best.zip").num_timesteps == 200
@@ -165,7 +164,7 @@ def test_it_ends_when_it_is_good_enough(tmp_path: Path, monkeypatch: pytest.Monk
         success = next(rates) == 1.0
         return [EpisodeStats(seed, success, 0.0, 5, True) for seed in seeds]
 
-    monkeypatch.setattr("ai4u_edu.learn.training.eval_callback._trials", pretending)
+    monkeypatch.setattr("ai4u_edu.learn.training.learning._trials", pretending)
     many = small_settings().sac.model_dump() | {"steps": 1000}
     done = small_training(tmp_path, "sac", enough=2, sac=many)
     assert done.enough
