@@ -120,6 +120,26 @@ def test_a_reset_in_the_middle_of_a_decision_is_not_answered_with_its_end(is_los
         assert script.percept().episode == percept.episode
 
 
+@pytest.mark.parametrize("restarts", [1, 2])
+def test_a_restart_while_a_script_owes_an_answer_truncates_its_episode(restarts: int) -> None:
+    with log_room(time_scale=1.0) as room, Script(room) as script:
+        _, before = begin_in_realtime(room, script)
+        for _ in range(restarts):  # by a person
+            room.runner.reset().result(LIMIT_S)
+            room.runner.step(3).result(LIMIT_S)
+        script.act(before, 1)
+        until(lambda: heard(room))
+        room.runner.step(2).result(LIMIT_S)
+        end = script.percept()
+        assert (end.episode, end.truncated) == (before.episode, True)
+        script.say(native.Reset(end.seq, None))
+        until(lambda: heard(room))
+        room.runner.step(2).result(LIMIT_S)
+        first = script.percept()
+        assert (first.episode, first.step) == (before.episode + restarts + 1, 0)
+        assert not first.truncated
+
+
 def test_a_session_that_is_taken_up_again_begins_one_episode() -> None:
     with log_room(time_scale=8.0, skip_frame=4) as room:
         first = connect(room.url)

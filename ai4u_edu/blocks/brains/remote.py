@@ -89,7 +89,7 @@ class RemoteBrain(Brain):
         self._is_resetting = False
         """The reset that is under way was asked for by the script."""
         self._must_truncate = False
-        """The script has yet to be told that its episode was cut off."""
+        """The script has yet to answer that its episode was cut off."""
 
     @classmethod
     def with_link(
@@ -153,7 +153,8 @@ class RemoteBrain(Brain):
         """
         asked = self._last_asked
         is_unexpected = not self._is_resetting and not agent.steps
-        self._must_truncate = is_unexpected and asked is not None and not asked.done
+        is_in_episode = asked is not None and (self._must_truncate or not asked.done)
+        self._must_truncate = is_unexpected and is_in_episode
         self._is_resetting = self._is_stopped = False
         self._current = None
         if self.override is not None:
@@ -223,7 +224,7 @@ class RemoteBrain(Brain):
         """Return a new observation, which stays the current one until it is answered."""
         self._number += 1
         if self._must_truncate and self._last_asked is not None:
-            self._must_truncate = False
+            # until it is answered: while the script owes an earlier answer, none is sent
             observation = self._last_asked._replace(
                 number=self._number, reward=0.0, terms={}, done=True, truncated=True
             )
@@ -263,6 +264,8 @@ class RemoteBrain(Brain):
         self._status.follow(link.state)
         if link.state is not LinkState.CONNECTED:
             self._last_asked = None
+            # an AI4U script that connects next may be another one
+            self._must_truncate = self._must_truncate and self.has_own_link
             self._patience.resume()
         elif link.expects_reply or reply is not None:
             self._last_asked = observation
@@ -271,6 +274,8 @@ class RemoteBrain(Brain):
             patience.resume()
             patience.restart()
             self._status.is_late, self._status.reason = False, ""
+        if reply is not None and reply.observation is not None and reply.observation.truncated:
+            self._must_truncate = False
         if reply is not None and self._is_outdated(reply, observation):
             self._status.dropped += 1
             return None
