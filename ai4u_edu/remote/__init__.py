@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from ai4u_edu.base.errors import ActionError
 from ai4u_edu.remote.async_robot import AsyncRobot
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.percept import RemotePercept
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from ai4u_edu.remote.env import RemoteEnv
 
 __all__ = [
+    "ActionError",
     "AsyncRobot",
     "LostError",
     "RefusedError",

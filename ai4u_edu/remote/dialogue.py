@@ -164,7 +164,9 @@ class Dialogue:
         """Raise a RemoteError if this is the latest percept, and it has no answer yet."""
         if self.percept is percept and not self._is_answered:
             example = ", ".join(
-                f"{name}={[0] * len(output.low)}" for name, output in self.outputs.items()
+                f"{name}={[0] * len(output.low)}"
+                for name, output in self.outputs.items()
+                if output.is_output
             )
             raise RemoteError(
                 f"expected robot.act(...) in the loop, such as robot.act({example}); "

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.base.errors import ActionError
+from ai4u_edu.remote import ActionError, RemoteError
 from ai4u_edu.remote.dialogue import Dialogue
 from ai4u_edu.remote.steps import Flow, Open, Receive, Send, Step
 from ai4u_edu.wire import native
@@ -60,6 +60,14 @@ def connected() -> Dialogue:
     assert [type(step) for step in steps] == [Open, Send, Receive]
     answered(dialogue.sense(), percept(1))
     return dialogue
+
+
+def test_the_example_of_an_answer_leaves_out_what_no_policy_drives() -> None:
+    dialogue = connected()
+    dialogue.outputs["respawn"] = native.Output("respawn", "box", (), (), False)
+    assert dialogue.percept is not None
+    with pytest.raises(RemoteError, match=r"such as robot\.act\(log=\[0\]\); "):
+        dialogue.expect_answer_to(dialogue.percept)
 
 
 REFUSAL = native.Problem("bad_action", "action 'log': expected 1 numbers, got 0", 1)
