@@ -26,6 +26,7 @@ def script_lines(address: str, agent: BasicAgent) -> str:
     return (
         "from ai4u_edu.remote import connect\n\n"
         f"robot = connect({address!r}, agent={agent.id!r})\n"
+        "robot.reset()\n"
         "for percept in robot:\n"
         f"    robot.act({numbers})\n"
         "robot.close()\n"

@@ -82,5 +82,5 @@ def test_a_name_ends_neither_the_line_nor_the_code() -> None:
         agent = evil_sim(name).agents[0]
         text = script_lines("http://teacher:8080/?token=a%20b", agent)
         compile(text, "lines", "exec")
-        assert text.splitlines()[4] == f"    robot.act({{{name!r}: [1, 0]}})"
-        assert len(text.splitlines()) == 6
+        assert text.splitlines()[5] == f"    robot.act({{{name!r}: [1, 0]}})"
+        assert len(text.splitlines()) == 7
