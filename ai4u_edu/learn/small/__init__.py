@@ -1,0 +1,8 @@
+"""A small learner to read, in NumPy alone: a network.
+
+Each file adds one idea. Read them in this order:
+
+1. :mod:`~ai4u_edu.learn.small.neural_network`: layers of neurons, and how they are changed.
+
+It needs neither torch nor Stable-Baselines3; see ``docs/adr/0014-a-small-learner-of-our-own.md``.
+"""
