@@ -1,0 +1,366 @@
+"""Behaviour cloning: a network learns to do in each moment what a driver did.
+
+Before: :mod:`~ai4u_edu.learn.small.actor_critic`. New here is a loss. For a moment that was driven,
+the network's action and the driver's are compared; the gradient says how to make the difference
+smaller; 2,000 such steps take a second. There is no reward in it: who drives badly teaches badly.
+
+How good is the clone? Its error on moments that it learned from says little, since it may know
+them by heart. So some moments are held out, the network learns from the others, and then it is
+asked what it would have done in those. Two decisions in a row are nearly equal, so a single one
+can't be held out: it would be known from its neighbours. Whole drives can, or blocks of two
+seconds.
+
+>>> from gymnasium import spaces
+>>> generator = np.random.default_rng(0)
+>>> drives = []
+>>> for _ in range(5):  # someone always drives towards the light, whose bearing is the only reading
+...     bearing = generator.uniform(-1, 1, (60, 1)).astype(np.float32)
+...     drives.append(DriveData(bearing, np.sign(bearing)))
+>>> space = spaces.Box(-1, 1, (1,))
+>>> clone = clone_drives(drives, space, space, updates=300)
+>>> clone.alike > 0.9, clone.commonest < 0.7
+(True, True)
+"""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from gymnasium import spaces
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.seeding import checked_seed
+from ai4u_edu.learn.small.actor_critic import LAYERS, ActorCritic
+from ai4u_edu.learn.small.neural_network import Adam, Floats
+
+Array = npt.NDArray[Any]
+
+UPDATES = 2000
+"""Gradient steps; a handful of drives is learned by then."""
+BATCH = 128
+"""Moments in a gradient step."""
+RATE = 1e-3
+MEASURE_EVERY = 100
+"""Gradient steps between two measures of the error."""
+HELD_OUT_SHARE = 0.2
+"""Share of the drives, or of the blocks, that is held out."""
+MIN_DRIVES_TO_HOLD_OUT = 5
+"""Count of drives from which whole ones are held out; of fewer, one would be too much to lose."""
+DEFAULT_BLOCK = 24
+"""Decisions of a block that is held out: two seconds at twelve decisions a second."""
+THIRDS = 3
+"""Parts into which the range of a number is cut, to say whether two actions are alike: backwards,
+about still and forwards, or left, straight and right."""
+SMALL_ERROR = 0.1
+"""Error, in units of a number's range, up to which its square counts; beyond it, its size."""
+DISCOUNT = 0.98
+"""Worth of a reward a decision later, compared with now."""
+STILL_SHARE = 0.98
+"""Share of moments at rest from which somebody is said to have stood still."""
+TWIN_DISTANCE = 0.1
+"""Distance of two moments' readings, in standard deviations a reading, up to which they count as
+the same."""
+TWIN_SAMPLE = 400
+"""Moments for which a twin is searched."""
+MIN_TWINS = 20
+"""Fewest twins from which contradictions are spoken of."""
+CONTRADICTION_SHARE = 0.35
+"""Share of twins with unlike actions from which drives are said to contradict each other."""
+
+ONE_DRIVE = (
+    "This is one drive only: the robot knows one way from one start. Drive again from other starts."
+)
+STOOD_STILL = (
+    "In these drives the robot hardly moved, so it has learned to stand still. "
+    "Drive again, and move."
+)
+ONE_CHOICE = (
+    "In these drives the robot always did the same, so it has learned nothing else. "
+    "Drive again, and do all that it should be able to."
+)
+CONTRADICTION = (
+    "These drives contradict each other: where the robot sensed the same, it was driven in "
+    "different ways. Leave out the drives in which you tried something, or give the robot "
+    "another sensor."
+)
+
+
+@dataclass(frozen=True)
+class DriveData:
+    """One drive from a start to its end, n decisions long."""
+
+    observations: Array
+    """(n, r) or (n + 1, r): flat observations, the first one before the first decision. What came
+    after the last decision teaches nothing and may be missing."""
+    actions: Array
+    """(n, numbers) within the action space; (n,) for choices."""
+    rewards: Array | None = None
+    """(n,) of each decision; with them, the critic learns what this driver's way is worth."""
+
+    def __len__(self) -> int:
+        return len(self.actions)
+
+
+@dataclass(frozen=True)
+class CloningResult:
+    """Result of a cloning."""
+
+    network: ActorCritic
+    alike: float
+    """Share of held-out moments, 0 to 1, in which a network that never saw them acts like the
+    driver: each number of the action in the same third of its range, or the same choice."""
+    commonest: float
+    """The same share for always doing what was done most often."""
+    held_out: int
+    """Count of held-out moments."""
+    errors: tuple[tuple[int, float], ...]
+    """Gradient steps so far, and the error on held-out moments after them."""
+    remarks: tuple[str, ...]
+    """Sentences about what is wrong with the drives; empty if nothing is."""
+
+
+def clone_drives(
+    drives: Sequence[DriveData],
+    observation_space: spaces.Space[Any],
+    action_space: spaces.Space[Any],
+    *,
+    seed: int = 0,
+    updates: int = UPDATES,
+    block: int = DEFAULT_BLOCK,
+    layers: Sequence[int] = LAYERS,
+    on_error: Callable[[int, float], None] | None = None,
+) -> CloningResult:
+    """Return a network that drives as these drives do.
+
+    Two networks learn. The first one doesn't see the held-out moments: it is measured, and says
+    after how many steps its error on them was least. The second one learns from all moments, for as
+    many steps, and is the clone: to lose a drive of five is too much.
+
+    The same drives and the same seed give the same network on the same machine.
+
+    Args:
+        drives: of one agent, with the same sensors and actuator.
+        observation_space: (r,) of a flat observation.
+        action_space: a Box (n,) whose numbers have bounds, or a Discrete.
+        seed: of the weights, and of which moments are held out.
+        updates: gradient steps of each of the two networks at most.
+        block: decisions in two seconds; if there are too few drives, blocks of this length are held
+            out.
+        layers: neurons of the hidden layers.
+        on_error: called with the count of steps so far and the error on held-out moments.
+
+    Raises:
+        SetupError: there is nothing to learn from, or such actions can't be learned.
+    """
+    drives = [drive for drive in drives if len(drive)]
+    moments = sum(map(len, drives))
+    if moments < 2:
+        raise SetupError(f"expected drives of at least 2 decisions, got {moments}")
+    generator = np.random.default_rng(checked_seed(seed))
+    readings = np.concatenate([drive.observations[: len(drive)] for drive in drives])
+    readings = readings.astype(np.float32)
+    first = ActorCritic(observation_space, action_space, layers)
+    wanted = _as_targets(first, np.concatenate([drive.actions for drive in drives]))
+    is_held_out = _held_out(drives, block, generator)
+    seen, unseen = np.flatnonzero(~is_held_out), np.flatnonzero(is_held_out)
+
+    kinds = _kinds(first, wanted)
+    errors: list[tuple[int, float]] = []
+    alike: list[float] = []
+
+    def measure(update: int) -> None:
+        outputs = first.actor.forward(first.scaled(readings[unseen]))
+        error, _ = _loss(first, outputs, wanted[unseen])
+        errors.append((update, float(error)))
+        done = outputs.argmax(axis=1) if first.chooses else outputs
+        alike.append(_share_alike(_kinds(first, done), kinds[unseen]))
+        if on_error is not None:
+            on_error(*errors[-1])
+
+    first.draw(generator)
+    _imitate(first, readings[seen], wanted[seen], updates, generator, measure)
+    best = min(range(len(errors)), key=lambda index: errors[index][1])
+    most_often, _ = Counter(map(tuple, kinds[seen].tolist())).most_common(1)[0]
+
+    network = ActorCritic(observation_space, action_space, layers)
+    network.draw(generator)
+    _imitate(network, readings, wanted, errors[best][0], generator)
+    if all(drive.rewards is not None for drive in drives):
+        _judge(network, readings, np.concatenate(list(map(_worth, drives))), generator)
+    else:
+        network.critic.parameters[:] = 0.0  # it knows nothing, so it says 0 and not any number
+    return CloningResult(
+        network=network,
+        alike=alike[best],
+        commonest=_share_alike(np.array([most_often]), kinds[unseen]),
+        held_out=len(unseen),
+        errors=tuple(errors),
+        remarks=tuple(_remarks(drives, network, readings, wanted)),
+    )
+
+
+def _as_targets(network: ActorCritic, actions: Array) -> Array:
+    """Return what the actor should give: numbers in units of their range, or indices of choices."""
+    if network.chooses:
+        return actions.astype(np.int64).ravel() - network.first_choice
+    unit = np.where(network.unit > 0.0, network.unit, 1.0)
+    targets: Array = actions.reshape(len(actions), -1) / unit
+    return targets.astype(np.float32)
+
+
+def _imitate(
+    network: ActorCritic,
+    readings: Array,
+    wanted: Array,
+    updates: int,
+    generator: np.random.Generator,
+    measure: Callable[[int], None] | None = None,
+) -> None:
+    """Have the actor learn to give the wanted actions."""
+    # Readings get about the same spread: then all weights matter alike. One that hardly changed in
+    # the drives may change more where the clone drives; it may not drown all others then. One that
+    # never changed says nothing, and is left out (divided by infinity).
+    spread, largest = readings.std(axis=0), network.size
+    scaled_spread = np.where(spread > 1e-3 * largest, np.maximum(spread, 0.05 * largest), np.inf)
+    network.middle = readings.mean(axis=0).astype(np.float32)
+    network.size = scaled_spread.astype(np.float32)
+    inputs = network.scaled(readings)
+    optimizer = Adam(network.actor.parameters, RATE)
+    for update in range(1, updates + 1):
+        batch = generator.integers(len(inputs), size=min(BATCH, len(inputs)))
+        outputs = network.actor.forward(inputs[batch])
+        _, slope = _loss(network, outputs, wanted[batch])
+        network.actor.backward(slope)
+        optimizer.step(network.actor.gradient)
+        if measure is not None and (update % MEASURE_EVERY == 0 or update == updates):
+            measure(update)
+
+
+def _loss(network: ActorCritic, outputs: Floats, wanted: Array) -> tuple[np.floating[Any], Floats]:
+    """Return the mean loss of some moments, and its slope for each output."""
+    count = len(outputs)
+    if network.chooses:
+        # Softmax makes probabilities of any numbers, and the loss is how surprised one is by the
+        # driver's choice. Its slope is simply the probability, less 1 for what was chosen.
+        powers = np.exp(outputs - outputs.max(axis=1, keepdims=True))
+        chances = powers / powers.sum(axis=1, keepdims=True)
+        chosen = np.arange(count), wanted
+        surprise = -np.log(np.maximum(chances[chosen], 1e-12)).mean()
+        chances[chosen] -= 1.0
+        return surprise, chances / count
+    # beyond the end of the range is as good as at it, since it is cut off there
+    unit = np.where(network.unit > 0.0, network.unit, 1.0)
+    error = np.clip(outputs, network.low / unit, network.high / unit) - wanted
+    # Not the square of the error: who drives by keys jumps from one end to the other, and the
+    # square is least in between, where nobody drove. The size of the error is least at what was
+    # done more often. Near 0 it is the square, so that steps get smaller there.
+    size = np.abs(error)
+    loss = np.where(size < SMALL_ERROR, 0.5 * error**2 / SMALL_ERROR, size - 0.5 * SMALL_ERROR)
+    slope = np.clip(error / SMALL_ERROR, -1.0, 1.0)
+    return loss.mean(), (slope / error.size).astype(np.float32)
+
+
+def _judge(
+    network: ActorCritic, readings: Array, worth: Floats, generator: np.random.Generator
+) -> None:
+    """Have the critic learn what each moment was worth."""
+    inputs = network.scaled(readings)
+    middle, spread = float(worth.mean()), max(float(worth.std()), 1e-6)
+    wanted = (worth - middle) / spread
+    optimizer = Adam(network.critic.parameters, RATE)
+    for _ in range(UPDATES // 2):
+        batch = generator.integers(len(inputs), size=min(BATCH, len(inputs)))
+        error = network.critic.forward(inputs[batch])[:, 0] - wanted[batch]
+        network.critic.backward((2.0 * error / len(error))[:, None].astype(np.float32))
+        optimizer.step(network.critic.gradient)
+    # it has learned worths of about -1 to 1; the last layer turns them into rewards again
+    network.critic.weights[-1] *= spread
+    network.critic.biases[-1] *= spread
+    network.critic.biases[-1] += middle
+
+
+def _worth(drive: DriveData) -> Floats:
+    """Return the discounted reward from each moment of a drive on, (n,)."""
+    assert drive.rewards is not None  # noqa: S101 - the caller has looked
+    worth = np.zeros(len(drive), np.float32)
+    later = 0.0
+    for moment in reversed(range(len(drive))):
+        later = float(drive.rewards[moment]) + DISCOUNT * later
+        worth[moment] = later
+    return worth
+
+
+def _held_out(
+    drives: Sequence[DriveData], block: int, generator: np.random.Generator
+) -> npt.NDArray[np.bool_]:
+    """Return for each moment if it is held out; some are, and some are not."""
+    if len(drives) >= MIN_DRIVES_TO_HOLD_OUT:
+        blocks = [len(drive) for drive in drives]
+    else:
+        # of one short drive, too, something has to be left on both sides
+        block = max(1, min(block, sum(map(len, drives)) // 2))
+        blocks = [
+            min(block, len(drive) - start)
+            for drive in drives
+            for start in range(0, len(drive), block)
+        ]
+    count = max(1, round(HELD_OUT_SHARE * len(blocks)))
+    chosen = np.zeros(len(blocks), np.bool_)
+    chosen[generator.permutation(len(blocks))[:count]] = True
+    return np.repeat(chosen, blocks)
+
+
+def _kinds(network: ActorCritic, targets: Array) -> Array:
+    """Return the third of its range that each number lies in, (n, numbers), or the choice, (n, 1).
+
+    Args:
+        network: for the ranges.
+        targets: as :func:`_as_targets` gives them; beyond the range counts as at its end.
+    """
+    if network.chooses:
+        return targets[:, None]
+    low, high = network.low, network.high
+    width = np.where(high > low, high - low, 1.0)
+    share = (np.clip(targets * network.unit, low, high) - low) / width
+    kinds: Array = np.minimum((THIRDS * share).astype(np.int64), THIRDS - 1)
+    return kinds
+
+
+def _share_alike(kinds: Array, others: Array) -> float:
+    """Return the share of moments in which all numbers of two actions are of the same kind."""
+    return float((kinds == others).all(axis=1).mean())
+
+
+def _remarks(
+    drives: Sequence[DriveData], network: ActorCritic, readings: Array, wanted: Array
+) -> list[str]:
+    """Return a sentence for each fault of the drives."""
+    remarks = [ONE_DRIVE] if len(drives) == 1 else []
+    if network.chooses:
+        if (wanted == wanted[0]).all():
+            remarks.append(ONE_CHOICE)
+    elif np.mean(np.abs(wanted).max(axis=1) < 1e-3) >= STILL_SHARE:
+        remarks.append(STOOD_STILL)
+    if _contradiction(network.scaled(readings), _kinds(network, wanted)) > CONTRADICTION_SHARE:
+        remarks.append(CONTRADICTION)
+    return remarks
+
+
+def _contradiction(inputs: Floats, kinds: Array) -> float:
+    """Return the share of moments whose twin was driven in another way; 0 if twins are few.
+
+    The twin of a moment is the one whose readings are closest to its own, if they are nearly equal.
+    """
+    sample = np.unique(np.linspace(0, len(inputs) - 1, TWIN_SAMPLE).astype(int))
+    count = max(1, int(np.any(inputs != 0.0, axis=0).sum()))
+    squares = (inputs * inputs).sum(axis=1)
+    distance = squares[sample, None] - 2.0 * inputs[sample] @ inputs.T + squares
+    distance[np.arange(len(sample)), sample] = np.inf  # nobody is a twin of their own
+    nearest = distance.argmin(axis=1)
+    is_twin = distance[np.arange(len(sample)), nearest] < count * TWIN_DISTANCE**2
+    if is_twin.sum() < MIN_TWINS:
+        return 0.0
+    return 1.0 - _share_alike(kinds[sample[is_twin]], kinds[nearest[is_twin]])
