@@ -1,4 +1,4 @@
-"""A small learner to read, in NumPy alone: a network, cloning, and PPO.
+"""A small learner to read, in NumPy alone: a network, cloning, PPO, and the file it writes.
 
 Each file adds one idea. Read them in this order:
 
@@ -7,6 +7,7 @@ Each file adds one idea. Read them in this order:
 3. :mod:`~ai4u_edu.learn.small.behaviour_cloning`: learn from somebody's drives.
 4. :mod:`~ai4u_edu.learn.small.ppo`: learn from rewards.
 5. :mod:`~ai4u_edu.learn.small.ppo_training`: check, keep the best, go on after a break.
+6. :mod:`~ai4u_edu.learn.small.onnx_file`: the file of a network.
 
 It needs neither torch nor Stable-Baselines3; see ``docs/adr/0014-a-small-learner-of-our-own.md``.
 """
