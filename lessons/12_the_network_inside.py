@@ -252,6 +252,8 @@ progress()
 # - Round all weights to one decimal: `[(w.round(1), b.round(1)) for w, b in layers]`. Does it still
 #   drive? And without decimals?
 # - Set a whole row of the first layer to 0, as if a neuron had died. How many may die?
+# - Read how such a network learns: `ai4u_edu/learn/small/neural_network.py`, 200 lines. `forward` is your
+#   `think`, for many percepts at once; `backward` says which way each number should move.
 #
 # **Words of this lesson:** neuron, weight, bias, tanh, layer, matrix. **Next:** 13, in which you put
 # networks into robots, and find out what they look at.

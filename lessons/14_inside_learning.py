@@ -191,7 +191,8 @@ bars(
 # %% [markdown]
 # PPO, which trained most networks of our zoo, is this idea with a network in place of the table, a guess
 # of the value that is subtracted from the worth (a *baseline*, which makes the steps less noisy), and a
-# limit on how far the policy may move at once.
+# limit on how far the policy may move at once. You can read all of it:
+# `ai4u_edu/learn/small/ppo.py` needs nothing but NumPy.
 #
 # ## How much of it is luck?
 #
