@@ -13,11 +13,11 @@ from pathlib import Path
 import msgspec
 from msgspec import inspect
 
+from ai4u_edu.base.options import PAGE_OPTIONS
 from ai4u_edu.blocks.parameterized import field_docs
 from ai4u_edu.page.messages import Command, Message
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.server.input_messages import InputEvent
-from ai4u_edu.room.options import OPTIONS
 
 FILE = Path(__file__).parents[1] / "web" / "generated" / "messages.d.ts"
 HEAD = """\
@@ -116,7 +116,7 @@ def comment(text: str, indent: str = "") -> str:
 
 def source() -> str:
     """Return the declarations of all messages."""
-    for module in OPTIONS:
+    for module in PAGE_OPTIONS:
         import_module(module)
     file = Declarations()
     parts = [(kind.__struct_defaults__[0], file.received(kind)) for kind in subclasses(PanelPart)]

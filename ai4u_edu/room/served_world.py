@@ -10,9 +10,9 @@ from starlette.applications import Starlette
 
 from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, OptionTab, load_option
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.messages import Command
 from ai4u_edu.page.panel import PanelContext, PanelSockets
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.messages.base import Command
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.parts.due import Parts
 from ai4u_edu.page.panel.socket import PanelOption

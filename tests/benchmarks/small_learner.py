@@ -31,7 +31,7 @@ from ai4u_edu.learn.envs import SceneEnv  # noqa: E402
 from ai4u_edu.learn.small.ppo import PpoSettings  # noqa: E402
 from ai4u_edu.learn.small.ppo_training import PpoTraining  # noqa: E402
 from ai4u_edu.learn.training.algorithms import new_model  # noqa: E402
-from ai4u_edu.learn.training.eval_callback import EvalCallback  # noqa: E402
+from ai4u_edu.learn.training.learning import EvalCallback  # noqa: E402
 from ai4u_edu.learn.training.prepare import prepare  # noqa: E402
 from ai4u_edu.learn.training.run import Run  # noqa: E402
 from ai4u_edu.learn.training.settings import Settings, settings_for  # noqa: E402

@@ -82,7 +82,7 @@ class WallServer:
         asyncio.run_coroutine_threadsafe(self._broadcast(message), self._loop).result(LIMIT_S)
 
     def draw(self) -> None:
-        """Send the drawings of all rooms to all pages; these forget those of rooms that are gone."""
+        """Send all drawings to all pages, which forget those of rooms that are gone."""
         for number in range(1, self.count + 1):
             self.push(drawing_message(number))
 

@@ -122,5 +122,5 @@ def be_patient(lesson: Lesson) -> None:
         EXERCISES[each] = patient(find(each))
     for module in (filming, controls):
         module.TimeLimit = partial(TimeLimit, LIMIT_S, LIMIT_S)  # type: ignore[attr-defined]
-    live.StallWatch = partial(StallWatch, limit_s=LIMIT_S)  # type: ignore[assignment, attr-defined]
+    live.StallWatch = partial(StallWatch, limit_s=LIMIT_S)  # type: ignore[assignment, misc]
     lesson_15.RECEIVE_TIMEOUT_MS, lesson_15.MAX_DIALOGUE_S = round(LIMIT_MS), round(LIMIT_S)

@@ -320,7 +320,7 @@ def _fields(message: Any) -> Iterator[tuple[int, Any]]:
         nonlocal place
         number = 0
         for shift in range(0, 70, 7):
-            part = message[place]
+            part: int = message[place]
             place += 1
             number |= (part & 127) << shift
             if part < 128:
