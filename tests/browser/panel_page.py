@@ -110,7 +110,7 @@ def panel_page(
     """
     page = quick_page(chromium, width, height, extra_http_headers=ASKED, **options)
     opened = PanelPage(page, FakePanel(), [], room.url + query)
-    page.on("pageerror", lambda error: opened.problems.append(str(error)))
+    page.on("pageerror", lambda error: opened.problems.append(error.stack or str(error)))
     opened.panel.attach(page)
     page.goto(opened.url)
     opened.wait()

@@ -110,7 +110,7 @@ def test_the_report_shows_them_escaped_and_the_class_table_does_not(folder: Path
     compare("09.1", [1, 2])
     predict("09.2", 4)
     text = report_page(ProgressFile())
-    assert "<li>09.1: said &lt;b&gt;left; it was 1, 2</li><li>09.2: said 4</li>" in text
+    assert "<li>09.1: said &lt;b&gt;left; it was 1, 2</li>\n<li>09.2: said 4</li>" in text
     assert "09 Rewards" in text
     collected = collect(folder)
     assert "left</td>" not in collected.page()

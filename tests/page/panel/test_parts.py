@@ -8,6 +8,7 @@ import pytest
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.training import TrainingPart, training_part
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
+from tests.browser.fake_panel import PARTS
 from tests.page.panel.rooms import panel_room
 
 TYPES = {str(kind.__struct_defaults__[0]): kind for kind in PanelPart.__subclasses__()}
@@ -50,3 +51,8 @@ def check(message: Any, kind: type[PanelPart]) -> None:
 
 def plain(part: PanelPart) -> Any:
     return msgspec.json.decode(msgspec.json.encode(part))
+
+
+def test_the_parts_that_browser_tests_show_are_such() -> None:
+    for name, part in PARTS.items():
+        msgspec.convert(part, TYPES[name])
