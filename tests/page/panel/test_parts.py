@@ -1,5 +1,7 @@
 """The parts on the wire have the keys and types of the structs that the page's types come from."""
 
+import json
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -8,11 +10,11 @@ import pytest
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.training import TrainingPart, training_part
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
-from tests.browser.fake_panel import PARTS
 from tests.page.panel.rooms import panel_room
 
 TYPES = {str(kind.__struct_defaults__[0]): kind for kind in PanelPart.__subclasses__()}
 """Structs by the name of their part."""
+OF_BROWSER_TESTS = Path(__file__).parents[2] / "browser" / "panel_parts.json"
 EDITED = {"blocks", "world"}
 """Parts of a world that can be changed."""
 
@@ -54,5 +56,5 @@ def plain(part: PanelPart) -> Any:
 
 
 def test_the_parts_that_browser_tests_show_are_such() -> None:
-    for name, part in PARTS.items():
+    for name, part in json.loads(OF_BROWSER_TESTS.read_text(encoding="utf-8")).items():
         msgspec.convert(part, TYPES[name])
