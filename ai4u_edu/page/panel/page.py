@@ -9,6 +9,7 @@ from typing import Literal, TypeVar
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.upload import Upload
+from ai4u_edu.page.server.loop_queue import result_of
 
 T = TypeVar("T")
 Level = Literal["info", "error"]
@@ -42,7 +43,4 @@ class Page:
         stall = self.context.runner.stall
         if stall is not None and not future.done():
             self.note("info", f"That has to wait: {stall}. If it never answers, end the server.")
-        wrapped = asyncio.wrap_future(future)
-        # when the page has left, nobody else asks for the error, and asyncio would log it
-        wrapped.add_done_callback(lambda done: done.cancelled() or done.exception())
-        return await asyncio.shield(wrapped)
+        return await result_of(future)

@@ -1,6 +1,5 @@
 """Background thread that makes files of kept episodes, one after another, with a cache."""
 
-import asyncio
 from collections import OrderedDict, deque
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -9,6 +8,7 @@ from threading import Lock, Thread
 
 from ai4u_edu.agent.block_errors import storable
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.page.server.loop_queue import result_of
 from ai4u_edu.recording import Episode
 
 MAX_QUEUED = 16
@@ -79,7 +79,7 @@ class Exports:
             job.waiting += 1
             self._waiting += 1
         try:
-            return await asyncio.shield(asyncio.wrap_future(job.made))
+            return await result_of(job.made)
         finally:
             with self._lock:
                 job.waiting -= 1

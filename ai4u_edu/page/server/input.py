@@ -37,6 +37,7 @@ from ai4u_edu.page.server.input_messages import (
     state_event,
 )
 from ai4u_edu.page.server.limits.keepalive import keepalives
+from ai4u_edu.page.server.loop_queue import result_of
 from ai4u_edu.page.server.page_receiver import ReceiveLimits, close_socket, receive_messages
 from ai4u_edu.page.server.run_commands import RUN_COMMANDS
 from ai4u_edu.runtime.runner import Runner
@@ -228,8 +229,7 @@ class _Page:
     async def _report(self, future: "Future[None]") -> None:
         with suppress(WebSocketDisconnect):
             try:
-                # shielded: the runner does what was asked for, also if the page leaves meanwhile
-                await asyncio.shield(asyncio.wrap_future(future))
+                await result_of(future)
             except Exception as error:  # a student's block may raise anything in a reset
                 await self._send_error(f"{type(error).__name__}: {error}")
 

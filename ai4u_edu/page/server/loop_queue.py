@@ -1,4 +1,4 @@
-"""A queue of function calls for an event loop in another thread.
+"""Between an event loop and other threads: a queue of calls for the loop, and waits for results.
 
 Waking a loop takes a system call, at which Python lets other threads run first. A tick in which a
 hundred agents sense would be interrupted a hundred times. So the loop is woken once for everything
@@ -8,8 +8,11 @@ that is in the queue by then.
 import asyncio
 from collections import deque
 from collections.abc import Callable
+from concurrent.futures import Future
 from threading import get_ident
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 MAX_CALLS_AT_ONCE = 16
 """Calls that are made in a row before the loop's other tasks have their turn."""
@@ -60,3 +63,14 @@ class LoopQueue:
 def queue_here(queue: LoopQueue | None) -> LoopQueue:
     """Return the queue if it is for the running loop, else a new one."""
     return queue if queue is not None and queue.is_running_loop() else LoopQueue()
+
+
+async def result_of(future: "Future[T]") -> T:
+    """Return a future's result, or raise its error.
+
+    The other thread goes on if the wait is cancelled, since the page has left. Nobody asks for the
+    error then; asyncio would write it into the log as one that was forgotten.
+    """
+    wrapped = asyncio.wrap_future(future)
+    wrapped.add_done_callback(lambda done: done.cancelled() or done.exception())
+    return await asyncio.shield(wrapped)

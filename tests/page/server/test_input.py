@@ -1,6 +1,8 @@
 """The input socket: worlds that are replaced, sticks, and pages that stop reading."""
 
 import asyncio
+import gc
+import threading
 from collections.abc import Iterator
 from typing import Any
 
@@ -158,3 +160,29 @@ def test_a_page_that_stops_reading_slows_nobody() -> None:
             other.hold("KeyS")
             other.receive("state", held=["KeyS"])
         other.receive("seat", pages=1)
+
+
+def test_a_reset_that_fails_after_its_page_has_left_writes_no_traceback(
+    room: Room, caplog: pytest.LogCaptureFixture
+) -> None:
+    begins, goes_on = threading.Event(), threading.Event()
+
+    def fail(_: BasicAgent) -> None:
+        begins.set()
+        assert goes_on.wait(LIMIT_S)
+        raise ValueError("of a student's block")
+
+    with room.page() as other:
+        with room.page() as page:
+            other.receive("seat", pages=2)
+            room.sim.agents[0].begin_of_episode.connect(fail)
+            page.send("do", id=0, command="reset")
+            assert begins.wait(LIMIT_S)
+        other.receive("seat", pages=1)
+        goes_on.set()
+        with pytest.raises(ValueError, match="of a student's block"):
+            room.runner.reset().result(LIMIT_S)
+        other.settle()
+        gc.collect()
+        other.settle()
+    assert "never retrieved" not in caplog.text
