@@ -17,7 +17,7 @@ PAGE_OPTIONS = ("ai4u_edu.explain_page",)
 ENV_PAGE = "ai4u_edu.room.env_page"
 """Shows an environment's world: ``EnvPage`` makes its :class:`LivePage`."""
 COURSE = "ai4u_edu.lessons.course"
-"""Has the lessons that a start page lists: ``lessons`` returns them."""
+"""Module of the lessons that a start page lists: ``lessons`` returns them."""
 DRIVERS = "ai4u_edu.learn.training.assigned"
 """Lets networks and programs drive in a world: ``with_drivers`` builds it."""
 

@@ -10,6 +10,7 @@ from gymnasium import spaces
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Actuator, Percept, Sensor
+from ai4u_edu.scenes.serialization import to_plain
 
 Observation = Any
 
@@ -105,6 +106,30 @@ def action_space_of(agent: BasicAgent) -> spaces.Space[Any]:
     """Return the space of the one actuator with ``is_output``, or a Dict of several."""
     each = {name: actuator.space() for name, actuator in outputs_of(agent).items()}
     return next(iter(each.values())) if len(each) == 1 else spaces.Dict(each)
+
+
+def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
+    """Return shape and type of each reading of a policy, in the order of the observation."""
+    slots = agent.bound_blocks.layout.slots
+    keys = [sensor.perception_key for sensor in agent.bound_blocks.sensors if sensor.is_input]
+    return {key: (slots[key].shape, slots[key].dtype) for key in keys if key in slots}
+
+
+def described_blocks(agent: BasicAgent) -> dict[str, Any]:
+    """Return what a network's file says of its agent: ``sensors`` and ``actuators``, by key."""
+    inputs = inputs_of(agent)
+    return {
+        "sensors": {
+            sensor.perception_key: to_plain(sensor)
+            | {"shape": list(inputs[sensor.perception_key][0])}
+            for sensor in agent.sensors
+            if sensor.perception_key in inputs
+        },
+        "actuators": {
+            name: to_plain(actuator) | {"space": str(actuator.space())}
+            for name, actuator in outputs_of(agent).items()
+        },
+    }
 
 
 def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:

@@ -34,10 +34,15 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES, TRAINING_KEY, VALUE_OUTPUT
-from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
+from ai4u_edu.learn.envs.spaces_of import (
+    Observer,
+    action_space_of,
+    described_blocks,
+    inputs_of,
+    outputs_of,
+)
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.neural_network import Mlp
-from ai4u_edu.scenes.serialization import to_plain
 
 OPSET = 18
 """Version of the list of operations."""
@@ -77,21 +82,15 @@ def network_bytes(network: ActorCritic, agent: BasicAgent, about: Mapping[str, A
 
     The same network and the same ``about`` give the same bytes.
     """
-    inputs = _inputs_of(agent)
-    ((output, actuator),) = outputs_of(agent).items()
+    inputs = inputs_of(agent)
+    (output,) = outputs_of(agent)
     model = _model(_graph(network, inputs, output))
     described = {
         **about,
         "version": __version__,
         "skip_frame": agent.brain.skip_frame,
         "repeat_action": agent.brain.repeat_action,
-        "sensors": {
-            sensor.perception_key: to_plain(sensor)
-            | {"shape": list(inputs[sensor.perception_key][0])}
-            for sensor in agent.sensors
-            if sensor.perception_key in inputs
-        },
-        "actuators": {output: to_plain(actuator) | {"space": str(actuator.space())}},
+        **described_blocks(agent),
         "hash": hashlib.sha256(model).hexdigest(),
     }
     entry = _message((1, TRAINING_KEY), (2, json.dumps(described, sort_keys=True)))
@@ -178,13 +177,6 @@ def _graph(
         (12, action),
         (12, _port(VALUE_OUTPUT, FLOAT, (1,))),
     )
-
-
-def _inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
-    """Return shape and type of each reading of a policy, in the order of the flat observation."""
-    slots = agent.bound_blocks.layout.slots
-    keys = [sensor.perception_key for sensor in agent.bound_blocks.sensors if sensor.is_input]
-    return {key: (slots[key].shape, slots[key].dtype) for key in keys}
 
 
 def _scaled_in(

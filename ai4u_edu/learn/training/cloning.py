@@ -19,15 +19,14 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import TRAINING_KEY
-from ai4u_edu.learn.envs.spaces_of import outputs_of
+from ai4u_edu.learn.envs.spaces_of import described_blocks, inputs_of, outputs_of
 from ai4u_edu.learn.training.algorithms import TORCH_THREADS
 from ai4u_edu.learn.training.demonstrations import demonstrations
-from ai4u_edu.learn.training.exporting import graph_of, inputs_of
+from ai4u_edu.learn.training.exporting import graph_of
 from ai4u_edu.learn.training.progress_bar import ProgressBar
 from ai4u_edu.learn.training.rays import RayNearness
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
-from ai4u_edu.scenes.serialization import to_plain
 
 LAYERS = (128, 128)
 RATE = 1e-3
@@ -267,18 +266,12 @@ def levels_of(agent: BasicAgent) -> list[int]:
 def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path: Path) -> None:
     """Write a network as ONNX, with metadata on its origin and its agent."""
     inputs = inputs_of(agent)
-    ((output, actuator),) = outputs_of(agent).items()
+    (output,) = outputs_of(agent)
     graph = graph_of(cast(Any, network.eval()), inputs, output)
     graph.producer_name, graph.producer_version = "ai4u-edu", __version__
     told = about | {
         "version": __version__,
-        "sensors": {
-            sensor.perception_key: to_plain(sensor)
-            | {"shape": list(inputs[sensor.perception_key][0])}
-            for sensor in agent.sensors
-            if sensor.perception_key in inputs
-        },
-        "actuators": {output: to_plain(actuator) | {"space": str(actuator.space())}},
+        **described_blocks(agent),
         "hash": hashlib.sha256(graph.SerializeToString(deterministic=True)).hexdigest(),
     }
     entry = graph.metadata_props.add()

@@ -17,17 +17,15 @@ import torch
 from gymnasium import spaces
 from stable_baselines3.common.base_class import BaseAlgorithm
 
-from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import TRAINING_KEY, VALUE_OUTPUT
-from ai4u_edu.learn.envs.spaces_of import outputs_of
+from ai4u_edu.learn.envs.spaces_of import described_blocks, inputs_of, outputs_of
 from ai4u_edu.learn.training.network import PolicyModule
 from ai4u_edu.learn.training.prepare import prepare
 from ai4u_edu.learn.training.run import Config
 from ai4u_edu.learn.training.worlds import table_for
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.serialization import to_plain
 
 OPSET = 18
 
@@ -70,13 +68,7 @@ class Exported:
             "seed": config.seed,
             "skip_frame": agent.brain.skip_frame,
             "repeat_action": agent.brain.repeat_action,
-            "sensors": {
-                sensor.perception_key: to_plain(sensor)
-                | {"shape": list(inputs[sensor.perception_key][0])}
-                for sensor in agent.sensors
-                if sensor.perception_key in inputs
-            },
-            "actuators": {output: to_plain(actuator) | {"space": str(space)}},
+            **described_blocks(agent),
         }
 
     def write(self, path: Path) -> Path:
@@ -97,19 +89,6 @@ def export(
 ) -> Path:
     """Write a model as an ONNX file; see :class:`Exported`."""
     return Exported(model, scene, config, with_critic=with_critic).write(path)
-
-
-def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:
-    """Return shape and type of each reading of a policy, in the order of the observation."""
-    slots = agent.bound_blocks.layout.slots
-    return {
-        sensor.perception_key: (
-            slots[sensor.perception_key].shape,
-            slots[sensor.perception_key].dtype,
-        )
-        for sensor in agent.bound_blocks.sensors
-        if sensor.is_input and sensor.perception_key in slots
-    }
 
 
 def graph_of(

@@ -271,7 +271,7 @@ class EvalCallback(BaseCallback):  # type: ignore[misc]  # seen without its type
         super().__init__()
         self.checks = run.checks()
         self.enough = False
-        """Whether the last checks saw nothing but success."""
+        """True if the last checks saw nothing but success."""
         self._run = run
         self._settings = settings
         self._table = table

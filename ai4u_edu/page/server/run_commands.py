@@ -48,7 +48,7 @@ class RunCommand(NamedTuple):
     """The call that carries out a command, and the sentence about it."""
 
     submit: Callable[[Runner, Any], "Future[None]"]
-    """Has the runner carry it out."""
+    """Call that asks the runner to carry it out."""
     answer: Callable[[Any], str] = _nothing
     """Returns a sentence for the page's panel; empty if there is nothing to say."""
 
