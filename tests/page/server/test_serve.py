@@ -323,7 +323,12 @@ def knock(place: tuple[str, int], stack: ExitStack) -> list[socket.socket]:
 
 
 def read_to_the_end(connection: socket.socket) -> None:
-    """Read until the other side has closed; one that stays open ends in a TimeoutError."""
-    with suppress(ConnectionResetError):
+    """Read until the other side has closed; one that stays open ends in a TimeoutError.
+
+    It sends first: the system forgets, without a word, a connection whose last step of three came
+    while its listener closed, and resets it with the next that comes.
+    """
+    with suppress(ConnectionResetError, BrokenPipeError):
+        connection.sendall(b"G")
         while connection.recv(1000):  # a refusal, if there were too many
             pass
