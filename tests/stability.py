@@ -96,8 +96,9 @@ def repeat(options: argparse.Namespace) -> int:
             run = run_once(command, folder, options.log.parent)
             first, *others = run.lines()
             head = f"{now} {commit} {tier}, load {options.load}, {order}, run {number + 1}"
+            around = f"load average {os.getloadavg()[1]:.0f}"  # of five minutes, of all programs
             with options.log.open("a", encoding="utf-8") as log:
-                log.write("\n".join([f"{head}: {first}", *others, ""]))
+                log.write("\n".join([f"{head}: {first}, {around}", *others, ""]))
             is_green = is_green and run.code == 0
     return 0 if is_green else 1
 
