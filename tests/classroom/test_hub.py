@@ -172,21 +172,20 @@ def test_a_service_has_no_seat(hub: FakeHub, school: HubClass) -> None:
 def test_look_in_leads_to_the_students_own_server_only(school: HubClass) -> None:
     seat = school.seat(ADA).json()
 
+    (ours,) = (
+        each["number"] for each in school.state(ALAN)["seats"] if each["name"] == seat["name"]
+    )
+    room = f"seat-{ours}"
+
+    def can_look_in() -> bool:
+        return any(each["id"] == room and each["look_in"] for each in school.state(ALAN)["rooms"])
+
     def looked_in(page: str) -> httpx.Response:
+        until(lambda: not can_look_in())  # the page of the link before is forgotten
         with RawLink(school, ADA) as link, school.client(ALAN) as teacher:
             link.next(Welcome)
             link.send(state(page=page))
-            ours = [
-                each["number"]
-                for each in school.state(ALAN)["seats"]
-                if each["name"] == seat["name"]
-            ]
-            room = f"seat-{ours[0]}"
-            until(
-                lambda: any(
-                    each["id"] == room and each["look_in"] for each in school.state(ALAN)["rooms"]
-                )
-            )
+            until(can_look_in)
             return teacher.get(f"teacher/look/{room}")
 
     fine = looked_in("user/ada/proxy/4000/?token=abc-_")
