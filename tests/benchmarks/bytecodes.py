@@ -9,6 +9,7 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
@@ -65,13 +66,13 @@ def count_scene(scene: str, observation: str, decisions: int, resets: int, top: 
     steps = Count()
     for _ in range(decisions):
         action = env.action_space.sample()
-        _, _, terminated, truncated, _ = steps.run(lambda action=action: env.step(action))
+        _, _, terminated, truncated, _ = steps.run(partial(env.step, action))
         if terminated or truncated:
             env.reset()
     steps.show(f"{scene}, a decision", decisions, top)
     starts = Count()
     for seed in range(resets):
-        starts.run(lambda seed=seed: env.reset(seed=seed))
+        starts.run(partial(env.reset, seed=seed))
     starts.show(f"{scene}, a reset", resets, top)
 
 
