@@ -105,7 +105,7 @@ def _way_over(
     world.add_floor("floor", shape)
     robot = robot_in(world)
     robot.set_velocity(*speed)
-    way = []
+    way: list[tuple[float, ...]] = []
     while robot.z > -1.0:
         world.tick()
         way.append(robot.pose)
