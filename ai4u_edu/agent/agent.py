@@ -105,7 +105,8 @@ class BasicAgent(Parameterized):
         self.last_action: dict[str, Numbers] = {}
         self._action_handler: Callable[..., None] | None = None
         self._requestor: ReferenceType[object] | None = None
-        self._bound_blocks: BoundBlocks | None = None
+        self.bound_blocks_or_none: BoundBlocks | None = None
+        """The blocks bound to the body; None before :meth:`setup`."""
         self._percept: Percept | None = None
         self._done_requested = False
         self._status_read = (0.0, False, False)
@@ -129,16 +130,11 @@ class BasicAgent(Parameterized):
     @property
     def bound_blocks(self) -> BoundBlocks:
         """The blocks bound to the body; made by :meth:`setup`."""
-        if self._bound_blocks is None:
+        if self.bound_blocks_or_none is None:
             raise SetupError(
                 f"agent {self.id!r} is in no world yet; expected ControlRequestor(world, [agent])"
             )
-        return self._bound_blocks
-
-    @property
-    def bound_blocks_or_none(self) -> BoundBlocks | None:
-        """The blocks bound to the body; None before :meth:`setup`."""
-        return self._bound_blocks
+        return self.bound_blocks_or_none
 
     @property
     def requestor(self) -> object | None:
@@ -248,13 +244,14 @@ class BasicAgent(Parameterized):
         """
         self._add_optional_blocks()
         bound = BoundBlocks(self, world)
-        self._bound_blocks = bound  # blocks ask the agent for body and view while they are set up
+        # blocks ask the agent for body and view while they are set up
+        self.bound_blocks_or_none = bound
         bound.set_up(ready_brain=ready_brain)
         return bound
 
     def restore_blocks(self, bound: BoundBlocks) -> None:
         """Restore a binding after building a replacement failed."""
-        self._bound_blocks = bound
+        self.bound_blocks_or_none = bound
         bound.attach_sensors()
 
     def add_reward(self, amount: float, request_done: bool = False, name: str = HANDLERS) -> None:

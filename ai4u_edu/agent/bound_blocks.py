@@ -15,6 +15,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
+from operator import attrgetter
 from typing import Any, Protocol
 from weakref import ref
 
@@ -40,6 +41,7 @@ from ai4u_edu.world import BodyView, World, WorldView
 
 _OWNER = "_owner_ref"
 """Attribute of a block that refers to the agent that claimed it last."""
+_is_enabled = attrgetter("enabled")
 
 
 class _Owner(AgentView, Protocol):
@@ -139,7 +141,8 @@ class BoundBlocks:
         was_enabled, brain.enabled = brain.enabled, True
         try:
             self._set_up(brain)
-            self._reset(brain)
+            with self._error_context(brain, "was reset"):
+                brain.on_reset(self._agent, self.view)
         except BaseException:
             brain.enabled = was_enabled
             raise
@@ -159,7 +162,7 @@ class BoundBlocks:
             SetupError: none or several are enabled, or the brain does not fit the agent.
         """
         brains = self._agent.brains
-        if brains == self._known_brains and [each.enabled for each in brains] == self._switches:
+        if brains == self._known_brains and [*map(_is_enabled, brains)] == self._switches:
             return
         if isinstance(self.brain, _LostBrain):
             return
@@ -178,7 +181,7 @@ class BoundBlocks:
     def _remember_switches(self) -> None:
         """Note the agent's brains, and which of them are enabled while the present one drives."""
         self._known_brains = list(self._agent.brains)
-        self._switches = [brain.enabled for brain in self._known_brains]
+        self._switches = [*map(_is_enabled, self._known_brains)]
 
     @property
     def number_sensors(self) -> tuple[Sensor, ...]:
@@ -215,15 +218,21 @@ class BoundBlocks:
         """
         self._check_all_bound()
         self._check_fixed()
-        for reward in self.rewards:
-            self._reset(reward)
-        for sensor in self.sensors:
-            if sensor.resetable:
-                self._reset(sensor)
-            sensor.restart()
-        for actuator in self.actuators.values():
-            self._reset(actuator)
-        self._reset(self.brain)
+        agent, view = self._agent, self.view
+        block: Block | None = None
+        try:
+            for block in self.rewards:
+                block.on_reset(agent, view)
+            for sensor in self.sensors:
+                block = sensor
+                if sensor.resetable:
+                    sensor.on_reset(agent, view)
+                sensor.restart()
+            for block in (*self.actuators.values(), self.brain):
+                block.on_reset(agent, view)
+        except Exception as error:
+            self._raise_with_context(error, block, "was reset")
+            raise
 
     def _check_all_bound(self) -> None:
         agent, bound = self._agent, {id(block) for block in self.blocks}
@@ -355,27 +364,26 @@ class BoundBlocks:
         with self._error_context(block, "was set up"):
             block.on_setup(self._agent, self.view)
 
-    def _reset(self, block: Block) -> None:
-        with self._error_context(block, "was reset"):
-            block.on_reset(self._agent, self.view)
-
     @contextmanager
     def _error_context(self, block: Block | None, doing: str = "") -> Iterator[None]:
         """Add agent and block to an error that is raised inside."""
         try:
             yield
-        except AI4UError as error:
-            if isinstance(block, _LostBrain):
-                raise
+        except Exception as error:
+            self._raise_with_context(error, block, doing)
+            raise
+
+    def _raise_with_context(self, error: Exception, block: Block | None, doing: str) -> None:
+        """Add agent and block to an error; raise one of this package's as a BlockError."""
+        if not isinstance(error, AI4UError):
+            add_context(error, self._agent, block, doing)
+        elif not isinstance(block, _LostBrain):
             who = f"agent {self._agent.id!r}"
             problem = BlockError(
                 f"{who}, {block_label(block)}: {error}" if block else f"{who}: {error}"
             )
             problem.where = (self._agent, block or "body")
             raise problem from error
-        except Exception as error:
-            add_context(error, self._agent, block, doing)
-            raise
 
 
 class _LostBrain(Brain):

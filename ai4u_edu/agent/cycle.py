@@ -58,7 +58,7 @@ from ai4u_edu.agent.error_context import add_context
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
-from ai4u_edu.world import Body, World
+from ai4u_edu.world import World
 
 HOLD_LIMIT_S = 660.0
 """Time (s) for which a step waits for another agent's brain; a script may be silent for 600 s."""
@@ -336,9 +336,9 @@ class _DecisionCycle:
         agent = self.agent
         if agent.stopped:
             return None
-        bound = agent.bound_blocks
-        if bound is not self._bound:
+        if agent.bound_blocks_or_none is not self._bound:
             self.refresh_binding()
+        bound = self._bound
         bound.follow_switches()
         brain = bound.brain
         try:
@@ -388,18 +388,15 @@ class _DecisionCycle:
         agent, body = self.agent, self._bound.body
         if agent.begin_of_apply_action.handlers:
             agent.begin_of_apply_action.fire(agent)
-        self._act(body)
-        if agent.end_of_apply_action.handlers:
-            agent.end_of_apply_action.fire(agent)
-
-    def _act(self, body: Body) -> None:
         actuator: Actuator | None = None
         try:
             for actuator, numbers in self._action:
                 actuator.act(body, numbers)
         except Exception as error:
-            add_context(error, self.agent, actuator, "was acting")
+            add_context(error, agent, actuator, "was acting")
             raise
+        if agent.end_of_apply_action.handlers:
+            agent.end_of_apply_action.fire(agent)
 
     def advance(self) -> bool:
         """Count a tick and run the blocks' on_tick; after the last tick end the step and sense.
@@ -443,13 +440,22 @@ class _DecisionCycle:
     def run_to_end(self, world: World) -> int:
         """Run the rest of the step, with the same result as tick by tick; return the ticks."""
         began = world.ticks
-        body, tick = self._bound.body, world.tick
-        for index in range(self._tick, self._ticks):
-            if self._repeat or not index:
-                self._act(body)
-            tick()
-            if body.fallen:
-                break
+        body, tick, action = self._bound.body, world.tick, self._action
+        acting_ticks = self._ticks if self._repeat else 1
+        actuator: Actuator | None = None
+        try:
+            for index in range(self._tick, self._ticks):
+                if index < acting_ticks:
+                    for actuator, numbers in action:
+                        actuator.act(body, numbers)
+                    actuator = None  # an error of the tick is no actuator's
+                tick()
+                if body.fallen:
+                    break
+        except Exception as error:
+            if actuator is not None:
+                add_context(error, self.agent, actuator, "was acting")
+            raise
         ticks = world.ticks - began
         self._end()
         return ticks

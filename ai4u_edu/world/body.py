@@ -21,7 +21,7 @@ class _Physics(Protocol):
     """Protocol of what moves and joins bodies (Physics does)."""
 
     def launch(self, body: "Body", speed: float) -> None:
-        """Give a body an upward speed, m/s."""
+        """Give a body an upward speed, m/s; it leaves the ground."""
 
     def place(self, body: "Body", x: float, y: float, angle: float, z: float | None) -> None:
         """Put a body somewhere, at rest."""
@@ -118,6 +118,12 @@ class BodyView:
         return place.x, place.y, self.z, self.heading
 
     @property
+    def is_finite(self) -> bool:
+        """False once the physics went out of range: place or angle is infinite or no number."""
+        place = _position(self._handle)
+        return math.isfinite(place.x + place.y + _angle(self._handle))
+
+    @property
     def held(self) -> "BodyView | None":
         """The body that this one holds; None if it holds none."""
         return self._world._physics.held_by(self)
@@ -171,10 +177,11 @@ class Body(BodyView):
         _apply_force(self._handle, vector, _CENTRE)
 
     def jump(self, speed: float) -> None:
-        """Leave the ground with an upward speed in m/s."""
+        """Leave the ground with an upward speed in m/s; there a downward one has no effect."""
         if not math.isfinite(speed):
             self._refuse("jump speed", (speed,))
-        self._world._physics.launch(self, speed)
+        if speed > 0.0 or not self.on_ground:  # many actuators call this at each tick
+            self._world._physics.launch(self, speed)
 
     def hold(self, other: BodyView) -> None:
         """Fix another body to this one at its present place, until :meth:`release`.

@@ -16,7 +16,7 @@ from ai4u_edu.world.build import build
 from ai4u_edu.world.contacts import Contacts
 from ai4u_edu.world.descriptions import FloorDescription, WorldSettings
 from ai4u_edu.world.native import MOTION, release_space, step_function
-from ai4u_edu.world.region import SAME_HEIGHT_M, Ground, Region
+from ai4u_edu.world.region import SAME_HEIGHT_M, Ground, Inside, Region
 
 _position = MOTION.position  # looked up once: it is called for each mover at each tick
 
@@ -119,7 +119,7 @@ class Physics:
         self.height.forget(body)
 
     def launch(self, body: Body, speed: float) -> None:
-        """Give a body an upward speed (m/s); on the ground, a downward one has no effect."""
+        """Give a body an upward speed (m/s); it leaves the ground."""
         self.height.launch(body, speed)
 
     def hold(self, holder: BodyView, other: BodyView) -> None:
@@ -171,14 +171,15 @@ class Height:
         ground: function that returns the highest floor at a place; see :meth:`Ground.at`.
         movers: bodies to check at each tick: all that can move where there are floors to fall
             off, else only those in the air or on top of another body. Where it is empty, the
-            world's tick does not call :meth:`step`.
+            world's tick does not call :meth:`step`. Each has the rectangle of floor in which it
+            surely stands as long as it does not leave the ground; None if that is not known.
     """
 
     def __init__(self, physics: Physics) -> None:
         self._physics = physics
         self._ground = Ground()
         self.ground = self._ground.at
-        self.movers: dict[Body, None] = {}
+        self.movers: dict[Body, Inside | None] = {}
 
     def rebuild(self, floors: Iterable[tuple[FloorDescription, Region]]) -> None:
         """Start over with these floors and no movers."""
@@ -201,20 +202,25 @@ class Height:
         self.movers.pop(body, None)
 
     def launch(self, body: Body, speed: float) -> None:
-        """Give a body an upward speed; on the ground, a downward one has no effect."""
+        """Give a body an upward speed; it leaves the ground."""
         if body.fallen or not body.moves:
             return
         if body.on_ground:
-            if speed <= 0.0:
-                return
             self._set_on_ground(body, False)
         body.vz = speed
 
     def step(self, dt: float) -> None:
         """Move all movers vertically by one tick, after the step of the space."""
-        for body in tuple(self.movers):
+        for body, inside in tuple(self.movers.items()):
             if body.on_ground:
+                place = _position(body._handle)
+                x, y = place.x, place.y
+                if inside is not None:
+                    left, right, lower, upper = inside
+                    if left < x < right and lower < y < upper:
+                        continue
                 if self._is_supported(body):
+                    self.movers[body] = self._ground.inside(x, y, body.z)
                     continue
                 self._set_on_ground(body, False)
             self._fly(body, dt)

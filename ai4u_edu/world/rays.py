@@ -66,7 +66,7 @@ class _RayCaster:
         mask: int,
         exclude_self: bool,
     ) -> None:
-        self._world = world
+        self._world, self._physics = world, world._physics
         self.angles = np.asarray(angles, np.float64)
         self.reach = reach
         self.eye = eye
@@ -96,7 +96,7 @@ class _RayCaster:
 
     def _aim(self, body: BodyView, reach: float) -> None:
         """Turn the directions with the body and find the first hit of each in the plane."""
-        if self._generation != self._world.generation or self._looker is not body:
+        if self._generation != self._physics.generation or self._looker is not body:
             self._update(body)
         forward, left, up = self.eye
         place, heading = _position(body._handle), _angle(body._handle)
@@ -106,7 +106,7 @@ class _RayCaster:
         self.origin = x, y, body.z + up
         self._turn[()] = complex(cos, sin)
         multiply(self._spokes, self._turn, self._turned)
-        self._segments.cast(self._world.space, x, y, reach, self._filter)
+        self._segments.cast(self._physics.space, x, y, reach, self._filter)
 
     def _update(self, body: BodyView) -> None:
         """Look up the codes of everything, after each change of the world's contents."""
@@ -131,7 +131,7 @@ class _RayCaster:
 
     def _is_flat_scene(self) -> bool:
         """Return True if everything stands at height 0 and is at least as high as the eye."""
-        movers = self._world._physics.height.movers
+        movers = self._physics.height.movers
         return (
             self._flat
             and 0.0 <= self.origin[2] <= self._lowest_top
@@ -254,7 +254,7 @@ class RayGrid(_RayCaster):
         arrays = GridArrays(
             self._slopes, self._runs, self._reaches, self._cos, self.codes, self.distances
         )
-        self._compiled = compile_grid(arrays, self._segments, self._miss)
+        self._compiled = compile_grid(arrays, self._segments, self._flat_reach, self._miss)
 
     def last_cast(self) -> Cast:
         """Return a copy of the last cast."""
@@ -267,17 +267,15 @@ class RayGrid(_RayCaster):
             body: the body that carries the eye.
         """
         self._aim(body, self._flat_reach)
+        if self._compiled:
+            self._compiled.cast(self._physics.space, self.origin, *self._open_heights())
+            return
         # until the end, distances are those in the plane, and infinite without a hit
         codes, flat = self.codes, self.distances
-        if self._compiled:
-            if self._compiled.cast(self.origin, *self._open_heights()):
-                return
-            undecided = self._compiled.undecided
-        else:
-            codes.fill(self._miss)
-            flat.fill(math.inf)
-            self._enter_grounds()
-            undecided = self._enter_first_hits()
+        codes.fill(self._miss)
+        flat.fill(math.inf)
+        self._enter_grounds()
+        undecided = self._enter_first_hits()
         for column in np.flatnonzero(undecided.any(axis=0)).tolist():
             obstacles = self._cut(column, self._flat_reach)
             for row in np.flatnonzero(undecided[:, column]).tolist():

@@ -1,7 +1,7 @@
 """Floors and areas in world coordinates, and the ground that the floors form."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,12 @@ from ai4u_edu.world.shapes import BoxShape
 
 SAME_HEIGHT_M = 1e-9
 """Heights closer than this (metres) count as equal."""
+
+_RIM_M = 1e-6
+"""Width of a floor's rim (metres) that is looked at exactly: more than any rounding error."""
+
+Inside = tuple[float, float, float, float]
+"""Left, right, lower and upper limit of a rectangle, metres."""
 
 
 class Region:
@@ -30,13 +36,12 @@ class Region:
         self.cos, self.sin = math.cos(heading), math.sin(heading)
         self._contains: Callable[[Any, Any], Any] = description.shape.contains
         shape = description.shape
-        self._box = shape.size if isinstance(shape, BoxShape) and heading == 0.0 else None
+        self.box = shape.size if isinstance(shape, BoxShape) and heading == 0.0 else None
 
     def contains(self, x: float, y: float) -> bool:
         """Return True if a point of the world (metres) lies in the region or on its rim."""
-        if self._box is not None:
-            # most floors are boxes that are not turned, and each mover tests its floor at each tick
-            return 2 * abs(x - self.x) <= self._box[0] and 2 * abs(y - self.y) <= self._box[1]
+        if self.box is not None:
+            return 2 * abs(x - self.x) <= self.box[0] and 2 * abs(y - self.y) <= self.box[1]
         inside: bool = self._contains(*self._to_local(x, y))
         return inside
 
@@ -44,8 +49,8 @@ class Region:
         self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]
     ) -> npt.NDArray[np.bool_]:
         """Return :meth:`contains` for many points, given as arrays of the same shape."""
-        if self._box is not None:
-            a, b = self._box
+        if self.box is not None:
+            a, b = self.box
             upright: npt.NDArray[np.bool_] = np.abs(x - self.x) * 2 <= a
             upright &= np.abs(y - self.y) * 2 <= b
             return upright
@@ -77,6 +82,7 @@ class Ground:
 
     def __init__(self, floors: Iterable[tuple[float, Region]] = ()) -> None:
         self.floors = sorted(floors, key=lambda pair: -pair[0])
+        self._insides = list(self._find_insides())
 
     def at(self, x: float, y: float, below: float = float("inf")) -> float | None:
         """Return the highest floor at a place that is not above ``below``; None over the void."""
@@ -86,3 +92,23 @@ class Ground:
             if top <= below + SAME_HEIGHT_M and region.contains(x, y):
                 return top
         return None
+
+    def inside(self, x: float, y: float, z: float) -> Inside | None:
+        """Return a rectangle around a place in which :meth:`at` of ``z`` is ``z`` everywhere.
+
+        Most floors are boxes that are not turned, and each body on them asks at each tick whether
+        it still stands there. Other floors, and a floor's rim, give None.
+        """
+        for top, inside in self._insides:
+            if top == z and inside[0] < x < inside[1] and inside[2] < y < inside[3]:
+                return inside
+        return None
+
+    def _find_insides(self) -> Iterator[tuple[float, Inside]]:
+        for top, region in self.floors:
+            # at() would give the top of a floor that is higher by a rounding error
+            is_highest = not any(top < other <= top + SAME_HEIGHT_M for other, _ in self.floors)
+            if region.box and is_highest:
+                (x, y), (width, depth) = (region.x, region.y), region.box
+                across, along = width / 2 - _RIM_M, depth / 2 - _RIM_M
+                yield top, (x - across, x + across, y - along, y + along)

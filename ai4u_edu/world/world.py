@@ -399,8 +399,8 @@ class World:
 
     def _check_finite(self) -> None:
         for body in self._registry.bodies.values():
-            x, y, _, heading = body.pose
-            if not math.isfinite(x + y + heading):
+            if not body.is_finite:
+                x, y = body.position
                 raise WorldError(
                     f"body {body.name!r} is at ({x}, {y}): the physics went out of range; "
                     "are masses or speeds extreme?"

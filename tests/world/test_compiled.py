@@ -27,7 +27,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_it_is_loaded_from_the_package(package: Path) -> None:
     made = library()
     assert made is not None
-    assert all(hasattr(made, name) for name in ("cast_fan", "look"))
+    assert all(hasattr(made, name) for name in ("cast_fan", "look", "look_behind"))
     assert Path(made._name).parent == package
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ai4u_edu.world import BoxShape, CircleShape, World
+from ai4u_edu.world import BoxShape, CircleShape, PolygonShape, World
 from tests.world.driving import LOOSE, drive, land, robot_in, walk_off
 
 
@@ -87,3 +87,26 @@ def test_a_step_up_needs_a_jump() -> None:
     robot.jump(3.5)
     drive(world, robot, 60, 2.0)
     assert (robot.z, robot.on_ground) == (0.3, True)
+
+
+@pytest.mark.parametrize("speed", [(3.0, 1.0), (-3.0, 0.1), (0.5, -3.0)])
+def test_a_box_of_floor_carries_like_the_same_polygon(speed: tuple[float, float]) -> None:
+    polygon = PolygonShape(vertices=((-2.0, -1.5), (2.0, -1.5), (2.0, 1.5), (-2.0, 1.5)))
+    ways = [_way_over(BoxShape(size=(4, 3)), speed), _way_over(polygon, speed)]
+    assert ways[0] == ways[1], "a box is looked up faster, and nothing else"
+    assert ways[0][-1][2] < 0.0, "it went over the edge"
+
+
+def _way_over(
+    shape: BoxShape | PolygonShape, speed: tuple[float, float]
+) -> list[tuple[float, ...]]:
+    """Return the poses of a robot that rolls over a floor's edge, tick by tick."""
+    world = World(damping=LOOSE)
+    world.add_floor("floor", shape)
+    robot = robot_in(world)
+    robot.set_velocity(*speed)
+    way: list[tuple[float, ...]] = []
+    while robot.z > -1.0:
+        world.tick()
+        way.append(robot.pose)
+    return way

@@ -48,6 +48,12 @@ class Observer:
         )
         slots = agent.bound_blocks.layout.slots
         self._slots = {key: slots[key] for key in self._keys if key in slots}
+        self._arrays = {
+            key: (slot.shape, slot.dtype, slot.offset)
+            for key, slot in self._slots.items()
+            if slot.shape
+        }
+        self._plain = [key for key in self._keys if key not in self._arrays]
         floats = [slot for slot in self._slots.values() if slot.dtype == np.float32]
         # inputs lie first and side by side in a percept, so all-float ones are one run of bytes
         self._run = (sum(slot.size for slot in floats),) if len(floats) == len(each) else None
@@ -57,7 +63,13 @@ class Observer:
         if self.image:
             return _own(percept[self.image])
         if not self.flat:
-            return {key: _own(percept[key]) for key in self._keys}
+            data = bytearray(percept.data)  # one copy, in which all arrays lie
+            observation: dict[str, Any] = {}
+            for key, (shape, dtype, offset) in self._arrays.items():
+                observation[key] = np.ndarray(shape, dtype, data, offset)
+            for key in self._plain:
+                observation[key] = _own(percept[key])
+            return observation
         if self._run:
             return np.ndarray(self._run, _FLOAT, percept.data).copy()
         parts = [np.asarray(percept[key], np.float32).ravel() for key in self._keys]

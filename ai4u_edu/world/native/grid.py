@@ -6,9 +6,10 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
+import pymunk
 
 from ai4u_edu.world.native.chipmunk import compiled_function
-from ai4u_edu.world.native.segments import CompiledSegments, Segments
+from ai4u_edu.world.native.segments import CompiledSegments, Segments, query_address
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import (
     BoxShape,
@@ -20,7 +21,9 @@ from ai4u_edu.world.shapes import (
 )
 
 _GRID, _FLOOR = Struct("=4q10Qd3Q"), Struct("=2q8dQ")  # Grid and Floor in rays.c
+_BEHIND = Struct("=3QdQ")  # Behind in rays.c
 _LOOK = "long long (*)(void *, double, double, double, double, double)"
+_LOOK_BEHIND = "void (*)(void *, void *, void *, double, double, double)"
 
 Floats = npt.NDArray[np.float64]
 
@@ -53,32 +56,47 @@ class GridArrays(NamedTuple):
     """(m, n) metres along the ray."""
 
 
-def compile_grid(arrays: GridArrays, columns: Segments, miss: float) -> "CompiledGrid | None":
+def compile_grid(
+    arrays: GridArrays, columns: Segments, reach: float, miss: float
+) -> "CompiledGrid | None":
     """Return the compiled form of a grid; None where the library is missing.
 
     Args:
         arrays: the grid's arrays.
         columns: the segments that its columns cast in the plane.
+        reach: their length, metres.
         miss: code of a ray that meets nothing.
     """
     look = compiled_function("look", _LOOK)
-    if not isinstance(columns, CompiledSegments) or look is None:
+    look_behind = compiled_function("look_behind", _LOOK_BEHIND)
+    if not isinstance(columns, CompiledSegments) or look is None or look_behind is None:
         return None
-    return CompiledGrid(arrays, columns, miss, look)
+    return CompiledGrid(arrays, columns, reach, miss, look, look_behind)
 
 
 class CompiledGrid:
-    """Fills the codes and distances of a grid in one call; made by :func:`compile_grid`.
+    """Fills the codes and distances of a grid; made by :func:`compile_grid`.
 
-    Attributes:
-        undecided: (m, n) bool: rays that may meet more than the first body of their column.
+    One call decides all rays by the first body of their column; a second one those that may meet
+    another body behind or on top of it.
     """
 
     def __init__(
-        self, arrays: GridArrays, columns: CompiledSegments, miss: float, look: Any
+        self,
+        arrays: GridArrays,
+        columns: CompiledSegments,
+        reach: float,
+        miss: float,
+        look: Any,
+        look_behind: Any,
     ) -> None:
-        self._arrays, self._columns, self._miss, self._look = arrays, columns, miss, look
-        self.undecided = np.zeros(arrays.codes.shape, np.bool_)
+        undecided = np.zeros(arrays.codes.shape, np.bool_)
+        self._own = arrays, columns, undecided  # kept alive, since C has their addresses
+        self._reach, self._miss, self._look, self._look_behind = reach, miss, look, look_behind
+        # a reset packs them again, and to ask an array for its address takes a microsecond
+        self._inputs = (*map(_address, arrays[:4]), *columns.arrays)
+        self._outputs = (*map(_address, (arrays.codes, arrays.distances, undecided)),)
+        self._queries = query_address("cpSpaceSegmentQuery"), query_address("cpShapeSegmentQuery")
         self._movers: list[tuple[int, _Solid]] = []
 
     def update(
@@ -104,37 +122,38 @@ class CompiledGrid:
         ).reshape(-1, 3)
         self._movers = [(i, each) for i, each in enumerate(bodies.values()) if each.moves]
         self._heights: Any = self._heights_and_codes.reshape(-1).data
-        arrays, where = self._arrays, self._address
+        (arrays, columns, _), where = self._own, self._kept_address
         self._job = _GRID.pack(
             *arrays.codes.shape,
             len(grounds),
             len(bodies),
-            *map(where, arrays[:4]),
-            *self._columns.addresses(),
+            *self._inputs,
             where(np.frombuffer(floors, np.uint8)),
             where(shapes),
             where(self._heights_and_codes),
             self._miss,
-            *map(where, (arrays.codes, arrays.distances, self.undecided)),
+            *self._outputs,
         )
+        obstacles = where(np.zeros((len(bodies), 5)))
+        self._behind = _BEHIND.pack(*self._queries, columns.address, self._reach, obstacles)
 
-    def cast(self, eye: tuple[float, float, float], bottom: float, ceiling: float) -> bool:
+    def cast(
+        self, space: pymunk.Space, eye: tuple[float, float, float], bottom: float, ceiling: float
+    ) -> None:
         """Fill codes and distances.
 
         Args:
+            space: the space in which the columns were cast.
             eye: its position, metres.
             bottom: height from which a ray may meet something behind the first body, metres.
             ceiling: height up to which it may.
-
-        Returns:
-            True if all is done; else some rays are ``undecided``, and all distances are still
-            those in the plane, infinite for a ray that meets nothing.
         """
         heights = self._heights
         for i, body in self._movers:  # the others have not moved since the last update
             heights[3 * i] = z = body.z
             heights[3 * i + 1] = z + body.height
-        return not self._look(self._job, *eye, bottom, ceiling)
+        if self._look(self._job, *eye, bottom, ceiling):
+            self._look_behind(self._behind, self._job, space._space, *eye)
 
     def _floor(self, top: float, region: Region | None, code: float) -> bytes:
         if region is None:  # endless ground
@@ -143,13 +162,17 @@ class CompiledGrid:
         kind, a, b = _lengths(shape)
         corners = np.array(shape.vertices if isinstance(shape, PolygonShape) else [(0.0, 0.0)])
         place = region.x, region.y, region.cos, region.sin
-        return _FLOOR.pack(kind, len(corners), top, code, *place, a, b, self._address(corners))
+        return _FLOOR.pack(kind, len(corners), top, code, *place, a, b, self._kept_address(corners))
 
-    def _address(self, array: Any) -> int:
-        """Return the address of an array, and keep the array alive."""
+    def _kept_address(self, array: Any) -> int:
+        """Return the address of an array, and keep the array alive until the next update."""
         self._kept.append(array)
-        where: int = array.ctypes.data
-        return where
+        return _address(array)
+
+
+def _address(array: Any) -> int:
+    where: int = array.ctypes.data
+    return where
 
 
 def _lengths(shape: RegionShape) -> tuple[int, float, float]:

@@ -36,6 +36,10 @@ typedef struct {
 _Static_assert(sizeof(Filter) == 16 && sizeof(Hit) == 48, "not laid out as Chipmunk does");
 
 typedef void *(*Query)(void *space, Vect start, Vect end, double radius, Filter filter, Hit *hit);
+typedef void (*OnHit)(void *shape, Vect point, Vect normal, double alpha, void *data);
+typedef void (*QueryAll)(void *space, Vect start, Vect end, double radius, Filter filter,
+                         OnHit on_hit, void *data);
+typedef unsigned char (*QueryShape)(void *shape, Vect start, Vect end, double radius, Hit *hit);
 
 typedef struct {
     Query query;
@@ -57,7 +61,7 @@ EXPORT void cast_fan(Fan *fan, void *space, double x, double y, double reach) {
     }
 }
 
-/* The perspective grid: the same as RayGrid in ray_grid.py, cell by cell. */
+/* The perspective grid: the same as RayGrid in rays.py, cell by cell. */
 
 enum { ENDLESS, CIRCLE, BOX, POLYGON, CAPSULE, RING };
 
@@ -140,6 +144,19 @@ static double ground(const Grid *grid, int64_t row, Vect way, Vect eye, double u
     return nearest;
 }
 
+/* Makes the distances those along the rays, once all rays are decided. */
+static void finish(Grid *grid) {
+    for (int64_t row = 0; row < grid->rows; row++)
+        for (int64_t column = 0; column < grid->columns; column++) {
+            const int64_t cell = row * grid->columns + column;
+            if (grid->distances[cell] > grid->reaches[row]) {
+                grid->codes[cell] = grid->miss;
+                grid->distances[cell] = 0.0;
+            }
+            grid->distances[cell] /= grid->cosines[row];
+        }
+}
+
 /* Fills codes and distances. Rays that may meet a body behind the first one of their column, between
  * bottom and ceiling, are left undecided; returns their number. If there are any, the distances are
  * those in the plane. */
@@ -169,16 +186,99 @@ EXPORT int64_t look(Grid *grid, double x, double y, double up, double bottom, do
             grid->distances[cell] = far;
         }
     }
-    if (open)
-        return open;
-    for (int64_t row = 0; row < grid->rows; row++)
-        for (int64_t column = 0; column < grid->columns; column++) {
+    if (!open)
+        finish(grid);
+    return open;
+}
+
+/* A body in the vertical plane through the eye and a column of rays. */
+typedef struct {
+    double near, far, low, high, code;
+} Obstacle;
+
+typedef struct {
+    QueryAll query_all;
+    QueryShape query_shape;
+    const Fan *fan;
+    double reach;
+    Obstacle *obstacles;
+} Behind;
+
+typedef struct {
+    const Behind *behind;
+    const Grid *grid;
+    Vect start, end;
+    int64_t count;
+} Plane;
+
+/* Returns 1 if one obstacle comes before another one: they are sorted as Python sorts tuples. */
+static int is_before(const Obstacle *one, const Obstacle *other) {
+    if (one->near != other->near)
+        return one->near < other->near;
+    if (one->far != other->far)
+        return one->far < other->far;
+    if (one->low != other->low)
+        return one->low < other->low;
+    if (one->high != other->high)
+        return one->high < other->high;
+    return one->code < other->code;
+}
+
+/* Chipmunk calls it with each shape between the ends of a plane. */
+static void add_obstacle(void *shape, Vect point, Vect normal, double alpha, void *data) {
+    (void)point, (void)normal;
+    Plane *plane = data;
+    const Behind *behind = plane->behind;
+    const Thing *thing = find(plane->grid, shape);
+    if (!thing || plane->count == plane->grid->things)
+        return;
+    Hit back;
+    const int leaves = behind->query_shape(shape, plane->end, plane->start, 0.0, &back);
+    const double share = leaves ? 1.0 - back.alpha : alpha;
+    const Obstacle met = {alpha * behind->reach, share * behind->reach, thing->low, thing->high,
+                          thing->code};
+    int64_t i = plane->count++;
+    for (; i && is_before(&met, behind->obstacles + i - 1); i--)
+        behind->obstacles[i] = behind->obstacles[i - 1];
+    behind->obstacles[i] = met;
+}
+
+/* Returns the distance in the plane at which a ray enters an obstacle, or infinity. */
+static double meet(const Obstacle *obstacle, double up, double slope) {
+    if (slope == 0.0)
+        return obstacle->low <= up && up <= obstacle->high ? obstacle->near : INFINITY;
+    const double a = (obstacle->low - up) / slope, b = (obstacle->high - up) / slope;
+    const double first = b < a ? b : a, last = b > a ? b : a;
+    const double enter = first > obstacle->near ? first : obstacle->near;
+    const double leave = last < obstacle->far ? last : obstacle->far;
+    return enter <= leave ? enter : INFINITY;
+}
+
+/* Decides the rays that look() left undecided, by all bodies in the planes of their columns. */
+EXPORT void look_behind(const Behind *behind, Grid *grid, void *space, double x, double y,
+                        double up) {
+    const Vect eye = {x, y};
+    for (int64_t column = 0; column < grid->columns; column++) {
+        Plane plane = {behind, grid, eye, eye, -1};
+        for (int64_t row = 0; row < grid->rows; row++) {
             const int64_t cell = row * grid->columns + column;
-            if (grid->distances[cell] > grid->reaches[row]) {
-                grid->codes[cell] = grid->miss;
-                grid->distances[cell] = 0.0;
+            if (!grid->undecided[cell])
+                continue;
+            if (plane.count < 0) {
+                const Vect way = grid->directions[column];
+                plane.end = (Vect){way.x * behind->reach + x, way.y * behind->reach + y};
+                plane.count = 0;
+                behind->query_all(space, eye, plane.end, 0.0, behind->fan->filter, add_obstacle,
+                                  &plane);
             }
-            grid->distances[cell] /= grid->cosines[row];
+            for (int64_t i = 0; i < plane.count; i++) {
+                const double at = meet(behind->obstacles + i, up, grid->slopes[row]);
+                if (at < grid->distances[cell]) {
+                    grid->codes[cell] = behind->obstacles[i].code;
+                    grid->distances[cell] = at;
+                }
+            }
         }
-    return 0;
+    }
+    finish(grid);
 }

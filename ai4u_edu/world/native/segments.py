@@ -26,10 +26,20 @@ _HIT = np.dtype(
     [("shape", "u8"), ("px", "f8"), ("py", "f8"), ("nx", "f8"), ("ny", "f8"), ("alpha", "f8")]
 )
 _FAN = Struct("=QqQIIQQQ")  # Fan in rays.c
-_QUERY = (
-    "struct cpShape *(*)(struct cpSpace *, struct cpVect, struct cpVect, double, "
-    "struct cpShapeFilter, struct cpSegmentQueryInfo *)"
-)
+_QUERIES = {
+    "cpSpaceSegmentQueryFirst": (
+        "struct cpShape *(*)(struct cpSpace *, struct cpVect, struct cpVect, double, "
+        "struct cpShapeFilter, struct cpSegmentQueryInfo *)"
+    ),
+    "cpSpaceSegmentQuery": (
+        "void(*)(struct cpSpace *, struct cpVect, struct cpVect, double, struct cpShapeFilter, "
+        "void(*)(struct cpShape *, struct cpVect, struct cpVect, double, void *), void *)"
+    ),
+    "cpShapeSegmentQuery": (
+        "unsigned char(*)(struct cpShape *, struct cpVect, struct cpVect, double, "
+        "struct cpSegmentQueryInfo *)"
+    ),
+}
 _LAYOUT = {
     "cpVect": (16, {"x": 0, "y": 8}),
     "cpShapeFilter": (16, {"group": 0, "categories": 8, "mask": 12}),
@@ -123,12 +133,24 @@ class CffiSegments(Segments):
 
 
 class CompiledSegments(CffiSegments):
-    """The same in one call of a loop in C; only where :func:`compiled_cast` finds it."""
+    """The same in one call of a loop in C; only where :func:`compiled_cast` finds it.
+
+    Attributes:
+        address: of the Fan in rays.c, for other compiled functions.
+        arrays: addresses of directions, hits and distances, likewise.
+    """
 
     def _prepare(self) -> None:
         self._call = compiled_cast()
+        self._query = query_address("cpSpaceSegmentQueryFirst")
         self._fan = ffi.new("char[]", _FAN.size)
         self._memory = ffi.buffer(self._fan)
+        self.address = address_of(self._fan)
+        self.arrays = (
+            self.directions.ctypes.data,
+            address_of(self._hit_memory),
+            self.distances.ctypes.data,
+        )
 
     def cast(
         self, space: pymunk.Space, x: float, y: float, reach: float, accept: pymunk.ShapeFilter
@@ -136,18 +158,8 @@ class CompiledSegments(CffiSegments):
         """Cast all segments: fill ``alpha``, ``distances`` and the result of :meth:`shapes`."""
         if accept is not self._accept:
             self._accept = accept
-            self._memory[:] = _FAN.pack(
-                address_of(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")),
-                len(self.directions),
-                *accept,
-                *self.addresses(),
-            )
+            self._memory[:] = _FAN.pack(self._query, len(self.directions), *accept, *self.arrays)
         self._call(self._fan, space._space, x, y, reach)
-
-    def addresses(self) -> tuple[int, int, int]:
-        """Return the addresses of directions, hits and distances, for other compiled functions."""
-        hits = address_of(self._hit_memory)
-        return self.directions.ctypes.data, hits, self.distances.ctypes.data
 
 
 def make_segments(count: int) -> Segments:
@@ -166,17 +178,23 @@ def is_compiled() -> bool:
 def compiled_cast() -> Any:
     """Return the loop in C, called as (fan, space, x, y, reach); None where it is not available.
 
-    It calls Chipmunk's query by its address, so it is used only if the query has the known type.
+    It calls Chipmunk's queries by their addresses, so it is used only if they have the known types.
     """
     if not _is_known():
         return None
     return compiled_function("cast_fan", "void (*)(void *, void *, double, double, double)")
 
 
+def query_address(name: str) -> int:
+    """Return the address of one of Chipmunk's queries, for the compiled functions."""
+    return address_of(ffi.addressof(lib, name))
+
+
 def _is_known() -> bool:
     """Return True if pymunk's declarations are those that rays.c was written for."""
-    query = ffi.typeof(ffi.addressof(lib, "cpSpaceSegmentQueryFirst")).cname
-    return query == _QUERY and all(
+    return all(
+        ffi.typeof(ffi.addressof(lib, name)).cname == form for name, form in _QUERIES.items()
+    ) and all(
         ffi.sizeof(name) == size
         and len(ffi.typeof(name).fields) == len(offsets)
         and all(ffi.offsetof(name, field) == offset for field, offset in offsets.items())
