@@ -26,7 +26,6 @@ USES = {
     "hub": "a class on a JupyterHub",
     "lessons": "the course of notebooks",
     "multi": "PettingZoo's interface",
-    "onnx": "running trained networks",
     "ray": "jobs on several machines",
     "sweep": "comparing many trainings",
     "tournament": "tournaments of networks and programs",
