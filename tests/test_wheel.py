@@ -204,6 +204,11 @@ def test_a_network_drives_and_is_explained(installed: list[str | Path], tmp_path
     assert ran(installed, MAPS, tmp_path) == "(9, 4)\n(4,)\n"
 
 
+def test_an_agent_learns_with_numpy_alone(installed: list[str | Path], tmp_path: Path) -> None:
+    words = ("train", "box_chase", "--trainer", "small", "--steps", "512", "--out", "run")
+    assert "kept run/best.onnx" in ran(installed, command(*words), tmp_path).replace(os.sep, "/")
+
+
 @pytest.mark.nightly
 @pytest.mark.parametrize("option", OPTIONS)
 def test_it_works_without_the_folders_of_an_option(
