@@ -29,7 +29,7 @@ USES = {
     "ray": "jobs on several machines",
     "sweep": "comparing many trainings",
     "tournament": "tournaments of networks and programs",
-    "train": "training networks",
+    "train": "training networks with Stable-Baselines3",
     "video": "episodes as MP4",
 }
 """Purpose of each extra."""

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -147,17 +148,19 @@ def test_a_clone_of_the_command_line_says_how_good_it_is(scene: str, tmp_path: P
     assert "c.onnx" in done.output
 
 
-def test_what_only_one_of_the_trainers_takes(scene: str, tmp_path: Path) -> None:
-    for arguments, message in (
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
         ({"trainer": "smal"}, "trainer: expected one of sb3, small, got 'smal'; did you mean"),
         ({"trainer": "small", "algo": "sac"}, "algo: the trainer 'small' has no such choice"),
         ({"trainer": "small", "watch": True}, "watch: the trainer 'small' has no such choice"),
         ({"trainer": "sb3", "begin_with": "a.onnx"}, "begin_with: the trainer 'sb3' has no such"),
-        (
-            {"reward_weights": {"toch": 2.0}},
-            "no reward term is called 'toch'; did you mean",
-        ),
-    ):
-        with pytest.raises(SetupError, match=message):
-            train(scene, out=tmp_path / "run", quiet=True, **arguments)  # type: ignore[arg-type]
+        ({"reward_weights": {"toch": 2.0}}, "no reward term is called 'toch'; did you mean"),
+    ],
+)
+def test_what_only_one_of_the_trainers_takes(
+    scene: str, tmp_path: Path, arguments: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(SetupError, match=message):
+        train(scene, out=tmp_path / "run", quiet=True, **arguments)
     assert not (tmp_path / "run").exists()
