@@ -23,6 +23,11 @@ sim.reset()
 for _ in range(50):
     sim.step()
 """
+MAPS = """
+from ai4u_edu import explain
+print(explain.field("zoo:box_chase", "box_chase", columns=3).actions.shape)
+print(explain.value_map("zoo:box_chase", "box_chase", columns=2).values.shape)
+"""
 
 CHECKSUM = """
 import hashlib
@@ -191,6 +196,17 @@ def test_the_command_lists_the_scenes(installed: list[str | Path], tmp_path: Pat
 
 def test_an_episode_runs_without_a_browser(installed: list[str | Path], tmp_path: Path) -> None:
     ran(installed, EPISODE, tmp_path)
+
+
+def test_a_network_drives_and_is_explained(installed: list[str | Path], tmp_path: Path) -> None:
+    words = ("evaluate", "box_chase", "--brain", "zoo", "--episodes", "2")
+    assert "zoo:box_chase     100%" in ran(installed, command(*words), tmp_path)
+    assert ran(installed, MAPS, tmp_path) == "(9, 4)\n(4,)\n"
+
+
+def test_an_agent_learns_with_numpy_alone(installed: list[str | Path], tmp_path: Path) -> None:
+    words = ("train", "box_chase", "--trainer", "small", "--steps", "512", "--out", "run")
+    assert "kept run/best.onnx" in ran(installed, command(*words), tmp_path).replace(os.sep, "/")
 
 
 @pytest.mark.nightly

@@ -1,7 +1,6 @@
 """Checks for optional packages, with a hint how to install them.
 
-The extra ``train`` is for learning, ``onnx`` for running a trained network; the rest of the package
-needs neither.
+None is needed to play, to run a trained network, or to learn with NumPy alone.
 """
 
 import sys

@@ -21,6 +21,9 @@ COURSE = "ai4u_edu.lessons.course"
 DRIVERS = "ai4u_edu.learn.training.assigned"
 """Lets networks and programs drive in a world: ``with_drivers`` builds it."""
 
+SMALL_TRAINER = "ai4u_edu.learn.small_trainer"
+"""Learns from rewards and from drives with NumPy alone: ``train``, ``resume``, ``clone``."""
+
 
 class MissingOptionError(SetupError):
     """An option can't be imported; the text says what needs it, and how to get it."""

@@ -19,10 +19,7 @@ from ai4u_edu.base.version import __version__
 FILES = "ai4u_edu.cli.bundle_files"
 SCRIPTS = {"start.py": "\n", "start.sh": "\n", "start.command": "\n", "start.bat": "\r\n"}
 """Line ends of each file; Windows reads no others in a .bat."""
-EXTRAS = (
-    *("lessons", "data", "hub", "multi", "onnx", "ray", "sweep"),
-    *("tournament", "train", "video"),
-)
+EXTRAS = (*("lessons", "data", "hub", "multi", "ray", "sweep", "tournament", "train", "video"),)
 
 
 def bundle(

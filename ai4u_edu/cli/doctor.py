@@ -26,11 +26,10 @@ USES = {
     "hub": "a class on a JupyterHub",
     "lessons": "the course of notebooks",
     "multi": "PettingZoo's interface",
-    "onnx": "running trained networks",
     "ray": "jobs on several machines",
     "sweep": "comparing many trainings",
     "tournament": "tournaments of networks and programs",
-    "train": "training networks",
+    "train": "training networks with Stable-Baselines3",
     "video": "episodes as MP4",
 }
 """Purpose of each extra."""

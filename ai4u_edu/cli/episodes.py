@@ -21,10 +21,12 @@ from ai4u_edu.cli.options import (
     load_own_blocks,
     seed_option,
 )
+from ai4u_edu.cli.training_options import Trainer
 
 if TYPE_CHECKING:
     from ai4u_edu.agent import BasicAgent
     from ai4u_edu.agent.cycle import ControlRequestor
+    from ai4u_edu.learn.training.demonstrations import Cloned
     from ai4u_edu.recording import Episode
     from ai4u_edu.scenes import Scene
 
@@ -169,16 +171,15 @@ def clone(
             max=MAX_EPISODES,
         ),
     ] = 100,
+    trainer: Trainer = "",
     own_blocks: OwnBlocks = None,
 ) -> None:
     r"""Train a network to imitate recorded episodes (behaviour cloning).
 
-    Needs: pip install "ai4u-edu\[train]"
+    With pip install "ai4u-edu\[train]", torch learns; without it, the small learner, which also
+    says how well it acts in drives that it never saw.
     """
-    from ai4u_edu.base.optional_deps import need
-
-    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
-    from ai4u_edu.learn.training.cloning import clone as cloned
+    from ai4u_edu.learn.training import clone as cloned
     from ai4u_edu.learn.training.demonstrations import load_episodes
     from ai4u_edu.learn.training.evaluating import evaluate as evaluated
     from ai4u_edu.learn.training.evaluating import evaluation_table
@@ -187,8 +188,8 @@ def clone(
 
     load_own_blocks(own_blocks)
     episodes = load_episodes(data)
-    done = cloned(episodes, out, agent=agent, seed=seed, updates=updates)
-    typer.echo(f"{done.path}: cloned from {done.decisions} decisions, error {done.loss:.4f}")
+    done = cloned(episodes, out, agent=agent, seed=seed, updates=updates, trainer=trainer)
+    typer.echo(f"{done.path}: cloned from {done.decisions} decisions, {_quality(done)}")
     if evaluate:
         who = with_changes(entrant(str(out)), agent=agent or "")
         where = _driven_by(out, episodes[0], agent)
@@ -196,6 +197,17 @@ def clone(
         result = evaluated(who, where, counted(seeds, who.name))
         Console().print(evaluation_table([result]))
     typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
+
+
+def _quality(done: "Cloned") -> str:
+    """Return how well a clone does what it was shown, as the rest of a sentence, and more lines."""
+    if done.alike is None or done.commonest is None:
+        return f"error {done.loss:.4f}"
+    measure = (
+        f"and on {done.held_out} held-out ones it acts like the driver in {done.alike:.0%} "
+        f"(always the same action: {done.commonest:.0%})"
+    )
+    return "\n".join([measure, *done.remarks])
 
 
 def _driven_by(network: Path, episode: "Episode", agent_id: str | None) -> "Scene":

@@ -15,6 +15,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.numeric_threads import restart_with_one_thread
 from ai4u_edu.base.version import __version__
 from ai4u_edu.cli import episodes, lessons, training
 from ai4u_edu.cli.bundle import bundle
@@ -29,6 +30,8 @@ from ai4u_edu.cli.options import (
 )
 from ai4u_edu.cli.play import play
 
+ONE_THREAD_COMMANDS = ("clone", "train")
+"""Commands whose networks depend on the count of threads in which NumPy computes."""
 app = typer.Typer(
     name="ai4u-edu",
     no_args_is_help=True,
@@ -43,6 +46,8 @@ def main() -> None:
     An error of ours, or a file that can't be read or written, is printed as one sentence without a
     traceback. What the console's encoding lacks is printed as a question mark.
     """
+    if sys.argv[1:2] and sys.argv[1] in ONE_THREAD_COMMANDS:
+        restart_with_one_thread()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

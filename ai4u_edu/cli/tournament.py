@@ -82,7 +82,7 @@ def tournament(
     for bit. Ctrl-C keeps what is finished; the same command, or --resume --out DIR, goes on.
     Needs: pip install "ai4u-edu\[tournament]"
     """
-    need("tournament", "openskill", "onnxruntime")
+    need("tournament", "openskill")
     load_own_blocks(own_blocks)
     given = words or []
     if given[:1] == [VERIFY]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ai4u_edu.learn.training.evaluating import Evaluation
-    from ai4u_edu.learn.training.learning import Trained
+    from ai4u_edu.learn.training.run import Trained
     from ai4u_edu.learn.training.watch import Watch
 
 
@@ -47,11 +47,14 @@ def train(
     keep_checkpoints: o.KeepCheckpoints = False,
     watch: o.WatchFlag = False,
     port: o.WatchPort = 8080,
+    trainer: o.Trainer = "",
+    begin_with: o.BeginWith = None,
+    reward: o.RewardWeights = None,
     own_blocks: OwnBlocks = None,
 ) -> None:
     r"""Train an agent in a scene. Ctrl-C ends it early and keeps what was learned.
 
-    Needs: pip install "ai4u-edu\[train]"
+    With pip install "ai4u-edu\[train]", Stable-Baselines3 learns; without it, the small learner.
     """
     from ai4u_edu.learn.training import train as trained
 
@@ -73,12 +76,33 @@ def train(
             overwrite=overwrite,
             keep_checkpoints=keep_checkpoints,
             watch=page or False,
+            trainer=trainer,
+            begin_with=begin_with,
+            reward_weights=dict(map(_weight, reward or ())),
         )
         typer.echo(_summary(result))
         if page and not result.interrupted:
             with suppress(KeyboardInterrupt):  # as soon as it is announced
                 typer.echo("the trained policy drives in the page; Ctrl-C ends it")
                 page.wait()
+
+
+def _weight(text: str) -> tuple[str, float]:
+    """Return name and factor of ``NAME=FACTOR``.
+
+    Raises:
+        BadParameter: it is of another form.
+
+    >>> _weight("touch=-0.5")
+    ('touch', -0.5)
+    """
+    name, equals, factor = text.rpartition("=")
+    try:
+        return name, float(factor if name and equals else "")
+    except ValueError:
+        raise typer.BadParameter(
+            f"expected a reward term and its factor, such as touch=2, got {text!r}"
+        ) from None
 
 
 def _page(port: int) -> "Watch":
@@ -92,10 +116,12 @@ def _page(port: int) -> "Watch":
 
 def _summary(result: "Trained") -> str:
     best, folder = result.best, result.run.folder
+    is_small = result.run.config().trainer == "small"
+    kept = result.run.best_network if is_small else result.run.best
     success = "" if best.success is None else f"success {best.success:.0%}, "
     why = "interrupted" if result.interrupted else "good enough" if result.enough else "done"
     return (
-        f"{why} after {result.steps} steps; kept {result.run.best}: {success}"
+        f"{why} after {result.steps} steps; kept {kept}: {success}"
         f"reward {best.reward:.2f} (after {best.steps} steps)\n"
         f"evaluate it: ai4u-edu evaluate {result.run.config().scene} --brain {folder}\n"
         f"export it:   ai4u-edu export {folder} --out policy.onnx"

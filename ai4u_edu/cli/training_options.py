@@ -47,6 +47,29 @@ Observed = Annotated[
         "Default: as in the settings."
     ),
 ]
+Trainer = Annotated[
+    str,
+    typer.Option(
+        help="Who learns: sb3 (Stable-Baselines3, with torch) or small (with NumPy alone). "
+        "Default: sb3 if it is installed."
+    ),
+]
+BeginWith = Annotated[
+    Path | None,
+    typer.Option(
+        help="Network (.onnx) to improve, such as a clone; only with --trainer small.",
+        show_default=False,
+    ),
+]
+RewardWeights = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--reward",
+        help="Factor of a reward term, such as touch=2; only with --trainer small. Repeat the "
+        "option for several.",
+        show_default=False,
+    ),
+]
 Resume = Annotated[bool, typer.Option("--resume", help="Continue the training in --out.")]
 Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Start again and delete the training in --out.")

@@ -9,7 +9,7 @@ from ai4u_edu.lessons.rollouts import drives
 
 NEEDED = {
     "lessons": ("matplotlib", "ipykernel"),
-    "train": ("torch", "stable_baselines3", "onnx", "onnxruntime"),
+    "train": ("torch", "stable_baselines3", "onnx"),
 }
 FOR = {"lessons": "plots", "train": "the lessons about learning, 09 to 11"}
 

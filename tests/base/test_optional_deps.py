@@ -10,7 +10,7 @@ from ai4u_edu.base.errors import SetupError
 
 @pytest.mark.parametrize(
     ("platform", "module", "is_advised"),
-    [("linux", "torch", True), ("darwin", "torch", False), ("linux", "onnxruntime", False)],
+    [("linux", "torch", True), ("darwin", "torch", False), ("linux", "openskill", False)],
 )
 def test_the_small_torch_is_advised_where_the_usual_one_is_large(
     monkeypatch: pytest.MonkeyPatch, platform: str, module: str, is_advised: bool

@@ -9,7 +9,7 @@ import pytest
 
 from tests.waiting import LIMIT_S
 
-pytestmark = [pytest.mark.slow, pytest.mark.needs("train", "onnx")]
+pytestmark = [pytest.mark.slow, pytest.mark.needs("train")]
 
 COMMAND = [sys.executable, "-m", "ai4u_edu"]
 

@@ -8,7 +8,7 @@ from typer.testing import CliRunner, Result
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli.main import app
 
-pytestmark = [pytest.mark.slow, pytest.mark.needs("onnx")]
+pytestmark = pytest.mark.slow
 
 HINT = "hint: as in play, the scene comes first: ai4u-edu evaluate box_chase --brain zoo"
 

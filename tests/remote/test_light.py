@@ -5,7 +5,10 @@ import sys
 
 from tests.waiting import LIMIT_S
 
-HEAVY = ("pymunk", "viser", "pydantic", "starlette", "uvicorn", "ruamel", "typer", "rich")
+HEAVY = (
+    *("onnxruntime", "pymunk", "viser", "pydantic", "starlette", "uvicorn"),
+    *("ruamel", "typer", "rich"),
+)
 OURS = ("blocks", "world", "agent", "scenes", "runner", "server", "viewer", "parameters")
 
 

@@ -14,7 +14,6 @@ import numpy.typing as npt
 
 from ai4u_edu import zoo
 from ai4u_edu.base.errors import BlockError, suggest
-from ai4u_edu.base.optional_deps import need
 
 MAX_NETWORK_BYTES = 64 * 2**20
 """Largest file of a network."""
@@ -114,12 +113,10 @@ class Network:
 
     Raises:
         BlockError: the file can't be read, or onnxruntime can't run the network.
-        SetupError: onnxruntime is not installed.
     """
 
     def __init__(self, path: Path) -> None:
-        need("onnx", "onnxruntime")
-        import onnxruntime
+        import onnxruntime  # 20 MB of memory that only networks need
 
         self.path = path
         options = onnxruntime.SessionOptions()

@@ -36,7 +36,7 @@ POLL_S = 0.25
 def missing_extras() -> str:
     """Return how to install what tournaments need; empty if all of it is there."""
     try:
-        need("tournament", "onnxruntime", "openskill")
+        need("tournament", "openskill")
     except SetupError as error:
         return f"Tournaments: {error}. Then start the class again."
     return ""

@@ -1,7 +1,6 @@
 """One call of a job, where it runs: its result or its error, and the time that it took."""
 
 import json
-import os
 import time
 import traceback
 from pathlib import Path
@@ -37,12 +36,3 @@ def call(job: Job) -> JobAnswer:
         text = f"{type(error).__name__}: {error} ({Path(last.filename).name}:{last.lineno})"
         return JobAnswer(None, text[:MAX_ERROR_CHARS], time.perf_counter() - begin)
     return JobAnswer(result, "", time.perf_counter() - begin)
-
-
-def use_one_thread() -> None:
-    """Have numeric libraries use one thread, as each core has a job of its own.
-
-    It holds for libraries that are imported later, too.
-    """
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ[name] = "1"

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import psutil
 
+from ai4u_edu.base.numeric_threads import children_with_one_thread
 from ai4u_edu.games.jobs.call import JobAnswer
 from ai4u_edu.games.jobs.job import Job
 from ai4u_edu.games.jobs.worker import serve_jobs
@@ -115,7 +116,8 @@ class IsolatedJobs:
             name="isolated jobs",
             daemon=True,
         )
-        process.start()
+        with children_with_one_thread():
+            process.start()
         theirs.close()
         problem = ""
         try:

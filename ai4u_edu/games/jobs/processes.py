@@ -15,6 +15,7 @@ from typing import Self
 
 import psutil
 
+from ai4u_edu.base.numeric_threads import children_with_one_thread
 from ai4u_edu.games.jobs.call import JobAnswer
 from ai4u_edu.games.jobs.job import Job
 from ai4u_edu.games.jobs.worker import is_main_thread, serve_jobs
@@ -100,7 +101,8 @@ class _Worker:
 
     def begin(self) -> None:
         """Start the process."""
-        self._process.start()
+        with children_with_one_thread():
+            self._process.start()
         self._there.close()
 
     def start(self, job: Job) -> None:

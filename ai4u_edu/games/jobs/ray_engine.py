@@ -17,9 +17,10 @@ from typing import Any, Self
 import psutil
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.numeric_threads import ONE_THREAD, children_with_one_thread
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.process_family import kill_descendants
-from ai4u_edu.games.jobs.call import JobAnswer, call, use_one_thread
+from ai4u_edu.games.jobs.call import JobAnswer, call
 from ai4u_edu.games.jobs.job import Job
 
 JOBS_PER_CORE = 2
@@ -65,7 +66,8 @@ class RayEngine:
         self._process: BaseProcess = context.Process(
             target=_drive, args=(there, address), name="ray", daemon=True
         )
-        self._process.start()
+        with children_with_one_thread():  # what Ray starts here inherits it
+            self._process.start()
         there.close()
         try:
             cores = self._cores()
@@ -234,5 +236,5 @@ def _answer(ray: Any, done: Any) -> JobAnswer:
 
 
 def _call(job: Job) -> tuple[Any, ...]:
-    use_one_thread()
+    os.environ.update(ONE_THREAD)  # on a cluster's machine, for what is loaded from here on
     return tuple(call(job))

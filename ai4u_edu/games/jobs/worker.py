@@ -15,7 +15,7 @@ from tqdm import tqdm
 
 from ai4u_edu.base.process_family import end_with_parent, kill_descendants
 from ai4u_edu.base.process_priority import lower_priority
-from ai4u_edu.games.jobs.call import call, use_one_thread
+from ai4u_edu.games.jobs.call import call
 from ai4u_edu.games.jobs.job import Job
 
 
@@ -28,6 +28,9 @@ def serve_jobs(
     pipe: Connection, *, is_tied: bool, folder: Path | None = None, has_low_priority: bool = False
 ) -> None:
     """Run jobs until the other end of the pipe is closed; the main function of the process.
+
+    Each core has a job of its own, so whoever starts the process gives it the variables of
+    :func:`~ai4u_edu.base.numeric_threads.children_with_one_thread`.
 
     Args:
         pipe: gives each :class:`Job`, and gets its :class:`~ai4u_edu.games.jobs.call.JobAnswer`.
@@ -42,7 +45,6 @@ def serve_jobs(
         end_with_parent(parent.pid)
     if folder is not None:
         tempfile.tempdir = str(folder.absolute())
-    use_one_thread()
     if has_low_priority:
         lower_priority()
     # torch shows progress with tqdm, whose usual lock a process that is killed leaves in the system

@@ -70,7 +70,8 @@ def write_network(
         network: for the agent's flat observation.
         agent: whose sensors are the inputs, and whose only actuator is the output.
         about: what the file says of its origin, besides agent and version: ``scene``,
-            ``algorithm``, ``seed``, ``steps`` and the like.
+            ``algorithm``, ``seed``, ``steps`` and the like; or another rhythm than the agent's
+            (``skip_frame``, ``repeat_action``).
         path: of the file.
     """
     write_atomically(path, network_bytes(network, agent, about))
@@ -86,10 +87,10 @@ def network_bytes(network: ActorCritic, agent: BasicAgent, about: Mapping[str, A
     (output,) = outputs_of(agent)
     model = _model(_graph(network, inputs, output))
     described = {
-        **about,
-        "version": __version__,
         "skip_frame": agent.brain.skip_frame,
         "repeat_action": agent.brain.repeat_action,
+        **about,
+        "version": __version__,
         **described_blocks(agent),
         "hash": hashlib.sha256(model).hexdigest(),
     }

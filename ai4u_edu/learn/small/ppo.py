@@ -77,6 +77,8 @@ class PpoSettings:
     """Length to which a longer gradient is shortened."""
     first_spread: float = 0.6
     """Standard deviation of what is tried out at first, in units of an action's range."""
+    first_spread_after_clone: float = 0.2
+    """The same for a training that begins with a network: with 0.6, it forgets what it can."""
     layers: tuple[int, ...] = LAYERS
     """Neurons of the hidden layers."""
     check_every: int = 4096
@@ -117,7 +119,7 @@ class Ppo:
         seed: of the network, of what is tried out, and of the worlds.
         agent: id of the agent that learns; left out, the one that acts first.
         begin_with: network to improve, such as a clone; its layers hold. Left out, a random one.
-            Try less out then (``first_spread``), or it forgets what it can.
+            Less is tried out then (``first_spread_after_clone``).
         reward_weights: factor of each reward term by its name; 1 for one that is left out. They
             change what is learned from, and nothing in the world.
 
@@ -149,6 +151,7 @@ class Ppo:
         self.agent = env.agent
         self.reward_weights = _checked_weights(reward_weights or {}, self.agent)
         self.generator = np.random.default_rng(self.seed)
+        spread = self.settings.first_spread
         if begin_with is None:
             self.network = ActorCritic(
                 env.observation_space, env.action_space, self.settings.layers
@@ -157,7 +160,8 @@ class Ppo:
         else:
             self.network = _checked_network(begin_with, env.observation_space, env.action_space)
             self.settings = replace(self.settings, layers=begin_with.layers)
-        self.network.log_spread[:] = math.log(self.settings.first_spread)
+            spread = self.settings.first_spread_after_clone
+        self.network.log_spread[:] = math.log(spread)
         self.optimizer = Adam(self.network.parameters, self.settings.rate, epsilon=1e-5)
         self.decisions = 0
         self.begin_episodes()

@@ -92,22 +92,24 @@ class PpoTraining:
         )
 
     def learn(
-        self, decisions: int, on_check: Callable[["PpoTraining"], bool | None] = lambda _: None
+        self, decisions: int, on_round: Callable[["PpoTraining"], bool | None] = lambda _: None
     ) -> None:
         """Improve until ``decisions`` decisions were learned from in all, or the policy is enough.
 
         Args:
             decisions: those before a :meth:`resume` count too.
-            on_check: called after each check; True ends the training.
+            on_round: called after each round, and after its check if it had one; True ends the
+                training.
         """
         ppo, every = self.ppo, self.ppo.settings.check_every
         while ppo.decisions < decisions:
             before = ppo.decisions
             ppo.improve()
-            if ppo.decisions // every > before // every or ppo.decisions >= decisions:
+            has_check = ppo.decisions // every > before // every or ppo.decisions >= decisions
+            if has_check:
                 self.check()
-                if on_check(self) or self.is_enough:
-                    return
+            if on_round(self) or (has_check and self.is_enough):
+                return
 
     def check(self) -> PolicyCheck:
         """Drive some episodes without trying anything out, and keep the network if it is best."""

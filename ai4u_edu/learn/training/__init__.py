@@ -10,8 +10,8 @@ In a notebook or a script::
 
 :func:`q_learning` learns with a table, and needs nothing else.
 
-Training, evaluating a model and exporting it need ``pip install "ai4u-edu[train]"``
-(Stable-Baselines3 and torch); driving with an exported network needs only ``"ai4u-edu[onnx]"``.
+With ``pip install "ai4u-edu[train]"``, Stable-Baselines3 and torch learn; without it, the small
+learner does (:mod:`ai4u_edu.learn.small`). Driving with a network needs no extra.
 Imports are lazy. On Linux, pip installs gigabytes of torch for graphics cards; for the CPU build,
 install this first::
 

@@ -3,7 +3,6 @@
 import hashlib
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
 
@@ -21,7 +20,7 @@ from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import TRAINING_KEY
 from ai4u_edu.learn.envs.spaces_of import described_blocks, inputs_of, outputs_of
 from ai4u_edu.learn.training.algorithms import TORCH_THREADS
-from ai4u_edu.learn.training.demonstrations import demonstrations
+from ai4u_edu.learn.training.demonstrations import Cloned, demonstrations
 from ai4u_edu.learn.training.exporting import graph_of
 from ai4u_edu.learn.training.progress_bar import ProgressBar
 from ai4u_edu.learn.training.rays import RayNearness
@@ -41,18 +40,6 @@ VALIDATE_EVERY = 100
 """Gradient steps between two validations."""
 
 Floats = npt.NDArray[np.float32]
-
-
-@dataclass(frozen=True)
-class Cloned:
-    """Result of a cloning."""
-
-    path: Path
-    decisions: int
-    """Count of the recorded decisions."""
-    loss: float
-    """Validation loss: mean error of an action whose numbers reach from -1 to
-    1, or the cross-entropy of a choice."""
 
 
 class Clone(nn.Module):  # type: ignore[misc]  # seen without its types

@@ -138,6 +138,27 @@ class Demonstrations:
             )
 
 
+@dataclass(frozen=True)
+class Cloned:
+    """Result of a cloning."""
+
+    path: Path
+    decisions: int
+    """Count of the recorded decisions."""
+    loss: float
+    """Error on held-out decisions: mean error of an action whose numbers reach from -1 to 1, or the
+    cross-entropy of a choice."""
+    alike: float | None = None
+    """Share of held-out decisions, 0 to 1, in which a network that never saw them acts like the
+    driver; None if it was not measured."""
+    commonest: float | None = None
+    """The same share for always doing what was done most often."""
+    held_out: int = 0
+    """Count of held-out decisions; of five drives or more, they are those of whole drives."""
+    remarks: tuple[str, ...] = ()
+    """Sentences about what is wrong with the drives; empty if nothing is known to be."""
+
+
 def demonstrations(
     episodes: Iterable[Episode], *, agent: str | None = None, observation: str = "flat"
 ) -> Demonstrations:

@@ -1,17 +1,11 @@
 """Training of an agent in a scene with Stable-Baselines3."""
 
-import signal
-import sys
-import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,9 +21,10 @@ from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.learn.training.algorithms import check_actions, load_model, new_model
 from ai4u_edu.learn.training.episode import EpisodeStats
+from ai4u_edu.learn.training.interrupt import Interrupt
 from ai4u_edu.learn.training.prepare import prepare, with_learner
 from ai4u_edu.learn.training.progress_bar import REFRESH_S, ProgressBar
-from ai4u_edu.learn.training.run import Check, Config, Run
+from ai4u_edu.learn.training.run import Check, Config, Run, Trained
 from ai4u_edu.learn.training.settings import Algorithm, Settings
 from ai4u_edu.learn.training.worlds import ABOVE, Choices, make_worlds
 from ai4u_edu.scenes import Scene
@@ -42,44 +37,6 @@ FIRST_SEED = 2 * ABOVE
 PACKAGES = ("ai4u-edu", "stable-baselines3", "torch", "numpy", "pymunk", "gymnasium")
 AVERAGED_EPISODES = 100
 """Episodes over which the progress bar averages rewards and successes."""
-
-
-@dataclass(frozen=True)
-class Trained:
-    """Result of a training."""
-
-    run: Run
-    steps: int
-    """Decisions learned from, including those before a resume."""
-    interrupted: bool
-    """True if Ctrl-C ended it."""
-    enough: bool
-    """True if it ended early because the policy was good enough."""
-    checks: list[Check]
-
-    @property
-    def best(self) -> Check:
-        """Check of the model that was kept."""
-        return max(self.checks, key=lambda check: check.rank)
-
-    @property
-    def folder(self) -> Path:
-        """Folder with everything that the training wrote."""
-        return self.run.folder
-
-    def __repr__(self) -> str:
-        """Return one line.
-
-        The dataclass's own would list every check.
-        """
-        best, config = self.best, self.run.config()
-        why = "interrupted" if self.interrupted else "good enough" if self.enough else "done"
-        success = "" if best.success is None else f"success {best.success:.0%}, "
-        return (
-            f"Trained({config.scene}, {config.algorithm}: {why} after {self.steps} steps and "
-            f"{self.checks[-1].seconds:.0f} s; best {success}reward {best.reward:.2f} "
-            f"after {best.steps} steps; in {self.folder})"
-        )
 
 
 def train(
@@ -123,13 +80,7 @@ def train(
             f"{seed}"
         )
     own = settings.of(algorithm)
-    named, settings = settings.agent, with_learner(scene, settings)
-    if settings.agent != named and not quiet:
-        ids = ", ".join(agent.id for agent in scene.build().agents)
-        sys.stderr.write(
-            f"{settings.agent!r} learns, the first of several agents ({ids}); to choose another "
-            "one, write agent: ID into a settings file\n"
-        )
+    settings = with_learner(scene, settings, quiet=quiet)
     prepared = prepare(scene, settings)
     check_actions(algorithm, _env(prepared, settings).action_space)
     worlds = make_worlds(prepared, settings, algorithm)
@@ -213,12 +164,12 @@ def _learn(
         keep_checkpoints=keep_checkpoints,
         stop=stop,
     )
-    interrupt = _Interrupt()
+    interrupt = Interrupt()
     bar = _Progress(evaluation, config.steps, quiet=quiet)
     formats = ["tensorboard"] if find_spec("tensorboard") else []
     model.set_logger(configure(str(run.tensorboard), formats))
     left = config.steps - model.num_timesteps
-    callbacks: list[BaseCallback] = [interrupt, evaluation, bar]
+    callbacks: list[BaseCallback] = [_EndIfAsked(interrupt), evaluation, bar]
     if watch:
         watch.set_training(run, config.steps)
         callbacks.append(watch)
@@ -235,7 +186,14 @@ def _learn(
         run.put(run.replay, model.save_replay_buffer)
     if watch:
         watch.finish()
-    return Trained(run, model.num_timesteps, interrupt.asked, evaluation.enough, evaluation.checks)
+    return Trained(
+        run=run,
+        steps=model.num_timesteps,
+        interrupted=interrupt.asked,
+        enough=evaluation.enough,
+        checks=evaluation.checks,
+        best=max(evaluation.checks, key=lambda check: check.rank),
+    )
 
 
 def _env(prepared: Scene, settings: Settings) -> SceneEnv:
@@ -366,36 +324,15 @@ def _stacked(observations: Sequence[Any]) -> Any:
     return np.stack(observations)
 
 
-class _Interrupt(BaseCallback):  # type: ignore[misc]  # seen without its types
-    """Ends a training after the step in which Ctrl-C was pressed; a second one ends it at once."""
+class _EndIfAsked(BaseCallback):  # type: ignore[misc]  # seen without its types
+    """Ends a training after the step in which it was asked to end."""
 
-    def __init__(self) -> None:
+    def __init__(self, interrupt: Interrupt) -> None:
         super().__init__()
-        self.asked = False
+        self._interrupt = interrupt
 
     def _on_step(self) -> bool:
-        return not self.asked
-
-    @contextmanager
-    def listening(self) -> Iterator[None]:
-        """Turn Ctrl-C into a request to end, within this context."""
-        if threading.current_thread() is not threading.main_thread():
-            yield  # signals come to the main thread only
-            return
-        if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-            yield  # of a process whose parent decides, such as a job's
-            return
-
-        def ask(_number: int, _frame: FrameType | None) -> None:
-            if self.asked:
-                raise KeyboardInterrupt
-            self.asked = True
-
-        before = signal.signal(signal.SIGINT, ask)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGINT, before)
+        return not self._interrupt.asked
 
 
 class _Progress(BaseCallback):  # type: ignore[misc]  # seen without its types

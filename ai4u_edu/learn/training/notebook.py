@@ -1,29 +1,39 @@
 """The training commands of ``ai4u-edu`` as functions for notebooks and scripts.
 
-torch and Stable-Baselines3 are imported when a function needs them.
+torch and Stable-Baselines3 are imported when a function needs them. Where they are not installed,
+the small learner learns: PPO and cloning with NumPy alone, see :mod:`ai4u_edu.learn.small`.
 """
 
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ai4u_edu.base.atomic_write import make_folder
+from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError, suggest
-from ai4u_edu.base.optional_deps import need
+from ai4u_edu.base.optional_deps import has, need
+from ai4u_edu.base.options import SMALL_TRAINER, load_option
 from ai4u_edu.base.seeding import seeds_from
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks import Controller
-    from ai4u_edu.learn.training.cloning import Cloned
+    from ai4u_edu.learn.training.demonstrations import Cloned
     from ai4u_edu.learn.training.evaluating import Evaluation
-    from ai4u_edu.learn.training.learning import Trained
+    from ai4u_edu.learn.training.run import Trained
     from ai4u_edu.learn.training.watch import Watch
     from ai4u_edu.recording import Episode
     from ai4u_edu.scenes import Scene
 
     SceneLike = str | Path | Scene
     Who = str | Path | Trained | Cloned | Controller | Callable[..., Any]
+
+TRAINERS = ("sb3", "small")
+"""Names of the learners: Stable-Baselines3 with torch, and the small one with NumPy alone."""
+WHY_SMALL = (
+    "the small learner (PPO and cloning with NumPy) learns, since Stable-Baselines3 and torch are "
+    'not installed here; to have them: pip install "ai4u-edu[train]"\n'
+)
 
 
 def train(
@@ -41,6 +51,9 @@ def train(
     keep_checkpoints: bool = False,
     watch: "bool | Watch" = False,
     quiet: bool = False,
+    trainer: str = "",
+    begin_with: str | Path | None = None,
+    reward_weights: Mapping[str, float] | None = None,
 ) -> "Trained":
     """Train an agent in a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
 
@@ -65,6 +78,13 @@ def train(
         watch: True shows the policy driving in the browser as it learns, until it has learned; a
             :class:`~ai4u_edu.learn.training.watch.Watch` shows it until that is closed.
         quiet: True shows nothing.
+        trainer: ``"sb3"`` for Stable-Baselines3, or ``"small"`` for the small learner, which needs
+            no torch, knows PPO alone, and takes readings as one row of numbers; left out,
+            Stable-Baselines3 if it is installed.
+        begin_with: network (.onnx) to improve, such as a clone by the small learner; only that
+            learner takes one.
+        reward_weights: factor of each reward term by its name, 1 for one that is left out; only for
+            the small learner.
 
     Returns:
         Its result, with ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
@@ -73,13 +93,36 @@ def train(
     Raises:
         SetupError: a setting is wrong or something is not installed; says what.
     """
-    need("train", "torch", "stable_baselines3")
-    from ai4u_edu.learn.training import learning
+    from ai4u_edu.learn.training.run import Run
     from ai4u_edu.learn.training.settings import ALGORITHMS, settings_for
 
+    for_sb3 = {
+        "watch": watch,
+        "policy": policy,
+        "keep_checkpoints": keep_checkpoints,
+        "algo": algo and algo.lower() != "ppo",
+    }
+    for_small = {"begin_with": begin_with is not None, "reward_weights": bool(reward_weights)}
     if resume:
         if out is None:
             raise SetupError("resume needs out, the folder of the training to go on with")
+        began_by = Run(Path(out)).config().trainer
+        if trainer not in ("", began_by):
+            raise SetupError(
+                f"trainer: {out} was begun by {began_by!r}, which has to go on with it, got "
+                f"{trainer!r}"
+            )
+        trainer = began_by
+    who = _trainer(trainer, for_sb3, for_small, quiet=quiet)
+    small: Trained
+    if who == "small" and resume and out is not None:
+        small = load_option(SMALL_TRAINER, "resume").resume(Path(out), steps=steps, quiet=quiet)
+        return small
+    if who == "sb3":
+        need("train", "torch", "stable_baselines3")
+    if resume and out is not None:
+        from ai4u_edu.learn.training import learning
+
         with _page_of(watch) as page:
             return learning.resume(
                 Path(out),
@@ -94,9 +137,24 @@ def train(
     changes |= ({"policy": policy} if policy else {}) | ({"observe": observe} if observe else {})
     file = Path(settings) if isinstance(settings, str | Path) else None
     how = settings_for(name, file, changes)
+    if who == "small":
+        small = load_option(SMALL_TRAINER, "train").train(
+            loaded,
+            how,
+            Path(out) if out else Path("runs") / f"{name}-small-{seed}",
+            steps=steps,
+            seed=seed,
+            begin_with=None if begin_with is None else Path(begin_with),
+            reward_weights=reward_weights,
+            overwrite=overwrite,
+            quiet=quiet,
+        )
+        return small
     algorithm = algo.lower() or how.algorithm
     for each in ALGORITHMS:
         if algorithm == each:
+            from ai4u_edu.learn.training import learning
+
             folder = Path(out) if out else Path("runs") / f"{name}-{each}-{seed}"
             with _page_of(watch) as page:
                 return learning.train(
@@ -172,14 +230,18 @@ def export(
     Returns:
         The file; ``trained_brain(file)`` and ``evaluate(file)`` take it.
     """
-    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
-    from ai4u_edu.learn.training.algorithms import load_model
-    from ai4u_edu.learn.training.exporting import export as exported
     from ai4u_edu.learn.training.run import run_of
 
     path = Path(model) if isinstance(model, str | Path) else model.folder
     run = run_of(path)
     config = run.config()
+    if config.trainer == "small":  # it is a network already, with its critic
+        write_atomically(Path(out), run.best_network.read_bytes())
+        return Path(out)
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.learn.training.algorithms import load_model
+    from ai4u_edu.learn.training.exporting import export as exported
+
     loaded: Any = load_model(config.algorithm, run.best if path.is_dir() else path)
     return exported(loaded, run.scene(), config, Path(out), with_critic=with_critic)
 
@@ -269,6 +331,7 @@ def clone(
     seed: int = 0,
     updates: int = 2000,
     quiet: bool = False,
+    trainer: str = "",
 ) -> "Cloned":
     """Train a network to imitate recorded episodes (behaviour cloning).
 
@@ -279,12 +342,14 @@ def clone(
         seed: the same seed gives the same network.
         updates: gradient steps.
         quiet: True shows nothing.
+        trainer: as in :func:`train`.
 
     Returns:
-        ``path`` of the network, ``loss``, ``decisions`` learned from; it can be evaluated.
+        ``path`` of the network, ``decisions`` learned from, ``loss``; of the small learner also
+        ``alike``, the share of held-out decisions in which it acts like the driver. It can be
+        evaluated.
     """
-    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
-    from ai4u_edu.learn.training.cloning import clone as cloned
+    who = _trainer(trainer, {}, {}, quiet=quiet)
     from ai4u_edu.learn.training.demonstrations import load_episodes
     from ai4u_edu.recording import Episode
 
@@ -293,7 +358,56 @@ def clone(
     paths = [Path(each) for each in given if isinstance(each, str | Path)]
     if paths or not episodes:
         episodes += load_episodes(paths)
+    if who == "small":
+        small: Cloned = load_option(SMALL_TRAINER, "clone").clone(
+            episodes, Path(out), agent=agent, seed=seed, updates=updates, quiet=quiet
+        )
+        return small
+    need("train", "torch", "stable_baselines3", "onnx", "onnxscript")
+    from ai4u_edu.learn.training.cloning import clone as cloned
+
     return cloned(episodes, Path(out), agent=agent, seed=seed, updates=updates, quiet=quiet)
+
+
+def _trainer(
+    name: str, for_sb3: Mapping[str, object], for_small: Mapping[str, object], *, quiet: bool
+) -> str:
+    """Return which learner learns: the one that is named, or one that takes what is asked for.
+
+    Args:
+        name: one of :data:`TRAINERS`; empty for none.
+        for_sb3: arguments that only Stable-Baselines3 takes, by name; those that are asked for are
+            truthy.
+        for_small: the same for the small learner.
+        quiet: False says on stderr why the small learner was chosen.
+
+    Raises:
+        SetupError: none is called so, or takes all of it.
+    """
+    if name and name not in TRAINERS:
+        raise SetupError(
+            f"trainer: expected one of {', '.join(TRAINERS)}, got {name!r}; "
+            f"{suggest(name, TRAINERS)}"
+        )
+    asked_sb3 = [each for each, value in for_sb3.items() if value]
+    asked_small = [each for each, value in for_small.items() if value]
+    chosen = name
+    if not chosen:
+        if asked_small or asked_sb3:
+            chosen = "small" if asked_small else "sb3"
+        elif has("torch", "stable_baselines3"):
+            chosen = "sb3"
+        else:
+            chosen = "small"
+            if not quiet:
+                sys.stderr.write(WHY_SMALL)
+    wrong = asked_sb3 if chosen == "small" else asked_small
+    if wrong:
+        raise SetupError(
+            f"{wrong[0]}: the trainer {chosen!r} has no such choice; leave it out, or take "
+            f"{'sb3' if chosen == 'small' else 'small'!r}"
+        )
+    return chosen
 
 
 @contextmanager

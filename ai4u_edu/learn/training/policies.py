@@ -153,12 +153,21 @@ def _network(spec: str) -> Entrant:
 
 
 def _model(path: Path) -> Entrant:
-    need("train", "torch", "stable_baselines3")
-    from ai4u_edu.learn.training.algorithms import load_model
-
     run = run_of(path)
     config = run.config()
     settings = config.settings
+    if config.trainer == "small":
+        network = str(run.best_network)
+        return Entrant(
+            path.name,
+            lambda _agent: trained_brain(network),
+            scene=str(run.folder / "scene.yaml"),
+            fitted=lambda scene: prepare(scene, settings, learning=False),
+            agent=settings.agent,
+        )
+    need("train", "torch", "stable_baselines3")
+    from ai4u_edu.learn.training.algorithms import load_model
+
     model = load_model(config.algorithm, run.best if path.is_dir() else path)
 
     def brain(agent: BasicAgent) -> Brain:

@@ -1,5 +1,6 @@
 """The scene of a training: the file's scene, changed as the settings say."""
 
+import sys
 from copy import deepcopy
 from typing import Any
 
@@ -32,11 +33,23 @@ def prepare(scene: Scene, settings: Settings, *, learning: bool = True) -> Scene
     return Scene(described, scene.folder)
 
 
-def with_learner(scene: Scene, settings: Settings) -> Settings:
-    """Return settings that name the agent that learns, if the scene has several."""
+def with_learner(scene: Scene, settings: Settings, *, quiet: bool = True) -> Settings:
+    """Return settings that name the agent that learns, if the scene has several.
+
+    Args:
+        scene: the scene.
+        settings: may name the agent.
+        quiet: False says on stderr which one was chosen.
+    """
     if settings.agent or len(scene.description.agents) == 1:
         return settings
-    return settings.model_copy(update={"agent": scene.build().agents[0].id})
+    first, *others = (agent.id for agent in scene.build().agents)
+    if not quiet:
+        sys.stderr.write(
+            f"{first!r} learns, the first of several agents ({', '.join([first, *others])}); to "
+            "choose another one, write agent: ID into a settings file\n"
+        )
+    return settings.model_copy(update={"agent": first})
 
 
 def index_of_learner(scene: Scene, settings: Settings) -> int:

@@ -11,12 +11,20 @@
     DIR/checkpoint-*.zip   the model at each check, with --keep-checkpoints
     DIR/watched.*       model, weights and progress for the page of --watch
     DIR/tensorboard/    curves, for: tensorboard --logdir DIR
+
+One of the small learner has networks in place of models, and writes them without a request::
+
+    DIR/best.onnx       the network that did best in a check; at first, the one that it began with
+    DIR/watched.onnx    the network as it is now, at most a second old
+    DIR/watched.json    decisions so far, and the learning curve
+    DIR/state.npz       all that --resume needs, as it was at the latest check
 """
 
 import json
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
@@ -27,6 +35,10 @@ from ai4u_edu.scenes import Scene
 
 CHECKPOINT = "checkpoint-"
 """Beginning of the names of models that were kept at checks; the number of steps follows."""
+
+
+Trainer = Literal["sb3", "small"]
+"""Name of a learner: of Stable-Baselines3, or of the small one, which needs NumPy alone."""
 
 
 class Config(BaseModel):
@@ -41,6 +53,7 @@ class Config(BaseModel):
     settings: Settings
     versions: dict[str, str]
     """Versions of the packages that ran, by name."""
+    trainer: Trainer = "sb3"
 
 
 class Check(BaseModel):
@@ -97,6 +110,9 @@ class Run:
         self.last = folder / "last.zip"
         self.replay = folder / "replay.pkl"
         self.tensorboard = folder / "tensorboard"
+        self.best_network = folder / "best.onnx"
+        self.state = folder / "state.npz"
+        self.watched_network = folder / "watched.onnx"
         self.watched_model = folder / "watched.zip"
         self.watched_weights = folder / "watched.pt"
         self.progress = folder / "watched.json"
@@ -114,9 +130,10 @@ class Run:
         """Delete what a training wrote, and nothing else in the folder."""
         for name in ("config.json", "scene.yaml", "checks.json"):
             (self.folder / name).unlink(missing_ok=True)
-        watched = (self.watched_model, self.watched_weights, self.progress)
+        kept = (self.best, self.last, self.replay, self.best_network, self.state)
+        watched = (self.watched_model, self.watched_weights, self.watched_network, self.progress)
         events = self.tensorboard.glob("events.*")
-        for path in (self.best, self.last, self.replay, *watched, *events, *self.checkpoints):
+        for path in (*kept, *watched, *events, *self.checkpoints):
             path.unlink(missing_ok=True)
 
     def begin(self, config: Config, scene: Scene) -> None:
@@ -177,3 +194,38 @@ class Run:
 
     def _write(self, name: str, data: Any) -> None:
         self.put_text(self.folder / name, json.dumps(data, indent=1))
+
+
+@dataclass(frozen=True)
+class Trained:
+    """Result of a training."""
+
+    run: Run
+    steps: int
+    """Decisions learned from, including those before a resume."""
+    interrupted: bool
+    """True if Ctrl-C ended it."""
+    enough: bool
+    """True if it ended early because the policy was good enough."""
+    checks: list[Check]
+    best: Check
+    """Check of the model that was kept."""
+
+    @property
+    def folder(self) -> Path:
+        """Folder with everything that the training wrote."""
+        return self.run.folder
+
+    def __repr__(self) -> str:
+        """Return one line.
+
+        The dataclass's own would list every check.
+        """
+        best, config = self.best, self.run.config()
+        why = "interrupted" if self.interrupted else "good enough" if self.enough else "done"
+        success = "" if best.success is None else f"success {best.success:.0%}, "
+        return (
+            f"Trained({config.scene}, {config.algorithm}: {why} after {self.steps} steps and "
+            f"{self.checks[-1].seconds:.0f} s; best {success}reward {best.reward:.2f} "
+            f"after {best.steps} steps; in {self.folder})"
+        )

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     import gymnasium
 
     from ai4u_edu.learn.training import QTable
-    from ai4u_edu.learn.training.learning import Trained
-    from ai4u_edu.learn.training.run import Check
+    from ai4u_edu.learn.training.run import Check, Trained
 
     Update = Callable[[float, float, float, float, float], float]
 
@@ -286,7 +285,7 @@ def has_learned(trained: Any) -> Done:
 
 
 def _expect_trained(trained: Any) -> None:
-    from ai4u_edu.learn.training.learning import Trained
+    from ai4u_edu.learn.training.run import Trained
 
     if not isinstance(trained, Trained):
         raise NotYet(f"Expected what `learn(...)` returned, got {named(trained)}.")

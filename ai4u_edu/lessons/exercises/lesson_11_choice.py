@@ -10,7 +10,7 @@ from ai4u_edu.blocks import NeuralNetController, trained_brain
 from ai4u_edu.lessons.exercises.lesson_11 import scripted_drives, straight_on
 
 if TYPE_CHECKING:
-    from ai4u_edu.learn.training.cloning import Cloned
+    from ai4u_edu.learn.training.demonstrations import Cloned
     from ai4u_edu.recording import Episode
 
 LIMIT = 300

@@ -19,6 +19,7 @@ from ai4u_edu.blocks import (
     RBMoveActuator,
     TouchRewardFunc,
 )
+from ai4u_edu.blocks.brains.network import VALUE_OUTPUT
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import (
@@ -40,22 +41,29 @@ CLOSE = 1e-4
 
 
 def layers_of(path: str = ZOO) -> list[Layer]:
-    """Return the weights (outputs, inputs) and biases (outputs,) of each layer of a network.
+    """Return the weights (outputs, inputs) and biases (outputs,) of each layer of a policy.
 
     Args:
-        path: the file of a network such as PPO's: layers one after the other.
+        path: the file of a network such as PPO's: layers one after the other. Those of a critic
+            beside them are left out.
     """
     need("train", "onnx")
     import onnx
     from onnx import numpy_helper
 
-    graph = onnx.load(str(NeuralNetController(model_path=path).network.path)).graph
+    network = NeuralNetController(model_path=path).network
+    graph = onnx.load(str(network.path)).graph
     numbers = {each.name: numpy_helper.to_array(each) for each in graph.initializer}
-    return [
-        (np.array(numbers[node.input[1]], float), np.array(numbers[node.input[2]], float))
-        for node in graph.node
-        if node.op_type == "Gemm"
-    ]
+    needed = {port.name for port in network.outputs if port.name != VALUE_OUTPUT}
+    layers: list[Layer] = []
+    for node in reversed(graph.node):  # each of them comes after those whose outputs it takes
+        if needed.isdisjoint(node.output):
+            continue
+        needed.update(node.input)
+        if node.op_type == "Gemm":
+            _, weights, bias = node.input
+            layers.append((np.array(numbers[weights], float), np.array(numbers[bias], float)))
+    return layers[::-1]
 
 
 def inputs_of(percept: Mapping[str, Any], path: str = ZOO) -> Array:

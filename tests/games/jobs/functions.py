@@ -2,9 +2,12 @@
 
 import os
 import signal
+import threading
 import time
 from pathlib import Path
 from typing import Any
+
+import psutil
 
 from ai4u_edu.base.errors import AI4UError
 from tests.waiting import until
@@ -84,8 +87,13 @@ def die(number: int) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
-def threads() -> dict[str, str]:
-    return {key: value for key, value in os.environ.items() if key.endswith("_NUM_THREADS")}
+def numeric_threads() -> int:
+    """Return how many threads NumPy's library has started in this process, besides its own."""
+    import numpy as np
+
+    matrix = np.ones((1000, 1000))
+    assert (matrix @ matrix)[0, 0] == 1000
+    return psutil.Process().num_threads() - threading.active_count()
 
 
 def rest(seconds: float) -> None:

@@ -17,6 +17,7 @@ import psutil
 import pytest
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.games.jobs import (
     Engine,
     Job,
@@ -136,11 +137,20 @@ def test_a_process_that_ends_tells_its_exit_code(
     assert done.error == "its process died (exit code 3)"
 
 
-def test_jobs_run_elsewhere_with_a_thread_each(apart: Engine) -> None:
+def test_jobs_run_elsewhere(apart: Engine) -> None:
     (own,) = run_jobs([Job.of(functions.pid, number=0)], apart)
     assert own.result != os.getpid()
-    (threads,) = run_jobs([Job.of(functions.threads)], apart)
-    assert threads.result["OMP_NUM_THREADS"] == "1"
+
+
+def test_numeric_libraries_have_one_thread_in_a_process_for_jobs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name in ONE_THREAD:
+        monkeypatch.delenv(name, raising=False)
+    with engine("processes", width=1) as made:
+        (done,) = run_jobs([Job.of(functions.numeric_threads)], made)
+    assert done.result == 0
+    assert not {*ONE_THREAD} & {*os.environ}
 
 
 @pytest.mark.parametrize("name", ["processes", ON_RAY])

@@ -20,13 +20,14 @@ PAGE = {
     "ai4u_edu.page.viewer",
     "httpx",
     "msgspec",
+    "onnxruntime",
     "starlette",
     "torch",
     "uvicorn",
     "viser",
     "websockets",
 }
-"""Packages that a training without a page must not load."""
+"""Packages that an environment without a page must not load."""
 STEPS = """
 import sys
 from ai4u_edu.learn.envs import SceneEnv, SceneVectorEnv
@@ -71,7 +72,7 @@ except SetupError as error:
 
 @pytest.mark.slow
 def test_it_works_where_the_page_is_not_installed_and_says_what_human_needs() -> None:
-    code = code_without(sorted(PAGE - {"msgspec", "httpx", "torch"}), HUMAN)
+    code = code_without(sorted(PAGE - {"msgspec", "httpx", "onnxruntime", "torch"}), HUMAN)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     shape, sentence = done.stdout.splitlines()
     assert shape.endswith(", 3)")

@@ -11,6 +11,7 @@ PROGRAM = """
 import sys
 from ai4u_edu.learn.small import actor_critic, behaviour_cloning, neural_network, onnx_file
 from ai4u_edu.learn.small import ppo_training
+from ai4u_edu.learn import small_trainer
 for name in ("torch", "stable_baselines3", "onnx", "onnxruntime", "viser", "starlette"):
     if name in sys.modules:
         print(name)

@@ -17,6 +17,7 @@ from ai4u_edu.games.tournament.entry import file_driver
 from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.onnx_file import network_bytes, read_network, write_network
+from ai4u_edu.lessons.exercises.lesson_12 import layers_of
 
 ABOUT = {"scene": "box_chase", "algorithm": "ppo", "seed": 5, "steps": 1000}
 SCENES = ("box_chase", "parking", "grid_world")
@@ -66,6 +67,23 @@ def test_the_onnx_package_finds_nothing_wrong(scene: str) -> None:
     numbers = {each.name: list(each.dims) for each in model.graph.initializer}
     inputs = env.observation_space.shape[0] if env.observation_space.shape else 0
     assert numbers["actor.0.weight"] == numbers["critic.0.weight"] == [16, inputs]
+
+
+@pytest.mark.needs("train")
+def test_lesson_12_finds_the_layers_of_the_actor_alone(tmp_path: Path) -> None:
+    env, network = made("box_chase")
+    path = write_network(network, env.agent, ABOUT, tmp_path / "a.onnx")
+    *hidden, (weights, bias) = layers_of(str(path))
+    signal = env.reset(seed=1)[0].astype(float)
+    for table, offsets in hidden:
+        signal = np.tanh(table @ signal + offsets)
+    (action,) = (
+        numbers
+        for name, numbers in Network(path).decide(env.agent.percept).items()
+        if name != VALUE_OUTPUT
+    )
+    clipped = np.clip(weights @ signal + bias, network.low, network.high)
+    np.testing.assert_allclose(action, clipped, atol=1e-5)
 
 
 def test_the_same_network_gives_the_same_bytes() -> None:

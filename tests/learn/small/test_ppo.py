@@ -50,6 +50,8 @@ def test_it_begins_with_the_network_that_it_gets() -> None:
     clone = Ppo(corridor(), FEW, seed=5).network
     ppo = Ppo(corridor(), FEW, begin_with=clone)
     assert np.array_equal(ppo.network.actor.parameters, clone.actor.parameters)
+    assert np.exp(clone.log_spread) == pytest.approx(0.6)
+    assert np.exp(ppo.network.log_spread) == pytest.approx(0.2)  # so that it keeps what it can
     ppo.improve()
     assert not np.array_equal(ppo.network.actor.parameters, clone.actor.parameters)
 

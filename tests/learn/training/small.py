@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu import Scene
-from ai4u_edu.learn.training.learning import Trained, train
-from ai4u_edu.learn.training.run import Run
+from ai4u_edu.learn.training.learning import train
+from ai4u_edu.learn.training.run import Run, Trained
 from ai4u_edu.learn.training.settings import Algorithm, Settings, settings_for
 
 SMALL: dict[str, dict[str, Any]] = {

@@ -325,19 +325,6 @@ agents:
         Scene.loads(text)
 
 
-def test_without_the_extra_it_says_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    file = network(tmp_path / "a.onnx", {"heading": (2,)})
-    monkeypatch.setattr("ai4u_edu.base.optional_deps.find_spec", lambda _name: None)
-    with pytest.raises(SetupError) as caught:
-        trained_brain(str(file))
-    assert str(caught.value) == (
-        "this needs onnxruntime, which is not installed; install with: "
-        'pip install "ai4u-edu[onnx]" (in a checkout: pip install -e ".[onnx]")'
-    )
-
-
 def test_the_core_loads_no_network_before_there_is_one() -> None:
     code = (
         "import sys; from ai4u_edu import NeuralNetController; import ai4u_edu.cli.main;"

@@ -11,8 +11,8 @@ import pytest
 from ai4u_edu import Controller, Percept, Scene
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training import clone, demonstrate, evaluate, export, train
-from ai4u_edu.learn.training.learning import Trained
 from ai4u_edu.learn.training.progress_bar import ProgressBar, counted
+from ai4u_edu.learn.training.run import Trained
 from tests.learn.training.small import SMALL
 from tests.learn.training.test_evaluate import ROAD
 

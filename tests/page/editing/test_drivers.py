@@ -149,7 +149,6 @@ def test_a_recording_drives_again(tmp_path: Path) -> None:
 
 
 def test_a_network_and_the_sensors_that_it_needs() -> None:
-    pytest.importorskip("onnxruntime")
     harness = EditorHarness(Scene.load("box_chase"))
     harness.tick(3)
     harness.done(harness.editor.set_driver("0", "network:zoo:box_chase"))
@@ -175,7 +174,6 @@ def test_an_ai4u_script() -> None:
 
 
 def test_networks_that_were_named_are_offered(tmp_path: Path) -> None:
-    pytest.importorskip("onnxruntime")
     network = find_network("zoo:box_chase", None)
     (tmp_path / "nets").mkdir()
     for name in ("mine.onnx", "nets/other.onnx", "secret.onnx"):
@@ -203,7 +201,6 @@ def test_networks_that_were_named_are_offered(tmp_path: Path) -> None:
 
 
 def test_networks_beside_the_scene_are_offered(tmp_path: Path) -> None:
-    pytest.importorskip("onnxruntime")
     (tmp_path / "best.onnx").write_bytes(find_network("zoo:box_chase", None).read_bytes())
     Scene.load("box_chase").save(tmp_path / "mine.yaml")
     harness = EditorHarness(Scene.load(tmp_path / "mine.yaml"), offers=(tmp_path / "best.onnx",))

@@ -28,11 +28,10 @@ MAX_SCENE_CHARS = 60
 class NeuralNetController(Controller):
     """Takes each action from a trained network (an ONNX file).
 
-    It needs ``pip install "ai4u-edu[onnx]"`` and a file in the format of ``ai4u-edu export``. Each
-    input of the network has the name and shape of a sensor's reading (its perception key). The
-    output is the action, scaled and clipped to the actuator's range inside the network. A network
-    from another source works too if its inputs fit; numbers outside an actuator's range are then
-    clipped.
+    It needs a file in the format of ``ai4u-edu export``. Each input of the network has the name and
+    shape of a sensor's reading (its perception key). The output is the action, scaled and clipped
+    to the actuator's range inside the network. A network from another source works too if its
+    inputs fit; numbers outside an actuator's range are then clipped.
 
     ``model_path`` is a path (relative to the scene file, or to the current folder), or ``zoo:``
     and a scene's name for the network that comes with the package.

@@ -1,0 +1,334 @@
+"""The small learner as a trainer: what ``ai4u-edu train`` and ``clone`` run without torch.
+
+:mod:`ai4u_edu.learn.small` knows neither settings files nor folders; here they meet. The folder of
+a training (:class:`~ai4u_edu.learn.training.run.Run`) can be read while another process learns:
+each file is replaced as a whole. Whoever kills the process loses what came after the latest check.
+
+Start the process with :data:`~ai4u_edu.base.numeric_threads.ONE_THREAD` in its environment: then
+the same seed gives the same network on the same machine.
+"""
+
+import time
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.learn.small.actor_critic import ActorCritic
+from ai4u_edu.learn.small.behaviour_cloning import UPDATES, DriveData, clone_drives
+from ai4u_edu.learn.small.onnx_file import read_network, write_network
+from ai4u_edu.learn.small.ppo import PpoSettings
+from ai4u_edu.learn.small.ppo_training import PolicyCheck, PpoTraining
+from ai4u_edu.learn.training.demonstrations import Cloned, demonstrations
+from ai4u_edu.learn.training.interrupt import Interrupt
+from ai4u_edu.learn.training.prepare import prepare, with_learner
+from ai4u_edu.learn.training.progress_bar import ProgressBar
+from ai4u_edu.learn.training.run import Check, Config, Run, Trained
+from ai4u_edu.learn.training.settings import NO_REWARD, Settings
+from ai4u_edu.recording import Episode
+from ai4u_edu.recording.player import Player
+from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
+from ai4u_edu.scenes import Scene
+
+PACKAGES = ("ai4u-edu", "numpy", "pymunk", "gymnasium")
+MIN_INTERVAL_S = 1.0
+"""Shortest time between two writes of the network as it is."""
+BLOCK_S = 2.0
+"""Time of a block of decisions that is held out of a cloning with few drives."""
+
+
+def train(
+    scene: Scene,
+    settings: Settings,
+    folder: Path,
+    *,
+    steps: int | None = None,
+    seed: int = 0,
+    begin_with: Path | None = None,
+    reward_weights: Mapping[str, float] | None = None,
+    overwrite: bool = False,
+    quiet: bool = False,
+) -> Trained:
+    """Start a training by PPO.
+
+    Args:
+        scene: the scene.
+        settings: of the scene: its agent, rhythm, limit of steps, inputs, and how it is checked.
+            The learner has its own (:class:`~ai4u_edu.learn.small.ppo.PpoSettings`).
+        folder: the folder for all results.
+        steps: decisions to learn from; left out, as the settings say for ``ppo``.
+        seed: of the network, of what is tried out, and of the worlds.
+        begin_with: file of a network of the small learner to improve, such as a clone.
+        reward_weights: factor of each reward term by its name; 1 for one that is left out.
+        overwrite: True replaces a training that is in the folder.
+        quiet: True shows nothing.
+
+    Raises:
+        SetupError: the agent or a file doesn't fit, or the folder holds a training already.
+    """
+    if settings.observation != "flat":
+        raise SetupError(
+            "the small learner takes readings as one row of numbers (observation: flat); pictures "
+            'are for Stable-Baselines3: pip install "ai4u-edu[train]"'
+        )
+    if settings.without_reward != NO_REWARD:
+        raise SetupError(
+            f"without_reward: the small learner has a weight for each term; say --reward "
+            f"{settings.without_reward}=0"
+        )
+    settings = with_learner(scene, settings, quiet=quiet)
+    prepared = prepare(scene, settings)
+    sim = prepared.build()
+    agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
+    training = PpoTraining(
+        prepared,
+        PpoSettings(check_episodes=settings.check_episodes, enough=settings.enough),
+        seed=seed,
+        agent=agent.id,
+        begin_with=None if begin_with is None else read_network(begin_with.read_bytes(), agent),
+        reward_weights=reward_weights,
+    )
+    run = Run(folder)
+    config = Config(
+        scene=scene.description.name,
+        algorithm="ppo",
+        seed=seed,
+        steps=steps or settings.ppo.steps,
+        settings=settings,
+        versions={name: version(name) for name in PACKAGES},
+        trainer="small",
+    )
+    if overwrite:
+        run.clear()
+    run.begin(config, scene)
+    return _learn(run, config, training, quiet=quiet)
+
+
+def resume(folder: Path, *, steps: int | None = None, quiet: bool = False) -> Trained:
+    """Go on with a training that ended in any way, from its latest check.
+
+    Args:
+        folder: the training's folder.
+        steps: decisions to learn from, the ones before counted too; left out, as it was begun.
+        quiet: True shows nothing.
+
+    Raises:
+        SetupError: there is no training of the small learner in the folder, or nothing to do.
+    """
+    run = Run(folder)
+    config = run.config()
+    prepared = prepare(run.scene(), config.settings)
+    training = PpoTraining.resume(run.state, prepared)
+    config = config.model_copy(update={"steps": steps or config.steps})
+    if training.ppo.decisions >= config.steps:
+        raise SetupError(
+            f"{folder} has learned from {training.ppo.decisions} steps already; "
+            f"expected --steps larger than that, got {config.steps}"
+        )
+    return _learn(run, config, training, quiet=quiet)
+
+
+def clone(
+    episodes: Sequence[Episode],
+    path: Path,
+    *,
+    agent: str | None = None,
+    seed: int = 0,
+    updates: int = UPDATES,
+    quiet: bool = False,
+) -> Cloned:
+    """Learn to act as in recorded episodes, and write the network.
+
+    Of five drives or more, whole ones are held out to measure how well the network acts in drives
+    that it never saw.
+
+    Args:
+        episodes: of one scene, driven well.
+        path: the network's file.
+        agent: the id of the agent to imitate; left out, the one that acts first.
+        seed: of the network, and of which moments are held out.
+        updates: gradient steps at most.
+        quiet: True shows nothing.
+
+    Raises:
+        RecordingError: the episodes can't be played again exactly.
+        SetupError: such actions can't be learned.
+    """
+    shown = demonstrations(episodes, agent=agent)
+    decisions_per_s = shown.scene.world.ticks_per_second / (shown.skip_frame + 1)
+    bar = ProgressBar(updates, "updates", quiet=quiet)
+    try:
+        result = clone_drives(
+            [DriveData(each.observations, each.actions, each.rewards) for each in shown.episodes],
+            shown.observation_space,
+            shown.action_space,
+            seed=seed,
+            updates=updates,
+            block=max(1, round(BLOCK_S * decisions_per_s)),
+            on_error=lambda update, error: bar.show(update, f"error {error:.4f}"),
+        )
+    finally:
+        bar.close()
+    about = {
+        "scene": shown.scene.name,
+        "algorithm": "clone",
+        "seed": seed,
+        "steps": updates,
+        "demonstrations": len(shown.episodes),
+        "decisions": shown.decisions,
+        "skip_frame": shown.skip_frame,
+        "repeat_action": shown.repeat_action,
+    }
+    write_network(result.network, Player(episodes[0]).sim.agent(shown.agent), about, path)
+    return Cloned(
+        path=path,
+        decisions=shown.decisions,
+        loss=min(error for _, error in result.errors),
+        alike=result.alike,
+        commonest=result.commonest,
+        held_out=result.held_out,
+        remarks=result.remarks,
+    )
+
+
+def _learn(run: Run, config: Config, training: PpoTraining, *, quiet: bool) -> Trained:
+    interrupt = Interrupt()
+    writer = _Writer(run, config, training, quiet=quiet)
+    try:
+        with interrupt.listening():
+            writer.begin()
+
+            def after_round(_: PpoTraining) -> bool:
+                writer.after_round()
+                return interrupt.asked
+
+            training.learn(config.steps, after_round)
+            if not training.checks or training.checks[-1].decisions < training.ppo.decisions:
+                training.check()
+        writer.finish()
+    finally:
+        writer.close()
+    return Trained(
+        run=run,
+        steps=training.ppo.decisions,
+        interrupted=interrupt.asked,
+        enough=training.is_enough,
+        checks=writer.checks,
+        best=writer.best,
+    )
+
+
+class _Writer:
+    """Writes what a training has reached into its folder, and shows it.
+
+    Args:
+        run: the folder.
+        config: for what the files say of their origin.
+        training: whose state is written.
+        quiet: True shows nothing.
+    """
+
+    def __init__(self, run: Run, config: Config, training: PpoTraining, *, quiet: bool) -> None:
+        self._run, self._config, self._training = run, config, training
+        self._seconds = {check.steps: check.seconds for check in run.checks()}
+        self._seconds_before = max(self._seconds.values(), default=0.0)
+        self._checks_written = len(training.checks)
+        self._began = self._written_at = time.perf_counter()
+        self._first = training.ppo.decisions
+        self._bar = ProgressBar(config.steps, "steps", done=self._first, quiet=quiet)
+
+    @property
+    def checks(self) -> list[Check]:
+        """All checks so far, as a training's folder has them."""
+        return [self._as_check(check) for check in self._training.checks]
+
+    @property
+    def best(self) -> Check:
+        """Check of the network that is kept; there has been one."""
+        best = self._training.best_check
+        assert best is not None  # noqa: S101 - a training ends with a check
+        return self._as_check(best)
+
+    def begin(self) -> None:
+        """Write all files, so that a reader finds them and a training goes on from any moment."""
+        self._write_network(self._training.best, self._run.best_network)
+        self._training.save(self._run.state)
+        self._write_progress()
+
+    def after_round(self) -> None:
+        """Write what is new: after a check all of it, else the network as it is, if it is time."""
+        if len(self._training.checks) > self._checks_written:
+            self._write_check()
+        elif time.perf_counter() - self._written_at > MIN_INTERVAL_S:
+            self._write_progress()
+        decisions = self._training.ppo.decisions
+        speed = (decisions - self._first) / max(time.perf_counter() - self._began, 1e-9)
+        self._bar.show(min(decisions, self._config.steps), f"{speed:.0f}/s")
+
+    def finish(self) -> None:
+        """Write the last state."""
+        if len(self._training.checks) > self._checks_written:
+            self._write_check()
+        self._training.save(self._run.state)
+        self._write_progress(is_over=True)
+
+    def close(self) -> None:
+        """Remove the bar."""
+        self._bar.close()
+
+    def _write_check(self) -> None:
+        training = self._training
+        latest = training.checks[-1]
+        self._checks_written = len(training.checks)
+        self._seconds[latest.decisions] = self._seconds_before + time.perf_counter() - self._began
+        # the network comes first: a state without it would never write it again
+        if training.best_check is latest:
+            self._write_network(training.best, self._run.best_network)
+        training.save(self._run.state)
+        checks = self.checks
+        self._run.note(checks)
+        self._write_progress()
+        check = checks[-1]
+        success = "" if check.success is None else f"success {check.success:.0%}, "
+        self._bar.note(
+            f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
+            f"reward {check.reward:.2f} in {check.length:.0f} decisions"
+        )
+
+    def _write_progress(self, *, is_over: bool = False) -> None:
+        self._written_at = time.perf_counter()
+        training, run = self._training, self._run
+        self._write_network(training.ppo.network, run.watched_network)
+        curve = tuple(
+            CurvePoint(decisions=check.decisions, reward=check.reward, success=check.success)
+            for check in training.checks
+        )
+        progress = TrainingProgress(
+            decisions=training.ppo.decisions,
+            total=self._config.steps,
+            is_over=is_over,
+            curve=curve,
+        )
+        run.put_text(run.progress, progress.model_dump_json())
+
+    def _write_network(self, network: ActorCritic, path: Path) -> None:
+        training = self._training
+        best = training.best_check
+        is_best = path == self._run.best_network
+        about = {
+            "scene": self._config.scene,
+            "algorithm": self._config.algorithm,
+            "trainer": self._config.trainer,
+            "seed": self._config.seed,
+            "steps": best.decisions if is_best and best else training.ppo.decisions,
+        }
+        write_network(network, training.ppo.agent, about, path)
+
+    def _as_check(self, check: PolicyCheck) -> Check:
+        return Check(
+            steps=check.decisions,
+            seconds=self._seconds.get(check.decisions, self._seconds_before),
+            success=check.success,
+            reward=check.reward,
+            length=check.length,
+        )
