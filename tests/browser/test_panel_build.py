@@ -54,11 +54,16 @@ FORM = {
     "summary": "Distances of what a level fan of rays hits: a laser scanner.",
     "fields": [
         {"name": "eye", "label": "eye (m)", "kind": "number", "value": 0.5, "hint": "eye: height"},
-        {"name": "number_of_rays", "label": "number of rays", "kind": "whole", "value": 15},
+        {
+            "name": "number_of_rays",
+            "label": "number of rays",
+            "kind": "whole",
+            "value": 15,
+            "is_first": True,
+        },
         {"name": "target", "label": "target", "kind": "choice", "value": "box", "choices": ["box"]},
         {"name": "return_code", "label": "return code", "kind": "switch", "value": True},
     ],
-    "first": ["number_of_rays", "target"],
 }
 PART: dict[str, Any] = {
     "agent": "0",
@@ -208,7 +213,7 @@ def test_parts_of_a_block_have_cards_of_their_own(tab: TabPage) -> None:
     tab.head("Reach the target").click()
     assert tab.shown["block"] == ["rewards", 0, "children", 0]
     form = {**FORM, "path": ["rewards", 0, "children", 0], "fields": FORM["fields"][:1]}
-    tab.give({**PART, "form": {**form, "first": ["eye"]}})
+    tab.give({**PART, "form": form})
     expect(tab.page.get_by_label("eye (m)")).to_be_visible()
     expect(tab.head("All of these")).to_have_attribute("aria-expanded", "true")
 

@@ -234,18 +234,17 @@ def test_python_is_in_details_or_on_top_when_asked_for(
 ) -> None:
     heading = desk.page.get_by_role("heading", name="Drive it from Python")
     expect(heading).to_be_hidden()
-    desk.panel.change("python", is_first=True)
+    desk.button("Details").click()
     expect(heading).to_be_visible()
-    first = desk.page.locator(".ai4u-tabpanel:visible > :first-child")
-    expect(first).to_contain_text("Drive it from Python")
-    notices = record_texts(desk.page, ".ai4u-notice[role=status]")
-    desk.button("Copy").click()
-    desk.until(lambda: any("Copied." in text for text in notices()))
-    copied = desk.page.evaluate("navigator.clipboard.readText()")
-    assert copied == desk.panel.parts["python"]["lines"]
-    with panel_page(chromium, room, query="?panel=2&python") as asked:
+    query = "?panel=2&python"
+    with panel_page(chromium, room, query=query, permissions=CLIPBOARD) as asked:
         first = asked.page.locator(".ai4u-tabpanel:visible > :first-child")
         expect(first).to_contain_text("Drive it from Python")
+        notices = record_texts(asked.page, ".ai4u-notice[role=status]")
+        asked.button("Copy").click()
+        asked.until(lambda: any("Copied." in text for text in notices()))
+        copied = asked.page.evaluate("navigator.clipboard.readText()")
+        assert copied == asked.panel.parts["python"]["lines"]
 
 
 def test_another_agent_can_be_looked_at_and_driven(desk: PanelPage) -> None:

@@ -10,7 +10,7 @@ from tests.browser.panel_page import PanelPage, panel_page, panel_room
 
 pytestmark = pytest.mark.browser
 
-MAKE = """async ({ fields, first }) => {
+MAKE = """async (fields) => {
   const { Form } = await import("./web/panel/widgets/form.js");
   document.querySelector("#made")?.remove();
   window.sent = [];
@@ -20,7 +20,7 @@ MAKE = """async ({ fields, first }) => {
   root.id = "made";
   root.append(form.element);
   document.querySelector(".ai4u-panel-body").prepend(root);
-  form.update(fields, first);
+  form.update(fields);
 }"""
 REFUSE = """problems => (window.answer = { ok: false, text: "no", problems })"""
 
@@ -48,7 +48,7 @@ FIELDS = [
 @pytest.fixture
 def page(warm: PanelPage) -> Page:
     warm.reset()
-    warm.page.evaluate(MAKE, {"fields": FIELDS, "first": []})
+    warm.page.evaluate(MAKE, FIELDS)
     return warm.page
 
 
@@ -68,10 +68,15 @@ def test_three_fields_stand_before_more(page: Page) -> None:
         "flat",
     ]
     expect(entry(page, "target")).to_be_hidden()
-    page.evaluate("fields => form.update(fields, ['target', 'skip'])", FIELDS)
+    expect(entry(page, "skip")).to_be_hidden()
+
+
+def test_the_fields_that_the_server_marks_stand_before_more(page: Page) -> None:
+    marked = [row | {"is_first": row["name"] in {"target", "flat"}} for row in FIELDS]
+    page.evaluate("fields => form.update(fields)", marked)
     assert page.locator("#made .ai4u-form-first .ai4u-field > label").all_inner_texts() == [
+        "flat",
         "target",
-        "skip",
     ]
 
 

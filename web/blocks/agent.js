@@ -1,6 +1,6 @@
 /** Blocks of an agent's own senses and actions, with their Python. */
 
-/** @import { ProgramActuator, ProgramSensor, PythonPart, RayLayout } from "../types/panel.js" */
+/** @import { ProgramActuator, ProgramSensor, PythonPart, RayLayout } from "../generated/messages.js" */
 /** @import { Field } from "./kinds.js" */
 /** @import { SenseFields } from "./text.js" */
 

@@ -1,6 +1,6 @@
 /** The checks of the five steps: they look at what the robot senses and does, not at its blocks. */
 
-/** @import { PythonPart, RayLayout } from "../types/panel.js" */
+/** @import { PythonPart, RayLayout } from "../generated/messages.js" */
 
 import { sideOf } from "./agent.js";
 

@@ -1,6 +1,7 @@
 /** A program of blocks in the tab "Code": the switch to blocks and back, and the Python that they mean. */
 
-/** @import { CodePanel, PythonPart } from "../types/panel.js" */
+/** @import { PythonPart } from "../generated/messages.js" */
+/** @import { Panel } from "../panel/panel.js" */
 /** @import { AgentBlocks } from "./agent.js" */
 /** @import { Starts } from "./checks.js" */
 /** @import { BlockSteps } from "./steps.js" */
@@ -66,7 +67,7 @@ export class BlocksMode {
   element = element("div", { className: "ai4u-blocks", dataset: { ai4uKeys: "" } }, this.#words, this.#frame, this.#help);
 
   /**
-   * @param {CodePanel} panel
+   * @param {Panel} panel
    * @param {object} tab
    * @param {import("../code/editor.js").CodeEditor} tab.editor shows the blocks' Python
    * @param {() => void} tab.changed called when the person has changed the blocks

@@ -1,6 +1,7 @@
 /** Five steps from one block to a program that follows walls: each is done when the robot does it. */
 
-/** @import { CodePanel, PythonPart } from "../types/panel.js" */
+/** @import { PythonPart } from "../generated/messages.js" */
+/** @import { Panel } from "../panel/panel.js" */
 /** @import { Check, Starts } from "./checks.js" */
 
 import { roomOfPage } from "../shared/room.js";
@@ -73,7 +74,7 @@ export class BlockSteps {
   #open = button("Open the maze", () => this.#panel.send("open_scene", { name: SCENE, is_saved: false }), {});
   element;
 
-  /** @param {CodePanel} panel */
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#done = Math.min(recall(this.#key, 0), STEPS.length);

@@ -1,6 +1,7 @@
 /** The moment of the past that the world shows, beside the program: what it did there, and steps from there. */
 
-/** @import { CodePanel, PlayedEpisode } from "../types/panel.js" */
+/** @import { PlayedEpisode } from "../generated/messages.js" */
+/** @import { Panel } from "../panel/panel.js" */
 /** @import { Told } from "./timeline.js" */
 
 import { button, element, setText } from "../shared/dom.js";
@@ -16,7 +17,7 @@ export class CodeMoment {
   #live;
   element;
 
-  /** @param {CodePanel} panel */
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#back = button("", () => this.#step(-1), { icon: "back", label: "Decision before" });

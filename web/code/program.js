@@ -1,6 +1,6 @@
 /** The section "Your program": where the program comes from, and where it is kept. */
 
-/** @import { CodePanel } from "../types/panel.js" */
+/** @import { Panel } from "../panel/panel.js" */
 
 import { splitProgram } from "../blocks/text.js";
 import { handoutFor, handouts } from "../classroom/student/handout.js";
@@ -42,7 +42,7 @@ export class ProgramSection {
   offer = button("Take the program from your teacher", () => this.#takeRun("teacher"), { icon: "download" });
 
   /**
-   * @param {CodePanel} panel
+   * @param {Panel} panel
    * @param {object} tab
    * @param {() => string} tab.text returns the program in the editor
    * @param {(text: string) => void} tab.show puts another one there, and forgets how the one before ended

@@ -1,6 +1,6 @@
 /** The world's speed during a test, and how it comes back to what it was. */
 
-/** @import { CodePanel } from "../types/panel.js" */
+/** @import { Panel } from "../panel/panel.js" */
 
 import { limits } from "../shared/limits.js";
 
@@ -13,7 +13,7 @@ export class WorldSpeed {
   #before = null;
   #isFast = false;
 
-  /** @param {CodePanel} panel */
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     panel.addEventListener("part:run", ({ detail }) => {
@@ -44,7 +44,7 @@ export class WorldSpeed {
 
 /**
  * Return the panel's word for the end of an episode: "fell", "lost" or "over".
- * @param {CodePanel} panel
+ * @param {Panel} panel
  * @param {{step: number}} percept the last one
  * @param {number} seed
  * @returns {Promise<string>}

@@ -1,6 +1,7 @@
 /** The goals of a scene of the library, and the stars that the person's program earns with a run or a test. */
 
-/** @import { CodePanel, StarGoals } from "../types/panel.js" */
+/** @import { StarGoals } from "../generated/messages.js" */
+/** @import { Panel } from "../panel/panel.js" */
 /** @import { CodeRun, RunEnd } from "./run.js" */
 /** @import { CodeTest, Start } from "./test.js" */
 
@@ -28,7 +29,7 @@ export class CodeStars {
   #isHelped = false;
 
   /**
-   * @param {CodePanel} panel
+   * @param {Panel} panel
    * @param {CodeRun} run
    * @param {CodeTest} test
    */

@@ -1,6 +1,6 @@
 /** The program that a person begins with, made of what the agent senses and can do. */
 
-/** @import { ActionRange, ProgramActuator, SensorReading } from "../types/panel.js" */
+/** @import { ActionRange, ProgramActuator, SensorReading } from "../generated/messages.js" */
 
 /**
  * @typedef {object} Names words in a line, values to begin with

@@ -1,7 +1,8 @@
 /** The tab "Code": a program in Python drives the shown agent. */
 
 /** @import { Emitter } from "../types/events.js" */
-/** @import { AgentPart, CodePanel } from "../types/panel.js" */
+/** @import { AgentPart } from "../generated/messages.js" */
+/** @import { Panel } from "../panel/panel.js" */
 /** @import { Decision, RunDecision, RunEnd } from "./run.js" */
 /** @import { Names } from "./start.js" */
 /** @import { Told } from "./timeline.js" */
@@ -89,7 +90,7 @@ export class CodeTab {
 
   /**
    * @param {HTMLElement} root
-   * @param {CodePanel} panel
+   * @param {Panel} panel
    * @param {ConstructorParameters<typeof CodeRun>[0]} [parts] of CodeRun and CodeTest
    */
   constructor(root, panel, parts = {}) {

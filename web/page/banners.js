@@ -2,13 +2,17 @@
 
 /** @import { Commands, StateEvent } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
+/** @import { Result } from "./results.js" */
 import { capitalized } from "./driver_status.js";
 import { openNextScene } from "../scenes/next_scene.js";
 import { timeText } from "./results.js";
 
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
 const NOT_BOLD_KINDS = ["error", "task"];
-/** Texts by the outcome that the server sends: said to the driver, and said of another agent by its name. */
+/**
+ * Texts by the outcome that the server sends: said to the driver, and said of another agent by its name.
+ * @type {Record<string, string[]>}
+ */
 const OUTCOME_TEXTS = {
   goal: ["Reached the goal", "reached the goal"],
   won: ["You win", "wins"],
@@ -36,6 +40,18 @@ const REQUEST_ERROR_MS = 8000;
 /** Terms smaller than this round to 0.00 and are left out of the details. */
 const MIN_TERM = 0.005;
 
+/**
+ * @typedef {object} PageState what a banner needs to know of the page
+ * @property {string} restart the label of the restart key
+ * @property {string} name the agent's name, if this page can't drive it
+ * @property {boolean} isNew true until the person has pressed a key: then the goal is shown
+ * @property {Result | null} result of the episode that a person has just won; else null
+ * @property {boolean} isLost true once the connection has been gone for some seconds
+ * @property {string} held the text for a world that a teacher holds; empty for none
+ * @property {string} howToStart what the person does to start, such as "press a key"; empty if this page can't
+ */
+/** @typedef {{kind: string, text: string, amount?: string, hint?: string, details?: string, buttons?: string[]}} Banner */
+
 export class Banners {
   #sendCommand;
   #statusRegion = element("div", { className: "ai4u-banners", role: "status" });
@@ -45,8 +61,11 @@ export class Banners {
   #connectionError = "";
   #requestError = "";
   #timer = 0;
-  /** @type {[any, any]} */
-  #lastDraw = [null, {}];
+  /**
+   * What was drawn last; null before the first time.
+   * @type {Parameters<Banners["draw"]> | null}
+   */
+  #lastDraw = null;
 
   /** @param {(command: keyof Commands) => void} sendCommand */
   constructor(sendCommand) {
@@ -54,31 +73,30 @@ export class Banners {
     document.body.append(this.#statusRegion, this.#alertRegion);
   }
 
-  /** Set the reason why the server refuses this page, which only reloading can mend; empty clears it. */
+  /**
+   * Set the reason why the server refuses this page, which only reloading can mend; empty clears it.
+   * @param {string} reason
+   */
   setConnectionError(reason) {
     this.#connectionError = reason;
   }
 
-  /** Show for some seconds that a request failed. */
+  /**
+   * Show for some seconds that a request failed.
+   * @param {string} text
+   */
   showRequestError(text) {
     this.#requestError = text;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       this.#requestError = "";
-      this.draw(...this.#lastDraw);
+      if (this.#lastDraw) this.draw(...this.#lastDraw);
     }, REQUEST_ERROR_MS);
   }
 
   /**
    * @param {StateEvent | null} state the server's last one; null while disconnected
-   * @param {object} page
-   * @param {string} page.restart the label of the restart key
-   * @param {string} page.name the agent's name, if this page can't drive it
-   * @param {boolean} page.isNew true until the person has pressed a key: then the goal is shown
-   * @param {any} page.result of the episode that a person has just won: see page/results.js; else null
-   * @param {boolean} page.isLost true once the connection has been gone for some seconds
-   * @param {string} page.held the text for a world that a teacher holds; empty for none
-   * @param {string} page.howToStart what the person does to start, such as "press a key"; empty if this page can't
+   * @param {PageState} page
    */
   draw(state, page) {
     this.#lastDraw = [state, page];
@@ -93,6 +111,11 @@ export class Banners {
     used.replaceChildren(...(banner ? [this.#element(banner)] : []));
   }
 
+  /**
+   * @param {StateEvent | null} state
+   * @param {PageState} page
+   * @returns {Banner | null}
+   */
   #banner(state, page) {
     if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
     if (page.isLost) return { kind: "error", text: LOST };
@@ -107,7 +130,7 @@ export class Banners {
     return null;
   }
 
-  /** @param {{kind: string, text: string, amount?: string, hint?: string, details?: string, buttons?: string[]}} banner */
+  /** @param {Banner} banner */
   #element({ kind, text, amount, hint, details, buttons = [] }) {
     const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
     const words = element("p", {}, element(tag, { textContent: text }));
@@ -124,6 +147,7 @@ export class Banners {
     return made;
   }
 
+  /** @param {string} name of a button */
   #carryOut(name) {
     if (name === "Reload") location.reload();
     else if (name === "Next scene") openNextScene();
@@ -133,7 +157,7 @@ export class Banners {
 
 /**
  * @param {StateEvent} state
- * @param {any} page as in Banners.draw
+ * @param {PageState} page
  */
 function outcomeText(state, { name, result }) {
   const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
@@ -144,7 +168,8 @@ function outcomeText(state, { name, result }) {
 
 /**
  * @param {StateEvent} state
- * @param {any} page as in Banners.draw
+ * @param {PageState} page
+ * @returns {Banner}
  */
 function startBanner({ goal }, { isNew, name, howToStart }) {
   const start = howToStart ? `${capitalized(howToStart)} to start` : "Waits until a player presses a key";
@@ -154,7 +179,8 @@ function startBanner({ goal }, { isNew, name, howToStart }) {
 
 /**
  * @param {StateEvent} state
- * @param {any} page as in Banners.draw
+ * @param {PageState} page
+ * @returns {Banner}
  */
 function outcomeBanner(state, page) {
   const { outcome, reward, terms } = state;
@@ -170,6 +196,7 @@ function outcomeBanner(state, page) {
   };
 }
 
+/** @param {number | null} value */
 function signed(value) {
   if (value === null) return "";
   const size = Math.abs(value);

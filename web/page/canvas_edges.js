@@ -6,7 +6,7 @@ const MAX_WAIT_MS = 20_000;
 /** Keep the canvas's distances from the window's sides in the CSS variables --ai4u-left, --ai4u-right and --ai4u-bottom. */
 export function trackCanvasEdges() {
   const style = document.documentElement.style;
-  const update = (canvas) => {
+  const update = (/** @type {Element} */ canvas) => {
     const { left, right, bottom } = canvas.getBoundingClientRect();
     style.setProperty("--ai4u-left", `${Math.max(0, left)}px`);
     style.setProperty("--ai4u-right", `${Math.max(0, innerWidth - right)}px`);

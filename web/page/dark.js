@@ -15,7 +15,7 @@
 
   // A session cookie, set again on focus: another page may have set it otherwise, and viser reconnects on focus.
   const setCookie = () => (document.cookie = `ai4u_edu_dark=${isDark ? 1 : ""}; SameSite=Strict`);
-  const choose = (dark) => {
+  const choose = (/** @type {boolean} */ dark) => {
     isDark = dark;
     root.dataset.ai4uScheme = dark ? "dark" : "light";
     setCookie();
@@ -46,6 +46,7 @@
     }
   }
 
+  /** @param {boolean} dark */
   function storeChoice(dark) {
     try {
       localStorage.setItem(STORAGE_KEY, dark ? "dark" : "light");

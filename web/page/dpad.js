@@ -8,8 +8,12 @@ const DIRECTION_ACTIONS = {
   right: ["turn_right", "right"],
 };
 
-/** Return the actions on the pad by direction (up, left, down, right), without empty directions. */
+/**
+ * Return the actions on the pad by direction (up, left, down, right), without empty directions.
+ * @param {object} bindings of the agent, by action
+ */
 export function dpadActions(bindings) {
+  /** @type {Map<string, string>} */
   const pad = new Map();
   for (const [direction, actions] of Object.entries(DIRECTION_ACTIONS)) {
     const bound = actions.find((action) => action in bindings);

@@ -1,7 +1,19 @@
 /** The line that says who drives the agent, with buttons to take over and to let go. */
 
 /** @import { HelloEvent, SeatEvent } from "../generated/messages.js" */
-import { element } from "../shared/dom.js";
+import { element, setText } from "../shared/dom.js";
+
+/**
+ * @typedef {object} DriverView who drives, and what a person has to know to drive
+ * @property {boolean} connected
+ * @property {Omit<HelloEvent, "type">} hello the server's first message
+ * @property {Omit<SeatEvent, "type"> & {name?: string}} control who drives
+ * @property {string} howToDrive what the person has to do to take over, such as "press a key"
+ * @property {boolean} isPaused true while the world is paused
+ * @property {boolean} isWaiting true while the world waits for a key
+ * @property {boolean} isHeld true while a teacher holds the world
+ * @property {boolean} isReached false while the keyboard goes elsewhere, such as into a text field
+ */
 
 export class DriverStatus {
   #dot = element("span", { className: "ai4u-dot", ariaHidden: "true" });
@@ -22,19 +34,10 @@ export class DriverStatus {
     row.append(element("div", { className: "ai4u-driver" }, this.#dot, status, this.#take, this.#letGo));
   }
 
-  /**
-   * @param {object} shown
-   * @param {boolean} shown.connected
-   * @param {Omit<HelloEvent, "type">} shown.hello the server's first message
-   * @param {Omit<SeatEvent, "type"> & {name?: string}} shown.control who drives
-   * @param {string} shown.howToDrive what the person has to do to take over, such as "press a key"
-   * @param {boolean} shown.isPaused true while the world is paused
-   * @param {boolean} shown.isWaiting true while the world waits for a key
-   * @param {boolean} shown.isHeld true while a teacher holds the world
-   * @param {boolean} shown.isReached false while the keyboard goes elsewhere, such as into a text field
-   */
-  draw({ connected, hello, control, howToDrive, isPaused, isWaiting, isHeld, isReached }) {
-    const [kind, who] = status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached });
+  /** @param {DriverView} view */
+  draw(view) {
+    const { connected, hello, control, howToDrive, isPaused, isHeld } = view;
+    const [kind, who] = status(view);
     // whoever drives, no key and no stick moves anything now
     const isStill = connected && isPaused && !isHeld;
     this.#dot.dataset.kind = kind;
@@ -46,15 +49,18 @@ export class DriverStatus {
   }
 }
 
-function setText(target, text) {
-  if (target.textContent !== text) target.textContent = text; // screen readers announce every assignment
-}
-
-/** Return a text with a capital first letter. */
+/**
+ * Return a text with a capital first letter.
+ * @param {string} text
+ */
 export function capitalized(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
+/**
+ * Return the kind of the driver, and what the line says.
+ * @param {DriverView} view
+ */
 function status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached }) {
   if (!connected) return ["lost", "Connecting …"];
   if (isHeld) return ["none", "The world stands still"];

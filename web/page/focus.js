@@ -7,7 +7,10 @@ export function keysReachPage() {
   return document.hasFocus() && !isTextInput(document.activeElement);
 }
 
-/** Call a function whenever the focus has moved; a click on the picture takes it from a text field. */
+/**
+ * Call a function whenever the focus has moved; a click on the picture takes it from a text field.
+ * @param {() => void} changed
+ */
 export function watchFocus(changed) {
   const later = () => setTimeout(changed); // while the event is handled, the focus has not moved yet
   for (const type of ["focusin", "focusout", "focus", "blur"]) addEventListener(type, later);
@@ -15,6 +18,7 @@ export function watchFocus(changed) {
   addEventListener("pointerdown", blurForCanvas, { capture: true });
 }
 
+/** @param {PointerEvent} event */
 function blurForCanvas({ target }) {
   if (target instanceof HTMLCanvasElement) /** @type {HTMLElement | null} */ (document.activeElement)?.blur();
 }

@@ -1,12 +1,17 @@
 /** Gamepads: the left stick or the directional pad drives, A jumps, B jumps forward, Start restarts. */
 
+/** @import { Axes } from "./stick.js" */
 import { dpadActions } from "./dpad.js";
 import { axesFrom } from "./stick.js";
 
 /** Poll interval (ms): browsers send no events for gamepad buttons. */
 const POLL_MS = 20;
-/** Button indices of the standard gamepad mapping, by action and by direction. */
+/**
+ * Button indices of the standard gamepad mapping, by action and by direction.
+ * @type {Record<string, number>}
+ */
 const ACTION_BUTTONS = { jump: 0, accept: 0, jump_forward: 1, restart: 9 };
+/** @type {Record<string, number>} */
 const DPAD_BUTTONS = { up: 12, down: 13, left: 14, right: 15 };
 /** Button indices for an agent's other actions, in their order. */
 const SPARE_BUTTONS = [2, 3, 5, 4, 7, 6];
@@ -15,14 +20,28 @@ const STICK_AS_KEY_THRESHOLD = 0.5;
 
 export class Gamepads {
   #keys;
-  /** Key code by button index. */
+  /**
+   * Key code by button index.
+   * @type {Map<number, string>}
+   */
   #codes = new Map();
-  /** Key code by direction of the pad. */
+  /**
+   * Key code by direction of the pad.
+   * @type {Map<string, string>}
+   */
   #dpadCodes = new Map();
   #takesStick = false;
   #timer = 0;
-  /** Inputs of the last poll by source: the code of a pressed key, or the axes of a stick. */
-  #before = new Map();
+  /**
+   * Codes of the keys that were pressed at the last poll, by source.
+   * @type {Map<string, string>}
+   */
+  #pressed = new Map();
+  /**
+   * Axes of the sticks at the last poll, by source.
+   * @type {Map<string, Axes>}
+   */
+  #sticks = new Map();
 
   /** @param {import("./keys.js").HeldKeys} keys */
   constructor(keys) {
@@ -33,7 +52,10 @@ export class Gamepads {
     this.#startOrStop();
   }
 
-  /** @param bindings key codes of the agent by action */
+  /**
+   * @param {Record<string, string[]>} bindings key codes of the agent by action
+   * @param {boolean} takesStick
+   */
   bind(bindings, takesStick) {
     const dpad = dpadActions(bindings);
     this.#takesStick = takesStick;
@@ -58,22 +80,22 @@ export class Gamepads {
     const { pressed, sticks } = this.#read();
     // Only changes are passed on: a key that was released for another reason must be pressed again.
     for (const [source, code] of pressed) {
-      if (this.#before.get(source) !== code) this.#keys.press(source, code);
+      if (this.#pressed.get(source) !== code) this.#keys.press(source, code);
     }
-    for (const [source, before] of this.#before) {
-      if (typeof before === "string" && !pressed.has(source)) this.#keys.release(source);
-      if (typeof before === "object" && !sticks.has(source)) this.#keys.setStick(source, axesFrom(0, 0));
-    }
+    for (const source of this.#pressed.keys()) if (!pressed.has(source)) this.#keys.release(source);
+    for (const source of this.#sticks.keys()) if (!sticks.has(source)) this.#keys.setStick(source, axesFrom(0, 0));
     for (const [source, stick] of sticks) {
-      const before = this.#before.get(source) ?? axesFrom(0, 0);
+      const before = this.#sticks.get(source) ?? axesFrom(0, 0);
       if (before.forward !== stick.forward || before.turn !== stick.turn) this.#keys.setStick(source, stick);
     }
-    this.#before = new Map([...pressed, ...sticks]);
+    [this.#pressed, this.#sticks] = [pressed, sticks];
   }
 
   /** Return the pressed keys and the sticks of all gamepads, by source; none while another page has the focus. */
   #read() {
+    /** @type {Map<string, string>} */
     const pressed = new Map();
+    /** @type {Map<string, Axes>} */
     const sticks = new Map();
     for (const { index, axes, buttons } of document.hasFocus() && !document.hidden ? connectedGamepads() : []) {
       for (const [button, code] of this.#codes) {
@@ -94,6 +116,10 @@ function connectedGamepads() {
   return [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.connected);
 }
 
+/**
+ * Return the direction into which a stick is pushed; empty for none.
+ * @param {Axes} axes
+ */
 function mainDirection({ forward, turn }) {
   if (Math.max(Math.abs(forward), Math.abs(turn)) < STICK_AS_KEY_THRESHOLD) return "";
   if (Math.abs(forward) >= Math.abs(turn)) return forward > 0 ? "up" : "down";

@@ -30,6 +30,10 @@ export class Help {
   #graphics = element("p", { hidden: true, textContent: GRAPHICS_TEXT });
   #reset = element("button", { type: "button", className: "ai4u-plain", textContent: "Reset keys" });
   #tone = element("input", { type: "checkbox" });
+  /**
+   * The action whose new key is waited for; null if none is.
+   * @type {string | null}
+   */
   #actionToRebind = null;
 
   /**
@@ -152,13 +156,17 @@ export class Help {
     button?.focus();
   }
 
+  /** @param {string | null} action null to stop waiting for a key */
   #startRebinding(action) {
     this.#actionToRebind = action;
     this.#status.textContent = "";
     this.#listKeys();
   }
 
-  /** Take the key pressed after a click on an action as its new key. */
+  /**
+   * Take the key pressed after a click on an action as its new key.
+   * @param {KeyboardEvent} event
+   */
   #rebind(event) {
     const action = this.#actionToRebind;
     if (action === null || event.code === "Tab" || event.isComposing) return;
@@ -169,12 +177,14 @@ export class Help {
     this.#setStatus(event.code === "Escape" ? "" : this.#keymap.change(action, event.code));
   }
 
+  /** @param {string} text */
   #setStatus(text) {
     this.#status.textContent = text;
     this.#changed();
     this.#listKeys();
   }
 
+  /** @param {KeyboardEvent} event */
   #openOnQuestionMark(event) {
     // the character, not the key's position: its position depends on the keyboard layout
     const isQuestionMark = event.key === "?" && !event.ctrlKey && !event.metaKey && !event.altKey;

@@ -12,11 +12,16 @@ const TOUCH_SCREEN = matchMedia("(pointer: coarse)");
 export class Keycaps {
   #keys;
   #keymap;
+  /**
+   * Key codes by keycap.
+   * @type {Map<HTMLElement, string[]>}
+   */
   #keycaps = new Map();
   #stick;
   #dpad = element("div", { className: "ai4u-dpad" });
   #more = element("div", { className: "ai4u-more" });
   #dock;
+  /** @type {Parameters<Keycaps["arrange"]>} */
   #arranged = [{}, false];
 
   /**
@@ -33,9 +38,14 @@ export class Keycaps {
     TOUCH_SCREEN.addEventListener("change", () => this.arrange(...this.#arranged));
   }
 
-  /** Create a keycap for each action; on touch screens, a stick in place of the directional pad. */
+  /**
+   * Create a keycap for each action; on touch screens, a stick in place of the directional pad.
+   * @param {Record<string, string[]>} bindings key codes of the agent by action
+   * @param {boolean} takesStick
+   */
   arrange(bindings, takesStick) {
     this.#arranged = [bindings, takesStick];
+    /** @type {Map<string, HTMLElement>} */
     const made = new Map();
     this.#keycaps.clear();
     for (const [action, codes] of Object.entries(bindings)) {
@@ -64,6 +74,10 @@ export class Keycaps {
     }
   }
 
+  /**
+   * @param {string} action
+   * @param {string} code sent while it is pressed
+   */
   #keycap(action, code) {
     const name = this.#keymap.name(action);
     const [key] = this.#keymap.keys[action];
@@ -75,15 +89,15 @@ export class Keycaps {
       element("span", { textContent: name }),
     );
     keycap.dataset.action = action;
-    const press = (event) => {
+    const press = (/** @type {PointerEvent} */ event) => {
       // else the first keycap captures the finger, which then can't slide to another one
       keycap.releasePointerCapture(event.pointerId);
       this.#keys.press(`pointer ${event.pointerId}`, code);
     };
-    const release = (event) => this.#keys.release(`pointer ${event.pointerId}`);
+    const release = (/** @type {PointerEvent} */ event) => this.#keys.release(`pointer ${event.pointerId}`);
     keycap.addEventListener("pointerdown", (event) => event.button === 0 && press(event));
     keycap.addEventListener("pointerenter", (event) => event.buttons & 1 && press(event));
-    for (const type of ["pointerup", "pointercancel", "pointerleave"]) {
+    for (const type of /** @type {const} */ (["pointerup", "pointercancel", "pointerleave"])) {
       keycap.addEventListener(type, release);
     }
     for (const type of ["mousedown", "contextmenu"]) {

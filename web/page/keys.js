@@ -5,6 +5,8 @@
  * its camera with some of them, from a listener on `document`; ours runs first and stops their propagation.
  */
 
+/** @import { Axes } from "./stick.js" */
+
 /** Interval at which held keys are sent again (ms); the server releases keys after three times as long. */
 const RESEND_MS = 100;
 /** Shortest time between two messages about a stick (ms), because of the server's rate limit. */
@@ -31,17 +33,29 @@ export class HeldKeys {
   /** Overridden by a dialog: while it returns true, keyboard events are ignored. */
   isSuspended = () => false;
 
-  /** The code to send, by the code of the pressed key. */
+  /**
+   * The code to send, by the code of the pressed key.
+   * @type {Map<string, string>}
+   */
   #sentCodes = new Map();
-  /** Held codes by source: a key of the keyboard, a pointer or a gamepad button. */
+  /**
+   * Held codes by source: a key of the keyboard, a pointer or a gamepad button.
+   * @type {Map<string, string>}
+   */
   #sources = new Map();
-  /** Axes by source. */
+  /**
+   * Axes by source.
+   * @type {Map<string, Axes>}
+   */
   #sticks = new Map();
   #changed;
   #timer = 0;
   /** When `changed` was called last (ms, performance.now). */
   #notifiedAt = 0;
-  /** The control that the person moved to with the keyboard. */
+  /**
+   * The control that the person moved to with the keyboard.
+   * @type {EventTarget | null}
+   */
   #reachedByKey = null;
   /** True if the focus moves because of a key, not of a pointer. */
   #movesFocus = false;
@@ -86,7 +100,10 @@ export class HeldKeys {
     this.#sentCodes = sentCodes;
   }
 
-  /** @param {string} source what holds the key: a key of the keyboard, a pointer, a gamepad button */
+  /**
+   * @param {string} source what holds the key: a key of the keyboard, a pointer, a gamepad button
+   * @param {string} code as the agent knows it
+   */
   press(source, code) {
     if (this.#sources.get(source) === code) return;
     this.#sources.set(source, code);
@@ -94,7 +111,11 @@ export class HeldKeys {
     this.#notify();
   }
 
-  /** Set the axes of one stick. */
+  /**
+   * Set the axes of one stick.
+   * @param {string} source the stick
+   * @param {Axes} axes
+   */
   setStick(source, { forward, turn }) {
     const before = this.#sticks.get(source);
     if ((before?.forward ?? 0) === forward && (before?.turn ?? 0) === turn) return;
@@ -107,6 +128,7 @@ export class HeldKeys {
     this.#timer = setTimeout(() => this.#notify(), wait);
   }
 
+  /** @param {string} source what held the key */
   release(source) {
     if (this.#sources.delete(source)) this.#notify();
   }
@@ -125,6 +147,7 @@ export class HeldKeys {
     this.#changed();
   }
 
+  /** @param {KeyboardEvent} event */
   #down(event) {
     const { code } = event;
     const isForOthers = this.#isForOthers(event);
@@ -148,6 +171,7 @@ export class HeldKeys {
     if (!event.repeat) this.press(code, sent);
   }
 
+  /** @param {KeyboardEvent} event */
   #up(event) {
     this.release(event.code);
     if (this.#isForOthers(event) || !this.#isOurs(event.code)) return;
@@ -155,12 +179,18 @@ export class HeldKeys {
     if (this.#sentCodes.has(event.code)) event.preventDefault(); // Space would press a button
   }
 
-  /** Return true for a key that drives, or would move viser's camera. */
+  /**
+   * Return true for a key that drives, or would move viser's camera.
+   * @param {string} code
+   */
   #isOurs(code) {
     return this.#sentCodes.has(code) || CAMERA_CODES.includes(code);
   }
 
-  /** Return true if the browser or the focused control has to handle a keyboard event. */
+  /**
+   * Return true if the browser or the focused control has to handle a keyboard event.
+   * @param {KeyboardEvent} event
+   */
   #isForOthers({ code, target, isComposing }) {
     if (this.isSuspended() || isComposing || isTextInput(target)) return true;
     // a control reached by a key needs its own keys
@@ -169,7 +199,10 @@ export class HeldKeys {
   }
 }
 
-/** Return true if typing goes into the element, or into an editor that has keys of its own. */
+/**
+ * Return true if typing goes into the element, or into an editor that has keys of its own.
+ * @param {EventTarget | null} target
+ */
 export function isTextInput(target) {
   if (target instanceof Element && target.closest("[data-ai4u-keys]")) return true;
   if (!(target instanceof HTMLElement)) return false;

@@ -1,5 +1,6 @@
 /** Labels of keys, and captions of actions. */
 
+/** @type {Record<string, string>} */
 const KEY_LABELS = {
   ArrowUp: "↑",
   ArrowDown: "↓",
@@ -17,6 +18,7 @@ const KEY_LABELS = {
   Minus: "-",
   Equal: "=",
 };
+/** @type {Record<string, string>} */
 const CAPTIONS = { backward: "back", jump_forward: "jump forward", turn_left: "left", turn_right: "right" };
 
 /** @type {ReadonlyMap<string, string>} */
@@ -31,7 +33,10 @@ export async function loadLayout() {
   }
 }
 
-/** Return the text printed on the key with a KeyboardEvent.code. */
+/**
+ * Return the text printed on a key.
+ * @param {string} code its KeyboardEvent.code
+ */
 export function label(code) {
   const printed = layout.get(code);
   if (printed?.trim()) return printed.toLocaleUpperCase();

@@ -1,6 +1,10 @@
 /** Entry point of our part of the page: keys, driver status and banners. viser draws the rest. */
 
-/** @import { Commands, HelloEvent, SeatEvent, StateEvent } from "../generated/messages.js" */
+/**
+ * @import { Commands, ErrorEvent, HelloEvent, SeatEvent, StateEvent } from "../generated/messages.js"
+ * @import { Panel } from "../panel/panel.js"
+ * @import { ClassEvent } from "../types/class.js"
+ */
 import "../panel/shortcuts.js"; // the first one: its listener comes before the one that drives
 import { roomOfPage } from "../shared/room.js";
 import { Banners } from "./banners.js";
@@ -70,9 +74,15 @@ const letGo = () => {
   socket.send({ type: "let_go" });
 };
 const driverStatus = new DriverStatus(row, take, letGo);
-/** The bar of a class; null where there is none. */
+/**
+ * The bar of a class; null where there is none.
+ * @type {ClassBar | null}
+ */
 let classBar = null;
-/** The panel; null where the server has none. */
+/**
+ * The panel; null where the server has none.
+ * @type {Panel | null}
+ */
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
@@ -117,7 +127,7 @@ socket.onworldreplaced = () => {
   hasActed = false;
   socket.path = `ws/input?after_another&agent=${encodeURIComponent(hello.agent ?? "")}`;
 };
-socket.onmessage = (message) => {
+socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent | ErrorEvent} */ message) => {
   switch (message.type) {
     case "hello":
       hello = message;
@@ -169,7 +179,7 @@ function draw() {
   const task = HAS_PANEL && !scene ? "" : scene?.key || state?.title;
   const result = results.of(connected ? state : null, task, task ? driverOfEpisode(isDriven) : "");
   const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : "";
-  panel?.drawBest(driver && results.best(task, driver), driver === PROGRAM);
+  panel?.drawBest(driver ? results.best(task, driver) : null, driver === PROGRAM);
   banners.draw(connected ? state : null, {
     restart: label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
@@ -181,11 +191,14 @@ function draw() {
   });
 }
 
-/** Return who drives the present episode, for its time; empty for networks, scripts and tests. */
+/**
+ * Return who drives the present episode, for its time; empty for networks, scripts and tests.
+ * @param {boolean} isDriven true if a person may drive by this page's keys
+ */
 function driverOfEpisode(isDriven) {
-  const { agent, episode, isTest } = panel?.program ?? {};
-  const isPrograms = agent === hello.agent && episode === state?.agent_episode;
-  if (isPrograms) return isTest ? "" : PROGRAM;
+  const program = panel?.program;
+  const isPrograms = program?.agent === hello.agent && program?.episode === state?.agent_episode;
+  if (isPrograms) return program.isTest ? "" : PROGRAM;
   return isDriven ? KEYS : "";
 }
 

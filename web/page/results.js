@@ -12,8 +12,11 @@ export const FIRST = "first";
 export const BEST = "best";
 export const SLOWER = "slower";
 
+/** @typedef {{seconds: number, best: number, kind: string, by: string}} Result */
+
 export class Results {
   #episode = "";
+  /** @type {Result | null} */
   #result = null;
   #onwin;
 
@@ -28,7 +31,6 @@ export class Results {
    * @param {StateEvent | null} state the server's last one; null while disconnected
    * @param {string} task what is driven, such as the scene's name
    * @param {string} by KEYS or PROGRAM for who drives; empty for others, whose results are not kept
-   * @returns {?{seconds: number, best: number, kind: string, by: string}}
    */
   of(state, task, by) {
     if (!state?.outcome || state.past) {
@@ -43,11 +45,20 @@ export class Results {
     return this.#result;
   }
 
-  /** Return the best time (s) of a driver; null if there is none. */
+  /**
+   * Return the best time (s) of a driver; null if there is none.
+   * @param {string} task what is driven
+   * @param {string} by KEYS or PROGRAM
+   */
   best(task, by) {
     return timesOf(task)[by] ?? null;
   }
 
+  /**
+   * @param {number} seconds
+   * @param {string} task
+   * @param {string} by
+   */
   #record(seconds, task, by) {
     const times = timesOf(task);
     const before = times[by];
@@ -59,19 +70,27 @@ export class Results {
   }
 }
 
-/** Return the best times for a task by driver. Earlier versions kept one number, of whoever drove. */
+/**
+ * Return the best times for a task by driver. Earlier versions kept one number, of whoever drove.
+ * @param {string} task
+ * @returns {Record<string, number>}
+ */
 function timesOf(task) {
   const times = recall("best-times", {})[task];
   return typeof times === "object" ? times : {};
 }
 
-/** Return a result as the end of a sentence: " in 2.3 s, your best". */
+/**
+ * Return a result as the end of a sentence: " in 2.3 s, your best".
+ * @param {Result} result
+ */
 export function timeText({ seconds, best, kind, by }) {
   const [time, whose] = [` in ${format(seconds)} s`, by === PROGRAM ? "your program's best" : "your best"];
   if (kind === BEST) return `${time}, ${whose}`;
   return kind === SLOWER ? `${time} (${whose}: ${format(best)} s)` : time;
 }
 
+/** @param {number} seconds */
 function format(seconds) {
   return seconds.toLocaleString(undefined, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
 }

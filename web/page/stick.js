@@ -1,11 +1,14 @@
 /** An analog stick on the screen for the thumb: forward, backward, left and right. */
 
+/** @import { StickPosition } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
 
 /** Dead zone of each axis, as a share of its full deflection: a thumb is not exact. */
 const DEAD_ZONE = 0.15;
 /** Number of steps from the middle to full deflection. */
 const STEPS = 20;
+
+/** @typedef {Required<StickPosition>} Axes */
 
 /**
  * Convert a stick's position to axis values (forward, turn), each from -1 to 1.
@@ -17,7 +20,7 @@ export function axesFrom(right, down) {
   const distance = Math.hypot(right, down);
   const longer = Math.max(Math.abs(right), Math.abs(down));
   const stretch = longer ? (distance / longer) / Math.max(1, distance) : 0;
-  const quantize = (value) => {
+  const quantize = (/** @type {number} */ value) => {
     const size = (Math.abs(value) - DEAD_ZONE) / (1 - DEAD_ZONE);
     return size <= 0 ? 0 : (Math.sign(value) * Math.round(Math.min(size, 1) * STEPS)) / STEPS;
   };
@@ -26,6 +29,10 @@ export function axesFrom(right, down) {
 
 export class Stick {
   #keys;
+  /**
+   * The pointer that holds the knob; null for none.
+   * @type {number | null}
+   */
   #pointerId = null;
   #knob = element("div", { className: "ai4u-knob" });
   /** The stick's element; the caller places it. */
@@ -41,7 +48,7 @@ export class Stick {
     this.element.append(this.#knob);
     this.element.addEventListener("pointerdown", (event) => this.#begin(event));
     this.element.addEventListener("pointermove", (event) => this.#move(event));
-    for (const type of ["pointerup", "pointercancel", "lostpointercapture"]) {
+    for (const type of /** @type {const} */ (["pointerup", "pointercancel", "lostpointercapture"])) {
       this.element.addEventListener(type, (event) => this.#end(event));
     }
     for (const type of ["mousedown", "contextmenu"]) {
@@ -49,6 +56,7 @@ export class Stick {
     }
   }
 
+  /** @param {PointerEvent} event */
   #begin(event) {
     if (this.#pointerId !== null || event.button !== 0) return;
     this.#pointerId = event.pointerId;
@@ -57,6 +65,7 @@ export class Stick {
     this.#move(event);
   }
 
+  /** @param {PointerEvent} event */
   #move(event) {
     if (event.pointerId !== this.#pointerId) return;
     const { left, top, width } = this.element.getBoundingClientRect();
@@ -67,6 +76,7 @@ export class Stick {
     this.#keys.setStick("stick", axesFrom(right / travel, down / travel));
   }
 
+  /** @param {PointerEvent} event */
   #end(event) {
     if (event.pointerId !== this.#pointerId) return;
     this.#pointerId = null;

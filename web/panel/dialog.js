@@ -5,6 +5,8 @@ import { button, element } from "../shared/dom.js";
 
 /**
  * Open a modal window. Closing it gives the focus back to where it was.
+ * @param {string} title
+ * @param {HTMLElement[]} children
  * @returns {{dialog: HTMLDialogElement, body: HTMLElement, close: () => void}}
  */
 export function openDialog(title, ...children) {

@@ -8,7 +8,7 @@ export function returnFocus(root) {
   addEventListener("pointerdown", () => (isPointer = true), { capture: true });
   addEventListener("keydown", () => (isPointer = false), { capture: true });
   // with the keyboard the focus stays: a person would lose their place
-  const release = ({ target }) => {
+  const release = (/** @type {Event} */ { target }) => {
     if (isPointer && !isTextInput(target)) focusWorld();
   };
   root.addEventListener("click", release);

@@ -12,9 +12,15 @@ const PHONE = matchMedia("(max-width: 576px)");
 /** A phone on its side: the panel stands beside the canvas, but folded at first. */
 const LOW = matchMedia("(max-height: 500px)");
 const UPRIGHT = matchMedia("(orientation: portrait) and (max-width: 1000px)");
-/** Smallest, largest and usual size: width beside the canvas (px), height below it (share of the window, %). */
+/**
+ * Smallest, largest and usual size: width beside the canvas (px), height below it (share of the window, %).
+ * @type {Record<string, number[]>}
+ */
 const SIZES = { side: [280, 560, 340], below: [25, 70, 42] };
-/** What an arrow key on the handle adds. */
+/**
+ * What an arrow key on the handle adds.
+ * @type {Record<string, number>}
+ */
 const STEPS = { side: 20, below: 5 };
 
 export class Layout {
@@ -23,7 +29,7 @@ export class Layout {
   #kind = "side";
   handle = element("div", { className: "ai4u-resize", tabIndex: 0 });
 
-  /** @param onFold called with true when the panel is folded, and with false when it is opened */
+  /** @param {(isFolded: boolean) => void} onFold called with true when the panel is folded, and with false when it is opened */
   constructor(onFold) {
     this.#onFold = onFold;
     setAttributes(this.handle, { role: "separator", "aria-label": "Size of the panel" });
@@ -38,6 +44,7 @@ export class Layout {
     return this.#root.dataset.ai4uPanel === "folded";
   }
 
+  /** @param {boolean} isFolded */
   fold(isFolded) {
     remember(this.#foldKey, isFolded);
     this.#showFold(isFolded);
@@ -52,7 +59,10 @@ export class Layout {
     this.#showFold(recall(this.#foldKey, this.#isSmall));
   }
 
-  /** Keep the height of the keys on the screen, above which a sheet stands. */
+  /**
+   * Keep the height of the keys on the screen, above which a sheet stands.
+   * @param {HTMLElement} dock
+   */
   observeDock(dock) {
     const update = () => this.#root.style.setProperty("--ai4u-dock-height", `${dock.offsetHeight}px`);
     new ResizeObserver(update).observe(dock);
@@ -66,11 +76,13 @@ export class Layout {
     return this.#isSmall ? "panel-folded-small" : "panel-folded";
   }
 
+  /** @param {boolean} isFolded */
   #showFold(isFolded) {
     this.#root.dataset.ai4uPanel = isFolded ? "folded" : "open";
     this.#onFold(isFolded);
   }
 
+  /** @param {number | undefined} size undefined for a sheet, which has none */
   #showSize(size) {
     if (size === undefined) return;
     const [min, max] = SIZES[this.#kind];
@@ -84,6 +96,7 @@ export class Layout {
     });
   }
 
+  /** @param {number | undefined} size */
   #resize(size) {
     if (!(this.#kind in SIZES)) return;
     const [min, max] = SIZES[this.#kind];
@@ -92,18 +105,21 @@ export class Layout {
     remember(`panel-size-${this.#kind}`, within);
   }
 
+  /** @param {PointerEvent} event */
   #startDrag(event) {
     if (event.button !== 0) return;
     event.preventDefault(); // else the drag selects text
     this.handle.setPointerCapture(event.pointerId);
   }
 
+  /** @param {PointerEvent} event */
   #drag(event) {
     if (!this.handle.hasPointerCapture(event.pointerId)) return;
     if (this.#kind === "side") this.#resize(innerWidth - event.clientX);
     else this.#resize((100 * (innerHeight - event.clientY)) / innerHeight);
   }
 
+  /** @param {KeyboardEvent} event */
   #onKey(event) {
     const bigger = this.#kind === "side" ? "ArrowLeft" : "ArrowUp";
     const smaller = this.#kind === "side" ? "ArrowRight" : "ArrowDown";

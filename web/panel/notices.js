@@ -7,6 +7,8 @@ const INFO_MS = 6000;
 /** The same for a result with a button (ms). */
 const ACTION_MS = 20_000;
 
+/** @typedef {{text: string, icon: string, run: () => void}} NoticeAction what a button beside a result does */
+
 export class Notices {
   // both exist from the start: screen readers announce what is put into a region that they know
   #info = element("div", { className: "ai4u-notice", role: "status" });
@@ -14,7 +16,11 @@ export class Notices {
   #timer = 0;
   element = element("div", { className: "ai4u-notices" }, this.#error, this.#info);
 
-  /** @param {?{text: string, icon: string, run: () => void}} action what a button beside a result does */
+  /**
+   * @param {string} text
+   * @param {string} level "info" or "error"
+   * @param {NoticeAction | null} action
+   */
   show(text, level = "info", action = null) {
     const isError = level === "error";
     clearTimeout(this.#timer);

@@ -1,6 +1,12 @@
 /** Our panel beside viser's canvas: its frame, its tabs, and what they share. */
 
-/** @import { Commands, PanelParts, Show } from "../generated/messages.js" */
+/**
+ * @import { Commands, ScenePart, Show } from "../generated/messages.js"
+ * @import { DriverView } from "../page/driver_status.js"
+ * @import { EmitterClass } from "../types/events.js"
+ * @import { AnswerTo, PanelEvents, PanelMessage, Parts, TabsPart } from "../types/panel.js"
+ * @import { NoticeAction } from "./notices.js"
+ */
 import { button, element, setAttributes } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
 import { DriveTab } from "./drive/tab.js";
@@ -19,9 +25,19 @@ import { recall, remember } from "../shared/storage.js";
 
 const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["code", "Code"], ["past", "Past"]];
 const MAX_FILE_NAME_CHARS = 80;
-/** Name of the part that a tab shows; that of an option's tab is the tab's own. */
+/**
+ * Name of the part that a tab shows; that of an option's tab is the tab's own.
+ * @type {Record<string, Show["tabs"][number]>}
+ */
 const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", code: "agent", past: "past" };
-/** Modules of the tabs that are loaded when they are first opened. */
+/** @typedef {{update(part: Parts[keyof Parts]): void}} Tab takes each part of its name */
+/** @typedef {new (root: HTMLElement, panel: Panel) => Tab} TabClass */
+/** @typedef {{agent: string | null, take: () => void, letGo: () => void}} Driving */
+
+/**
+ * Modules of the tabs that are loaded when they are first opened.
+ * @type {Record<string, () => Promise<TabClass>>}
+ */
 const LOADERS = {
   drive: async () => DriveTab,
   build: async () => (await import("./build/tab.js")).BuildTab,
@@ -32,8 +48,7 @@ const LOADERS = {
 
 /**
  * Make the panel and put it into the page.
- * @param {{agent: string | null, take: () => void, letGo: () => void}} driving the agent in the page's address or null, and
- *   how a person drives it
+ * @param {Driving} driving the agent in the page's address or null, and how a person drives it
  * @param {HTMLElement} dock the keys on the screen
  */
 export function startPanel(driving, dock) {
@@ -43,7 +58,7 @@ export function startPanel(driving, dock) {
   return panel;
 }
 
-export class Panel extends EventTarget {
+export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget) {
   /**
    * What this page looks at.
    * @type {Omit<Show, "type">}
@@ -51,12 +66,25 @@ export class Panel extends EventTarget {
   shown;
   /** True while a program of this page has the agent. */
   hasProgram = false;
-  /** The latest episode in which a program of this page decided: {agent, episode, isTest}; null if there is none. */
+  /**
+   * The latest episode in which a program of this page decided; null if there is none.
+   * @type {{agent: string, episode: number, isTest: boolean} | null}
+   */
   program = null;
-  /** The person drives with it: {agent, take(), letGo()} of the page. */
+  /** The person drives with it. */
   driving;
-  #parts = new Map();
+  /**
+   * Who drives; null before it is known.
+   * @type {DriverView | null}
+   */
+  driver = null;
+  /** The latest parts by name; those that have not come yet are missing. */
+  #parts = /** @type {Parts} */ ({});
   #loaders = { ...LOADERS };
+  /**
+   * Tabs by name; null while one is loaded.
+   * @type {Map<string, Tab | null>}
+   */
   #opened = new Map();
   #socket;
   #run;
@@ -70,10 +98,15 @@ export class Panel extends EventTarget {
   #undo = button("", () => this.send("undo"), { icon: "undo", label: "Undo", kind: "quiet" });
   #redo = button("", () => this.send("redo"), { icon: "redo", label: "Redo", kind: "quiet" });
   #tabs = new Tabs(TABS, (name, root) => this.#openTab(name, root));
+  /** @type {boolean} */
   details = recall("panel-details", false);
   layout = new Layout((isFolded) => this.#onFold(isFolded));
   element = element("aside", { className: "ai4u-panel", ariaLabel: "Panel" });
 
+  /**
+   * @param {Driving} driving
+   * @param {string} pageId
+   */
   constructor(driving, pageId) {
     super();
     this.driving = driving;
@@ -93,11 +126,14 @@ export class Panel extends EventTarget {
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
     returnFocus(this.element);
     this.#setDetails(this.details);
-    this.addEventListener("part:scene", (event) => this.#onScene(/** @type {CustomEvent} */ (event).detail));
-    this.addEventListener("part:tabs", (event) => this.#addTabs(/** @type {CustomEvent} */ (event).detail));
+    this.addEventListener("part:scene", ({ detail }) => this.#onScene(detail));
+    this.addEventListener("part:tabs", ({ detail }) => this.#addTabs(detail));
   }
 
-  /** Put the panel into the page and connect it. */
+  /**
+   * Put the panel into the page and connect it.
+   * @param {HTMLElement} dock the keys on the screen
+   */
   start(dock) {
     document.body.append(this.element);
     this.layout.arrange();
@@ -113,18 +149,19 @@ export class Panel extends EventTarget {
    * @param {Name} command
    * @param {Commands[Name]} [args]
    * @param {{quiet?: boolean}} [options]
-   * @returns {Promise<any>}
+   * @returns {Promise<AnswerTo<Name>>}
    */
   async send(command, args, { quiet = false } = {}) {
     const answer = await this.#socket.command(command, args);
     if (!answer.ok && !answer.problems.length) this.notice(answer.text, "error");
     else if (answer.ok && !quiet) this.notice(answer.text);
-    return answer;
+    return /** @type {AnswerTo<Name>} */ (answer);
   }
 
   /**
    * Send a file, and a command about it.
-   * @param {"load_text" | "open_recording"} command
+   * @template {"load_text" | "open_recording"} Name
+   * @param {Name} command
    * @param {File} file
    */
   async sendFile(command, file) {
@@ -145,26 +182,36 @@ export class Panel extends EventTarget {
     if (before.agent !== this.shown.agent) this.dispatchEvent(new Event("agent"));
   }
 
-  /** Say something in a fixed place; level "error" stays until it is closed. @param action as of Notices.show */
+  /**
+   * Say something in a fixed place; level "error" stays until it is closed.
+   * @param {string} text
+   * @param {string} [level]
+   * @param {NoticeAction | null} [action]
+   */
   notice(text, level = "info", action = null) {
     this.#notices.show(text, level, action);
   }
 
   /**
    * Return the latest part of a name, or null.
-   * @template {string} Name
+   * @template {keyof Parts} Name
    * @param {Name} name
-   * @returns {(Name extends keyof PanelParts ? PanelParts[Name] : any) | null}
+   * @returns {Parts[Name] | null}
    */
   part(name) {
-    return this.#parts.get(name) ?? null;
+    return this.#parts[name] ?? null;
   }
 
+  /** @param {string} name */
   openTab(name) {
     this.#tabs.choose(name);
   }
 
-  /** Open a modal window: {dialog, body, close()}. */
+  /**
+   * Open a modal window: {dialog, body, close()}.
+   * @param {string} title
+   * @param {HTMLElement[]} children
+   */
   dialog(title, ...children) {
     return openDialog(title, ...children);
   }
@@ -173,24 +220,35 @@ export class Panel extends EventTarget {
     focusWorld();
   }
 
-  /** Name this page's own program, which the server knows as a script like any other. */
+  /**
+   * Name this page's own program, which the server knows as a script like any other.
+   * @param {DriverView["hello"]} hello
+   */
   named(hello) {
-    const rename = (driver) => (driver && this.hasProgram ? "Your program" : driver);
+    const rename = (/** @type {string} */ driver) => (driver && this.hasProgram ? "Your program" : driver);
     return { ...hello, others: rename(hello.others), instead: rename(hello.instead) };
   }
 
-  /** Show who drives: the arguments of DriverStatus.draw. */
+  /**
+   * Show who drives.
+   * @param {DriverView} status
+   */
   drawDriver(status) {
     this.driver = status;
     if (status.hello.agent && !this.shown.agent) this.show({ agent: status.hello.agent });
     this.dispatchEvent(new CustomEvent("driver", { detail: status }));
   }
 
-  /** Show the best time (s) of whoever drives, the person or the program; nothing for null or "". */
+  /**
+   * Show the best time (s) of whoever drives, the person or the program.
+   * @param {number | null} time null for none
+   * @param {boolean} isPrograms
+   */
   drawBest(time, isPrograms) {
     this.#run.drawBest(time, isPrograms);
   }
 
+  /** @param {boolean} isOn */
   #setDetails(isOn) {
     this.details = isOn;
     remember("panel-details", isOn);
@@ -199,23 +257,26 @@ export class Panel extends EventTarget {
     this.dispatchEvent(new Event("details"));
   }
 
+  /** @param {boolean} isFolded */
   #onFold(isFolded) {
     const label = isFolded ? "Open the panel" : "Fold the panel";
     setAttributes(this.#fold, { "aria-expanded": isFolded ? "false" : "true", "aria-label": label, title: label });
     this.#body.inert = isFolded;
   }
 
+  /** @param {boolean} isConnected */
   #onConnected(isConnected) {
     this.element.toggleAttribute("data-lost", !isConnected);
     if (isConnected) this.#socket.show(this.shown);
     this.dispatchEvent(new Event(isConnected ? "connected" : "disconnected"));
   }
 
+  /** @param {PanelMessage} message */
   #receive(message) {
     if (message.type === "part") {
-      this.#parts.set(message.name, message);
+      Object.assign(this.#parts, { [message.name]: message });
       this.dispatchEvent(new CustomEvent(`part:${message.name}`, { detail: message }));
-      if ((PART_OF_TAB[this.#tabs.open] ?? this.#tabs.open) === message.name) this.#opened.get(this.#tabs.open)?.update(message);
+      if (partOf(this.#tabs.open) === message.name) this.#opened.get(this.#tabs.open)?.update(message);
       this.#showHistory();
     } else if (message.type === "note") {
       this.notice(message.text, message.level);
@@ -227,7 +288,7 @@ export class Panel extends EventTarget {
     }
   }
 
-  /** @param {PanelParts["scene"]} scene */
+  /** @param {ScenePart} scene */
   #onScene(scene) {
     this.#tabs.setVisible("build", scene.can_edit);
     this.#tabs.setVisible("world", scene.can_edit);
@@ -237,7 +298,10 @@ export class Panel extends EventTarget {
     if (!isThere && scene.agents.length) this.show({ agent: scene.agents[0].id });
   }
 
-  /** Add the tabs of options: {tabs: [{name, title}]}. */
+  /**
+   * Add the tabs of options.
+   * @param {TabsPart} part
+   */
   #addTabs({ tabs }) {
     for (const { name, title } of tabs) {
       if (name in this.#loaders) continue; // the part comes again after a reconnect
@@ -246,8 +310,12 @@ export class Panel extends EventTarget {
     }
   }
 
+  /**
+   * @param {string} name
+   * @param {HTMLElement} root of the tab
+   */
   async #openTab(name, root) {
-    const parts = name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : [PART_OF_TAB[name] ?? []].flat();
+    const parts = name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : name in PART_OF_TAB ? [PART_OF_TAB[name]] : [];
     this.show({ tabs: parts });
     this.#showHistory();
     if (!this.#opened.has(name)) {
@@ -261,17 +329,29 @@ export class Panel extends EventTarget {
         return;
       }
     }
-    const part = this.part(PART_OF_TAB[name] ?? name);
+    const part = this.part(partOf(name));
     if (part !== null && this.#tabs.open === name) this.#opened.get(name)?.update(part);
   }
 
   /** Show the buttons to undo and redo while a tab is open that changes the scene. */
   #showHistory() {
-    const part = ["build", "world"].includes(this.#tabs.open) ? this.part(PART_OF_TAB[this.#tabs.open]) : null;
-    for (const [control, name, label] of [[this.#undo, "Undo", part?.undo?.label], [this.#redo, "Redo", part?.redo?.label]]) {
+    const { open } = this.#tabs;
+    const part = open === "build" ? this.part("blocks") : open === "world" ? this.part("world") : null;
+    for (const { control, name, label } of [
+      { control: this.#undo, name: "Undo", label: part?.undo?.label },
+      { control: this.#redo, name: "Redo", label: part?.redo?.label },
+    ]) {
       control.hidden = part === null;
       control.disabled = !label;
       setAttributes(control, { "aria-label": `${name} ${label || ""}`.trim(), title: `${name} ${label || ""}`.trim() });
     }
   }
+}
+
+/**
+ * Return the name of the part that a tab shows; that of an option's tab has the tab's own name.
+ * @param {string} tab
+ */
+function partOf(tab) {
+  return /** @type {keyof Parts} */ (PART_OF_TAB[tab] ?? tab);
 }

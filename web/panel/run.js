@@ -1,6 +1,9 @@
 /** The run of the world: goal, time, score, stages, and the buttons to pause and start again. */
 
-/** @import { RunPart, ScenePart, Stage } from "../generated/messages.js" */
+/**
+ * @import { RunPart, ScenePart, Stage } from "../generated/messages.js"
+ * @import { Panel } from "./panel.js"
+ */
 import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
 import { freeId } from "../shared/ids.js";
 import { fact, toggle } from "./widgets/parts.js";
@@ -25,18 +28,19 @@ export class RunControls {
   #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }), { kind: "main" });
   #speed = element("select", { id: freeId() });
   #seed = element("input", { type: "text", inputMode: "numeric", id: freeId(), autocomplete: "off" });
-  #lock;
+  #lock = toggle("Lock", (on) => this.#panel.send("lock_seed", { on }), { title: "Begin each episode with this seed" });
   element;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#goal.append(this.#change);
     this.#goalText.addEventListener("click", () => this.#change.hidden || this.#changeGoal());
-    this.drawBest(null);
-    const quietly = (command) => panel.send(command, {}, { quiet: true });
+    this.drawBest(null, false);
+    const quietly = (/** @type {"try_again" | "new_start"} */ command) => panel.send(command, {}, { quiet: true });
     const again = button("Try again", () => quietly("try_again"), { title: "Begin an episode with the same start" });
     const fresh = button("New start", () => quietly("new_start"), { title: "Begin an episode with a new start" });
-    const facts = element("dl", { className: "ai4u-facts" }, ...Object.values(this.#facts).map((each) => each.element));
+    const facts = element("dl", { className: "ai4u-facts" }, ...Object.values(this.#facts).map(({ element: made }) => made));
     this.element = element(
       "section",
       { className: "ai4u-run", ariaLabel: "Run" },
@@ -63,7 +67,6 @@ export class RunControls {
       panel.send("speed", { speed: this.#speed.value === "max" ? "max" : Number(this.#speed.value) }, { quiet: true });
     });
     this.#seed.addEventListener("change", () => this.#setSeed());
-    this.#lock = toggle("Lock", (on) => panel.send("lock_seed", { on }), { title: "Begin each episode with this seed" });
     const copy = button("", () => this.#copySeed(), { icon: "copy", label: "Copy the seed", kind: "quiet" });
     return element(
       "div",
@@ -82,7 +85,11 @@ export class RunControls {
     );
   }
 
-  /** Show the best time (s) of whoever drives, the person or the program; nothing for null or "". */
+  /**
+   * Show the best time (s) of whoever drives, the person or the program.
+   * @param {number | null} time null for none
+   * @param {boolean} isPrograms
+   */
   drawBest(time, isPrograms) {
     const { best } = this.#facts;
     best.element.hidden = typeof time !== "number";
@@ -141,7 +148,7 @@ export class RunControls {
     const save = async () => {
       const answer = await this.#panel.send("change_settings", { values: { goal: text.value.trim() } });
       if (answer.ok) return close();
-      setText(problem, answer.problems.map((each) => each.text).join(" ") || answer.text);
+      setText(problem, answer.problems.map((problem) => problem.text).join(" ") || answer.text);
     };
     const label = element("label", { htmlFor: text.id, textContent: "What is to be done, in a sentence" });
     const { close } = this.#panel.dialog("Goal", label, text, problem, button("Save", save, { kind: "main" }));
@@ -163,7 +170,12 @@ export class RunControls {
   }
 }
 
-/** Copy a text, and say so; where the browser forbids it, say what to do. */
+/**
+ * Copy a text, and say so; where the browser forbids it, say what to do.
+ * @param {Panel} panel
+ * @param {string} text
+ * @param {string} done the sentence to say
+ */
 export async function copyText(panel, text, done) {
   try {
     await navigator.clipboard.writeText(text);

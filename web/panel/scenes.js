@@ -1,5 +1,9 @@
 /** The scene's title, as a button that opens the scene picker. */
 
+/**
+ * @import { SceneCard } from "../types/panel.js"
+ * @import { Panel } from "./panel.js"
+ */
 import { syncStars } from "../classroom/student/stars.js";
 import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { icon } from "../shared/icons.js";
@@ -19,6 +23,7 @@ export class ScenePicker {
   #title = element("span", { textContent: "…" });
   element;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.element = button("", () => this.open(), { kind: "quiet" });
@@ -40,10 +45,8 @@ export class ScenePicker {
       window_.body.replaceChildren(element("p", { role: "alert", textContent: answer.text }));
       return;
     }
-    const groups = new Map(GROUPS.map((title) => [title, []]));
-    for (const scene of answer.items) groups.get(groupOf(scene)).push(scene);
-    const filled = [...groups].filter(([, scenes]) => scenes.length);
-    const sections = filled.map(([title, scenes]) =>
+    const groups = GROUPS.map((title) => ({ title, scenes: answer.items.filter((scene) => groupOf(scene) === title) }));
+    const sections = groups.filter(({ scenes }) => scenes.length).map(({ title, scenes }) =>
       element(
         "section",
         { ariaLabel: title },
@@ -54,6 +57,10 @@ export class ScenePicker {
     window_.body.replaceChildren(...sections);
   }
 
+  /**
+   * @param {SceneCard} scene
+   * @param {() => void} close closes the window
+   */
   #tile(scene, close) {
     const { title, goal, minutes, picture } = scene;
     const note = minutes ? `about ${minutes} min` : "";
@@ -62,7 +69,7 @@ export class ScenePicker {
       await this.#load(scene);
     });
     if (scene.stars) made.append(starRow(starsOf(scene.name), scene.stars).element);
-    for (const each of made.children) each.id = freeId();
+    for (const child of made.children) child.id = freeId();
     const [name, ...facts] = [...made.children].map(({ id }) => id);
     // so that the name does not begin with the text of the picture
     setAttributes(made, { "aria-labelledby": name, "aria-describedby": facts.join(" ") || null });
@@ -70,6 +77,7 @@ export class ScenePicker {
     return made;
   }
 
+  /** @param {SceneCard} scene */
   async #load({ name, title, is_saved: isSaved = false }) {
     const text = await unsavedSentence();
     if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
@@ -77,6 +85,7 @@ export class ScenePicker {
   }
 }
 
+/** @param {SceneCard} scene */
 function groupOf({ level = "", is_saved: isSaved }) {
   const title = level.slice(0, 1).toUpperCase() + level.slice(1);
   return isSaved ? MINE : GROUPS.includes(title) ? title : OTHERS;

@@ -1,16 +1,22 @@
 /** Shortcuts for changing the world: undo and redo anywhere; delete, copy and nudge for the chosen thing. */
 
+/** @import { Panel } from "./panel.js" */
 import { isTextInput } from "../page/keys.js";
 
 /** How far an arrow key moves a thing if there is no grid, or while Alt is held (m). */
 const FREE_STEP_M = 0.05;
 /** How far an arrow key rotates a thing while Shift is held (degrees). */
 const TURN_STEP_DEG = 15;
+/** @type {Record<string, [right: number, up: number]>} */
 const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
+/** @type {Panel | null} */
 let panel = null;
 
-/** Let the shortcuts work on a panel. */
+/**
+ * Let the shortcuts work on a panel.
+ * @param {Panel} itsPanel
+ */
 export function installShortcuts(itsPanel) {
   panel = itsPanel;
 }
@@ -32,7 +38,11 @@ addEventListener(
   { capture: true },
 );
 
-/** Return what a key does as a function; null if it does nothing here. */
+/**
+ * Return what a key does as a function; null if it does nothing here.
+ * @param {KeyboardEvent} event
+ * @param {string | null} body the chosen thing
+ */
 function commandOf(event, body) {
   const { key, code } = event;
   if (event.ctrlKey || event.metaKey) {
@@ -49,20 +59,27 @@ function commandOf(event, body) {
   return null;
 }
 
+/** @param {EventTarget} target */
 function usesArrows(target) {
   return target instanceof Element && target.matches("[role=tab], [role=slider], input, select");
 }
 
+/** @param {string} body */
 async function copy(body) {
   const answer = await panel.send("duplicate_body", { name: body });
   if (answer.ok && answer.body) choose(answer.body);
 }
 
+/** @param {string} body */
 async function remove(body) {
   const answer = await panel.send("remove_body", { name: body });
   if (answer.ok && panel.shown.body === body) choose(null);
 }
 
+/**
+ * @param {string} body
+ * @param {KeyboardEvent} event
+ */
 function nudge(body, { code, shiftKey, altKey }) {
   const [right, up] = DIRECTIONS[code];
   const step = (!altKey && panel.part("world")?.snap) || FREE_STEP_M;
@@ -71,6 +88,7 @@ function nudge(body, { code, shiftKey, altKey }) {
   panel.send("nudge", { name: body, dx, dy, turn_deg: turn }, { quiet: true });
 }
 
+/** @param {string | null} body */
 function choose(body) {
   panel.show({ body });
   panel.send("select", { body }, { quiet: true });

@@ -1,5 +1,9 @@
 /** The panel's WebSocket: commands with answers, and the parts of the world's state that the page looks at. */
 
+/**
+ * @import { Show } from "../generated/messages.js"
+ * @import { Answer, DoneMessage, FailedMessage, PanelMessage } from "../types/panel.js"
+ */
 import { JsonSocket } from "../shared/socket.js";
 
 /** Size of the parts in which a file is sent. */
@@ -9,7 +13,7 @@ const NOT_CONNECTED = "Not connected to the world. The page reconnects by itself
 export class PanelSocket {
   /**
    * Called with each message that is not an answer.
-   * @type {(message: any) => void}
+   * @type {(message: PanelMessage) => void}
    */
   onmessage = () => {};
   /**
@@ -20,7 +24,10 @@ export class PanelSocket {
 
   #socket;
   #lastId = 0;
-  /** Functions that take an answer, by the id of the command. */
+  /**
+   * Functions that take an answer, by the id of the command.
+   * @type {Map<number, (answer: Answer) => void>}
+   */
   #waiting = new Map();
 
   /** @param {string} path relative to the page */
@@ -39,12 +46,20 @@ export class PanelSocket {
     this.#socket.open();
   }
 
-  /** Send what the page looks at; dropped while there is no connection. */
+  /**
+   * Send what the page looks at; dropped while there is no connection.
+   * @param {Omit<Show, "type">} shown
+   */
   show(shown) {
     this.#socket.send({ type: "show", ...shown });
   }
 
-  /** Send a command. The promise never rejects: {ok: true, text, ...} or {ok: false, text, problems, ...}. */
+  /**
+   * Send a command. The promise never rejects: {ok: true, text, ...} or {ok: false, text, problems, ...}.
+   * @param {string} command
+   * @param {object} [args]
+   * @returns {Promise<Answer>}
+   */
   command(command, args) {
     if (!this.#socket.isOpen) return Promise.resolve({ ok: false, text: NOT_CONNECTED, problems: [] });
     const id = (this.#lastId += 1);
@@ -54,13 +69,17 @@ export class PanelSocket {
     });
   }
 
-  /** Send a file in parts; the next command says what to do with it. */
+  /**
+   * Send a file in parts; the next command says what to do with it.
+   * @param {Uint8Array<ArrayBuffer>} bytes
+   */
   upload(bytes) {
     for (let start = 0; start < bytes.length; start += PART_BYTES) {
       this.#socket.sendBytes(bytes.subarray(start, start + PART_BYTES));
     }
   }
 
+  /** @param {PanelMessage | DoneMessage | FailedMessage} message */
   #receive(message) {
     if (message.type !== "done" && message.type !== "failed") return this.onmessage(message);
     const { type, id, ...rest } = message;

@@ -7,17 +7,25 @@ import { recall, remember } from "../shared/storage.js";
 const SMALL = matchMedia("(max-width: 576px), (max-height: 500px)");
 
 export class Tabs {
+  /**
+   * By name.
+   * @type {Map<string, {tab: HTMLButtonElement, panel: HTMLElement}>}
+   */
   #tabs = new Map();
   #list = element("div", { className: "ai4u-tabs", role: "tablist", ariaLabel: "Panel" });
   #panels = element("div", { className: "ai4u-tabpanels" });
   #onOpen;
+  /** @type {string | null} */
   #open = null;
-  /** The tab that the person chose, which may be hidden just now. */
+  /**
+   * The tab that the person chose, which may be hidden just now.
+   * @type {string}
+   */
   #wanted;
 
   /**
-   * @param tabs [[name, title], ...]
-   * @param onOpen called with the name of a tab and its panel when it is opened
+   * @param {string[][]} tabs name and title of each
+   * @param {(name: string, panel: HTMLElement) => void} onOpen called when a tab is opened
    */
   constructor(tabs, onOpen) {
     this.#onOpen = onOpen;
@@ -40,7 +48,11 @@ export class Tabs {
     this.choose(isThere ? this.#wanted : this.#visible[0], { isWanted: isThere });
   }
 
-  /** Add a tab at the end; it opens if it is the one that the person chose. */
+  /**
+   * Add a tab at the end; it opens if it is the one that the person chose.
+   * @param {string} name
+   * @param {string} title
+   */
   add(name, title) {
     const ids = { tab: `ai4u-tab-${name}`, panel: `ai4u-tabpanel-${name}` };
     const tab = element("button", { type: "button", role: "tab", id: ids.tab, textContent: title });
@@ -57,7 +69,11 @@ export class Tabs {
     this.setVisible(name, true);
   }
 
-  /** Hide or show a tab; if the open one is hidden, the first one opens. */
+  /**
+   * Hide or show a tab; if the open one is hidden, the first one opens.
+   * @param {string} name
+   * @param {boolean} isVisible
+   */
   setVisible(name, isVisible) {
     this.#tabs.get(name).tab.hidden = !isVisible;
     if (this.#open === null) return;
@@ -65,13 +81,17 @@ export class Tabs {
     if (next !== this.#open) this.choose(next, { isWanted: false });
   }
 
+  /**
+   * @param {string} name
+   * @param {{isWanted?: boolean}} [options] false if it is not the person's choice
+   */
   choose(name, { isWanted = true } = {}) {
     if (isWanted) remember("panel-tab", (this.#wanted = name));
     if (name === this.#open) return;
     this.#open = name;
-    for (const [each, { tab, panel }] of this.#tabs) {
-      setAttributes(tab, { "aria-selected": each === name ? "true" : "false", tabindex: each === name ? 0 : -1 });
-      panel.hidden = each !== name;
+    for (const [key, { tab, panel }] of this.#tabs) {
+      setAttributes(tab, { "aria-selected": key === name ? "true" : "false", tabindex: key === name ? 0 : -1 });
+      panel.hidden = key !== name;
     }
     this.#onOpen(name, this.#tabs.get(name).panel);
   }
@@ -80,9 +100,11 @@ export class Tabs {
     return [...this.#tabs].filter(([, { tab }]) => !tab.hidden).map(([name]) => name);
   }
 
+  /** @param {KeyboardEvent} event */
   #onKey(event) {
     const names = this.#visible;
     const here = names.indexOf(this.#open);
+    /** @type {Record<string, number>} */
     const moves = { ArrowRight: here + 1, ArrowLeft: here - 1, Home: 0, End: names.length - 1 };
     if (!(event.key in moves)) return;
     event.preventDefault();

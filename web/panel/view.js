@@ -1,8 +1,13 @@
 /** The picture of the world: where its camera is, the trail, and the dark colours. */
 
+/**
+ * @import { ViewPart } from "../generated/messages.js"
+ * @import { Panel } from "./panel.js"
+ */
 import { element } from "../shared/dom.js";
 import { segments, toggle } from "./widgets/parts.js";
 
+/** @type {{value: ViewPart["camera"], text: string, title: string}[]} */
 const CAMERAS = [
   { value: "arena", text: "Arena", title: "See everything from above" },
   { value: "follow", text: "Follow", title: "Stay above the robot" },
@@ -15,7 +20,10 @@ const LESS_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
 export class ViewControls {
   element;
 
-  /** @param {HTMLElement} history the buttons to undo and redo */
+  /**
+   * @param {Panel} panel
+   * @param {HTMLElement} history the buttons to undo and redo
+   */
   constructor(panel, history) {
     const cameras = segments("Camera", CAMERAS, (mode) => panel.send("camera", { mode }, { quiet: true }));
     cameras.element.classList.add("ai4u-cameras");

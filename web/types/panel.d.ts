@@ -1,135 +1,241 @@
-/** The panel as the tab "Code" and the blocks use it, and what they read of its parts: ai4u_edu/page/panel/parts/. */
+/**
+ * What the panel's socket brings besides the structs of generated/messages.d.ts: answers to commands, the parts of
+ * options, and a few messages.
+ */
 
-import type { Emitter } from "./events.js";
+import type { Commands, PanelParts } from "../generated/messages.js";
+import type { DriverView } from "../page/driver_status.js";
 
-export interface RayLayout {
-  /** Angles to the heading, positive to the left; the rightmost ray is first. */
-  angles_deg: number[];
-  has_code: boolean;
-  has_distance: boolean;
-  /** Codes of groups by their names. */
-  codes: [name: string, code: number][];
-  /** Largest distance in the reading: 1, or metres; and the length of a ray (m). */
-  reach: number;
-  reach_m: number;
+/** A problem with a value of a form; the path begins with the field's name, and is empty for the whole form. */
+export interface Problem {
+  path: (string | number)[];
+  text: string;
 }
 
-export interface SensorSlot {
-  name: string;
-  unit: string;
-  /** null for no bound */
-  low: number | null;
-  high: number | null;
+/** The answer to a command: ai4u_edu/page/panel/answers.py. */
+export interface Answer {
+  ok: boolean;
+  text: string;
+  /** Empty unless a form was refused. */
+  problems: Problem[];
+  code?: string;
 }
 
-/** A sensor as a program reads it. */
-export interface ProgramSensor {
-  key: string;
-  class: string;
-  kind: "bool" | "number" | "text";
-  unit: string;
-  shape: number[];
-  stack: number;
-  slots: SensorSlot[];
-  rays: RayLayout | null;
-}
-
-export interface ActionRange {
+/** One number of an action, as it is and as it would be. */
+export interface ChangedNumber {
   name: string;
   low: number;
   high: number;
   has_effect: boolean;
+  now: number;
+  then: number;
 }
 
-/** An actuator as a program names it. */
-export interface ProgramActuator {
+/** A driver that the agent can have; one with a reason can't be chosen. */
+export interface DriverChoice {
   name: string;
-  is_choice: boolean;
-  components: ActionRange[];
-}
-
-export interface PythonPart {
-  agent: string;
-  actuators: ProgramActuator[];
-  sensors: ProgramSensor[];
-}
-
-export interface SensorReading {
-  key: string;
   title: string;
-  help: string;
-  shape: number[];
-  stack: number;
-  text?: string;
-  values?: { name: string }[];
+  reason: string;
 }
 
-export interface AgentPart {
-  id: string;
-  sensors: SensorReading[];
+export interface GalleryBlock {
+  class: string;
+  title: string;
+  question: string;
+  summary: string;
+  picture: string;
+  /** Reason for which it can't be added; empty if it can. */
+  reason: string;
 }
 
-export interface SceneAgent {
-  id: string;
-  is_person: boolean;
+/** A driver that can be compared on the chosen episode. */
+export interface Rival {
+  value: string;
+  text: string;
+  /** Decisions that a checkpoint of a training learned from; null for another driver. */
+  steps: number | null;
 }
 
-export interface StarGoals {
+export interface SceneCard {
+  name: string;
+  title: string;
+  goal: string;
+  level: string;
+  minutes: number;
+  /** Most stars that a program earns in it; 0 for none. */
+  stars: number;
+  picture: string;
+  is_saved: boolean;
+}
+
+/** Where two drivers first disagree; `step` is null if they agree everywhere. */
+export interface DriverComparison {
+  step: number | null;
   count: number;
-  /** Most decisions for the third star; null if there is none. */
-  few_decisions: number | null;
+  distance: number[];
+  largest: number;
+  action: ChangedNumber[];
+  first: string;
+  second: string;
 }
 
-export interface ScenePart {
-  scene: string;
-  stars: StarGoals | null;
-  agents: SceneAgent[];
-  can_edit: boolean;
-}
-
-export interface RunPart {
-  decision: number;
-  speed: number | "max";
-  is_paused: boolean;
-  seed: string;
-  result: string;
-}
-
-export interface PlayedEpisode {
+export interface PaidMoment {
   step: number;
-  steps: number;
-  /** Number by which the world counted it; 0 if it was loaded. */
-  world_episode: number;
+  terms: { term: string; amount: number }[];
 }
 
-export interface PastPart {
-  playing: PlayedEpisode | null;
-  is_showing: boolean;
+export interface PaidCurve {
+  term: string;
+  total: number;
+  curve: number[];
 }
 
-export interface PanelParts {
-  agent: AgentPart;
-  past: PastPart;
-  python: PythonPart;
-  run: RunPart;
-  scene: ScenePart;
+/** One number of the percept that can be changed. */
+export interface Dial {
+  key: string;
+  index: number;
+  name: string;
+  value: number;
+  low: number;
+  high: number;
 }
 
-type PartEvents = { [Name in keyof PanelParts as `part:${Name}`]: PanelParts[Name] };
+export interface StandingPose {
+  x: number;
+  y: number;
+  heading_deg: number;
+}
+
+/** Further fields of the answers to commands that were carried out. */
+export interface AnswerFields {
+  add_block: { path: (string | number)[] };
+  add_body: { body: string };
+  compare: DriverComparison;
+  download: { file: string; content: string };
+  drivers: { items: DriverChoice[] };
+  duplicate_block: { path: (string | number)[] };
+  duplicate_body: { body: string };
+  elsewhere: StandingPose & { can_stand: boolean; action: ChangedNumber[] };
+  gallery: { items: GalleryBlock[] };
+  move_block: { path: (string | number)[] };
+  open_recording: { number: number };
+  paid: { terms: PaidCurve[]; moments: PaidMoment[] };
+  rivals: { rivals: Rival[] };
+  scenes: { items: SceneCard[] };
+  what_if: { dials: Dial[]; action: ChangedNumber[] };
+}
+
+/** The answer to a command; its further fields are missing in one that failed. */
+export type AnswerTo<Name extends keyof Commands> = Name extends keyof AnswerFields ? Answer & Partial<AnswerFields[Name]> : Answer;
+
+/** A number, or several, of the percept, and how far it moves each number of the action (share of its range). */
+export interface ExplainedSlot {
+  key: string;
+  name: string;
+  sees: string;
+  share: number;
+  shares: number[];
+}
+
+/** An explanation of an agent's action: ai4u_edu/explain_page/option.py. */
+export interface WhyPart {
+  type: "part";
+  name: "why";
+  agent: string;
+  problem: string;
+  sentence: string;
+  baseline: string;
+  also: string;
+  explained: string;
+  limits: string;
+  /** Names of the numbers of the action. */
+  components: string[];
+  slots: ExplainedSlot[];
+  /** The slots that matter most, the first one most. */
+  top: ExplainedSlot[];
+}
+
+export interface MapProgress {
+  done: number;
+  count: number;
+  /** World time (s) of the world that it was made in. */
+  seconds: number;
+}
+
+export interface ValueMap extends MapProgress {
+  /** null before any value is known */
+  low: number | null;
+  high: number | null;
+  words: string;
+  /** As CSS has them, from the lowest value on. */
+  colours: string[];
+}
+
+/** The state of an agent's maps; null for one of which nothing is known yet. */
+export interface MapsPart {
+  type: "part";
+  name: "maps";
+  agent: string;
+  problem: string;
+  /** Things that the agent could look at from each place. */
+  faced: string[];
+  field: MapProgress | null;
+  values: ValueMap | null;
+}
+
+/** The tabs that options bring. */
+export interface TabsPart {
+  type: "part";
+  name: "tabs";
+  tabs: { name: string; title: string }[];
+}
+
+/** All parts by name. */
+export interface Parts extends PanelParts {
+  maps: MapsPart;
+  tabs: TabsPart;
+  why: WhyPart;
+}
+
+export interface NoteMessage {
+  type: "note";
+  level: "info" | "error";
+  text: string;
+}
+
+/** Somebody clicked on a body in the page's picture. */
+export interface SelectedMessage {
+  type: "selected";
+  body: string;
+  agent: string;
+}
+
+/** Somebody drags the outline of the agent in the page's picture. */
+export interface StandInMessage extends StandingPose {
+  type: "stand_in";
+}
+
+/** What comes over the panel's socket, besides answers. */
+export type PanelMessage = Parts[keyof Parts] | NoteMessage | SelectedMessage | StandInMessage;
+
+export interface DoneMessage extends Partial<Answer> {
+  type: "done";
+  id: number;
+}
+
+export interface FailedMessage extends Partial<Answer> {
+  type: "failed";
+  id: number;
+}
+
+type PartEvents = { [Name in keyof Parts as `part:${Name}`]: Parts[Name] };
 
 export interface PanelEvents extends PartEvents {
   agent: null;
   connected: null;
-  driver: object;
-}
-
-export interface CodePanel extends Emitter<PanelEvents> {
-  program: { agent: string; episode: number; isTest: boolean } | null;
-  hasProgram: boolean;
-  driving?: { letGo(): void };
-  driver?: { hello: { instead?: string } };
-  part<Name extends keyof PanelParts>(name: Name): PanelParts[Name] | null;
-  send(command: string, args?: object, options?: { quiet?: boolean }): Promise<{ ok: boolean; text: string }>;
-  notice(text: string, level?: string): void;
-  dialog(title: string, ...children: HTMLElement[]): { dialog: HTMLDialogElement };
+  details: null;
+  disconnected: null;
+  driver: DriverView;
+  selected: SelectedMessage;
+  stand_in: StandInMessage;
 }

@@ -1,7 +1,8 @@
 /** A block as a card: switch, order, copy, delete, and its form when it is open. */
 
 /**
- * @import { BlockAddition, BlockRow } from "../../generated/messages.js"
+ * @import { BlockAddition, BlockForm, BlockRow } from "../../generated/messages.js"
+ * @import { Answer } from "../../types/panel.js"
  * @import { Panel } from "../panel.js"
  */
 import { button, element, keyed, setText } from "../../shared/dom.js";
@@ -9,7 +10,14 @@ import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
 import { openGallery } from "./gallery.js";
 
-export const isSamePath = (one, other) => JSON.stringify(one ?? null) === JSON.stringify(other ?? null);
+/** @typedef {HTMLElement & {cards?: Map<string, BlockCard>}} CardList with its cards by block */
+/** @typedef {(string | number)[] | null} BlockPath null for no block */
+
+/**
+ * @param {BlockPath} one
+ * @param {BlockPath} other
+ */
+const isSamePath = (one, other) => JSON.stringify(one ?? null) === JSON.stringify(other ?? null);
 
 export class BlockCard {
   #panel;
@@ -19,6 +27,7 @@ export class BlockCard {
   #detail = element("p", { className: "ai4u-hint-text ai4u-details-only" });
   #form;
   #tools = element("div", { className: "ai4u-tools", role: "toolbar" });
+  /** @type {CardList} */
   #parts = element("div", { className: "ai4u-card-list" });
   #adds = element("div", { className: "ai4u-tools" });
   #card;
@@ -41,7 +50,7 @@ export class BlockCard {
 
   /**
    * @param {BlockRow} block
-   * @param form the form of the chosen block, which may be another one
+   * @param {BlockForm | null} form of the chosen block, which may be another one
    */
   update(block, form) {
     this.#block = block;
@@ -57,26 +66,36 @@ export class BlockCard {
     this.#form.element.hidden = !isMine;
     setText(this.#summary, isMine ? (form.summary ?? "") : "");
     setText(this.#detail, isMine ? (form.detail ?? "") : "");
-    if (isMine) this.#form.update(form.fields, form.first);
+    if (isMine) this.#form.update(form.fields);
     this.#showTools(isListed && isOpen, title);
     this.#showParts(children, form);
   }
 
+  /**
+   * @param {boolean} isOn
+   * @param {string} title
+   */
   #switch(isOn, title) {
     return {
       icon: "power",
       label: `Turn ${isOn ? "off" : "on"} ${title}`,
-      onClick: () => this.#do("switch_block", { on: !isOn }),
+      onClick: () => {
+        this.#panel.send("switch_block", { path: this.#block.path, on: !isOn });
+      },
     };
   }
 
+  /**
+   * @param {boolean} isShown
+   * @param {string} title
+   */
   #showTools(isShown, title) {
     const { can_up: canUp = true, can_down: canDown = true } = this.#block;
     const tools = [
-      { icon: "up", label: `Move up ${title}`, isEnabled: canUp, run: () => this.#do("move_block", { by: -1 }) },
-      { icon: "down", label: `Move down ${title}`, isEnabled: canDown, run: () => this.#do("move_block", { by: 1 }) },
-      { icon: "copy", label: `Duplicate ${title}`, isEnabled: true, run: () => this.#do("duplicate_block") },
-      { icon: "trash", label: `Delete ${title}`, isEnabled: true, kind: "danger", run: () => this.#do("remove_block") },
+      { icon: "up", label: `Move up ${title}`, isEnabled: canUp, run: () => this.#move(-1) },
+      { icon: "down", label: `Move down ${title}`, isEnabled: canDown, run: () => this.#move(1) },
+      { icon: "copy", label: `Duplicate ${title}`, isEnabled: true, run: () => this.#duplicate() },
+      { icon: "trash", label: `Delete ${title}`, isEnabled: true, kind: "danger", run: () => this.#remove() },
     ];
     this.#tools.ariaLabel = title;
     this.#tools.hidden = !isShown;
@@ -91,6 +110,10 @@ export class BlockCard {
     );
   }
 
+  /**
+   * @param {BlockRow[]} children
+   * @param {BlockForm | null} form
+   */
   #showParts(children, form) {
     updateCards(this.#panel, this.#parts, children, form);
     this.#parts.hidden = children.length === 0;
@@ -114,28 +137,55 @@ export class BlockCard {
     openGallery(this.#panel, { title: `Add a ${title.toLowerCase()}`, kind, parent });
   }
 
-  async #do(command, args = {}) {
+  /** @param {number} by -1 for up, 1 for down */
+  #move(by) {
     const { path } = this.#block;
-    const answer = await this.#panel.send(command, { path, ...args });
-    if (!answer.ok || !isSamePath(this.#panel.shown.block, path)) return;
-    if (command === "remove_block") this.#panel.show({ block: null });
-    if (answer.path) this.#panel.show({ block: answer.path });
+    this.#follow(path, this.#panel.send("move_block", { path, by }));
   }
 
+  #duplicate() {
+    const { path } = this.#block;
+    this.#follow(path, this.#panel.send("duplicate_block", { path }));
+  }
+
+  async #remove() {
+    const { path } = this.#block;
+    const { ok } = await this.#panel.send("remove_block", { path });
+    if (ok && isSamePath(this.#panel.shown.block, path)) this.#panel.show({ block: null });
+  }
+
+  /**
+   * Choose the block that a command made or moved, unless another one than this was chosen meanwhile.
+   * @param {BlockPath} path of this block when the command was sent
+   * @param {Promise<Answer & {path?: BlockPath}>} answer
+   */
+  async #follow(path, answer) {
+    const { ok, path: next } = await answer;
+    if (ok && next && isSamePath(this.#panel.shown.block, path)) this.#panel.show({ block: next });
+  }
+
+  /** @param {KeyboardEvent} event */
   #onKey(event) {
-    const by = { ArrowUp: -1, ArrowDown: 1 }[event.key];
-    const isHead = event.target.closest(".ai4u-card") === this.element && event.target.matches("[aria-expanded]");
+    const by = event.key === "ArrowUp" ? -1 : event.key === "ArrowDown" ? 1 : 0;
+    const target = /** @type {Element} */ (event.target);
+    const isHead = target.closest(".ai4u-card") === this.element && target.matches("[aria-expanded]");
     if (!event.altKey || !by || !isHead || !(by < 0 ? this.#block.can_up : this.#block.can_down)) return;
     event.preventDefault();
-    this.#do("move_block", { by });
+    this.#move(by);
   }
 }
 
-/** Make an element's cards match a list of blocks. */
+/**
+ * Make an element's cards match a list of blocks.
+ * @param {Panel} panel
+ * @param {CardList} parent
+ * @param {BlockRow[]} blocks
+ * @param {BlockForm | null} form of the chosen block
+ */
 export function updateCards(panel, parent, blocks, form) {
   parent.cards ??= new Map();
   const { cards } = parent;
-  const keyOf = ({ path, class: type }) => `${type} ${JSON.stringify(path)}`;
+  const keyOf = (/** @type {BlockRow} */ { path, class: type }) => `${type} ${JSON.stringify(path)}`;
   const keys = new Set(blocks.map(keyOf));
   for (const key of [...cards.keys()]) if (!keys.has(key)) cards.delete(key);
   keyed(

@@ -2,6 +2,7 @@
 
 /**
  * @import { ListBlocks } from "../../generated/messages.js"
+ * @import { GalleryBlock } from "../../types/panel.js"
  * @import { Panel } from "../panel.js"
  */
 import { element } from "../../shared/dom.js";
@@ -24,7 +25,7 @@ export async function openGallery(panel, { title, kind, parent = [kind] }) {
     content.replaceChildren(element("p", { className: "ai4u-problem", role: "alert", textContent: answer.text }));
     return;
   }
-  const add = async (type) => {
+  const add = async (/** @type {string} */ type) => {
     dialog.close();
     const added = await panel.send("add_block", { class: type, parent });
     if (added.ok && added.path) panel.show({ block: added.path });
@@ -33,7 +34,12 @@ export async function openGallery(panel, { title, kind, parent = [kind] }) {
   content.querySelector("button")?.focus();
 }
 
+/**
+ * @param {GalleryBlock[]} items
+ * @param {(type: string) => void} add
+ */
 function groups(items, add) {
+  /** @type {Map<string, GalleryBlock[]>} */
   const byQuestion = new Map();
   for (const item of items) byQuestion.set(item.question, [...(byQuestion.get(item.question) ?? []), item]);
   return [...byQuestion].flatMap(([question, group]) => [
@@ -42,6 +48,10 @@ function groups(items, add) {
   ]);
 }
 
+/**
+ * @param {GalleryBlock} item
+ * @param {() => void} onClick
+ */
 function blockTile(item, onClick) {
   const made = tile({ title: item.title, text: item.summary, reason: item.reason }, onClick);
   made.prepend(picture(item.picture));

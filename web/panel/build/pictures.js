@@ -4,13 +4,23 @@ import { icon } from "../../shared/icons.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** @typedef {[kind: string, data: string]} Stroke a class of styles/panel/build.css, and path data on a grid of 96 x 60 */
+
+/** @type {(x: number, y: number, r: number) => string} */
 const circle = (x, y, r) => `M${x - r} ${y}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0`;
+/** @type {Stroke} */
 const ROBOT = ["robot", circle(22, 30, 10)];
+/** @type {Stroke} */
 const NOSE = ["nose", "M22 30h9"];
+/** @type {Stroke} */
 const BALL = ["thing", circle(76, 16, 7)];
+/** @type {Stroke} */
 const WALL = ["thing", "M80 6h8v48h-8z"];
 
-/** Strokes by name: a class of styles/panel/build.css, and path data on a grid of 96 x 60. */
+/**
+ * Strokes by name.
+ * @type {Record<string, Stroke[]>}
+ */
 const PICTURES = {
   bearing: [BALL, ["hot", "M32 27L66 18M58 15l9 3-6 7"]],
   smell: [BALL, ["hot", "M62 22c-6-4-8 6-14 2s-8 6-12 3M64 30c-6-4-8 6-14 2s-8 6-12 3"]],
@@ -53,7 +63,10 @@ const PICTURES = {
 /** Pictures without the robot: it would be in the way. */
 const WITHOUT_ROBOT = new Set(["cell"]);
 
-/** Return a picture of 96 x 60; an icon if there is no picture of that name. */
+/**
+ * Return a picture of 96 x 60; an icon if there is no picture of that name.
+ * @param {string} name
+ */
 export function picture(name) {
   const strokes = PICTURES[name];
   if (strokes === undefined) return icon(name, 32);

@@ -1,41 +1,56 @@
 /** The tab "Build": the blocks of the shown agent, its driver and its settings. */
 
-/** @import { BlocksPart } from "../../generated/messages.js" */
+/**
+ * @import { BlockRow, BlocksPart, ListBlocks } from "../../generated/messages.js"
+ * @import { DriverChoice } from "../../types/panel.js"
+ * @import { Panel } from "../panel.js"
+ * @import { CardList } from "./block_card.js"
+ */
 import { button, element } from "../../shared/dom.js";
 import { updateCards } from "./block_card.js";
 import { Form } from "../widgets/form.js";
 import { openGallery } from "./gallery.js";
 import { choice, section } from "../widgets/parts.js";
 
-const KINDS = {
-  sensors: { title: "Sensors", one: "Sensor", add: "Add a sensor", none: "It notices nothing yet." },
-  actuators: { title: "Actuators", one: "Actuator", add: "Add an actuator", none: "It can't do anything yet." },
-  rewards: { title: "Rewards", one: "Reward", add: "Add a reward", none: "It gets no reward yet." },
-  brains: { title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
-};
+/** @type {{kind: ListBlocks["kind"], title: string, one: string, add: string, none: string, detailsOnly?: boolean}[]} */
+const KINDS = [
+  { kind: "sensors", title: "Sensors", one: "Sensor", add: "Add a sensor", none: "It notices nothing yet." },
+  { kind: "actuators", title: "Actuators", one: "Actuator", add: "Add an actuator", none: "It can't do anything yet." },
+  { kind: "rewards", title: "Rewards", one: "Reward", add: "Add a reward", none: "It gets no reward yet." },
+  { kind: "brains", title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
+];
 /** How long after a change the drivers are listed again (ms). */
 const DRIVERS_DELAY_MS = 300;
 
 export class BuildTab {
   #panel;
   #driver;
+  /** @type {DriverChoice[]} */
   #drivers = [];
   #driversKey = "";
   #shownDriver = "";
   #timer = 0;
+  /**
+   * By kind of block.
+   * @type {Map<string, {cards: CardList, none: HTMLElement}>}
+   */
   #lists = new Map();
   #settings;
 
+  /**
+   * @param {HTMLElement} root
+   * @param {Panel} panel
+   */
   constructor(root, panel) {
     this.#panel = panel;
     this.#driver = choice("Driven by", (name) => this.#setDriver(name));
     root.append(this.#driver.element);
-    for (const [kind, words] of Object.entries(KINDS)) {
+    for (const { kind, title, one, add, none: noneText, detailsOnly } of KINDS) {
       const cards = element("div", { className: "ai4u-card-list" });
-      const none = element("p", { className: "ai4u-hint-text", textContent: words.none });
-      const add = button(words.one, () => this.#openGallery(kind), { icon: "add", label: words.add, kind: "quiet" });
-      const { detailsOnly = false } = words;
-      root.append(section(`build-${kind}`, words.title, { detailsOnly }, cards, none, add));
+      const none = element("p", { className: "ai4u-hint-text", textContent: noneText });
+      const open = () => openGallery(panel, { title: add, kind });
+      const adding = button(one, open, { icon: "add", label: add, kind: "quiet" });
+      root.append(section(`build-${kind}`, title, { detailsOnly }, cards, none, adding));
       this.#lists.set(kind, { cards, none });
     }
     this.#settings = new Form({
@@ -61,6 +76,7 @@ export class BuildTab {
    */
   #followDrivers({ agent, driver, kinds }) {
     this.#showDrivers(driver);
+    /** @type {(blocks: BlockRow[]) => unknown[]} */
     const classes = (blocks) => blocks.map((block) => [block.class, block.is_on, classes(block.children ?? [])]);
     const key = JSON.stringify([agent, driver, Object.values(kinds ?? {}).map(classes)]);
     if (key === this.#driversKey) return;
@@ -76,6 +92,7 @@ export class BuildTab {
     this.#showDrivers(this.#shownDriver);
   }
 
+  /** @param {string} driver name of the present one */
   #showDrivers(driver) {
     const options = this.#drivers.map(({ name, title, reason = "" }) => ({ value: name, text: title, reason }));
     if (!this.#drivers.some(({ name }) => name === driver)) {
@@ -86,13 +103,10 @@ export class BuildTab {
     this.#driver.set(options, this.#shownDriver);
   }
 
+  /** @param {string} name */
   async #setDriver(name) {
     const before = this.#shownDriver;
     const answer = await this.#panel.send("driver", { name });
     if (!answer.ok) this.#showDrivers(before);
-  }
-
-  #openGallery(kind) {
-    openGallery(this.#panel, { title: KINDS[kind].add, kind });
   }
 }

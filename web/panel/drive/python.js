@@ -1,5 +1,6 @@
 /** Python code that drives the shown agent from a notebook or a script, with a button to copy it. */
 
+/** @import { Panel } from "../panel.js" */
 import { button, element, setText } from "../../shared/dom.js";
 import { copyText } from "../run.js";
 
@@ -7,6 +8,7 @@ export class PythonLines {
   #code = element("code");
   element;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     const copy = button("Copy", () => copyText(panel, this.#code.textContent, "Copied. Paste it into a notebook or a script."), {
       icon: "copy",

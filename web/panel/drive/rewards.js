@@ -20,6 +20,7 @@ export class RewardTable {
     this.element = element("div", {}, this.#help, table, this.#latest, this.#curve.element);
   }
 
+  /** @param {string} text empty for none */
   setHelp(text) {
     setText(this.#help, text);
     this.#help.hidden = !text;
@@ -33,7 +34,7 @@ export class RewardTable {
     keyed(this.#rows, terms, ({ term }) => term, makeRow, (row, { term, decision, episode }) => {
       fill(row, term, decision, episode);
     });
-    const sum = (name) => terms.reduce((total, each) => total + (each[name] ?? 0), 0);
+    const sum = (/** @type {"decision" | "episode"} */ name) => terms.reduce((total, row) => total + (row[name] ?? 0), 0);
     fill(this.#total, "Sum", sum("decision"), sum("episode"));
     this.#total.hidden = terms.length < 2;
     keyed(this.#latest, latest, ({ decision }) => decision, () => element("li"), (item, { decision, terms: its }) => {
@@ -52,6 +53,12 @@ function makeRow() {
   return element("tr", {}, element("th", { scope: "row" }), element("td"), element("td"));
 }
 
+/**
+ * @param {HTMLElement} row
+ * @param {string} name
+ * @param {number} decision amount in the last decision
+ * @param {number} episode amount in the episode so far
+ */
 function fill(row, name, decision, episode) {
   const [head, last, all] = row.children;
   setText(head, name);

@@ -5,7 +5,10 @@ import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { number } from "../../shared/numbers.js";
 
 const HEADS = ["Robot", "Decisions", "Score", "State"];
-/** Names of a script's counts. */
+/**
+ * Names of a script's counts.
+ * @type {Record<string, string>}
+ */
 const COUNTS = {
   decisions: "actions carried out",
   missing: "decisions without an action in time",

@@ -3,6 +3,7 @@
 /**
  * @import { ReadingPicture, SensorReading } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
+ * @import { SensorWeights } from "../why/why.js"
  */
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { Bars } from "../widgets/bars.js";
@@ -12,6 +13,8 @@ import { drawWeights } from "../why/why.js";
 
 /** A picture with fewer rows is stretched to a line. */
 const MIN_ROWS = 4;
+
+/** @typedef {HTMLElement & {view?: SensorView}} SensorElement */
 
 export class SensorView {
   #panel;
@@ -27,6 +30,7 @@ export class SensorView {
   #pictures = element("div", { className: "ai4u-pictures" });
   #text = element("p");
   #help = element("p", { className: "ai4u-soft ai4u-details-only" });
+  /** @type {SensorElement} */
   element;
 
   /**
@@ -46,7 +50,7 @@ export class SensorView {
 
   /**
    * @param {SensorReading} sensor
-   * @param {any} why how much its slots matter, see `Why.of`; null if that is not shown
+   * @param {SensorWeights | null} why how much its slots matter; null if that is not shown
    */
   update(sensor, why = null) {
     const { title, key, help = "", values = [], strips = [], pictures = [], text = "" } = sensor;
@@ -74,6 +78,15 @@ export class SensorView {
   }
 }
 
+/**
+ * Make an element's children match a list by position.
+ * @template Item
+ * @template {HTMLElement} Child
+ * @param {HTMLElement} parent
+ * @param {Item[]} items
+ * @param {() => Child} make
+ * @param {(child: NoInfer<Child>, item: NoInfer<Item>) => void} draw
+ */
 function list(parent, items, make, draw) {
   parent.hidden = items.length === 0;
   const numbered = items.map((item, index) => ({ item, index }));
@@ -85,12 +98,12 @@ function makePicture() {
 }
 
 /**
- * @param {any} figure
+ * @param {HTMLElement} figure
  * @param {ReadingPicture} picture
  * @param {string} title of the sensor
  */
 function drawPicture(figure, { cells, caption, rows, columns }, title) {
-  const [image, words] = figure.children;
+  const [image, words] = /** @type {[HTMLImageElement, HTMLElement]} */ ([...figure.children]);
   if (image.src !== cells) image.src = cells;
   const isFlat = rows < MIN_ROWS;
   setAttributes(image, { alt: `${title}${caption ? `: ${caption}` : ""}`, "data-flat": isFlat });

@@ -1,6 +1,11 @@
 /** The Drive tab: who drives, what the agent senses, what it does and what it gets for it. */
 
-/** @import { ActionNumber, AgentPart, DecisionPhases, NeedLevel, ScenePart, TrainingPart } from "../../generated/messages.js" */
+/**
+ * @import { ActionNumber, AgentPart, DecisionPhases, NeedLevel, PythonPart, ScenePart, TrainingPart } from "../../generated/messages.js"
+ * @import { DriverView } from "../../page/driver_status.js"
+ * @import { Panel } from "../panel.js"
+ * @import { Bar } from "../widgets/bars.js"
+ */
 import { DriverStatus } from "../../page/driver_status.js";
 import { button, element, keyed, setText } from "../../shared/dom.js";
 import { Bars } from "../widgets/bars.js";
@@ -37,11 +42,16 @@ export class DriveTab {
   #why;
   #maps;
   #elsewhere;
+  /** @type {AgentPart | null} */
   #latest = null;
   #howTo = element("p");
   #sections;
   #root;
 
+  /**
+   * @param {HTMLElement} root
+   * @param {Panel} panel
+   */
   constructor(root, panel) {
     this.#root = root;
     this.#panel = panel;
@@ -119,13 +129,14 @@ export class DriveTab {
     this.#training.update(training);
   }
 
-  #drawPython({ lines, is_first: isWanted = false }) {
+  /** @param {PythonPart} part */
+  #drawPython({ lines }) {
     const { python: part } = this.#sections;
     part.hidden = !lines;
     if (!lines) return;
     this.#python.update(lines);
     // who asked for it has a script in mind: then it is the first thing, in Simple too
-    const isFirst = isWanted || new URLSearchParams(location.search).has("python");
+    const isFirst = new URLSearchParams(location.search).has("python");
     part.classList.toggle("ai4u-details-only", !isFirst);
     const isAtTop = this.#root.firstElementChild === part;
     if (isFirst && !isAtTop) {
@@ -156,6 +167,7 @@ export class DriveTab {
     );
   }
 
+  /** @param {DriverView} status */
   #drawDriver(status) {
     const isDriven = status.hello.agent === this.#panel.shown.agent || !status.hello.agent;
     this.#driverRow.hidden = !isDriven;
@@ -178,13 +190,19 @@ export class DriveTab {
   }
 }
 
-/** @param {NeedLevel} need */
+/**
+ * @param {NeedLevel} need
+ * @returns {Bar}
+ */
 function needRow({ name, level, low, high, comfort, state }) {
   const text = `${Math.round((100 * (level - low)) / (high - low || 1))} %${state ? ` – too ${state}` : ""}`;
   return { name, value: level, low, high, good: comfort, text };
 }
 
-/** @param {ActionNumber} number of the action */
+/**
+ * @param {ActionNumber} number of the action
+ * @returns {Bar}
+ */
 function actionRow({ actuator, title, name, value, low, high, has_effect: hasEffect = true }) {
   const words = (name || title || actuator).replaceAll("_", " ");
   return { name: hasEffect ? words : `${words} (no effect)`, value, low, high };

@@ -1,5 +1,9 @@
 /** Two drivers on the chosen episode: where they first disagree, by how much, and because of what. */
 
+/**
+ * @import { DriverComparison, Rival } from "../../types/panel.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow } from "../widgets/bars.js";
@@ -8,11 +12,23 @@ import { choice, section } from "../widgets/parts.js";
 
 export class Comparison {
   #panel;
+  /**
+   * Number of the chosen episode; null if there is none.
+   * @type {number | null}
+   */
   #number = null;
   #asked = 0;
+  /** @type {Rival[]} */
   #rivals = [];
+  /**
+   * Where they first disagree.
+   * @type {number | null}
+   */
   #step = null;
-  /** Values of the chosen ones; null before any is known. */
+  /**
+   * Values of the chosen ones; null before any is known.
+   * @type {Record<"first" | "second", string | null>}
+   */
   #names = { first: null, second: null };
   #choices = {
     first: choice("One driver", (name) => this.#choose("first", name)),
@@ -37,6 +53,7 @@ export class Comparison {
   #body = element("div", { className: "ai4u-maps" }, this.#choices.first.element, this.#choices.second.element, this.#checkpoints, this.#none, this.#start, this.#result);
   element;
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.element = section("compare", "Two drivers on this episode", { isOpen: false }, this.#body);
@@ -47,7 +64,7 @@ export class Comparison {
     panel.addEventListener("agent", () => this.#list());
   }
 
-  /** @param number of the chosen episode; null if there is none */
+  /** @param {number | null} number of the chosen episode; null if there is none */
   update(number) {
     const isOther = number !== this.#number;
     this.#number = number;
@@ -63,7 +80,7 @@ export class Comparison {
     const answer = await this.#panel.send("rivals", {}, { quiet: true });
     if (!answer.ok) return;
     this.#rivals = answer.rivals;
-    const isKnown = (name) => this.#rivals.some(({ value }) => value === name);
+    const isKnown = (/** @type {string | null} */ name) => this.#rivals.some(({ value }) => value === name);
     // what was done comes first, and the best guess at who knows better last
     if (!isKnown(this.#names.first)) this.#names.first = this.#rivals[0]?.value ?? null;
     if (!isKnown(this.#names.second)) this.#names.second = this.#rivals.slice(1).at(-1)?.value ?? null;
@@ -96,6 +113,10 @@ export class Comparison {
     this.#draw();
   }
 
+  /**
+   * @param {"first" | "second"} which
+   * @param {string} name
+   */
   #choose(which, name) {
     this.#names[which] = name;
     this.#forget();
@@ -115,9 +136,10 @@ export class Comparison {
     const answer = await this.#panel.send("compare", this.#names, { quiet: true });
     if (asked !== this.#asked) return;
     setAttributes(this.#start, { "aria-busy": null });
-    if (answer.ok) this.#show(answer);
+    if (answer.ok) this.#show(/** @type {DriverComparison} */ (answer));
   }
 
+  /** @param {DriverComparison} comparison */
   #show({ step, count, distance, largest, action, first, second }) {
     this.#step = step;
     this.#result.hidden = false;

@@ -61,6 +61,7 @@ export class EpisodeCard {
     this.#showDownloads(downloads);
   }
 
+  /** @param {boolean} isOpen */
   async #choose(isOpen) {
     const { number } = this.#episode;
     this.#panel.show({ episode: isOpen ? number : null });
@@ -70,6 +71,7 @@ export class EpisodeCard {
     else this.#panel.notice(answer.text, "error");
   }
 
+  /** @param {DownloadLink[]} downloads */
   #showDownloads(downloads) {
     keyed(
       this.#downloads,
@@ -92,15 +94,24 @@ export class EpisodeCard {
   }
 }
 
+/**
+ * @param {Panel} panel
+ * @param {number} number of the episode
+ * @param {boolean} on
+ */
 function panelPin(panel, number, on) {
   panel.send("pin", { number, on }, { quiet: true });
 }
 
+/** @param {KeptEpisode} episode */
 function resultOf({ result }) {
   return result === null ? "" : result ? "goal reached" : "goal missed";
 }
 
-/** Return a number with at most two decimals. */
-export function shortNumber(value) {
+/**
+ * Return a number with at most two decimals.
+ * @param {number} value
+ */
+function shortNumber(value) {
   return String(Math.round(Number(value ?? 0) * 100) / 100);
 }

@@ -1,7 +1,7 @@
 /** The player of an episode: one number for the moment that is shown, and what can be done from there. */
 
 /**
- * @import { PastPart, PlayedEpisode } from "../../generated/messages.js"
+ * @import { Commands, PastPart, PlayedEpisode } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
  */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
@@ -31,7 +31,8 @@ export class Player {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    const send = (command, args = {}) => panel.send(command, args, { quiet: true });
+    /** @type {<Name extends keyof Commands>(command: Name, args?: Commands[Name]) => void} */
+    const send = (command, args) => void panel.send(command, args, { quiet: true });
     const goToSlider = () => send("step", { step: Number(this.#slider.value) });
     this.#slider.addEventListener("input", goToSlider);
     // a click where the slider stands already changes nothing, and yet the person wants to see it
@@ -67,7 +68,7 @@ export class Player {
     this.#noGhost.hidden = !ghost;
     setText(this.#note, [problem, ghost].filter(Boolean).join(" "));
     const parts = [this.#title, this.#moment, this.#slider, this.#back, this.#play, this.#forward, this.#proceed, this.#race];
-    for (const each of [...parts, this.#speeds.element]) each.hidden = !playing;
+    for (const part of [...parts, this.#speeds.element]) part.hidden = !playing;
     // in its place from the start: else it would push the others away when a step is shown
     this.#live.hidden = !playing && !isShowing;
     this.#live.disabled = !isShowing;
@@ -90,6 +91,7 @@ export class Player {
     this.#race.hidden = !number;
   }
 
+  /** @param {number} by */
   #step(by) {
     const { step, steps } = this.#playing;
     const wanted = Math.min(Math.max(step + by, 0), steps);

@@ -1,5 +1,9 @@
 /** The tab "Past": finished episodes, and the player of the chosen one. */
 
+/**
+ * @import { KeptEpisode, PastPart } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, fileButton, keyed } from "../../shared/dom.js";
 import { Comparison } from "./compare.js";
 import { EpisodeCard } from "./episode_card.js";
@@ -17,12 +21,20 @@ export class PastTab {
   #player;
   #comparison;
   #paid;
+  /**
+   * By the number of their episode.
+   * @type {Map<number, EpisodeCard>}
+   */
   #cards = new Map();
   #groups;
   /** True until the running episode's frames are there, which are shown then. */
   #wantsRunning = false;
   #none = element("p", { className: "ai4u-hint-text", textContent: "Finished episodes appear here." });
 
+  /**
+   * @param {HTMLElement} root
+   * @param {Panel} panel
+   */
   constructor(root, panel) {
     this.#panel = panel;
     this.#player = new Player(panel);
@@ -34,14 +46,14 @@ export class PastTab {
       group("past-pinned", "Pinned", (episode) => episode.is_pinned),
       group("past-person", "Your drives", (episode) => isRecordedHere(episode) && episode.is_person),
       group("past-program", "Networks and programs", (episode) => isRecordedHere(episode) && !episode.is_person),
-      group("past-files", "Opened recordings", (episode) => !episode.is_pinned && episode.source),
+      group("past-files", "Opened recordings", (episode) => !episode.is_pinned && Boolean(episode.source)),
       group("past-others", "In other scenes", isOfOtherScene, { isOpen: false }),
     ];
     const tools = element("div", { className: "ai4u-tools" }, current, open);
-    root.append(this.#player.element, this.#paid.element, this.#comparison.element, tools, this.#none, ...this.#groups.map((each) => each.element));
+    root.append(this.#player.element, this.#paid.element, this.#comparison.element, tools, this.#none, ...this.#groups.map(({ element: details }) => details));
   }
 
-  /** @param part as "past" in the protocol */
+  /** @param {PastPart} part */
   update(part) {
     this.#player.update(part);
     this.#paid.update(part.playing?.number ?? null);
@@ -67,11 +79,16 @@ export class PastTab {
     }
   }
 
+  /** @param {number} number of the episode */
   #card(number) {
     if (!this.#cards.has(number)) this.#cards.set(number, new EpisodeCard(this.#panel));
     return this.#cards.get(number);
   }
 
+  /**
+   * @param {KeptEpisode} episode
+   * @param {PastPart} part
+   */
   #update(episode, part) {
     const chosen = this.#panel.shown.episode ?? part.playing?.number ?? null;
     this.#card(episode.number).update(episode, chosen === episode.number, part.downloads);
@@ -83,6 +100,7 @@ export class PastTab {
     this.#panel.send("episode", { number: RUNNING_EPISODE }, { quiet: true });
   }
 
+  /** @param {File} file */
   async #open(file) {
     if (file.size > MAX_RECORDING_MB * 2 ** 20) {
       const text = `expected a recording (.episode) of at most ${MAX_RECORDING_MB} MB, got ${(file.size / 2 ** 20).toFixed(1)} MB`;
@@ -94,15 +112,23 @@ export class PastTab {
   }
 }
 
+/**
+ * @param {string} key under which it is remembered whether it is open
+ * @param {string} title
+ * @param {(episode: KeptEpisode) => boolean} isIn
+ * @param {{isOpen?: boolean}} options
+ */
 function group(key, title, isIn, options = {}) {
   const list = element("div", { className: "ai4u-card-list" });
   return { element: section(key, title, options, list), list, isIn };
 }
 
+/** @param {KeptEpisode} episode */
 function isRecordedHere({ is_pinned: isPinned, is_here: isHere, source }) {
   return !isPinned && isHere && !source;
 }
 
+/** @param {KeptEpisode} episode */
 function isOfOtherScene({ is_pinned: isPinned, is_here: isHere, source }) {
   return !isPinned && !isHere && !source;
 }

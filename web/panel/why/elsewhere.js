@@ -1,5 +1,10 @@
 /** "If it stood here": another pose, dragged in the world or entered, and the action that would follow. */
 
+/**
+ * @import { AskElsewhere } from "../../generated/messages.js"
+ * @import { StandingPose } from "../../types/panel.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow } from "../widgets/bars.js";
@@ -7,6 +12,7 @@ import { toggle } from "../widgets/parts.js";
 
 /** Time without a change after which the action is asked for. */
 const PAUSE_MS = 40;
+/** @type {{name: keyof StandingPose, label: string, step: number}[]} */
 const FIELDS = [
   { name: "x", label: "x (m)", step: 0.1 },
   { name: "y", label: "y (m)", step: 0.1 },
@@ -22,7 +28,7 @@ export class Elsewhere {
   #asked = 0;
   #switch = toggle("Try another place", (isOn) => this.#turn(isOn));
   #hint = element("p", { className: "ai4u-soft", textContent: "Pause the world to try other places." });
-  #inputs = new Map(FIELDS.map(({ name, step }) => [name, this.#input(step)]));
+  #inputs = new Map(FIELDS.map(({ name, step }) => /** @type {const} */ ([name, this.#input(step)])));
   #says = element("p", { className: "ai4u-soft", role: "status" });
   #action = new Bars();
   #body = element(
@@ -36,6 +42,7 @@ export class Elsewhere {
   );
   element = element("div", {}, this.#switch.element, this.#hint, this.#body);
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#hint.hidden = true;
@@ -46,6 +53,7 @@ export class Elsewhere {
     panel.addEventListener("connected", () => this.#isShown && this.#askSoon());
   }
 
+  /** @param {number} step that an arrow key adds */
   #input(step) {
     const made = element("input", { type: "number", id: freeId(), step: "any" }); // no inputMode: phones would leave out the minus
     made.addEventListener("input", () => made.value !== "" && this.#askSoon());
@@ -53,6 +61,7 @@ export class Elsewhere {
     return made;
   }
 
+  /** @param {boolean} isOn */
   #turn(isOn) {
     this.#isOn = isOn;
     this.#update();
@@ -81,10 +90,13 @@ export class Elsewhere {
     }
   }
 
-  /** Take the pose to which the outline was dragged. */
+  /**
+   * Take the pose to which the outline was dragged.
+   * @param {StandingPose} pose
+   */
   #onDrag(pose) {
     if (!this.#isShown) return;
-    for (const [name, input] of this.#inputs) input.value = pose[name];
+    for (const [name, input] of this.#inputs) input.value = String(pose[name]);
     this.#askSoon();
   }
 
@@ -97,6 +109,7 @@ export class Elsewhere {
     return Object.fromEntries([...this.#inputs].map(([name, input]) => [name, Number(input.value)]));
   }
 
+  /** @param {AskElsewhere} pose without numbers, where the agent stands */
   async #ask(pose) {
     const asked = ++this.#asked;
     const answer = await this.#panel.send("elsewhere", pose, { quiet: true });
@@ -108,7 +121,7 @@ export class Elsewhere {
     }
     for (const [name, input] of this.#inputs) {
       const isBeingTyped = document.activeElement === input && pose[name] !== undefined;
-      if (!isBeingTyped) input.value = answer[name];
+      if (!isBeingTyped) input.value = String(answer[name]);
     }
     this.#body.hidden = false;
     setText(this.#says, answer.can_stand ? "There it would do:" : "It can't stand there: no floor, or something is in the way.");
@@ -117,16 +130,24 @@ export class Elsewhere {
   }
 }
 
+/**
+ * @param {string} label
+ * @param {HTMLInputElement} input
+ */
 function field(label, input) {
   return element("div", { className: "ai4u-field" }, element("label", { htmlFor: input.id, textContent: label }), input);
 }
 
-/** Arrow keys change a number by a step, from where it stands: the browser would jump to multiples of it. */
+/**
+ * Arrow keys change a number by a step, from where it stands: the browser would jump to multiples of it.
+ * @param {KeyboardEvent} event
+ * @param {number} step
+ */
 function stepBy(event, step) {
-  const sign = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+  const sign = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
   if (!sign || event.altKey || event.ctrlKey || event.metaKey) return;
   event.preventDefault();
-  const input = event.currentTarget;
+  const input = /** @type {HTMLInputElement} */ (event.currentTarget);
   input.value = String(Math.round(1000 * (Number(input.value) + sign * step)) / 1000);
   input.dispatchEvent(new Event("input", { bubbles: true }));
 }

@@ -1,5 +1,9 @@
 /** Maps over the floor: arrows for what the agent would do at each place, colours for what it is worth. */
 
+/**
+ * @import { MapProgress, MapsPart, ValueMap } from "../../types/panel.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, setText } from "../../shared/dom.js";
 import { number, seconds } from "../../shared/numbers.js";
 import { choice, toggle } from "../widgets/parts.js";
@@ -10,6 +14,8 @@ const TURNS = [
   { text: "goes straight", kind: "straight" },
   { text: "turns right", kind: "right" },
 ];
+
+/** @typedef {"field" | "values"} MapKind */
 
 export class Maps {
   #panel;
@@ -44,6 +50,7 @@ export class Maps {
   );
   element = element("div", {}, this.#switches.field.element, this.#switches.values.element, this.#result);
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#clear();
@@ -57,18 +64,24 @@ export class Maps {
     return this.#isOn.field || this.#isOn.values;
   }
 
+  /**
+   * @param {MapKind} kind
+   * @param {boolean} isOn
+   */
   #turn(kind, isOn) {
     this.#isOn[kind] = isOn;
     this.#clear();
     this.#send();
   }
 
+  /** @param {MapKind} kind */
   #cancel(kind) {
     this.#switches[kind].set(false);
     this.#switches[kind].element.focus();
     this.#turn(kind, false);
   }
 
+  /** @param {string} name of a thing; AS_NOW for none */
   #face(name) {
     this.#facing = name;
     this.#clear();
@@ -79,7 +92,7 @@ export class Maps {
     const answer = await this.#panel.send("maps", { ...this.#isOn, facing: this.#facing }, { quiet: true });
     if (answer.ok) return;
     this.#isOn = { field: false, values: false };
-    for (const each of Object.values(this.#switches)) each.set(false);
+    for (const { set } of Object.values(this.#switches)) set(false);
     this.#clear();
   }
 
@@ -92,6 +105,7 @@ export class Maps {
     setText(this.#moment, "");
   }
 
+  /** @param {MapsPart} part */
   #draw(part) {
     if (!this.#isAnyOn || part.agent !== this.#panel.shown.agent) return;
     this.#problem.hidden = !part.problem;
@@ -103,18 +117,20 @@ export class Maps {
     this.#faced.set(options, this.#facing);
     this.#drawField(part.field);
     this.#drawValues(part.values);
-    const shown = [part.field, part.values].find((each) => each);
+    const shown = part.field ?? part.values;
     setText(this.#moment, shown ? momentWords(shown.seconds) : "");
   }
 
+  /** @param {MapProgress | null} field */
   #drawField(field) {
-    const isOn = this.#isOn.field && this.#problem.hidden;
+    const isOn = this.#isOn.field && Boolean(this.#problem.hidden);
     this.#field.draw(isOn, field);
     this.#turns.hidden = !isOn || !field;
   }
 
+  /** @param {ValueMap | null} values */
   #drawValues(values) {
-    const isOn = this.#isOn.values && this.#problem.hidden;
+    const isOn = this.#isOn.values && Boolean(this.#problem.hidden);
     this.#values.draw(isOn, values);
     const hasScale = isOn && typeof values?.low === "number";
     this.#scale.hidden = this.#worth.hidden = !hasScale;
@@ -132,27 +148,37 @@ class Progress {
   #words = element("span");
   element;
 
+  /**
+   * @param {string} name
+   * @param {() => void} onCancel
+   */
   constructor(name, onCancel) {
     this.#bar = element("progress", { ariaLabel: name });
     const cancel = button("Cancel", onCancel, { kind: "quiet", label: `Cancel: ${name.toLowerCase()}` });
     this.element = element("div", { className: "ai4u-map-progress", hidden: true }, this.#bar, this.#words, cancel);
   }
 
-  draw(isOn, told) {
-    this.element.hidden = !isOn || (told && told.done >= told.count);
+  /**
+   * @param {boolean} isOn
+   * @param {MapProgress | null} map null before anything of it is known
+   */
+  draw(isOn, map) {
+    this.element.hidden = !isOn || Boolean(map && map.done >= map.count);
     if (this.element.hidden) return;
-    if (told) {
-      this.#bar.max = told.count;
-      this.#bar.value = told.done;
+    if (map) {
+      this.#bar.max = map.count;
+      this.#bar.value = map.done;
     } else this.#bar.removeAttribute("value");
-    setText(this.#words, told ? `${told.done} of ${told.count} places` : "It begins");
+    setText(this.#words, map ? `${map.done} of ${map.count} places` : "It begins");
   }
 }
 
+/** @param {typeof TURNS[number]} turn */
 function turnItem({ text, kind }) {
   return element("li", { dataset: { turn: kind } }, element("i", { ariaHidden: "true" }), text);
 }
 
+/** @param {number} time (s) */
 function momentWords(time) {
   return `At each place it is put at rest, as if its episode began there; all else stands as it stood at ${seconds(time)}.`;
 }

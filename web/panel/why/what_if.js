@@ -1,5 +1,10 @@
 /** "What if": other values for the numbers that an agent senses, and the action that would follow. */
 
+/**
+ * @import { Change } from "../../generated/messages.js"
+ * @import { Dial } from "../../types/panel.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow } from "../widgets/bars.js";
@@ -11,8 +16,13 @@ const PAUSE_MS = 40;
 
 export class WhatIf {
   #panel;
+  /** @type {Dial[]} */
   #dials = [];
   #chosen = "";
+  /**
+   * By the id of their dial.
+   * @type {Map<string, Change>}
+   */
   #changes = new Map();
   #timer = 0;
   #asked = 0;
@@ -33,13 +43,17 @@ export class WhatIf {
   );
   element = element("div", { className: "ai4u-what-if", hidden: true }, this.#hint, this.#body);
 
+  /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     this.#slider.addEventListener("input", () => this.#slide());
     panel.addEventListener("part:run", () => this.#onRun());
   }
 
-  /** Take another decision: numbers that were changed for the last one are as they are again. */
+  /**
+   * Take another decision: numbers that were changed for the last one are as they are again.
+   * @param {boolean} isExplained
+   */
   update(isExplained) {
     this.#isExplained = isExplained;
     this.#changes.clear();
@@ -61,6 +75,7 @@ export class WhatIf {
     if (!this.#isPaused || !this.#isExplained) this.#body.hidden = true;
   }
 
+  /** @param {string} id of a dial */
   #choose(id) {
     this.#chosen = id;
     this.#drawDial();
@@ -101,12 +116,13 @@ export class WhatIf {
     if (!dial) return;
     const value = this.#changes.get(idOf(dial))?.value ?? dial.value;
     setAttributes(this.#slider, { min: dial.low, max: dial.high, step: (dial.high - dial.low) / 200 || 1, "aria-label": dial.name });
-    if (document.activeElement !== this.#slider) this.#slider.value = value;
+    if (document.activeElement !== this.#slider) this.#slider.value = String(value);
     setText(this.#value, number(value));
     this.#none.hidden = this.#changes.size === 0;
   }
 }
 
+/** @param {Dial} dial */
 function idOf({ key, index }) {
   return `${key} ${index}`;
 }

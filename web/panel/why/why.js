@@ -1,5 +1,9 @@
 /** "Because of what": how far each slot of the percept moves the action, and the method's limits. */
 
+/**
+ * @import { ExplainedSlot, WhyPart } from "../../types/panel.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { toggle } from "../widgets/parts.js";
 import { WhatIf } from "./what_if.js";
@@ -9,9 +13,12 @@ const SENTENCE_MS = 1000;
 /** A largest share below this fills no bar: else noise would look like a reason. */
 const MIN_SCALE = 0.2;
 
+/** @typedef {{slots: ExplainedSlot[], scale: number}} SensorWeights a sensor's slots; `scale` is the share that fills a bar */
+
 export class Why {
   #panel;
   #onChange;
+  /** @type {WhyPart | null} */
   #part = null;
   #saidAt = -SENTENCE_MS;
   #later = 0;
@@ -24,7 +31,10 @@ export class Why {
   #whatIf;
   element = element("div", {}, this.#switch.element, this.#result);
 
-  /** @param onChange called when there is another explanation, or none any more */
+  /**
+   * @param {Panel} panel
+   * @param {() => void} onChange called when there is another explanation, or none any more
+   */
   constructor(panel, onChange) {
     this.#panel = panel;
     this.#onChange = onChange;
@@ -39,7 +49,12 @@ export class Why {
     return this.#switch.element.getAttribute("aria-checked") === "true";
   }
 
-  /** Return the slots of a sensor, with `scale`: the share that fills a bar; null if none are shown. */
+  /**
+   * Return the slots of a sensor; null if none are shown.
+   * @param {string} agent its id
+   * @param {string} key of the sensor
+   * @returns {SensorWeights | null}
+   */
   of(agent, key) {
     const part = this.#part;
     if (!this.isOn || !part || part.agent !== agent || part.problem) return null;
@@ -48,6 +63,7 @@ export class Why {
     return slots.length === 0 ? null : { slots, scale };
   }
 
+  /** @param {boolean} isOn */
   #toggle(isOn) {
     this.#result.hidden = true;
     this.#part = null;
@@ -69,6 +85,7 @@ export class Why {
     setText(this.#sentence, this.#part.problem || this.#part.sentence);
   }
 
+  /** @param {WhyPart} part */
   #draw(part) {
     if (!this.isOn || part.agent !== this.#panel.shown.agent) return;
     if (this.#part?.agent !== part.agent || this.#part?.problem !== part.problem) this.#saidAt = -SENTENCE_MS;
@@ -99,21 +116,34 @@ function makeSlot() {
   );
 }
 
+/**
+ * @param {HTMLElement} item
+ * @param {ExplainedSlot} slot
+ * @param {string[]} components names of the numbers of the action
+ * @param {number} scale share that fills a bar
+ */
 function drawSlot(item, { name, sees, share, shares }, components, scale) {
   const [label, bar, words] = item.children;
+  const fill = /** @type {HTMLElement} */ (bar.firstChild);
   const seen = !sees ? "" : ` – ${sees === "nothing" || sees === "something" ? sees : `the ${sees}`}`;
   setText(label, `${name}${seen}`);
-  bar.firstChild.style.width = `${(100 * Math.min(1, share / scale)).toFixed(1)}%`;
-  const largest = shares.findIndex((each) => Math.abs(each) === share);
+  fill.style.width = `${(100 * Math.min(1, share / scale)).toFixed(1)}%`;
+  const largest = shares.findIndex((number) => Math.abs(number) === share);
   setText(words, `${components[largest] ?? "action"} ${percent(shares[largest] ?? 0)}`);
-  setAttributes(item, { title: components.map((each, index) => `${each} ${percent(shares[index] ?? 0)}`).join(", ") });
+  setAttributes(item, { title: components.map((component, index) => `${component} ${percent(shares[index] ?? 0)}`).join(", ") });
 }
 
+/** @param {number} share */
 function percent(share) {
   return `${share < 0 ? "−" : "+"}${Math.round(100 * Math.abs(share))} %`;
 }
 
-/** Cells side by side, or in rows, that are the darker the more a ray matters. */
+/**
+ * Draw cells side by side, or in rows, that are the darker the more a ray matters.
+ * @param {HTMLElement} parent
+ * @param {SensorWeights | null} why null for none
+ * @param {number} [columns] default: all in one row
+ */
 export function drawWeights(parent, why, columns) {
   const slots = why?.slots ?? [];
   parent.hidden = slots.length === 0;

@@ -1,15 +1,25 @@
 /** Numbers with bars: each has a name, a bar from its lowest to its highest value, and the value. */
 
+/** @import { ChangedNumber } from "../../types/panel.js" */
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { number } from "../../shared/numbers.js";
+
+/**
+ * @typedef {object} Bar a number with a bar; without low and high there is no bar
+ * @property {string} name
+ * @property {number | null} value
+ * @property {string} [unit]
+ * @property {number | null} [low]
+ * @property {number | null} [high]
+ * @property {string} [text] in place of the value
+ * @property {[number, number]} [good] a range to mark
+ * @property {number} [why] how much it matters, 0 to 1
+ */
 
 export class Bars {
   element = element("div", { className: "ai4u-bars" });
 
-  /**
-   * @param rows [{name, value, unit, low, high, text, good: [from, to], why}]; without low and high there is
-   * no bar; `why` is how much it matters, 0 to 1
-   */
+  /** @param {Bar[]} rows */
   update(rows) {
     keyed(
       this.element,
@@ -21,7 +31,11 @@ export class Bars {
   }
 }
 
-/** Return the row of a number of an action that would be another one. */
+/**
+ * Return the row of a number of an action that would be another one.
+ * @param {ChangedNumber} number
+ * @returns {Bar}
+ */
 export function changedRow({ name, low, high, has_effect: hasEffect, now, then }) {
   const text = now === then ? number(now) : `${number(now)} → ${number(then)}`;
   return { name: hasEffect ? name : `${name} (no effect)`, value: then, low, high, text };
@@ -37,9 +51,13 @@ function makeRow() {
   );
 }
 
+/**
+ * @param {HTMLElement} row
+ * @param {Bar} bar
+ */
 function updateRow(row, { name, value, unit = "", low, high, text, good, why = null }) {
   const [label, bar, shown] = row.children;
-  const [range, fill, zero] = bar.children;
+  const [range, fill, zero] = /** @type {HTMLCollectionOf<HTMLElement>} */ (bar.children);
   setText(label, name);
   setText(shown, `${text ?? number(value)}${unit ? ` ${unit}` : ""}`);
   setAttributes(row, { "data-why": why !== null });
@@ -47,7 +65,7 @@ function updateRow(row, { name, value, unit = "", low, high, text, good, why = n
   const hasBar = Number.isFinite(low) && Number.isFinite(high) && high > low && Number.isFinite(value);
   setAttributes(row, { "data-plain": !hasBar });
   if (!hasBar) return;
-  const share = (each) => Math.max(0, Math.min(1, (each - low) / (high - low)));
+  const share = (/** @type {number} */ number) => Math.max(0, Math.min(1, (number - low) / (high - low)));
   place(fill, share(Math.max(low, Math.min(0, high))), share(value));
   range.hidden = !good;
   if (good) place(range, share(good[0]), share(good[1]));
@@ -55,6 +73,11 @@ function updateRow(row, { name, value, unit = "", low, high, text, good, why = n
   zero.style.left = `${100 * share(0)}%`;
 }
 
+/**
+ * @param {HTMLElement} part of a bar
+ * @param {number} from share of the bar
+ * @param {number} to share of the bar
+ */
 function place(part, from, to) {
   const left = `${(100 * Math.min(from, to)).toFixed(1)}%`;
   const width = `${(100 * Math.abs(to - from)).toFixed(1)}%`;

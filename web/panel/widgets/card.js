@@ -13,7 +13,7 @@ export class Card {
   #mark = element("span", { className: "ai4u-card-mark" });
   #head;
   #actions = element("div", { className: "ai4u-card-actions" });
-  #iconName = null;
+  #iconName = "";
   /** What the card holds when it is open. */
   body = element("div", { className: "ai4u-card-body", id: freeId(), hidden: true });
   element = element("article", { className: "ai4u-card" });
@@ -35,7 +35,7 @@ export class Card {
       icon("down", 14),
     );
     setAttributes(this.#head, { "aria-expanded": "false", "aria-controls": this.body.id });
-    this.#head.addEventListener("click", () => this.#onToggle(this.body.hidden));
+    this.#head.addEventListener("click", () => this.#onToggle(Boolean(this.body.hidden)));
     const row = element("div", { className: "ai4u-card-row" }, this.#head, this.#actions);
     this.element.append(row, this.body);
   }

@@ -25,10 +25,11 @@ export class Curve {
   }
 }
 
+/** @param {number[]} values */
 function pointsOf(values) {
   const [low, high] = [Math.min(...values, 0), Math.max(...values, 0)];
   const span = high - low || 1;
-  const at = (value, index) =>
+  const at = (/** @type {number} */ value, /** @type {number} */ index) =>
     `${((WIDTH * index) / (values.length - 1)).toFixed(1)},${(2 + (HEIGHT - 4) * (1 - (value - low) / span)).toFixed(1)}`;
   return values.map(at).join(" ");
 }

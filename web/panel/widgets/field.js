@@ -10,6 +10,7 @@ const MAX_LINE_CHARS = 40;
 export class FieldRow {
   #field;
   #onEnter;
+  /** @type {HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement} */
   #control;
   #hint = element("small", { className: "ai4u-field-hint", id: freeId() });
   #detail = element("code", { className: "ai4u-details-only" });
@@ -34,7 +35,7 @@ export class FieldRow {
     const row = element("div", { className: "ai4u-field-control" }, this.#control, this.#unit);
     this.element.append(this.#label, row, this.#hint, this.#detail, this.#problem);
     this.#control.addEventListener("change", () => this.#enter());
-    this.#control.addEventListener("keydown", (event) => this.#onKey(event));
+    this.element.addEventListener("keydown", (event) => this.#onKey(event));
   }
 
   /**
@@ -47,29 +48,31 @@ export class FieldRow {
     setText(this.#unit, field.unit ?? "");
     setText(this.#hint, field.hint ?? "");
     setText(this.#detail, field.detail ?? "");
-    if (field.kind === "choice") setOptions(this.#control, field);
+    if (this.#control instanceof HTMLSelectElement) setOptions(this.#control, field);
     if (!isPending && document.activeElement !== this.#control) this.#show();
   }
 
+  /** @param {string} text empty for none */
   setProblem(text) {
     setText(this.#problem, text);
     setAttributes(this.#control, { "aria-invalid": text ? "true" : null });
   }
 
   #show() {
-    if (this.#field.kind === "switch") this.#control.checked = this.#field.value === true;
+    if (isSwitch(this.#control)) this.#control.checked = this.#field.value === true;
     else this.#control.value = shownText(this.#field);
   }
 
   #enter() {
-    const isSwitch = this.#field.kind === "switch";
-    const entered = isSwitch ? this.#control.checked : this.#control.value;
-    const isSame = entered === (isSwitch ? this.#field.value === true : shownText(this.#field));
-    this.#onEnter(isSame ? undefined : entered);
+    const [shown, entered] = isSwitch(this.#control)
+      ? [this.#field.value === true, this.#control.checked]
+      : [shownText(this.#field), this.#control.value];
+    this.#onEnter(entered === shown ? undefined : entered);
   }
 
+  /** @param {KeyboardEvent} event */
   #onKey(event) {
-    if (event.key !== "Escape" || event.isComposing || this.#field.kind === "switch") return;
+    if (event.key !== "Escape" || event.isComposing || isSwitch(this.#control)) return;
     this.#show();
     this.setProblem("");
     this.#onEnter(undefined);
@@ -89,17 +92,26 @@ function control(field) {
   return element("input", { type: "text", inputMode, autocomplete: "off", spellcheck: false });
 }
 
+/**
+ * @param {Element} control
+ * @returns {control is HTMLInputElement}
+ */
+function isSwitch(control) {
+  return control instanceof HTMLInputElement && control.type === "checkbox";
+}
+
 /** @param {FormField} field */
 function shownText({ shown, value }) {
   return shown ?? (value === null || value === undefined ? "" : String(value));
 }
 
-function setOptions(select, { choices = [] }) {
+/**
+ * @param {HTMLSelectElement} select
+ * @param {FormField} field
+ */
+function setOptions(select, { choices }) {
   const key = JSON.stringify(choices);
   if (select.dataset.choices === key) return;
   select.dataset.choices = key;
-  const options = choices.map((each) => (typeof each === "object" ? each : { value: each, text: each }));
-  select.replaceChildren(
-    ...options.map(({ value, text }) => element("option", { value: String(value), textContent: text || "none" })),
-  );
+  select.replaceChildren(...choices.map((value) => element("option", { value, textContent: value || "none" })));
 }

@@ -84,9 +84,10 @@ function optionElement({ value, text, reason }) {
 
 /**
  * Return a row of buttons of which one is pressed.
+ * @template {string} Value
  * @param {string} label
- * @param {{value: string, text: string, title?: string}[]} options
- * @param {(value: string) => void} onChange
+ * @param {{value: Value, text: string, title?: string}[]} options
+ * @param {(value: Value) => void} onChange
  */
 export function segments(label, options, onChange) {
   const buttons = options.map(({ value, text, title = "" }) =>

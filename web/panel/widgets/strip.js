@@ -8,13 +8,16 @@ const OLDER_HEIGHT = 14;
 /** Width of the drawing in CSS pixels; the page stretches it. */
 const WIDTH = 280;
 
+/** @typedef {HTMLElement & {drawn?: string}} Strip with what was drawn last, as JSON */
+
+/** @returns {Strip} */
 export function makeStrip() {
   return element("figure", {}, element("div"), element("figcaption"));
 }
 
 /**
  * Draw the bars of a strip.
- * @param {any} figure
+ * @param {Strip} figure
  * @param {ReadingStrip} strip
  */
 export function drawStrip(figure, { caption, zeros, shares, colours, older = [] }) {
@@ -26,10 +29,19 @@ export function drawStrip(figure, { caption, zeros, shares, colours, older = [] 
   figure.drawn = key;
   while (drawings.children.length > older.length + 1) drawings.lastChild.remove();
   while (drawings.children.length <= older.length) drawings.append(element("canvas", { ariaHidden: "true" }));
-  for (const [index, each] of older.entries()) draw(drawings.children[index], each, zeros, null, accent, OLDER_HEIGHT);
-  draw(drawings.lastChild, shares, zeros, colours, accent, HEIGHT);
+  const canvases = /** @type {HTMLCollectionOf<HTMLCanvasElement>} */ (drawings.children);
+  for (const [index, earlier] of older.entries()) draw(canvases[index], earlier, zeros, null, accent, OLDER_HEIGHT);
+  draw(canvases[older.length], shares, zeros, colours, accent, HEIGHT);
 }
 
+/**
+ * @param {HTMLCanvasElement} canvas
+ * @param {number[]} shares position of each number in its range, 0 to 1
+ * @param {number[]} zeros position of zero in each range
+ * @param {string[] | null} colours of the bars; null for one colour
+ * @param {string} accent that colour
+ * @param {number} height in CSS pixels
+ */
 function draw(canvas, shares, zeros, colours, accent, height) {
   const scale = devicePixelRatio;
   canvas.width = WIDTH * scale; // assigning also clears it

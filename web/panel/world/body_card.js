@@ -8,7 +8,9 @@ import { button, element } from "../../shared/dom.js";
 import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
 
+/** @type {Record<string, string>} */
 const KIND_ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
+/** @type {Record<string, string>} */
 const SHAPE_ICONS = { circle: "ball", segment: "wall", capsule: "wall", ring: "target" };
 
 export class BodyCard {
@@ -24,8 +26,8 @@ export class BodyCard {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
     this.#form = new Form({ onChange: (values) => panel.send("change_body", { name: this.#name, values }) });
-    this.#copy = button("Duplicate", () => this.#do("duplicate_body"), { icon: "copy", kind: "quiet" });
-    this.#delete = button("Delete", () => this.#do("remove_body"), { icon: "trash", kind: "danger" });
+    this.#copy = button("Duplicate", () => this.#duplicate(), { icon: "copy", kind: "quiet" });
+    this.#delete = button("Delete", () => this.#remove(), { icon: "trash", kind: "danger" });
     const tools = element("div", { className: "ai4u-tools" }, this.#copy, this.#delete);
     this.#card.body.append(this.#form.element, tools);
   }
@@ -49,15 +51,18 @@ export class BodyCard {
     const isMine = isOpen && form?.name === name;
     this.#form.element.hidden = !isMine;
     if (isMine) this.#form.update(form.fields);
-    for (const [made, verb] of [[this.#copy, "Duplicate"], [this.#delete, "Delete"]]) made.title = `${verb} ${name}`;
+    this.#copy.title = `Duplicate ${name}`;
+    this.#delete.title = `Delete ${name}`;
   }
 
-  /** @param {"duplicate_body" | "remove_body"} command */
-  async #do(command) {
-    const answer = await this.#panel.send(command, { name: this.#name });
-    if (!answer.ok) return;
-    if (command === "remove_body" && this.#panel.shown.body === this.#name) choose(this.#panel, null);
-    if (answer.body) choose(this.#panel, answer.body);
+  async #duplicate() {
+    const answer = await this.#panel.send("duplicate_body", { name: this.#name });
+    if (answer.ok && answer.body) choose(this.#panel, answer.body);
+  }
+
+  async #remove() {
+    const answer = await this.#panel.send("remove_body", { name: this.#name });
+    if (answer.ok && this.#panel.shown.body === this.#name) choose(this.#panel, null);
   }
 }
 
@@ -71,6 +76,7 @@ export function choose(panel, name) {
   panel.send("select", { body: name }, { quiet: true });
 }
 
+/** @param {number} value */
 function metres(value) {
   return `${Number(value ?? 0).toFixed(1)} m`;
 }

@@ -93,6 +93,7 @@ export class SceneFiles {
     if (answer.ok) saveFile(answer.file, answer.content);
   }
 
+  /** @param {File} file */
   async #load(file) {
     if (file.size > MAX_SCENE_BYTES) {
       this.#panel.notice(`${file.name}: expected a scene file (YAML), got ${file.size} bytes.`, "error");
@@ -103,7 +104,11 @@ export class SceneFiles {
   }
 }
 
-/** Return what is left of a scene and of a person's work when the world is started again. */
+/**
+ * Return what is left of a scene and of a person's work when the world is started again.
+ * @param {boolean} canSave
+ * @param {boolean} isAutosaved
+ */
 function keptWords(canSave, isAutosaved) {
   const scenes = [
     canSave ? "Scenes that you save are under “Choose a scene”, in My scenes." : "Nothing can be saved here: download what you want to keep.",
@@ -114,6 +119,10 @@ function keptWords(canSave, isAutosaved) {
   return scenes.join(" ");
 }
 
+/**
+ * @param {string} name
+ * @param {string} text
+ */
 function saveFile(name, text) {
   const url = URL.createObjectURL(new Blob([text], { type: "application/yaml" }));
   element("a", { href: url, download: name }).click();

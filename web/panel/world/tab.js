@@ -1,6 +1,9 @@
 /** The tab "World": the things in it, the scene's settings and files. */
 
-/** @import { WorldPart } from "../../generated/messages.js" */
+/**
+ * @import { WorldPart } from "../../generated/messages.js"
+ * @import { Panel } from "../panel.js"
+ */
 import { button, element, keyed, setText } from "../../shared/dom.js";
 import { BodyCard, choose } from "./body_card.js";
 import { Form } from "../widgets/form.js";
@@ -14,6 +17,10 @@ const HINT_ON =
 
 export class WorldTab {
   #panel;
+  /**
+   * By the name of their thing.
+   * @type {Map<string, BodyCard>}
+   */
   #cards = new Map();
   #list = element("div", { className: "ai4u-card-list" });
   #moves;
@@ -24,6 +31,10 @@ export class WorldTab {
   #add = element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add" });
   #isMoving = false;
 
+  /**
+   * @param {HTMLElement} root
+   * @param {Panel} panel
+   */
   constructor(root, panel) {
     this.#panel = panel;
     this.#files = new SceneFiles(panel);
@@ -80,14 +91,17 @@ export class WorldTab {
     this.#settings.update(part.settings ?? []);
   }
 
+  /** @param {boolean} on */
   #setMoving(on) {
     this.#panel.send("move_mode", { on }, { quiet: true });
   }
 
+  /** @param {number} distance (m); 0 for no grid */
   #setSnap(distance) {
     this.#panel.send("snap", { distance }, { quiet: true });
   }
 
+  /** @param {string} template its name */
   async #addThing(template) {
     const answer = await this.#panel.send("add_body", { template });
     if (!answer.ok || !answer.body) return;
@@ -95,6 +109,7 @@ export class WorldTab {
     if (!this.#isMoving) this.#setMoving(true); // most new things are moved next
   }
 
+  /** @param {string} name */
   #showSelected(name) {
     this.#panel.show({ body: name });
     const part = this.#panel.part("world"); // the form comes later
