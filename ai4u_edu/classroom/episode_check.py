@@ -91,7 +91,7 @@ def fault_of(episode: str, **fields: Any) -> str:
 
 
 class EpisodeCheck:
-    """Checks claims one after the other in a process, which is replaced if it takes too long.
+    """Checks claims one at a time in a process, which is replaced if it takes too long.
 
     Belongs to the event loop.
 

@@ -43,7 +43,7 @@ class LiveRoom:
     """Time (s, monotonic) since when its status is idle."""
     wrong: int = 0
     wrong_answer: tuple[str, str] = ("", "")
-    """Exercise and diagnosis of the last wrong check, which came so often in a row."""
+    """Exercise and diagnosis of the last wrong check, and how often it came in a row."""
     problem: str = ""
     """Reason for which the room could not open its assignment."""
     people: People | None = None

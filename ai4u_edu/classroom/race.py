@@ -198,7 +198,7 @@ class Races:
 
     @property
     def has_open_claims(self) -> bool:
-        """True if a result is to be checked."""
+        """True if a result must be checked."""
         return any(each.verdict == "open" for each in self.results.values())
 
     def next_claim(self) -> tuple[RaceResult, Claim] | None:

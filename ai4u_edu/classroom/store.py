@@ -276,7 +276,7 @@ class ClassStore:
         try:
             return model.model_validate_json(self.setting(name) or "{}")
         except ValidationError:
-            _logger.warning("the class's setting %r is damaged; it begins anew", name)
+            _logger.warning("the class's setting %r is damaged; it begins again", name)
             return model()
 
     def rooms(self) -> list[RoomRow]:

@@ -398,7 +398,7 @@ async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     """Delete everything of a class but the secret of the teacher's page, and set a new code.
 
     Nothing of seats, tokens, names and addresses is left in the folder; the file with the tables
-    is made anew, since deleted rows may be read from one.
+    is made again, since deleted rows may be read from one.
 
     Raises:
         StoreError: something can't be deleted; the class goes on without what is deleted already.

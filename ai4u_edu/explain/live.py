@@ -226,7 +226,7 @@ class Driver:
 
         Args:
             agent: the agent's state.
-            recorded: the baseline; left out, the mean of what the agent sensed lately.
+            recorded: the baseline; default: the mean of what the agent sensed lately.
         """
         if self.policy is None:
             return Why(agent.id, problem=self.problem)

@@ -194,7 +194,7 @@ class SeatFile:
     def _keep(self, seat: Seat) -> None:
         others = [each for each in self.seats().values() if each.url != seat.url]
         seats = [asdict(each) for each in [*others, seat][-_MAX_SEATS:]]
-        with suppress(OSError):  # the next start joins anew
+        with suppress(OSError):  # the next start joins again
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps({"seats": seats}, indent=1), mode=0o600)
 

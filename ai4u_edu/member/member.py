@@ -73,7 +73,7 @@ class ClassMember:
         runner: runs the world. It gets a recorder if it has none.
         editor: of the world; None if the scene can't be changed.
         link: settings of the link, or a function that makes one for a receiver of messages.
-        folder: of the world's files, which exists; left out, what has to outlast the process (the
+        folder: of the world's files, which exists; without it what has to outlast the process (the
             last assignment, undelivered results, counts) does not.
         title: of the scene, where there is no editor.
         show_ghosts: shows the ghosts of episodes in the page, each with a name.

@@ -124,7 +124,7 @@ _EXPECTED = "expected a function: def decide(percept):"
 class Program:
     r"""A student's program: a function ``decide(percept)``, or a class with ``get_action``.
 
-    Its global variables are made anew by each :meth:`load`; a new episode leaves them as they are,
+    Its global variables are made again by each :meth:`load`; a new episode leaves them as they are,
     as it does for a function that drives a LocalBrain. A class is made once, and its ``reset()``
     and a Controller's ``on_reset(agent, view)`` are called at each episode's begin; agent and view
     are None. One thread calls all methods.
@@ -175,7 +175,7 @@ class Program:
         keeps_lines: bool = True,
         report_line: ReportLine | None = None,
     ) -> Self:
-        """Run a program's text, and find what is to be asked for decisions.
+        """Run a program's text, and find the function that decides.
 
         Args:
             source: the text.

@@ -72,7 +72,7 @@ class Program:
 
 @contextmanager
 def program(folder: Path, *, episodes: int = 0, descriptors: int = 1024) -> Iterator[Program]:
-    """A room that is served, with so many kept episodes, by a process with so many descriptors."""
+    """A served room with kept episodes, in a process with a limit of descriptors."""
     log = folder / "log"
     command = f'ulimit -n {descriptors}; exec "$0" "$@"'
     with log.open("w") as file:

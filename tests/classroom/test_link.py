@@ -103,7 +103,7 @@ def test_malformed_messages_are_told_and_too_many_end_the_link(served: ServedCla
             link.socket.send(each)
             assert "expected" in link.next(Problem).text
         link.send(check("right"))
-        link.next(Ack)  # the link lives, and the count begins anew
+        link.next(Ack)  # the link lives, and the count begins again
         for _ in range(5):
             link.send(Hello(VERSION, "x", "room"))
         assert link.end()[0] == 1008

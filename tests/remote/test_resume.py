@@ -83,7 +83,7 @@ def test_a_script_that_comes_too_late_begins_another_session() -> None:
         session = robot.session
         cut(robot)
         until(lambda: room.sim.agents[0].brain is before)
-        with pytest.raises(RefusedError, match=r"session '\w+' of agent 'a' is over; connect anew"):
+        with pytest.raises(RefusedError, match=r"session '\w+' of agent 'a' is over"):
             connect(room.url, "a", mode="lockstep", session=session).sense()
         assert robot.reset().step == 0
         assert robot.session != session

@@ -59,7 +59,7 @@ export class BlockSteps {
   #panel;
   /** @type {PythonPart | null} */
   #part = null;
-  /** How many are done; the next one is checked. */
+  /** Number of steps that are done; the next one is checked. */
   #done = 0;
   /** Number of the step that is shown, from 0. */
   #shown = 0;
@@ -123,7 +123,7 @@ export class BlockSteps {
     return this.#panel.part("scene")?.scene === SCENE;
   }
 
-  /** Where it is kept how many are done: students of a class may use one device in turn. */
+  /** Storage key of the number of finished steps: students of a class may use one device in turn. */
   get #key() {
     const room = roomOfPage();
     return `${room && `${room}/`}blocks-steps`;

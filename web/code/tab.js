@@ -33,7 +33,7 @@ export class CodeTab {
   #run;
   #test;
   /**
-   * What ran last.
+   * The latest run or test.
    * @type {CodeRun | CodeTest}
    */
   #active;
@@ -50,7 +50,7 @@ export class CodeTab {
   /** @type {AgentPart | null} */
   #agent = null;
   /**
-   * How the latest run ended; null before the first one.
+   * End of the latest run; null before the first one.
    * @type {(RunEnd & {summary?: string}) | null}
    */
   #end = null;

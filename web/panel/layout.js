@@ -1,5 +1,5 @@
 /**
- * Where the panel stands: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
+ * Place of the panel: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
  *
  * It sets data-ai4u-layout (side, below, sheet) and data-ai4u-panel (open, folded) of the document's root, and
  * the CSS variables --ai4u-panel-size and --ai4u-dock-height; styles/panel/panel.css does the rest.
@@ -14,7 +14,7 @@ const LOW = matchMedia("(max-height: 500px)");
 const UPRIGHT = matchMedia("(orientation: portrait) and (max-width: 1000px)");
 /** Smallest, largest and usual size: width beside the canvas (px), height below it (share of the window, %). */
 const SIZES = { side: [280, 560, 340], below: [25, 70, 42] };
-/** What an arrow key on the handle adds. */
+/** Change by an arrow key on the handle. */
 const STEPS = { side: 20, below: 5 };
 
 export class Layout {

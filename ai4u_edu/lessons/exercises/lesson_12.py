@@ -43,7 +43,7 @@ def layers_of(path: str = ZOO) -> list[Layer]:
     """Return the weights (outputs, inputs) and biases (outputs,) of each layer of a network.
 
     Args:
-        path: the file of a network such as PPO's: layers one after the other.
+        path: the file of a network such as PPO's: layers in a row.
     """
     need("train", "onnx")
     import onnx

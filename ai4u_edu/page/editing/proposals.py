@@ -32,7 +32,7 @@ class Proposal(NamedTuple):
     poses: Poses = MappingProxyType({})
     """Poses to which bodies are moved, by name."""
     restarts: bool = False
-    """True if the world has to be built anew at once, which begins another episode."""
+    """True if the world must be rebuilt at once, which begins another episode."""
     merge_key: str = ""
     """Changes with the same key that follow each other within a second are undone as one."""
 

@@ -183,7 +183,7 @@ class _Page:
                 self._command(lambda: command.submit(self._runner, message))
 
     def _hold(self, held: frozenset[str], stick: Stick) -> None:
-        """Drive with what is held; what has been pressed anew may start or repeat an episode.
+        """Drive with what is held; what has been pressed again may start or repeat an episode.
 
         A key that is still held when an episode begins does not start it: pages repeat what is
         held, and the person has not seen the new start.

@@ -102,7 +102,7 @@ def test_a_script_that_was_told_what_it_senses_has_to_come_again(harness: Editor
     harness.tick(2)
     harness.done(harness.editor.move_body("wall", -4, 1))  # that changes nothing for it
     assert harness.agent.brain is brain
-    assert line.closed == ["the agent is set up anew"] * 0
+    assert line.closed == ["the agent is set up again"] * 0
     harness.done(harness.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
     assert harness.agent.brain is harness.agent.brains[0]
     assert all(each is not brain for each in harness.agent.brains)

@@ -102,7 +102,7 @@ def marks(messages: list[dict[str, Any]]) -> list[str]:
 
 
 def settled(server: LocalServer, pages: int) -> Broadcaster:
-    """Return the server's broadcaster as soon as so many pages are up to date."""
+    """Return the server's broadcaster as soon as `pages` pages are up to date."""
     out: Broadcaster = server._websock_server._broadcast_buffer._ai4u_edu_broadcaster  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
     until(lambda: not any(waiting(page) for page in out._pages.values()))
@@ -288,7 +288,7 @@ def test_a_message_that_can_not_be_packed_is_left_out(
         server._websock_server.queue_message(GuiUpdateMessage("no widget", {"value": value}))
         server.gui.add_markdown("<after>")
         frame_with(page, "<after>")
-        with client(server) as late:  # the message is still kept for who comes
+        with client(server) as late:  # the message is still kept for later pages
             seen: list[dict[str, Any]] = []
             while "ReplayDoneMessage" not in str(seen):
                 seen += told(late.recv(LIMIT_S))

@@ -1,4 +1,4 @@
-/** What the chosen episode was rewarded for: each term over time, and the decisions that paid most. */
+/** Rewards of the chosen episode: each term over time, and the decisions that paid most. */
 
 import { button, element } from "../../shared/dom.js";
 import { Curve } from "../widgets/curve.js";

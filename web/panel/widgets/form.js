@@ -5,7 +5,7 @@ import { element, keyed, setText } from "../../shared/dom.js";
 import { FieldRow } from "./field.js";
 import { recall, remember } from "../../shared/storage.js";
 
-/** How many fields stand before "More" if the server doesn't say which. */
+/** Number of fields before "More" if the server doesn't say which. */
 const FIRST_COUNT = 3;
 
 export class Form {

@@ -92,7 +92,7 @@ class AI4ULink:
 
     def open(self, spec: AgentSpec) -> None:
         """Begin to look for a script."""
-        self.close("the agent is set up anew")
+        self.close("the agent is set up again")
         self._codec = AI4UCodec(spec)
         self._dialogue = AI4UDialogue(
             spec.agent,
