@@ -88,7 +88,7 @@ def test_another_version_is_told(served: ServedClass) -> None:
         assert str(VERSION) in problem.text
 
 
-def test_nothing_counts_before_hello(served: ServedClass) -> None:
+def test_link_ends_if_the_first_message_is_not_hello(served: ServedClass) -> None:
     with RawLink(served, "", hello=state()) as link:
         code, problem = link.end()
         assert (code, problem and problem.code) == (1008, "message")

@@ -135,7 +135,7 @@ def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
 
 
 @pytest.mark.parametrize("message", [native.Bye("x"), native.Reset(1, None)])
-def test_whoever_does_not_say_hello_first_is_told_to(message: native.Message) -> None:
+def test_first_message_must_be_hello(message: native.Message) -> None:
     with log_room() as room, Script(room) as script:
         script.say(message)
         kind = type(message).__name__.lower()

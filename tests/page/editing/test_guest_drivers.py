@@ -86,7 +86,7 @@ def test_a_body_that_does_not_fit_the_brain_is_not_given_to_it(harness: EditorHa
     harness.tick(2)
 
 
-def test_one_who_took_over_stays(harness: EditorHarness) -> None:
+def test_edits_keep_a_brain_that_took_over(harness: EditorHarness) -> None:
     harness.done(harness.editor.set_driver("0", "keys:WASDRBMoveController"))
     first = harness.agent.brains[0]
     harness.agent.use_brain(first)  # as a page does when somebody lets go
