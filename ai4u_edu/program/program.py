@@ -194,6 +194,7 @@ class Program:
         """
         trace = Trace(file, limit_s, keeps_lines=keeps_lines, report_line=report_line)
         tree = _parsed(source, file)
+        # before anything runs: the program must be one that the page and a script can run
         obstacle = obstacle_in_tree(tree)
         if obstacle is not None:
             raise obstacle
@@ -285,6 +286,7 @@ class Program:
     def _only_entry(self) -> str:
         if _ENTRY in self._names:
             return _ENTRY
+        # of this program, and not what it imported
         own = {
             name: value
             for name, value in self._names.items()
@@ -326,6 +328,7 @@ class Program:
             return self.trace.run(function, *arguments)
         except EndlessError as error:
             raise self._endless(error.line) from None
+        # exit() in a program ends its decision, and not the process; Ctrl-C passes
         except (Exception, SystemExit) as error:
             raise mistake_in(error, self.file, self._quoted) from error
 

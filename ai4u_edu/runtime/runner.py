@@ -155,7 +155,7 @@ class Runner:
     def start(self) -> None:
         """Start to tick."""
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
-        self._schedule.due = self._clock()
+        self._schedule.due = self._clock()  # the first tick is due at once
         self._thread.start()
         self._monitor.start()
 
@@ -407,7 +407,7 @@ class Runner:
             self.recorder.listen_to(sim)
         self.error, self._publisher.past = "", None
         self._publisher.forget_static_scene()
-        sim.is_seed_locked = before.is_seed_locked
+        sim.is_seed_locked = before.is_seed_locked  # the person's choice outlasts the world
         self._monitor.forget()
         self._schedule.forget()
         kept = [agent.brain for agent in sim.agents]
@@ -422,7 +422,7 @@ class Runner:
 
     def _run(self) -> None:
         while not self._stopping:
-            self._answers.clear()
+            self._answers.clear()  # before brains are asked, who announce answers then
             began = self._clock()
             self._attempt(self.advance)
             self._answers.wait(self.sim, began, self._all_keep_waiting)
@@ -513,7 +513,7 @@ class Runner:
             if not is_between_decisions and self._clock() - first.asked_at < DECISION_WAIT_S:
                 return
             command = self._queue.take()
-            if command is not None:
+            if command is not None:  # else all that waited were cancelled
                 self._run_command(command)
 
     def _run_command(self, command: QueuedCommand) -> None:
