@@ -28,7 +28,7 @@ _EVERY_TICK = 10**9
 
 @dataclass(frozen=True)
 class Claim:
-    """Result of an episode, as a room tells it."""
+    """Result of an episode, as a room reports it."""
 
     episode: bytes
     scene: str

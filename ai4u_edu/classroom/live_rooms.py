@@ -1,4 +1,4 @@
-"""Present states of the rooms of a class, as their links told them."""
+"""Present states of the rooms of a class, as their links sent them."""
 
 import json
 import time
@@ -47,7 +47,7 @@ class LiveRoom:
     problem: str = ""
     """Reason for which the room could not open its assignment."""
     people: People | None = None
-    """Seats that the link was told of."""
+    """Seats that were sent to the link."""
 
     def note_state(self, state: State) -> None:
         """Take a new state."""

@@ -229,7 +229,7 @@ class Teacher:
         return standalone_page("teacher.html")
 
     async def state(self, request: Request) -> Response:
-        """Return the class, as the page's socket tells it."""
+        """Return the class, as the page's socket sends it."""
         self._live.ensure_ticking()
         url = str(request.url.replace(path="/", query=""))
         text = self._events.text(url, is_projected=False)

@@ -143,7 +143,7 @@ class ProgressFile:
     def _alone(self) -> Iterator[None]:
         """Exclude other notebooks: each reads the file, and writes all of it again."""
         deadline, lock = time.monotonic() + LOCK_TIMEOUT_S, None
-        with suppress(OSError):  # a folder that can't be written to is told of by what writes
+        with suppress(OSError):  # the write itself reports a folder that can't be written to
             (self.folder / FOLDER).mkdir(exist_ok=True)
             while lock is None:
                 try:

@@ -214,7 +214,7 @@ class ClassMember:
         self._report_episodes()
         self._report_state()
         if not self.link.is_connected:
-            self._holds.for_absence(math.inf)  # nobody would tell who comes back
+            self._holds.for_absence(math.inf)  # nobody would say who comes back
             return
         for message in self._thumbnail.changes(self._runner.latest):
             self.link.send(message)

@@ -22,13 +22,13 @@ Poses = Mapping[str, Pose]
 
 
 class Proposal(NamedTuple):
-    """A wanted state, and what to tell about it."""
+    """A wanted state, and the notes to show with it."""
 
     state: EditState
     label: str
     """A few words for the undo button."""
     path: BlockPath = ()
-    """The changed part of the scene; problems are told relative to it."""
+    """The changed part of the scene; paths of problems are relative to it."""
     poses: Poses = MappingProxyType({})
     """Poses to which bodies are moved, by name."""
     restarts: bool = False

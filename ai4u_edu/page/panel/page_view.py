@@ -117,7 +117,7 @@ class PageView:
         pictures: those of all pages.
         page_id: the page's random id; empty if it has no picture.
         agent: id of the agent that is shown first.
-        panel: told what the user does in the picture.
+        panel: notified of what the user does in the picture.
         agent_parts: names of the parts that the page clears when it shows another agent.
     """
 

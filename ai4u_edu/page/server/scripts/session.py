@@ -217,7 +217,7 @@ def _replaces(observation: Observation, asked: Observation) -> bool:
 
 
 class _RewardSum:
-    """Reward of all decisions that a script has not been told yet, in total and by term."""
+    """Reward of all decisions that were not sent to a script yet, in total and by term."""
 
     def __init__(self) -> None:
         self.total = 0.0
