@@ -29,7 +29,7 @@ const STEPS = [
   {
     title: "Turn away",
     texts: [
-      "Now it shall go on. *if … else* does one thing or the other.",
+      "Now it should keep going. *if … else* does one thing or the other.",
       "If the *distance ahead* < 0.8, *turn* 0.5. Else, *forward* 0.5.",
     ],
     goal: "Done when the robot has turned away from three walls in one run.",
@@ -37,7 +37,7 @@ const STEPS = [
   {
     title: "Follow a wall",
     texts: [
-      "Who keeps one hand at the wall finds the way out of many mazes. Your robot takes the right hand.",
+      "Keep one hand on the wall, and you find the way out of many mazes. Your robot uses its right hand.",
       "At a wall ahead (< 0.9) it turns to the left: *turn* -0.8.",
       "Else it goes *forward* 0.5, and below that stands another *turn*: by the *distance to the right* − 0.8. " +
         "Too far from the wall, that is above 0, and the robot turns to the right; too near, it is below 0.",
@@ -47,7 +47,7 @@ const STEPS = [
   {
     title: "Find the exit",
     texts: [
-      "To your robot, the exit is a wall like others. So put one more *if … else* around all that you have:",
+      "To your robot, the exit is a wall like any other. So put one more *if … else* around all that you have:",
       "If it *sees target*, go *forward* 0.6, and *turn* by the *direction of target* ÷ 40. Else, do as before.",
       "Press *Test*: it tries ten starts that nobody has seen.",
     ],
