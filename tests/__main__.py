@@ -67,7 +67,7 @@ def main() -> int:
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         # a shell's background job ignores Ctrl-C, and so would all that the tests start
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    # else each program that a test starts compiles the package anew
+    # else each program that a test starts compiles the package again
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if only == WEB:
         try:

@@ -93,7 +93,7 @@ def _take(
         expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)
         page.wait_for_timeout(SETTLE_MS)
         if is_long:
-            page.get_by_role("button", name="Pause", exact=True).click()  # else all is written anew
+            page.get_by_role("button", name="Pause", exact=True).click()  # else its numbers change
             page.evaluate(LENGTHEN)
         _save(page.screenshot(), path, "tab")
         if is_long:

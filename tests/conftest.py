@@ -37,7 +37,7 @@ settings.load_profile("project")
 
 @pytest.fixture(scope="session", autouse=True)
 def _one_tls_context() -> Iterator[None]:
-    """Let all of httpx's clients share what no test uses: each would read all certificates anew.
+    """Let all of httpx's clients share what no test uses: each would read all certificates again.
 
     That takes 22 ms, and a test that waits for an answer asks often.
     """

@@ -1,6 +1,6 @@
 """Files that are derived from the blocks, so that a new block is named in one place.
 
-``python -m tests.names`` lists those that are out of date; ``--write`` writes them anew:
+``python -m tests.names`` lists those that are out of date; ``--write`` writes them again:
 
 - the ``__init__.py`` of each folder of blocks: a module's ``__all__``, or else its public blocks;
 - ``ai4u_edu/__init__.pyi``: the names of all blocks. The other packages' lines are kept;

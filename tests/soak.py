@@ -1,6 +1,6 @@
 """Long play by machines: ``python -m tests.soak --minutes 60``.
 
-Random keys, resets, two pages that come and go, a script that drives and connects anew. It fails on
+Random keys, resets, two pages that come and go, a script that drives and reconnects. It fails on
 any exception, in the server or in a page, and when the server's memory still grows after the first
 fifth: by more than five per cent, or, in a run of half an hour or more, by more than 5 MB an hour.
 """
@@ -109,7 +109,7 @@ class LightPlayer:
 
 
 class Script:
-    """A remote script that drives for some seconds, leaves, and connects anew."""
+    """A remote script that drives for some seconds, leaves, and connects again."""
 
     def __init__(self, url: str, rng: random.Random) -> None:
         self._url, self._rng = url, rng

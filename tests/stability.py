@@ -59,7 +59,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.stability")
     parser.add_argument("--runs", type=int, default=1, help="number of runs")
     parser.add_argument("--load", type=int, default=0, help="endless loops beside the tests")
-    parser.add_argument("--seed", type=int, help="draw the order of files and tests, anew each run")
+    parser.add_argument(
+        "--seed", type=int, help="draw the order of files and tests, a new one a run"
+    )
     parser.add_argument("--fast", action="store_true", help="the tier --fast")
     parser.add_argument("--log", type=Path, default=LOG, help="file to append to")
     parser.add_argument("--foreground", action="store_true", help="stay until the last run ends")

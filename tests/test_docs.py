@@ -1,18 +1,23 @@
 """Programs in the docs run, links and named files are there, and tables are the code's own."""
 
 import re
+import shlex
 from pathlib import Path
 from typing import Any
 
 import pytest
+import typer
 from PIL import GifImagePlugin, Image
 
 import ai4u_edu
 from ai4u_edu import Scene
+from ai4u_edu.cli.main import app
 from tests import architecture
 from tests.builders import small_sim
 from tests.components import AI4U, AI4U_SETTINGS
 from tests.names import AI4U_PAGE, table_in
+from tests.playing import played
+from tests.waiting import until
 
 pytestmark = pytest.mark.slow
 
@@ -27,12 +32,16 @@ PROGRAMS = {
     "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
 }
 """The pages with Python programs, and what each page's programs print."""
-RUN_ELSEWHERE = {"remote.md": "tests/remote/test_guide.py"}
+START_PAGE = ROOT / "docs/README.md"
+RUN_ELSEWHERE = {
+    "remote.md": "tests/remote/test_guide.py",
+    "README.md": "test_the_start_page_drives_a_robot",
+}
 """Pages whose programs need worlds of their own, and the tests that run them."""
 
 
-def programs(page: Path) -> list[str]:
-    return re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+def programs(page: Path, kind: str = "python") -> list[str]:
+    return re.findall(rf"```{kind}\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
@@ -49,6 +58,24 @@ def test_programs_run(name: str, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_no_other_page_has_a_program_that_is_not_run() -> None:
     assert {page.name for page in PAGES if programs(page)} == {*PROGRAMS, *RUN_ELSEWHERE}
+
+
+def test_the_start_page_drives_a_robot() -> None:
+    (program,) = programs(START_PAGE)
+    program_name, command, *arguments = shlex.split(programs(START_PAGE, "sh")[0])
+    assert (program_name, command) == ("ai4u-edu", "play")
+    with played(*arguments) as server:
+        exec(program.replace("http://127.0.0.1:8080", server.url.rstrip("/")), {})  # noqa: S102
+        until(lambda: "a script drives agent '0'" in "".join(server.told))
+
+
+def test_the_start_page_has_commands_with_options_that_they_know() -> None:
+    commands = typer.main.get_command(app).commands  # type: ignore[attr-defined]  # a group
+    lines = "".join(programs(START_PAGE, "sh")).splitlines()
+    assert len(lines) == 4
+    for line in lines:
+        _, command, *arguments = shlex.split(line)
+        commands[command].make_context(command, arguments)  # raises an error of usage
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))

@@ -1,7 +1,7 @@
-"""Docstrings and constants follow the language guide, as far as a machine can tell."""
+"""Docstrings, comments, constants and scripts follow the language guide, as a machine can tell."""
 
 from tests.prose import ROOT, check_paths
 
 
-def test_docstrings_and_constants_follow_the_language_guide() -> None:
-    assert check_paths([ROOT / "ai4u_edu", ROOT / "tests"]) == []
+def test_python_and_javascript_follow_the_language_guide() -> None:
+    assert check_paths([ROOT / "ai4u_edu", ROOT / "tests", ROOT / "web"]) == []

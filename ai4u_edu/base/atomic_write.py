@@ -62,7 +62,7 @@ def partial_file(path: Path, *, over: bool = True, mode: int = 0o666) -> Iterato
     such as ``/dev/stdout``, is written to directly.
 
     Args:
-        path: of the file that is to be written.
+        path: of the file to write.
         over: whether a file that is there already may be replaced.
         mode: permissions of a new file, less the user's umask; a replaced file keeps its own.
 

@@ -135,7 +135,7 @@ def shown(value: object, max_chars: int = MAX_SHOWN_CHARS) -> str:
     """
     try:
         text = repr(_beginning(value, [max_chars + 1]))
-    except ValueError:  # an int of so many digits
+    except ValueError:  # an int with more digits than Python converts
         text = f"a very large {type(value).__name__}"
     return shorten(text, max_chars)
 

@@ -146,7 +146,7 @@ class LimitFilter(logging.Filter):
         self._limiter = limiter or LogLimiter()
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Return True if a line is to be written; adds the count of those left out to it."""
+        """Return True if a line should be written; adds the count of those left out to it."""
         if getattr(record, "is_limited", False):
             return True
         error = record.exc_info[1] if record.exc_info else None

@@ -189,7 +189,7 @@ def standard_scene() -> Scene:
 
 
 def fresh(value: Any) -> Any:
-    """Return a deep copy of blocks, made anew from their parameters; other values are shared."""
+    """Return a deep copy of blocks, made again from their parameters; other values are shared."""
     if isinstance(value, Block):
         new = type(value)(**{name: fresh(each) for name, each in value.values().items()})
         for name in SCRIPTED:

@@ -50,7 +50,7 @@ class AttentionState:
         Args:
             kind: see :class:`~ai4u_edu.wire.class_link.Attention`.
             message: of the teacher.
-            seconds: until it ends by itself; 0 for not.
+            seconds: duration; 0 for no limit.
         """
         self._save(kind, message, seconds)
         self.kind, self.message = kind, message

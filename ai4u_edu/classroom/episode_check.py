@@ -28,7 +28,7 @@ _EVERY_TICK = 10**9
 
 @dataclass(frozen=True)
 class Claim:
-    """Result of an episode, as a room tells it."""
+    """Result of an episode, as a room reports it."""
 
     episode: bytes
     scene: str
@@ -91,7 +91,7 @@ def fault_of(episode: str, **fields: Any) -> str:
 
 
 class EpisodeCheck:
-    """Checks claims one after the other in a process, which is replaced if it takes too long.
+    """Checks claims one at a time in a process, which is replaced if it takes too long.
 
     Belongs to the event loop.
 

@@ -34,7 +34,7 @@ MAX_NEW_SEATS_AT_ONCE = 60
 """New seats that an address may get at once, such as a school's; then they come one by one."""
 NEW_SEATS_PER_S = 1.0
 MAX_NEW_SEAT_WAIT_S = 20.0
-"""Longest wait for a new seat; who would wait longer is asked to try again."""
+"""Longest wait for a new seat; a device that would wait longer is asked to try again."""
 NO_STORE = {"Cache-Control": "no-store"}
 TOO_MANY = "Too many devices join from your network. Try again in a moment."
 
@@ -78,7 +78,7 @@ class Join:
     async def move_code(self, request: Request) -> Response:
         """Return a code with which another device takes this seat, too.
 
-        Asked with GET, tell only whether the last one can still be used.
+        Asked with GET, say only whether the last one can still be used.
         """
         seat = seat_of(self._seats, request)
         if seat is None:
@@ -90,7 +90,7 @@ class Join:
         return JSONResponse({"code": code, "minutes": MOVE_CODE_LIFE_S // 60}, headers=NO_STORE)
 
     async def join(self, request: Request) -> Response:
-        """Give a browser or program a seat, as a cookie, and tell it the way to its room.
+        """Give a browser or program a seat, as a cookie, and return the address of its room.
 
         The room's process starts when its page is opened, so never for a program with a world.
         """

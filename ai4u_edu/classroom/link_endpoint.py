@@ -65,7 +65,7 @@ class LinkEndpoint:
         live: the class.
         strangers: limit of links before their hello, by address.
         seated: limit of the sockets of seats.
-        find_room: returns the room of a link by its secret and address, or None; left out, by the
+        find_room: returns the room of a link by its secret and address, or None; default: by the
             secrets of rooms and the tokens of seats. Any :class:`AI4UError` closes the link, which
             is opened again later.
     """

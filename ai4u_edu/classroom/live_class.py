@@ -95,7 +95,7 @@ class LiveClass:
         self._ticking: asyncio.Task[None] | None = None
 
     def note_change(self) -> None:
-        """Count a change, of which pages are told soon."""
+        """Count a change, which is sent to pages soon."""
         self.version += 1
 
     def ensure_ticking(self) -> None:
@@ -179,7 +179,7 @@ class LiveClass:
         return self.pages[seat] > 0 or (remote is not None and remote.link is not None)
 
     def connect(self, room: LiveRoom, link: OpenLink) -> None:
-        """Take a room's new link, in the place of one before, and tell it everything."""
+        """Take a room's new link, in the place of one before, and send it everything."""
         before, room.link, room.people = room.link, link, None
         if before is not None:
             before.end("Another program has taken this place in the class; this one is out.")

@@ -1,4 +1,4 @@
-"""Present states of the rooms of a class, as their links told them."""
+"""Present states of the rooms of a class, as their links sent them."""
 
 import json
 import time
@@ -43,11 +43,11 @@ class LiveRoom:
     """Time (s, monotonic) since when its status is idle."""
     wrong: int = 0
     wrong_answer: tuple[str, str] = ("", "")
-    """Exercise and diagnosis of the last wrong check, which came so often in a row."""
+    """Exercise and diagnosis of the last wrong check, and how often it came in a row."""
     problem: str = ""
     """Reason for which the room could not open its assignment."""
     people: People | None = None
-    """Seats that the link was told of."""
+    """Seats that were sent to the link."""
 
     def note_state(self, state: State) -> None:
         """Take a new state."""

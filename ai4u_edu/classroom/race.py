@@ -198,7 +198,7 @@ class Races:
 
     @property
     def has_open_claims(self) -> bool:
-        """True if a result is to be checked."""
+        """True if a result must be checked."""
         return any(each.verdict == "open" for each in self.results.values())
 
     def next_claim(self) -> tuple[RaceResult, Claim] | None:
@@ -271,7 +271,7 @@ class RaceRunner:
         races: of the class.
         check: of results.
         seats_of: returns the seats of a room.
-        tell: tells rooms and pages of the race.
+        tell: sends the race to rooms and pages.
     """
 
     def __init__(
@@ -296,7 +296,7 @@ class RaceRunner:
         self._tell_now()
 
     def tick(self) -> None:
-        """Start the race if it is time, tell news, and go on checking."""
+        """Start the race if it is time, send changes, and go on checking."""
         is_due = time.monotonic() - self._told_at >= MIN_TELL_INTERVAL_S
         if self._races.start_if_due() or (self._has_news and is_due):
             self._tell_now()

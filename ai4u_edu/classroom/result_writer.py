@@ -19,7 +19,7 @@ _COUNT_WRONG = (
     "and diagnosis = excluded.diagnosis)), exercise = excluded.exercise, "
     "diagnosis = excluded.diagnosis"
 )
-"""Counts a room's wrong answers in a row with the same mistake; a right one begins anew."""
+"""Counts a room's wrong answers in a row with the same mistake; a right one begins again."""
 MAX_RESULTS = 2000
 """Latest results of a room that are kept, so that one that comes twice counts once. Programs send
 those again that were not acknowledged, which are fewer."""

@@ -27,8 +27,8 @@ from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
 HOST = "127.0.0.1"
 ROOMS_PATH = "/r/"
 MAX_FRAMES_PER_S = 15.5
-"""Most pictures a second of each page: mostly after each fourth of 60 ticks. A class has many rooms
-and few cores."""
+"""Most pictures a second of each page: usually after each fourth of 60 ticks. A class has many
+rooms and few cores."""
 MIN_FRAMES_PER_S = 15.0
 """Pictures a second if ticks are late."""
 

@@ -29,9 +29,9 @@ class RoomLimits:
     sleep_after_s: float = 300.0
     """Time without a page or a script after which the process ends; 0: it never does."""
     max_memory_mb: float = 600.0
-    """Memory (MB) above which the process is ended, and begins anew."""
+    """Memory (MB) above which the process is restarted."""
     answer_timeout_s: float = 20.0
-    """Time without an answer after which the process is ended, and begins anew."""
+    """Time without an answer after which the process is restarted."""
     check_s: float = 2.0
     """Interval between two checks."""
     ask_s: float = 8.0

@@ -96,7 +96,7 @@ class Seats:
         store: of the class.
         scene: of new rooms.
         rooms: rule for the rooms of new seats.
-        code: join code; left out, the stored one or a new one.
+        code: join code; default: the stored one or a new one.
         language: of the names that are offered.
         clock: returns seconds; to be replaced in tests.
 

@@ -264,6 +264,7 @@ class ClassStore:
         if value:
             return value
         with self.transaction() as database:
+            # read again: another thread may have stored one since
             row = database.execute("select value from settings where name = ?", [name]).fetchone()
             value = str(row[0]) if row else ""
             if not value:
@@ -276,7 +277,7 @@ class ClassStore:
         try:
             return model.model_validate_json(self.setting(name) or "{}")
         except ValidationError:
-            _logger.warning("the class's setting %r is damaged; it begins anew", name)
+            _logger.warning("the class's setting %r is damaged; it begins again", name)
             return model()
 
     def rooms(self) -> list[RoomRow]:
@@ -364,6 +365,7 @@ class ClassStore:
         """
         with self._lock:
             try:
+                # immediate: take the write lock now, and not with the first change in the middle
                 self._database.execute("begin immediate")
                 try:
                     yield self._database
@@ -384,11 +386,14 @@ def _opened(path: Path) -> sqlite3.Connection:
     """
     try:
         _prepare_file(path)
+        # any thread may use it, one at a time (`_lock`); transactions are begun by hand
         database = sqlite3.connect(path, check_same_thread=False, isolation_level=None)
         database.execute("pragma journal_mode = wal")
+        # with WAL, less than full may lose the last commits at a power cut
         database.execute("pragma synchronous = full")
         database.execute("pragma foreign_keys = on")
         (version,) = database.execute("pragma user_version").fetchone()
+        # in one transaction: after a kill in the middle, the next start makes the tables
         if version == 0:
             database.executescript(f"begin; {_TABLES} pragma user_version = {VERSION}; commit")
     except sqlite3.Error as error:
@@ -456,6 +461,7 @@ _CAUSES = {
 def _cause(error: sqlite3.Error) -> str:
     """Return what an error of SQLite says, and what to do about it if that is known."""
     code = getattr(error, "sqlite_errorcode", None)  # not set by the module's own errors
+    # an extended code has the primary one in its lowest byte
     sentence = "" if code is None else _CAUSES.get(code & 0xFF, "")
     return f"{sentence} ({error})" if sentence else f"{error}."
 

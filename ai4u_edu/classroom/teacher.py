@@ -229,7 +229,7 @@ class Teacher:
         return standalone_page("teacher.html")
 
     async def state(self, request: Request) -> Response:
-        """Return the class, as the page's socket tells it."""
+        """Return the class, as the page's socket sends it."""
         self._live.ensure_ticking()
         url = str(request.url.replace(path="/", query=""))
         text = self._events.text(url, is_projected=False)
@@ -398,7 +398,7 @@ async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     """Delete everything of a class but the secret of the teacher's page, and set a new code.
 
     Nothing of seats, tokens, names and addresses is left in the folder; the file with the tables
-    is made anew, since deleted rows may be read from one.
+    is made again, since deleted rows may be read from one.
 
     Raises:
         StoreError: something can't be deleted; the class goes on without what is deleted already.

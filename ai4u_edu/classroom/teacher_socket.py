@@ -27,7 +27,7 @@ class _Sent:
 
 
 class WallSocket:
-    """ASGI app that tells a page the present state, again and again until it leaves.
+    """ASGI app that sends a page the present state at each change until it leaves.
 
     A slow page gets fewer and later states, and no queue.
 

@@ -165,6 +165,7 @@ class LiveExplainer:
     def _run(self) -> None:
         pause = 0.0
         while not self._stopping.wait(pause):
+            # under the lock, so that `why` finds this thread or none, and never one that ends
             with self._lock:
                 since = time.monotonic() - INTEREST_S
                 wanted = [agent for agent, at in self._asked_at.items() if at >= since]
@@ -172,11 +173,13 @@ class LiveExplainer:
                     self._thread = None
                     self._asked_at, self._known, self._drivers = {}, {}, {}
                     return
+            # processor time of this thread alone: that other threads run meanwhile is no cost of it
             began = time.thread_time()
             snapshot = self._latest()
             for agent_id in wanted:
                 self._known[agent_id] = self._explained(snapshot, agent_id)
             took = time.thread_time() - began
+            # two limits: the rate of explanations, and the share of a core that they take
             pause = max(1 / EXPLANATIONS_PER_S - took, took / MAX_CORE_SHARE - took)
 
     def _explained(self, snapshot: Snapshot, agent_id: str) -> Why:
@@ -226,7 +229,7 @@ class Driver:
 
         Args:
             agent: the agent's state.
-            recorded: the baseline; left out, the mean of what the agent sensed lately.
+            recorded: the baseline; default: the mean of what the agent sensed lately.
         """
         if self.policy is None:
             return Why(agent.id, problem=self.problem)
@@ -235,6 +238,7 @@ class Driver:
         except AI4UError as error:
             return Why(agent.id, problem=str(error))
         except Exception as error:  # a student's function may raise anything
+            # do not ask again: it would fail at each percept
             self.policy = None
             self.problem = f"{type(error).__name__}: {error}"
             return Why(agent.id, problem=self.problem)
@@ -270,6 +274,7 @@ class Driver:
         )
 
     def _baseline(self, percept: Percept) -> NamedBaseline:
+        # a paused world shows the same percept again, which counts once
         if not self._seen or self._seen[-1] is not percept:
             self._seen = [*self._seen[1 - MAX_MEAN_PERCEPTS :], percept]
             if len(self._seen) >= MIN_MEAN_PERCEPTS and len(self._seen) % MEAN_EVERY == 0:

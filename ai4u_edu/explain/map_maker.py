@@ -131,7 +131,7 @@ class MapMaker:
         self.latest = LiveMap(self.request, problem)
 
     def _look(self, snapshot: Snapshot) -> None:
-        """Begin anew if that is due after the world has changed."""
+        """Begin again if that is due after the world has changed."""
         if snapshot is self._seen or monotonic() - self._failed_at < RETRY_S:
             return
         is_idle, before = self._places is None, self._made
@@ -218,7 +218,7 @@ class MapMaker:
 
 
 def _grid(copy: WorldCopy, cells: int) -> tuple[Poses, tuple[float, float]]:
-    """Return about so many poses on a grid of squares, and the distance of its columns and rows."""
+    """Return about `cells` poses on a grid of squares, and the spacing of its columns and rows."""
     (left, low), (right, high) = copy.sim.world.bounds()
     width, height = max(right - left, 1e-6), max(high - low, 1e-6)
     columns = min(max(2, round(math.sqrt(cells * width / height))), MAX_COLUMNS)

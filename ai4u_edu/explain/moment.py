@@ -36,7 +36,7 @@ class Moment:
     agent: str
     """Id of the agent."""
     brain: Brain
-    """The agent's brain, which tells how often it decides."""
+    """The agent's brain, which has the interval of decisions."""
 
     @classmethod
     def of_sim(cls, sim: ControlRequestor, agent: str | None = None) -> Self:

@@ -20,7 +20,7 @@ MAX_NAMES = 3
 """Most slots that a sentence names."""
 NO_NUMBER = "Its action has a number that is none (NaN), so nothing can be said about it."
 SMALL_SHARE = 0.001
-"""Least share that is told of a slot that moves the action little."""
+"""Smallest share that is named of a slot that moves the action little."""
 TOLERANCE = 0.25
 """Share of what all slots do together by which the sum of the single ones may differ unnoticed."""
 NEUTRAL_SHARE = 0.05

@@ -9,7 +9,7 @@ from ai4u_edu.blocks import Controller
 
 REASONS = {
     "on_setup": "prepares itself with the world, so it may read more than the percept",
-    "on_reset": "begins anew at each reset, so it keeps something from one decision to the next",
+    "on_reset": "begins again at each reset, so it keeps something from one decision to the next",
     "new_state_event": "follows the percepts as they come, so it keeps something of earlier ones",
 }
 """Reasons by the method that a controller overrides."""

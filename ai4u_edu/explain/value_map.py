@@ -76,7 +76,7 @@ def value_map(
 
 
 def source_of(policy: Policy, wanted: str = "") -> str:
-    """Return what tells the values of a policy: ``critic`` or ``rollouts``.
+    """Return the source of a policy's values: ``critic`` or ``rollouts``.
 
     Raises:
         SetupError: there is no such source, or a function is to have a critic.

@@ -131,7 +131,7 @@ class WorldCopy:
         return self.agent.sense()
 
     def _begin_here(self) -> None:
-        """Let rewards and sensors begin anew; an actuator could put the body somewhere else."""
+        """Let rewards and sensors begin again; an actuator could put the body somewhere else."""
         bound, view = self.agent.bound_blocks, self.agent.view
         for reward in bound.rewards:
             reward.on_reset(self.agent, view)

@@ -36,7 +36,7 @@ class AskWhatIf(Command, tag="what_if"):
 
 
 class AskElsewhere(Command, tag="elsewhere"):
-    """Return the action at another pose, and show it; left out, where the agent stands now."""
+    """Return the action at another pose, and show it; by default where the agent stands now."""
 
     x: Metres | None = None
     y: Metres | None = None

@@ -76,7 +76,7 @@ class PageMaps:
         return self._cells.cells
 
     def build(self, static_scene: StaticScene) -> None:
-        """Draw the maps anew on another static scene."""
+        """Draw the maps again on another static scene."""
         self._static_scene = static_scene
         self._layers = Layers.of(static_scene)
         self._drawn = (None, None)

@@ -50,7 +50,7 @@ class StandIns:
         self._turns = PageTurns(SENSES_PER_S)
 
     def build(self, static_scene: StaticScene) -> None:  # noqa: ARG002 - they find it in snapshots
-        """Draw all pages' stand-ins anew, at once."""
+        """Draw all pages' stand-ins again, at once."""
         self._turns = PageTurns(SENSES_PER_S)
 
     def draw(self, snapshot: Snapshot) -> None:

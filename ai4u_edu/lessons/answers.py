@@ -8,7 +8,7 @@ Each exercise has one file in the course's folder ``answers``. Its cells::
     # %% tags=["lucky", "always the same number"]
 
 ``right`` is another solution. ``wrong`` is a misconception: the name of the diagnosis that the
-check should find, then a few words (left out, the diagnosis). ``lucky`` is a guess, or an answer
+check should find, then a few words (default: the diagnosis). ``lucky`` is a guess, or an answer
 that is hard-coded. Students get no such file; ``solution("04.2")`` prints the first cell.
 """
 

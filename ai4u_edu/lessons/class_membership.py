@@ -125,7 +125,7 @@ def report_event(
 
 
 def class_trouble() -> str:
-    """Return a sentence on why the class can't be told at present; empty if it can."""
+    """Return a sentence on why the class can't be reached at present; empty if it can."""
     return "" if _connection is None else _connection.client.problem
 
 

@@ -57,7 +57,9 @@ def course_folder() -> Path:
     for folder in (here / "course", here.parent.parent / "lessons"):
         if (folder / "00_start_here.py").is_file():
             return folder
-    raise SetupError(f"expected the course in {here / 'course'}, found none; install ai4u-edu anew")
+    raise SetupError(
+        f"expected the course in {here / 'course'}, found none; install ai4u-edu again"
+    )
 
 
 def lessons() -> list[Lesson]:

@@ -27,7 +27,7 @@ def film(
 
     Args:
         world: a scene or its name, a world with its agents; or an episode that was recorded.
-        brain: the first agent's driver; left out, its own.
+        brain: the first agent's driver; default: its own.
         seed: seed of the episode.
         limit: decisions after which it is truncated.
     """

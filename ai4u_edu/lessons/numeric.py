@@ -65,8 +65,8 @@ def finite_numbers(given: Any, count: int, *, expected: str = "", hint: str = ""
 
     Args:
         given: a list, a tuple or an array.
-        count: so many there have to be.
-        expected: a sentence that says what was expected; left out, the count.
+        count: expected number of values.
+        expected: a sentence that says what was expected; default: the count.
         hint: the name of the hint if they are not that.
 
     Raises:

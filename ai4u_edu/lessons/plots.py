@@ -27,7 +27,7 @@ def plot(
 
     Args:
         lines: the values by the line's name.
-        x: x values; left out, 0, 1, 2 and so on.
+        x: x values; default: 0, 1, 2 and so on.
         xlabel: name and unit of x.
         ylabel: name and unit of the values.
         title: the title above it.

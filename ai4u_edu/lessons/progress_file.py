@@ -46,7 +46,7 @@ class ProgressFile:
     """Reader and writer of the progress file.
 
     Args:
-        folder: the notebooks' folder; left out, the current one.
+        folder: the notebooks' folder; default: the current one.
     """
 
     def __init__(self, folder: Path | None = None) -> None:
@@ -141,9 +141,9 @@ class ProgressFile:
 
     @contextmanager
     def _alone(self) -> Iterator[None]:
-        """Exclude other notebooks: each reads the file, and writes all of it anew."""
+        """Exclude other notebooks: each reads the file, and writes all of it again."""
         deadline, lock = time.monotonic() + LOCK_TIMEOUT_S, None
-        with suppress(OSError):  # a folder that can't be written to is told of by what writes
+        with suppress(OSError):  # the write itself reports a folder that can't be written to
             (self.folder / FOLDER).mkdir(exist_ok=True)
             while lock is None:
                 try:

@@ -24,7 +24,7 @@ def report(name: str = "", file: str | Path = "report.html") -> None:
     """Write the page: for each exercise the code, the check's text and its picture.
 
     Args:
-        name: the student's name; left out, none is written.
+        name: the student's name; default: none is written.
         file: the page's path.
     """
     progress = ProgressFile()

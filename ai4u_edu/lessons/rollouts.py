@@ -135,7 +135,7 @@ def drives(
         source: a scene, its name, or a function that makes a world with its agents.
         thing: a function, a controller, a brain; None where the agent has its own.
         seeds: seeds of the episodes.
-        agent: id of the driven agent; left out, the one that acts first.
+        agent: id of the driven agent; default: the one that acts first.
         limit: decisions after which an episode is truncated.
         watch: called at the beginning and after each decision; may raise :class:`NotYet`.
     """

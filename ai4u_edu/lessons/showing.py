@@ -32,7 +32,7 @@ def show(
     Args:
         world: a scene's name or file, a scene, a world with its agents (ControlRequestor), or a
             world alone.
-        brain: the first agent's driver: a function, a controller or a brain; left out, its own.
+        brain: the first agent's driver: a function, a controller or a brain; default: its own.
         seed: seed of the first episode.
         height: height of the page, pixels; 440 fits a laptop's screen beside JupyterLab's bars.
         record: a folder in which every episode is saved as a file.

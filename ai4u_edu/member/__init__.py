@@ -1,4 +1,4 @@
-"""A room's and a notebook's side of their class: joining, the link, and what a world tells."""
+"""A room's and a notebook's side of their class: joining, the link, and what a world reports."""
 
 from ai4u_edu.member.class_view import ClassView
 from ai4u_edu.member.client import LinkClient

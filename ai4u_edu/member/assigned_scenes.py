@@ -39,7 +39,7 @@ class AssignedScenes:
     Args:
         runner: runs the world.
         editor: of the world; None if it can't open scenes.
-        folder: of the room, which exists; left out, nothing is remembered beyond this process.
+        folder: of the room, which exists; without it nothing is remembered beyond this process.
         clock: seconds.
         open_timeout: time (s) that the world has to open a scene.
     """
@@ -121,12 +121,12 @@ class AssignedScenes:
         return _named(source)
 
     def poll(self) -> None:
-        """Write what is to be remembered, when it is time."""
+        """Write the state to remember, when it is time."""
         if self._remember_at is not None and self._clock() >= self._remember_at:
             self._remember()
 
     def stop(self) -> None:
-        """Write what is to be remembered."""
+        """Write the state to remember."""
         if self._remember_at is not None:
             self._remember()
 

@@ -44,7 +44,7 @@ class ClassView:
 
     @property
     def version(self) -> int:
-        """A number that grows with every change; 0 while the class has told nothing."""
+        """A number that grows with every change; 0 while the class has sent nothing."""
         return self._version
 
     def welcome(self, message: Welcome) -> None:
@@ -88,7 +88,7 @@ class ClassView:
         self._change(race=race, race_starts_at=starts_at, own_best=own_best)
 
     def event(self, role: str, seat: int) -> dict[str, Any] | None:
-        """Return the event for a page; None while the class has told nothing.
+        """Return the event for a page; None while the class has sent nothing.
 
         Args:
             role: ``teacher`` or ``student``.

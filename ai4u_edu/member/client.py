@@ -54,7 +54,7 @@ class LinkClient:
         kind: ``room``, or ``notebook`` for one that may have no world.
         receive: called for each message except :class:`~ai4u_edu.wire.class_link.Ack`, one after
             the other, in a thread of the client.
-        outbox: for results; left out, they are kept in memory only.
+        outbox: for results; default: they are kept in memory only.
         timeouts: of the connection, and of the class's answers.
     """
 
@@ -238,7 +238,7 @@ class LinkClient:
                 self._dialogue.lost(time.monotonic(), "it does not answer")
 
     def _next_frame(self) -> bytes | None:
-        """Wait for a frame to send; return None when the connection is to be closed."""
+        """Wait for a frame to send; return None when the connection should be closed."""
         with self._changed:
             while self._closed is None and self._dialogue.phase is not LinkPhase.OVER:
                 now = time.monotonic()

@@ -37,15 +37,19 @@ class Holds:
         self.refresh()
 
     def for_race(self, until: float) -> None:
-        """Hold the world for a race's countdown until that time of the clock (s)."""
+        """Hold the world for a race's countdown.
+
+        Args:
+            until: time of the clock (s).
+        """
         self._race_until = until
         self.refresh()
 
     def for_absence(self, since: float) -> None:
-        """Hold the world from that time of the clock (s) on, since nobody is there.
+        """Hold the world because nobody is watching.
 
         Args:
-            since: infinite if somebody is.
+            since: time of the clock (s) from which it is held; infinity while somebody watches.
         """
         self._absent_from = since
         self.refresh()

@@ -34,7 +34,7 @@ _MAX_NAME_ROUNDS = 5
 """Limit of lists of names to ask for; a whole class may choose from the same few at once."""
 _MAX_SENTENCE_CHARS = 300
 _HUB_ADDRESS = "AI4U_EDU_CLASS_URL"
-"""Variable with the class's address, for hubs whose API must not tell it."""
+"""Variable with the class's address, for hubs whose API does not give it."""
 _MAX_SEATS = 20
 """Limit of the classes whose seat is kept; the oldest one is forgotten."""
 ProgramKind = Literal["play", "notebook"]
@@ -194,7 +194,7 @@ class SeatFile:
     def _keep(self, seat: Seat) -> None:
         others = [each for each in self.seats().values() if each.url != seat.url]
         seats = [asdict(each) for each in [*others, seat][-_MAX_SEATS:]]
-        with suppress(OSError):  # the next start joins anew
+        with suppress(OSError):  # the next start joins again
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(self.path, json.dumps({"seats": seats}, indent=1), mode=0o600)
 
@@ -323,7 +323,7 @@ def _seat_in(read: dict[str, Any]) -> Seat:
 
 
 def _class_address(client: httpx.Client, service: str, variables: Mapping[str, str]) -> str:
-    """Return the address of the service, as the hub's API tells it."""
+    """Return the address of the service, as the hub's API gives it."""
     api = variables["JUPYTERHUB_API_URL"].rstrip("/")
     answer = _ask_hub(client, "GET", f"{api}/services/{quote(service, safe='')}", "hub")
     told = _fields(answer)

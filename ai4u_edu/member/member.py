@@ -73,7 +73,7 @@ class ClassMember:
         runner: runs the world. It gets a recorder if it has none.
         editor: of the world; None if the scene can't be changed.
         link: settings of the link, or a function that makes one for a receiver of messages.
-        folder: of the world's files, which exists; left out, what has to outlast the process (the
+        folder: of the world's files, which exists; without it what has to outlast the process (the
             last assignment, undelivered results, counts) does not.
         title: of the scene, where there is no editor.
         show_ghosts: shows the ghosts of episodes in the page, each with a name.
@@ -180,6 +180,7 @@ class ClassMember:
                 self._inbox.append((message, self._clock()))
             case Problem(code="over"):
                 with self._attention_lock:
+                    # the class is over: nobody could end a pause any more
                     self._pay_attention(NO_ATTENTION)
         self._wake.set()
 
@@ -197,6 +198,7 @@ class ClassMember:
             self._wake.clear()
             with self._error_log.caught():
                 self._poll()
+            # a hold may end between two polls, and a race must begin on time
             until_change = self._holds.next_change - self._clock()
             self._wake.wait(max(0.0, min(POLL_S, until_change)))
 
@@ -212,7 +214,7 @@ class ClassMember:
         self._report_episodes()
         self._report_state()
         if not self.link.is_connected:
-            self._holds.for_absence(math.inf)  # nobody would tell who comes back
+            self._holds.for_absence(math.inf)  # nobody would say who comes back
             return
         for message in self._thumbnail.changes(self._runner.latest):
             self.link.send(message)
@@ -282,6 +284,7 @@ class ClassMember:
         state = replace(state, page=self._page)
         now, before = self._clock(), self._state
         is_due = now - self._state_sent_at >= HEARTBEAT_S
+        # seconds change with each poll, and are no news by themselves
         if is_due or before is None or state != replace(before, seconds=state.seconds):
             self._state, self._state_sent_at = state, now
             self.link.send(state)
@@ -295,6 +298,7 @@ class ClassMember:
         if now - self._work_sent_at < WORK_INTERVAL_S:
             return
         version, text = editor.version, editor.text()
+        # noted also if the text is too large to send: it would be made again at each poll
         self._work_version, self._work_sent_at = version, now
         if len(text) <= MAX_SCENE_CHARS:
             self.link.send(Work(shorten(editor.title, MAX_TEXT_CHARS), text))

@@ -188,7 +188,7 @@ def _limit_of(name: str, known: dict[str, bytes]) -> int | None:
 def _check_references(file: Path, name: str, data: bytes) -> None:
     """Raise a SceneError if a scene would read other files or connect to other machines.
 
-    A scene that is wrong in another way is told of when it is opened.
+    A scene that is wrong in another way is reported when it is opened.
     """
     with suppress(SceneError, UnicodeDecodeError):
         plain = YamlFile(data.decode("utf-8-sig"), name).data

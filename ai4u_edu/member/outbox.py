@@ -32,7 +32,7 @@ class ResultOutbox:
     dropped. A network takes the place of one before for the same scene and part.
 
     Args:
-        folder: for the files, made if needed; left out, results are kept in memory only.
+        folder: for the files, made if needed; default: results are kept in memory only.
     """
 
     def __init__(self, folder: Path | None = None) -> None:

@@ -124,7 +124,7 @@ _EXPECTED = "expected a function: def decide(percept):"
 class Program:
     r"""A student's program: a function ``decide(percept)``, or a class with ``get_action``.
 
-    Its global variables are made anew by each :meth:`load`; a new episode leaves them as they are,
+    Its global variables are made again by each :meth:`load`; a new episode leaves them as they are,
     as it does for a function that drives a LocalBrain. A class is made once, and its ``reset()``
     and a Controller's ``on_reset(agent, view)`` are called at each episode's begin; agent and view
     are None. One thread calls all methods.
@@ -175,7 +175,7 @@ class Program:
         keeps_lines: bool = True,
         report_line: ReportLine | None = None,
     ) -> Self:
-        """Run a program's text, and find what is to be asked for decisions.
+        """Run a program's text, and find the function that decides.
 
         Args:
             source: the text.
@@ -194,6 +194,7 @@ class Program:
         """
         trace = Trace(file, limit_s, keeps_lines=keeps_lines, report_line=report_line)
         tree = _parsed(source, file)
+        # before anything runs: the program must be one that the page and a script can run
         obstacle = obstacle_in_tree(tree)
         if obstacle is not None:
             raise obstacle
@@ -285,6 +286,7 @@ class Program:
     def _only_entry(self) -> str:
         if _ENTRY in self._names:
             return _ENTRY
+        # of this program, and not what it imported
         own = {
             name: value
             for name, value in self._names.items()
@@ -326,6 +328,7 @@ class Program:
             return self.trace.run(function, *arguments)
         except EndlessError as error:
             raise self._endless(error.line) from None
+        # exit() in a program ends its decision, and not the process; Ctrl-C passes
         except (Exception, SystemExit) as error:
             raise mistake_in(error, self.file, self._quoted) from error
 

@@ -104,6 +104,7 @@ class Archive(Sequence[Episode]):
                 raise RecordingError(f"episode {number} is not kept any more")
             if on and sum(entry.is_pinned for entry in self.entries) >= MAX_PINNED:
                 raise RecordingError(f"expected at most {MAX_PINNED} pinned episodes; unpin one")
+            # a new tuple: readers iterate over the old one without the lock
             self.entries = tuple(
                 replace(entry, is_pinned=on) if entry.number == number else entry
                 for entry in self.entries
@@ -114,8 +115,10 @@ class Archive(Sequence[Episode]):
         *earlier, latest = entries
         loose = [entry for entry in earlier if not entry.is_pinned]
         alike = [entry for entry in loose if entry.is_person == latest.is_person]
+        # + 1 for the latest, which is not among `alike`
         dropped = {entry.number for entry in alike[: max(0, len(alike) + 1 - self._keep)]}
         size = sum(size_of(each.episode) for each in entries if each.number not in dropped)
+        # memory is shared by both kinds, so the oldest goes first, whoever drove
         for entry in loose:
             if size > self._largest and entry.number not in dropped:
                 dropped.add(entry.number)

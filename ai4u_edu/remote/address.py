@@ -23,7 +23,7 @@ def address_of(url: str, token: str = "") -> Address:
 
     Args:
         url: the page's address.
-        token: the world's; left out, the one in the page's address.
+        token: the world's; default: the one in the page's address.
 
     >>> address_of("http://teacher:8080/?token=abc")
     Address(url='ws://teacher:8080/ws/remote', token='abc', is_loopback=False)

@@ -63,7 +63,7 @@ class AI4UScript:
             raise RemoteError(
                 f"expected the name or address of this machine, got {host!r} ({error})"
             ) from None
-        if sys.platform == "win32":  # there a refusal would be told of every later datagram
+        if sys.platform == "win32":  # there each later datagram would raise for an earlier refusal
             self._socket.ioctl(0x9800000C, False)
 
     def ask(self, state: State | None = None) -> AI4UReply | None:

@@ -116,7 +116,7 @@ def connect(
             several agents, its owner has to allow that (``ai4u-edu play --lockstep``). If a script
             is silent for longer than the world's ``--receive-timeout``, the world goes on until the
             script answers.
-        keys: keys of the readings to get, such as ``["ray_casting"]``; left out, all.
+        keys: keys of the readings to get, such as ``["ray_casting"]``; default: all.
         session: :attr:`Robot.session` of a script that is gone, to resume its session.
         patience: seconds to wait for a world that is not there, at first or again after it was
             restarted, and for an agent that another script has. The script says that it waits: in

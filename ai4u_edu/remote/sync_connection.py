@@ -47,7 +47,7 @@ class SyncConnection:
         stop: set by another thread to stop waiting. Then each step that waits raises a
             ConnectionStoppedError, at the latest after a second, since no step waits longer for a
             frame. Sending, such as of a goodbye, still works.
-        tell: called with each note; left out, notes are logged.
+        tell: called with each note; default: notes are logged.
     """
 
     def __init__(

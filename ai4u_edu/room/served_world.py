@@ -73,11 +73,11 @@ def serve_world(
 
     Args:
         runner: runs the world.
-        title: the page's title; left out, that of the editor's scene.
-        editor: lets pages change the world; left out, it can be watched and driven only.
+        title: the page's title; default: that of the editor's scene.
+        editor: lets pages change the world; without it pages can watch and drive only.
         port: port on 127.0.0.1; 0 for a free one, None for no server.
         rules: for scripts that drive agents; page and API ask for their token, too.
-        ghosts: recorded episodes to race against; left out, pages choose some.
+        ghosts: recorded episodes to race against; by default pages choose some.
         allowed_hosts: host names of requests; see :mod:`ai4u_edu.page.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
         viser_secret: secret of the world's viser; only a proxy may know it.

@@ -96,7 +96,7 @@ class TickSchedule:
                 return
 
     def rest(self) -> None:
-        """Start anew after the world was paused."""
+        """Restart after the world was paused."""
         self._window.clear()
         self.lateness = 0.0
         self.due = self._clock.read()

@@ -78,7 +78,7 @@ class FrameBudget:
         self._due_at = max(self._due_at + self._min_period, began)
 
     def is_snapshot_due(self, now: float, next_tick_at: float) -> bool:
-        """Return True if there is to be a snapshot after this tick.
+        """Return True if a snapshot is due after this tick.
 
         One that would make the next tick late waits for a tick that leaves more time, for up to
         :data:`MAX_SNAPSHOT_DELAY_S` since the last one.

@@ -38,7 +38,7 @@ REST_POLL_S, HELD_POLL_S = 0.1, 0.5
 """Time between two snapshots while the world is paused, and while it is held."""
 STOP_S = 1.0
 """Time that the thread usually has to end; a block that does not return may keep it from that."""
-WORLD_REPLACED = "another world has taken its place; connect anew to drive there"
+WORLD_REPLACED = "another world has taken its place; connect again to drive there"
 """Reason that the scripts of a replaced world are told."""
 
 
@@ -55,10 +55,10 @@ class Runner:
     Args:
         sim: the world and its agents.
         seed: of the first episode.
-        time_scale: how fast the time runs (``math.inf``: unlimited); left out, as the sim says.
+        time_scale: how fast the time runs (``math.inf``: unlimited); default: the sim's.
         recorder: keeps the episodes; it has to listen to the same sim.
         wait_for_key: True may wait on an episode's first frame; see :class:`StartWait`.
-        frame_budget: limits of how often the world is drawn; left out, the usual ones.
+        frame_budget: limits of how often the world is drawn; default: the usual ones.
         clock: seconds; a :class:`~ai4u_edu.runtime.clock.Clock` also sleeps between two ticks.
     """
 
@@ -155,7 +155,7 @@ class Runner:
     def start(self) -> None:
         """Start to tick."""
         self._thread = threading.Thread(target=self._run, name="runner", daemon=True)
-        self._schedule.due = self._clock()
+        self._schedule.due = self._clock()  # the first tick is due at once
         self._thread.start()
         self._monitor.start()
 
@@ -216,7 +216,7 @@ class Runner:
         """Begin a new episode, and clear an error.
 
         Args:
-            seed: the episode's seed; left out, the same one if it is locked, else a new one.
+            seed: the episode's seed; default: the same one if it is locked, else a new one.
         """
         return self.submit(lambda: self._reset(seed))
 
@@ -265,7 +265,7 @@ class Runner:
         """Tick a paused world until an agent's decision is over.
 
         Args:
-            agent_id: left out, the first agent's. If the agent takes no more decisions in this
+            agent_id: default: the first agent's. If the agent takes no more decisions in this
                 episode, the world ticks once.
 
         Raises:
@@ -326,7 +326,7 @@ class Runner:
         Args:
             replay: of the episode.
             step: the agent's decision, from 0 on, in place of which something else is done.
-            agent: its id; left out, the one that acts first.
+            agent: its id; default: the one that acts first.
 
         Raises:
             RecordingError: there was no such decision, or it can't be replayed exactly.
@@ -407,7 +407,7 @@ class Runner:
             self.recorder.listen_to(sim)
         self.error, self._publisher.past = "", None
         self._publisher.forget_static_scene()
-        sim.is_seed_locked = before.is_seed_locked
+        sim.is_seed_locked = before.is_seed_locked  # the person's choice outlasts the world
         self._monitor.forget()
         self._schedule.forget()
         kept = [agent.brain for agent in sim.agents]
@@ -422,7 +422,7 @@ class Runner:
 
     def _run(self) -> None:
         while not self._stopping:
-            self._answers.clear()
+            self._answers.clear()  # before brains are asked, who announce answers then
             began = self._clock()
             self._attempt(self.advance)
             self._answers.wait(self.sim, began, self._all_keep_waiting)
@@ -513,7 +513,7 @@ class Runner:
             if not is_between_decisions and self._clock() - first.asked_at < DECISION_WAIT_S:
                 return
             command = self._queue.take()
-            if command is not None:
+            if command is not None:  # else all that waited were cancelled
                 self._run_command(command)
 
     def _run_command(self, command: QueuedCommand) -> None:

@@ -18,7 +18,7 @@ class SnapshotPublisher:
 
     Args:
         sim: the world and its agents.
-        budget: is told what a snapshot costs.
+        budget: gets the cost of each snapshot.
         clock: seconds.
     """
 

@@ -91,7 +91,7 @@ class Scene:
 
     @classmethod
     def _read(cls, text: str, name: str, folder: Path | None, resets: int) -> Self:
-        """Read a scene; one that samples anything is reset with so many seeds."""
+        """Read a scene; one that samples anything is reset with several seeds."""
         file = YamlFile(text, name)
         try:
             description = SceneDescription.model_validate(file.data)

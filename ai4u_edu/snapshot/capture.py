@@ -52,7 +52,7 @@ def capture_snapshot(
         real_time_factor: measured speed.
         error: the error that stopped the world.
         slow_tick: a recent tick that took too long.
-        episode_time: time (s) of the episode; left out, the world's time.
+        episode_time: time (s) of the episode; default: the world's time.
         waiting: see :attr:`Snapshot.waiting`.
     """
     world = sim.world

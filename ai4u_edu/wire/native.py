@@ -44,7 +44,7 @@ MAX_GRACE_S = 86_400.0
 Mode = Literal["lockstep", "realtime"]
 OnMissing = Literal["", "hold", "coast", "stop"]
 """Substitutes for an action that is missing: the last one again, nothing, or zeros for all
-actuators; empty: as the room has it."""
+actuators; empty: the room's setting."""
 Texts = Annotated[tuple[Text, ...], LIST]
 _Size = Annotated[int, Meta(ge=0, le=MAX_WORLD_FRAME_BYTES)]
 _Data = Annotated[bytes, Meta(max_length=MAX_WORLD_FRAME_BYTES)]

@@ -50,7 +50,7 @@ def count_near(distances):
         return count
 
 
-# %% tags=["wrong", "reset", "begins anew in the loop"]
+# %% tags=["wrong", "reset", "starts again in the loop"]
 def count_near(distances):
     for distance in distances:
         count = 0

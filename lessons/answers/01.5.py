@@ -59,7 +59,7 @@ def plan(ahead, left):
     return steps
 
 
-# %% tags=["wrong", "reset", "begins anew in the loop"]
+# %% tags=["wrong", "reset", "starts again in the loop"]
 def plan(ahead, left):
     for _ in range(ahead):
         steps = []

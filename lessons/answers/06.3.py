@@ -165,7 +165,7 @@ class ThreeBumps(Controller):
         return {"move": [speed, 0, 0, 0]}
 
 
-# %% tags=["wrong", "on", "begins the count anew"]
+# %% tags=["wrong", "on", "starts the count again"]
 class ThreeBumps(Controller):
     """Drives to and fro, and rests after the third bump."""
 

@@ -50,7 +50,7 @@ TEACHERS_PATHS = (
     "projector/socket",
 )
 ENTERED = ("200", "open")
-"""Answers to who gets in."""
+"""Answers to those who get in."""
 
 
 @dataclass
@@ -114,7 +114,7 @@ def misuse_panel(attack: Attack, student: Student, rng: random.Random) -> None:
     """Send commands and messages of any kind to the own room; leave and come back."""
     while not attack.over.is_set():
         with Panel(student.address, student.cookies) as panel:
-            attack.over.wait(0.3)  # real time: its first answers have come, mostly; it needs none
+            attack.over.wait(0.3)  # real time: its first answers have usually come; it needs none
             for _ in range(rng.randint(20, 200)):
                 if attack.over.is_set() or not panel.is_open:
                     break

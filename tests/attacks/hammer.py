@@ -113,7 +113,7 @@ def use_panel(server: Played, rng: random.Random, tally: Tally, over: threading.
     """Send a panel's commands; leave and come back now and then."""
     while not over.is_set():
         with Panel(server.url) as panel:
-            over.wait(0.3)  # real time: its first answers have come, mostly; it needs none
+            over.wait(0.3)  # real time: its first answers have usually come; it needs none
             for _ in range(rng.randint(20, 200)):
                 if over.is_set() or not panel.is_open:
                     break

@@ -44,7 +44,7 @@ class Panel:
 
     Args:
         url: of the world, or of a class's room.
-        headers: with the cookies of who may enter the room.
+        headers: with the cookies of someone who may enter the room.
     """
 
     def __init__(self, url: str, headers: Mapping[str, str] | None = None) -> None:

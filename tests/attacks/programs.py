@@ -72,7 +72,7 @@ class Program:
 
 @contextmanager
 def program(folder: Path, *, episodes: int = 0, descriptors: int = 1024) -> Iterator[Program]:
-    """A room that is served, with so many kept episodes, by a process with so many descriptors."""
+    """A served room with kept episodes, in a process with a limit of descriptors."""
     log = folder / "log"
     command = f'ulimit -n {descriptors}; exec "$0" "$@"'
     with log.open("w") as file:
@@ -94,7 +94,7 @@ def program(folder: Path, *, episodes: int = 0, descriptors: int = 1024) -> Iter
 
 @contextmanager
 def many_descriptors(wanted: int) -> Iterator[None]:
-    """Let this process have so many descriptors for a while."""
+    """Let this process have ``wanted`` descriptors for a while."""
     import resource  # not there on Windows
 
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
@@ -136,7 +136,7 @@ class Crowd:
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
     async def until_opened(self, count: int) -> None:
-        """Wait until there have been so many connections."""
+        """Wait until there have been ``count`` connections."""
         await until_async(lambda: self.opened >= count)
 
     async def _connect(self, said: bytes) -> None:

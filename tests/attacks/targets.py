@@ -224,7 +224,7 @@ MUTATIONS = (_encode, _insert, _insert, _without_slash, _with_address, _change_c
 
 
 def attack_all(count: int, seed: int, *, has_jupyter: bool = False) -> Tally:
-    """Send so many targets to each proxy.
+    """Send random targets to each proxy.
 
     Args:
         count: of targets.

@@ -32,7 +32,7 @@ def query(space_world: Any, body: Any) -> Any:
 
 
 def walls(count: int = WALLS) -> str:
-    """Return the text of a scene with so many bodies, nearly all of them walls in one place."""
+    """Return the text of a scene with ``count`` bodies, nearly all of them walls in one place."""
     plain = Scene.load("box_chase").plain()
     plain["bodies"] = list(plain["bodies"])
     while len(plain["bodies"]) < count:

@@ -34,7 +34,7 @@ PERCEPT_FRAME_BYTES = 184
 
 
 def serve_world(agents: int, ready: Connection) -> None:
-    """Run a world with so many agents until the process is ended."""
+    """Run a world with ``agents`` agents until the process is ended."""
     from ai4u_edu import (
         BasicAgent,
         CircleShape,

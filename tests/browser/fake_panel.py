@@ -33,7 +33,7 @@ class FakePanel:
     _socket: WebSocketRoute | None = None
 
     def reset(self) -> None:
-        """Forget what came, and take the parts of the file again; the page is to be left."""
+        """Forget what came, and take the parts of the file again; the page will be left."""
         self._socket = None  # what the page before says now is no message of the next one
         self.parts = deepcopy(PARTS)
         self.received.clear()

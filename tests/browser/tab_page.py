@@ -154,7 +154,7 @@ class TabPage:
         return shown
 
     def small_controls(self, smallest: float) -> list[str]:
-        """Return the visible controls that are lower than so many pixels."""
+        """Return the visible controls that are lower than ``smallest`` pixels."""
         script = """smallest => [...document.querySelectorAll(
             "button, input, select, textarea, summary, a[href]")]
           .filter(each => each.checkVisibility() && each.type !== "checkbox")

@@ -121,4 +121,4 @@ def test_elsewhere_the_maze_is_offered(tab: TabPage, sources: list[str]) -> None
     assert tab.sent() == [{"command": "open_scene", "name": "maze", "is_saved": False}]
     tab.give({"scene": "maze", "can_edit": True}, "scene")
     tab.page.get_by_role("button", name="Step 4: Follow a wall").click()
-    assert "keeps one hand at the wall" in tab.page.inner_text(".ai4u-steps-text")
+    assert "Keep one hand on the wall" in tab.page.inner_text(".ai4u-steps-text")

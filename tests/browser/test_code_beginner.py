@@ -49,7 +49,7 @@ def tab(server: Played, chromium: Browser) -> Iterator[CodeTab]:
 
 
 def stars(page: Page, count: int) -> None:
-    """Wait until a program has earned so many stars."""
+    """Wait until a program has earned ``count`` stars."""
     row = page.locator(".ai4u-code-state .ai4u-stars")
     expect(row).to_have_attribute("aria-label", f"{count} of 3 stars")
 

@@ -76,7 +76,7 @@ def test_a_page_comes_back_after_the_server_did(
             expect(driver_status(page)).to_have_text("Press a key to drive")
             page.keyboard.down("KeyA")
             until(lambda: "KeyA" in room.held)
-            assert holds[0] == ["KeyA"], "a key that was lost has to be pressed anew"
+            assert holds[0] == ["KeyA"], "a key that was lost has to be pressed again"
             page.keyboard.up("KeyW")
             page.keyboard.down("KeyW")
             until(lambda: room.held == ["KeyA", "KeyW"])

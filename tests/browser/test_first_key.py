@@ -1,4 +1,4 @@
-"""A start waits for a key, is repeated or drawn anew; keys work after the panel was used."""
+"""A start waits for a key, is repeated or drawn again; keys work after the panel was used."""
 
 from functools import partial
 

@@ -70,7 +70,7 @@ def test_texts_that_come_move_no_button(desk: PanelPage) -> None:
 
 def test_the_goal_is_changed_by_a_click(desk: PanelPage) -> None:
     desk.page.get_by_text("Push the box into the goal").click()
-    text = desk.page.get_by_label("What is to be done, in a sentence")
+    text = desk.page.get_by_label("The task, in a sentence")
     expect(text).to_have_value(re.compile("Push the box into the goal"))
     text.fill(" Catch it! ")
     desk.page.get_by_role("dialog").get_by_role("button", name="Save").click()

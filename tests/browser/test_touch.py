@@ -133,7 +133,7 @@ def test_all_is_in_reach_and_nothing_in_the_way(site: ServedViser) -> None:
 
 
 def misplaced(page: Page, width: int, height: int) -> list[str]:
-    """Return what is wrong: stick and keys are to be large, apart and free, and the world free."""
+    """Return what is wrong: stick and keys must be large, apart and free, and the world free."""
     problems: list[str] = []
 
     def check(name: str, is_right: object) -> None:

@@ -50,7 +50,7 @@ def test_a_new_code_keeps_who_is_there_and_the_old_one_is_refused(tmp_path: Path
         assert late.join(code).status_code == 200
 
 
-def test_who_is_banned_does_not_come_back_with_the_seats_cookie(served: ServedClass) -> None:
+def test_banned_student_cannot_rejoin_with_the_cookie(served: ServedClass) -> None:
     ada = served.joined()
     number = max(each["number"] for each in served.state()["seats"])
     assert served.command("ban", seat=number).status_code == 200
@@ -96,7 +96,7 @@ def people(page: Page) -> list[dict[str, object]]:
     return found
 
 
-def test_who_loses_the_cookie_gets_another_seat_and_the_work_stays(served: ServedClass) -> None:
+def test_lost_cookie_gives_another_seat_and_keeps_the_work(served: ServedClass) -> None:
     ada = served.joined()
     before = ada.room
     ada.client.cookies.clear()
@@ -213,7 +213,7 @@ def test_a_class_that_slept_with_the_laptop_goes_on(served: ServedClass) -> None
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux limits another process")
-def test_a_full_disk_is_a_sentence_and_what_was_said_to_be_there_is(tmp_path: Path) -> None:
+def test_full_disk_gives_a_sentence_and_keeps_acknowledged_data(tmp_path: Path) -> None:
     with served_class(tmp_path) as served:
         ada = served.joined()
         ada.get("healthz")

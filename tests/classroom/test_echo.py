@@ -34,7 +34,9 @@ def test_texts_come_back_a_number_of_times(socket: Connection) -> None:
 
 
 @pytest.mark.parametrize("message", ["x" * (MAX_ECHO_CHARS + 1), b"bytes"])
-def test_anything_else_ends_it(socket: Connection, message: str | bytes) -> None:
+def test_unexpected_echo_messages_close_the_socket(
+    socket: Connection, message: str | bytes
+) -> None:
     socket.send(message)
     with pytest.raises(ConnectionClosed):
         socket.recv(LIMIT_S)

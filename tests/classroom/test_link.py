@@ -88,7 +88,7 @@ def test_another_version_is_told(served: ServedClass) -> None:
         assert str(VERSION) in problem.text
 
 
-def test_nothing_counts_before_hello(served: ServedClass) -> None:
+def test_link_ends_if_the_first_message_is_not_hello(served: ServedClass) -> None:
     with RawLink(served, "", hello=state()) as link:
         code, problem = link.end()
         assert (code, problem and problem.code) == (1008, "message")
@@ -103,7 +103,7 @@ def test_malformed_messages_are_told_and_too_many_end_the_link(served: ServedCla
             link.socket.send(each)
             assert "expected" in link.next(Problem).text
         link.send(check("right"))
-        link.next(Ack)  # the link lives, and the count begins anew
+        link.next(Ack)  # the link lives, and the count begins again
         for _ in range(5):
             link.send(Hello(VERSION, "x", "room"))
         assert link.end()[0] == 1008

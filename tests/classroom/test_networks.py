@@ -110,7 +110,7 @@ def test_a_verdict_on_a_network_that_was_replaced_meanwhile_is_none(store: Class
         ("sumo", "", "a.onnx", MAX_NETWORK_BYTES + 1, "at most 5 MB"),
     ],
 )
-def test_what_can_be_no_network_is_refused_with_a_sentence(
+def test_invalid_networks_are_refused_with_a_sentence(
     store: ClassStore, scene: str, part: str, file: str, size: int, told: str
 ) -> None:
     networks = Networks(store, lambda _: None)

@@ -69,7 +69,7 @@ def test_a_change_that_is_not_stored_does_not_count(store: ClassStore) -> None:
 
 
 @pytest.mark.slow
-def test_what_was_acknowledged_is_there_after_sigkill_and_counts_once(tmp_path: Path) -> None:
+def test_acknowledged_results_survive_sigkill_and_count_once(tmp_path: Path) -> None:
     exercise = next(each for each in sorted(known_exercises()) if each == "04.2")
     name = next(iter(find(exercise).hints))
     sent = [check("wrong", f"{exercise}/{name}") for _ in range(3)]

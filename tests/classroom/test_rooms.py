@@ -83,7 +83,7 @@ def test_the_room_can_not_be_entered_beside_the_class(served: ServedClass) -> No
 @pytest.mark.parametrize(
     ("frame", "code"), [(b"\xc1", 1003), ("text", 1003), (b"\x00" * 2 * MAX_UPWARD_BYTES, 1009)]
 )
-def test_what_is_no_message_to_the_picture_is_refused_before_viser(
+def test_malformed_picture_frames_close_the_socket(
     served: ServedClass, frame: bytes | str, code: int
 ) -> None:
     ada = served.joined()
@@ -128,9 +128,7 @@ def test_a_script_drives_with_the_address_that_the_page_shows(served: ServedClas
 
 
 @pytest.mark.parametrize("rooms", ["each", pytest.param("one", marks=pytest.mark.nightly)])
-def test_a_program_has_the_world_wait_for_it_where_nobody_else_is_in_it(
-    tmp_path: Path, rooms: str
-) -> None:
+def test_lockstep_is_allowed_in_rooms_of_one_student_only(tmp_path: Path, rooms: str) -> None:
     with served_class(tmp_path, "sumo", "--rooms", rooms) as school:
         address = script_address(school.joined())
         if rooms == "each":
@@ -165,7 +163,7 @@ def test_a_wrong_code_is_said_and_many_do_not_lock_the_class_out(served: ServedC
     assert student.join(name=name).status_code == 200
 
 
-def test_who_is_sent_out_is_out_at_once(served: ServedClass) -> None:
+def test_kick_closes_the_page_at_once(served: ServedClass) -> None:
     ada = served.joined(request="a" * 20)
     number = max(each["number"] for each in served.state()["seats"])
     with Page(ada.address + "ws/input", additional_headers=ada.cookies) as page:
@@ -191,7 +189,7 @@ def test_a_student_is_told_while_the_teacher_looks_in(served: ServedClass) -> No
         page.receive("class", has_teacher=False)
 
 
-def test_what_the_wall_knows_of_a_room_outlasts_the_class(tmp_path: Path) -> None:
+def test_counts_of_a_room_survive_a_restart(tmp_path: Path) -> None:
     folder = tmp_path / "class"
     with served_class(folder) as served:
         ada = served.joined()
@@ -234,7 +232,7 @@ def test_a_room_that_is_killed_comes_back_and_the_others_notice_nothing(
             until(lambda: ben.get("api/snapshot").json()["tick"] > 10)
 
 
-def test_what_was_made_is_there_after_the_class_was_killed(tmp_path: Path) -> None:
+def test_scene_survives_a_kill_of_the_class(tmp_path: Path) -> None:
     with served_class(tmp_path) as served:
         ada = served.joined()
         assert ada.client.post(ada.room + "api/scene", json={"name": "maze"}).status_code == 200

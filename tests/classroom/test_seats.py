@@ -111,7 +111,7 @@ def test_a_rule_that_is_none_is_refused(text: str) -> None:
         RoomRule.parse(text)
 
 
-def test_who_was_sent_out_may_join_again_and_who_was_banned_may_not(seats: Seats) -> None:
+def test_kicked_student_may_rejoin_and_banned_may_not(seats: Seats) -> None:
     kicked, token = joined(seats, "a")
     seats.set_state(kicked.number, SeatState.KICKED)
     assert seats.by_token(token) is None
@@ -209,7 +209,7 @@ def test_a_device_that_moves_to_another_seat_leaves_its_own(seats: Seats) -> Non
     assert seats.by_token(token) == other
 
 
-def test_whoever_was_sent_out_comes_back_with_one_device(seats: Seats) -> None:
+def test_rejoin_after_a_kick_invalidates_other_devices(seats: Seats) -> None:
     seat, held = joined(seats, "a")
     _, second = seats.join(seats.new_move_code(seat.number), "", "b")
     seats.set_state(seat.number, SeatState.KICKED)

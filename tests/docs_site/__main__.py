@@ -13,12 +13,13 @@ from sphinx.cmd.build import build_main
 from tests.docs_site.api_pages import add_api
 from tests.docs_site.block_pages import add_blocks
 from tests.docs_site.cli_pages import add_commands
+from tests.docs_site.lesson_pages import add_lesson_checks
 from tests.docs_site.protocol_pages import add_protocol
 from tests.docs_site.scene_pages import add_scenes
 from tests.docs_site.staging import ROOT, Staging
 
 DEFAULT_OUT = ROOT / "build" / "site"
-GENERATED = (add_api, add_blocks, add_commands, add_protocol, add_scenes)
+GENERATED = (add_api, add_blocks, add_commands, add_lesson_checks, add_protocol, add_scenes)
 
 
 def stage(folder: Path) -> None:

@@ -160,7 +160,7 @@ def action_of(actuator: Actuator) -> dict[str, Any]:
 
 
 def source_of(value: Any, room: int = MAX_CALL_CHARS) -> str:
-    """Return an expression that makes a value anew.
+    """Return an expression that makes a value again.
 
     Args:
         value: a block, or the value of a parameter.

@@ -11,13 +11,13 @@ from ai4u_edu.snapshot.raster import draw_snapshot
 from tests.scenes.solvers import solver_of
 
 SIDE_PX = 320
-"""Longer side of a film, and of the picture in its place for who wants no motion."""
+"""Longer side of a film, and of the picture in its place for anyone who wants no motion."""
 FRAMES_PER_S, MAX_FILM_S = 12, 8
 LAST_FRAME_MS = 1500
 SEED = 1
 MAX_BYTES = 150_000
 PACKINGS = ((1, 50), (2, 40), (2, 20), (3, 15))
-"""(every so many frames, quality): tried in turn until a film is small enough."""
+"""(frames between two that are kept, quality): tried in turn until a film is small enough."""
 
 
 @dataclass(frozen=True)

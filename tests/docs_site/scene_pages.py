@@ -69,7 +69,7 @@ def _page(name: str, purpose: str, film: Film) -> str:
 
 
 def _film(name: str, film: Film) -> str:
-    """Return the film; it can be closed, and who wants no motion gets its first picture."""
+    """Return the film; it can be closed, and anyone who wants no motion gets its first picture."""
     faster = "" if film.speed < 1.05 else f", {film.speed:.1f} times as fast"
     words = (
         f"A program drives: {film.decisions} decisions in {film.seconds:.1f} s of the world's time"

@@ -48,7 +48,7 @@ class Staging:
     """A folder of sources for Sphinx.
 
     Args:
-        folder: it is made; what is in it and not written anew is removed by :meth:`close`.
+        folder: it is made; what is in it and not written again is removed by :meth:`close`.
     """
 
     def __init__(self, folder: Path) -> None:

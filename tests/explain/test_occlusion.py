@@ -142,7 +142,7 @@ def test_stateful_policies_are_refused() -> None:
         (Alternates(), "keeps something from one decision to the next .it changes turn."),
         (lambda percept: [next(steps)], "keeps something|two different actions"),
         (lambda percept: [rng.normal()], "two different actions"),
-        (Prepared(), "Prepared begins anew at each reset.* does not apply to it"),
+        (Prepared(), "Prepared begins again at each reset.* does not apply to it"),
         (ArrowController(), "ArrowController prepares itself with the world.* does not apply"),
     ):
         with pytest.raises(NotExplainableError, match=told):

@@ -1,7 +1,7 @@
 """Answers that act by the clock, for the checks: ``python -m tests.lessons.by_the_clock``.
 
-A solution is driven by readings, or replaced by actions, that come from a schedule: so many
-decisions of one value, so many of another, and so on. A search looks for a schedule that passes the
+A solution is driven by readings, or replaced by actions, that come from a schedule: some
+decisions of one value, some of another, and so on. A search looks for a schedule that passes the
 check, which a robot must not do that never looks at its world. Numbers of exercises may follow
 (``06 07.2``), and ``--tries 200``.
 """

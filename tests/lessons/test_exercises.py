@@ -3,6 +3,7 @@
 import ast
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from decimal import Decimal
 from functools import wraps
 from pathlib import Path
@@ -17,7 +18,8 @@ from ai4u_edu.lessons.checking import judge
 from ai4u_edu.lessons.course import course_folder, exercise_ids, is_ticket, lesson, lessons
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import EXERCISES, find
-from tests.lessons.verdicts import PAGE, beginning, is_as_wanted
+from tests.docs_site.lesson_pages import section
+from tests.lessons.verdicts import is_as_wanted
 from tests.lessons.workbook import SLOW, handed_in, tried, try_answer
 
 pytestmark = pytest.mark.needs("lessons", "train")
@@ -184,11 +186,22 @@ def test_an_exercise_has_answers_of_all_kinds(exercise: str) -> None:
     assert counts["lucky"] >= 3, counts
 
 
-def test_the_table_of_verdicts_has_a_row_for_each_answer() -> None:
-    rows = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line[2:3].isdigit()]
-    wanted = [beginning(each, answer) for each in IDS for answer in answers_to(each).all]
-    assert [each for each in wanted if not any(row.startswith(each) for row in rows)] == []
-    assert len(rows) == len(wanted)
+@pytest.mark.parametrize("exercise", IDS)
+def test_docs_describe_a_check_with_its_diagnoses_and_answers(exercise: str) -> None:
+    text = section(find(exercise), answers_to(exercise))
+    assert all(f"| {each.kind} | {each.name} |" in text for each in answers_to(exercise).all)
+
+
+@pytest.mark.parametrize("missing", ["title", "docstring", "hint"])
+def test_docs_refuse_a_check_without_description(missing: str) -> None:
+    check = find("00.1")
+    without = {
+        "title": replace(check, title=""),
+        "docstring": replace(check, judge=lambda *_: ""),
+        "hint": replace(check, hints={**check.hints, "still": ""}),
+    }
+    with pytest.raises(ValueError, match=r"00\.1: expected a"):
+        section(without[missing], answers_to("00.1"))
 
 
 @pytest.mark.parametrize("one", lessons(), ids=lambda one: one.number)

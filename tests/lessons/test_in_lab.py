@@ -124,7 +124,7 @@ def test_where_there_is_no_server_a_picture_stands(
     page.context.close()
 
 
-@pytest.mark.nightly  # installs JupyterLab anew
+@pytest.mark.nightly  # installs JupyterLab again
 def test_from_the_wheel_lesson_02_is_driven_in_jupyterlab(
     chromium: Browser, tmp_path: Path
 ) -> None:

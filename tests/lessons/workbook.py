@@ -104,7 +104,7 @@ def tried(
 def try_answer(lesson: Lesson, exercise: str, answer: SampleAnswer) -> CheckResult:
     """Return the check's verdict on an answer.
 
-    Only one that is to be found endless, or on which any verdict is right, has a time limit that
+    Only one that must be found endless, or on which any verdict is right, has a time limit that
     it may reach.
     """
     may_be_endless = not answer.is_right and answer.hint in {"", "endless", "endless-loop", "slow"}

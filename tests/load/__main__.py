@@ -1,6 +1,6 @@
 """A class at work: ``python -m tests.load --brains 30,60,100``.
 
-One world at 60 ticks a second in which so many scripts drive an agent each, in realtime, 15 times
+One world at 60 ticks a second in which several scripts drive an agent each, in realtime, 15 times
 a second with 16 rays, while as many viewers look at the page. Agents take turns in deciding
 (``spread_decisions``), unless it is ``--at-once``. The scripts are real ones of
 ``ai4u_edu.remote``, the viewers bare clients of viser's socket and of the panel's that read

@@ -53,7 +53,7 @@ def test_a_hundred_clients_that_never_read_stop_no_other() -> None:
     before = process.num_fds(), process.num_threads()
     runner = Runner(crowd(BRAINS), seed=1)
     viewer = Viewer(runner)
-    # real time: the seats are to be free once the grace time has passed after the end of a script
+    # real time: the seats must be free once the grace time has passed after the end of a script
     rules = patient_rules(grace=0.1)
     app = room_app(runner, viser_port=viewer.port, title="Load", rules=rules, timeouts=PATIENT)
     met: set[int] = set()  # viser itself closes pages that answer no ping for a while

@@ -86,7 +86,7 @@ def bridged(url: str, **options: Any) -> Iterator[tuple[int, list[str]]]:
 
 
 def run(steps: int, faults: Faults = BAD, seed: int = 1) -> list[str]:
-    """Lets the script take so many steps; what was wrong, in sentences."""
+    """Let the script take ``steps`` steps, and return what was wrong, in sentences."""
     began = time.monotonic()  # real time: shown to a person
     with (
         scene_room() as room,

@@ -137,7 +137,7 @@ def _shown(value: Any) -> str:
 
 
 def _head(length: int) -> bytes:
-    """Return the first bytes of an array of so many elements."""
+    """Return the first bytes of an array of ``length`` elements."""
     return msgspec.msgpack.encode([None] * length)[: 1 if length < 16 else 3]
 
 

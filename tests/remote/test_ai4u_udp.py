@@ -522,7 +522,7 @@ def test_a_new_session_begins_without_a_warning(script: UDPScript) -> None:
     brain.close()
 
 
-def test_what_is_out_of_range_is_cut_and_counted_once(script: UDPScript) -> None:
+def test_out_of_range_action_is_clipped_and_counted_once(script: UDPScript) -> None:
     sim, brain = remote_sim(script)
     script.meet(sim)
     script.say("move;4;500;0;-1;0")
@@ -751,7 +751,7 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
 
 
 @pytest.mark.parametrize("mode", ["lockstep", "realtime"])
-def test_what_does_not_fit_into_a_datagram_is_an_error_of_the_world(
+def test_percept_too_large_for_a_datagram_raises(
     script: UDPScript, mode: Literal["lockstep", "realtime"]
 ) -> None:
     brain = remote_brain(script, mode=mode)

@@ -26,7 +26,7 @@ def test_a_script_is_told_and_gets_the_agent_of_the_same_id_in_the_other_world()
         robot.act(move=AHEAD)
         other = Scene.load("box_chase").build()
         room.runner.replace_sim(other, seed=3).result(LIMIT_S)
-        with pytest.raises(LostError, match="another world has taken its place; connect anew"):
+        with pytest.raises(LostError, match="another world has taken its place; connect again"):
             drive(robot, 20)
         with connect(room.url, mode="lockstep") as again:
             again.act(move=AHEAD)

@@ -159,7 +159,7 @@ def test_the_agent_is_the_scripts_only_while_there_is_one() -> None:
         assert [each for each in told if each in (drives, ended)] == [drives, ended] * 2
 
 
-def test_a_farewell_that_was_lost_keeps_the_bridge_out_of_nothing() -> None:
+def test_bridge_gets_the_agent_back_after_a_lost_farewell() -> None:
     with log_room() as room:
         bridge = Bridge(room.url, port=free_port())
         first, _ = bridge._connect()

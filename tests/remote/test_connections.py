@@ -97,7 +97,7 @@ def test_an_interrupted_script_may_go_on(kind: Kind) -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def test_what_came_before_the_close_is_received() -> None:
+def test_frames_before_a_close_are_received() -> None:
     def send_and_end(far: ServerConnection) -> None:
         far.send(b"one")
         far.send(b"two")

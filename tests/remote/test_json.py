@@ -76,7 +76,7 @@ def test_a_session_may_change_its_form() -> None:
             assert second.percept().seq == percept["seq"]
 
 
-def test_what_is_wrong_is_said_in_json() -> None:
+def test_problems_are_sent_as_json() -> None:
     with log_room() as room, JsonScript(room) as script:
         script.hello()
         percept = script.hear()

@@ -102,7 +102,7 @@ def beyond(agent: BasicAgent, step: int) -> None:
     until(lambda: agent.steps > step)
 
 
-def test_what_was_paid_while_nobody_listened_is_told_once_and_by_name() -> None:
+def test_rewards_missed_by_a_script_are_sent_once_by_name() -> None:
     # real time: the world is to go on without the script whenever this has passed
     with log_room(receive_timeout=200) as room, Script(room) as script:
         agent, paid = room.sim.agents[0], {}

@@ -135,7 +135,7 @@ def test_a_script_that_was_away_for_too_long_begins_another_session() -> None:
         robot.close()
 
 
-def test_what_a_script_waits_for_is_said_once() -> None:
+def test_waiting_note_is_shown_once() -> None:
     dialogue = Dialogue("a", patience=LIMIT_S)
     steps = dialogue.begin()
     step: Any = next(steps)

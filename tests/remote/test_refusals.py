@@ -62,7 +62,7 @@ def test_each_refusal_says_what_to_do() -> None:
             "no reading is called 'plaec'; did you mean 'place'?"
         )
         assert refused(room, "session_over", **said, session="1234") == (
-            "session '1234' of agent 'a' is over; connect anew"
+            "session '1234' of agent 'a' is over; connect again"
         )
         assert refused(room, "malformed", **said, secret="short") == (
             "secret: expected at least 16 characters, got 5"
@@ -125,7 +125,7 @@ def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
             assert isinstance(problem, native.Problem)
             assert problem.code == "bad_message"
             assert problem.text.startswith("expected msgpack, got b'\\xc1' (")
-        script.act(percept, 1)  # a good one in between: the count begins anew
+        script.act(percept, 1)  # a good one in between: the count begins again
         script.percept()
         for _ in range(sockets.MAX_MALFORMED_FRAMES):
             script.socket.send("text")
@@ -135,7 +135,7 @@ def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
 
 
 @pytest.mark.parametrize("message", [native.Bye("x"), native.Reset(1, None)])
-def test_whoever_does_not_say_hello_first_is_told_to(message: native.Message) -> None:
+def test_first_message_must_be_hello(message: native.Message) -> None:
     with log_room() as room, Script(room) as script:
         script.say(message)
         kind = type(message).__name__.lower()

@@ -79,7 +79,7 @@ def test_a_script_is_refused() -> None:
         assert "sesame" not in line
 
 
-def test_what_has_no_effect_is_told() -> None:
+def test_actions_without_effect_are_reported() -> None:
     with reported_room() as (room, lines), Script(room) as script:
         script.hello()
         percept = script.percept()

@@ -83,7 +83,7 @@ def test_a_script_that_comes_too_late_begins_another_session() -> None:
         session = robot.session
         cut(robot)
         until(lambda: room.sim.agents[0].brain is before)
-        with pytest.raises(RefusedError, match=r"session '\w+' of agent 'a' is over; connect anew"):
+        with pytest.raises(RefusedError, match=r"session '\w+' of agent 'a' is over"):
             connect(room.url, "a", mode="lockstep", session=session).sense()
         assert robot.reset().step == 0
         assert robot.session != session
@@ -173,7 +173,7 @@ def test_a_seated_script_that_floods_is_sent_away_and_may_come_back() -> None:
 
 
 @pytest.mark.usefixtures("_slow_counts")
-def test_who_answers_as_fast_as_it_can_is_no_flood() -> None:
+def test_fast_answers_do_not_count_as_flood() -> None:
     with log_room() as room, Script(room) as script:
         script.hello()
         for number in range(2 * MAX_STRAY_FRAMES_PER_S):

@@ -153,7 +153,7 @@ def test_the_asynchronous_robot_has_the_same_verbs() -> None:
         assert [len(steps) for steps in asyncio.run(both(room.url))] == [5, 5]
 
 
-def test_it_says_what_it_is_and_what_it_can_do() -> None:
+def test_robot_repr_and_spaces() -> None:
     with log_room() as room, connect(room.url, mode="lockstep") as robot:
         assert repr(robot) == "Robot('a' in 'A room', lockstep)"
         spaces = robot.spaces

@@ -46,7 +46,7 @@ class Times:
 
 
 def drawn(turns: PageTurns, pages: int, times: Times, takes: float) -> list[int]:
-    """Numbers of the pages that one frame draws, each of which takes so long."""
+    """Numbers of the pages that one frame draws, each of which takes `takes` seconds."""
     found = []
     for page in turns.due(range(pages)):
         times.now += takes

@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 
 
 def elsewhere(*names: str) -> dict[str, str]:
-    """Return the trajectories of scenes in a process of their own, one after the other."""
+    """Return the trajectories of scenes in a process of their own, one at a time."""
     done = subprocess.run(
         [sys.executable, "-m", "tests.scenes.rollout", "11", *names],
         capture_output=True,

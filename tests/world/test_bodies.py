@@ -65,7 +65,7 @@ def test_every_shape_stops_a_ball_and_is_pushed_by_it(shape: BodyShape) -> None:
             assert thing.position[1] < -0.5
 
 
-def test_who_drives_at_a_wall_stays_outside() -> None:
+def test_driven_body_stays_outside_a_wall() -> None:
     """The velocity is set anew each tick, as an actuator does."""
     world = World()
     world.add_body("wall", BoxShape(size=(1, 6)), kind="static", position=(3, 0))
@@ -76,7 +76,7 @@ def test_who_drives_at_a_wall_stays_outside() -> None:
         assert robot.position[0] - 2.0 < 0.08
 
 
-def test_who_drives_into_a_pile_does_not_blow_it_up() -> None:
+def test_driving_into_a_pile_keeps_speeds_low() -> None:
     world = World()
     for i in range(25):
         world.add_body(f"box {i}", BoxShape(), position=(i % 5, i // 5))
@@ -98,7 +98,7 @@ def test_who_drives_into_a_pile_does_not_blow_it_up() -> None:
         ("move_to", (INF, 0.0), "place", "(inf, 0.0, 0.0, 0.0)"),
     ],
 )
-def test_what_is_not_finite_is_refused(
+def test_nonfinite_numbers_are_refused(
     method: str, numbers: tuple[float, ...], what: str, shown: str
 ) -> None:
     world = World()

@@ -53,7 +53,7 @@ def test_begin_and_separate(pair: Pair) -> None:
     assert pair.view.contacts(pair.robot) == ()
 
 
-def test_only_who_is_watched_is_followed(pair: Pair) -> None:
+def test_contacts_are_tracked_for_watched_bodies_only(pair: Pair) -> None:
     pair.meet()
     assert not pair.view.touching(pair.ball, "robot")
     pair.world.contacts.watch(pair.ball)
@@ -146,7 +146,7 @@ def test_a_removal_forgets(pair: Pair) -> None:
     assert pair.run(2) == 0
 
 
-def test_who_is_followed_late_and_leaves_at_once_is_forgotten(pair: Pair) -> None:
+def test_removed_body_leaves_no_contact_after_a_late_watch(pair: Pair) -> None:
     post = pair.world.add_body("post", BoxShape(), kind="static", position=(5, 0))
     pair.ball.move_to(4.005, 0)
     pair.run(1)

@@ -102,7 +102,7 @@ def test_after_a_jump_it_is_as_before(calls: Calls) -> None:
     assert (calls.steps, calls.handlers) == (0, 0)
 
 
-def test_who_is_put_back_on_the_ground_costs_nothing(calls: Calls) -> None:
+def test_no_callbacks_after_a_body_returns_to_the_ground(calls: Calls) -> None:
     world, robot = pile()
     robot.move_to(-5, 0, z=3.0)
     world.tick()
@@ -112,7 +112,7 @@ def test_who_is_put_back_on_the_ground_costs_nothing(calls: Calls) -> None:
     assert calls.steps == 1
 
 
-def test_who_landed_half_above_another_costs_nothing_once_they_collide(calls: Calls) -> None:
+def test_no_callbacks_once_a_landed_body_collides(calls: Calls) -> None:
     world = World(damping=1.0)
     world.add_body("low", CircleShape(), height=0.02, position=(3.4, 0))
     robot = world.add_body("robot", CircleShape())

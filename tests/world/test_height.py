@@ -143,7 +143,7 @@ def test_without_gravity_nothing_comes_down() -> None:
 
 
 @pytest.mark.parametrize("kind", ["static", "kinematic"])
-def test_what_does_not_move_by_itself_neither_falls_nor_jumps(kind: str) -> None:
+def test_static_and_kinematic_bodies_neither_fall_nor_jump(kind: str) -> None:
     world = World()
     thing = world.add_body("thing", BoxShape(), kind=kind, z=2.0)
     thing.jump(5.0)

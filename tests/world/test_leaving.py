@@ -19,7 +19,7 @@ def world() -> World:
 
 
 @pytest.mark.parametrize("name", ["post", "ball"])
-def test_who_left_is_out(world: World, name: str) -> None:
+def test_body_that_left_has_no_contacts(world: World, name: str) -> None:
     x, y = world[name].position
     world[name].leave()
     assert world[name].fallen
@@ -58,7 +58,7 @@ def test_a_reset_brings_it_back(world: World) -> None:
     assert not world["post"].fallen
 
 
-def test_what_is_random_is_drawn_anew_each_time() -> None:
+def test_returning_body_gets_a_new_random_place() -> None:
     def places(seed: int) -> list[tuple[float, float]]:
         world = World()
         world.add_body("coin", CircleShape(radius=0.2), random={"x": (-9, 9), "y": (-9, 9)})

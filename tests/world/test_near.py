@@ -13,7 +13,7 @@ from ai4u_edu.world.placement import Places
 from tests.world.random_worlds import SIDE, _body_shape, _region_shape
 
 
-def test_what_meets_is_near() -> None:
+def test_overlapping_shapes_are_near() -> None:
     rng, places = random.Random(3), Places(1)
     met = apart = 0
     for _ in range(3000):
@@ -29,7 +29,7 @@ def test_what_meets_is_near() -> None:
     assert apart > 1000, "and most of what is apart is told apart"
 
 
-def test_what_touches_is_what_a_space_finds(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_touching_agrees_with_pymunks_shape_query(monkeypatch: pytest.MonkeyPatch) -> None:
     rng, places = random.Random(4), Places(1)
     pairs = [
         (
@@ -52,7 +52,7 @@ def test_what_touches_is_what_a_space_finds(monkeypatch: pytest.MonkeyPatch) -> 
     assert sum(bool(each) for each in quick) > 600
 
 
-def test_what_would_not_collide_is_not_in_the_way() -> None:
+def test_noncolliding_bodies_do_not_overlap() -> None:
     places = Places(1)
 
     def overlap(**fields: Any) -> bool:

@@ -74,7 +74,7 @@ def test_a_ceiling_stops_a_jump() -> None:
     assert robot.position == (0.0, 0.0)
 
 
-def test_who_passed_above_collides_when_it_is_back_at_once() -> None:
+def test_body_that_passed_above_collides_again_at_once() -> None:
     """Within the few ticks for which the physics remembers that the two let each other pass."""
     world = World()
     ball = world.add_body("ball", CircleShape(radius=0.3), position=(2, 0))
@@ -90,7 +90,7 @@ def test_who_passed_above_collides_when_it_is_back_at_once() -> None:
     assert ball.position[0] - robot.position[0] > 0.58
 
 
-def test_who_landed_beside_another_collides_with_it() -> None:
+def test_body_that_landed_half_above_another_collides() -> None:
     world = World(damping=LOOSE)
     low = world.add_body("low", CircleShape(), height=0.02, position=(3.4, 0))
     robot = world.add_body("robot", CircleShape(), height=1.0)

@@ -57,7 +57,7 @@ def test_one_exactly_along_the_other_is_refused() -> None:
             world.add_body("second", second, position=(0.9, 0))
 
 
-def test_what_can_not_move_may_overlap() -> None:
+def test_immovable_bodies_may_overlap() -> None:
     world = World()
     for i, kind in enumerate(["static", "static", "kinematic"]):
         world.add_body(f"wall {i}", BoxShape(size=(4, 0.2)), kind=kind, heading_deg=60 * i)

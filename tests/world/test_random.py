@@ -60,7 +60,7 @@ def test_ranges_and_places_are_drawn_whole() -> None:
     assert 85 < max(turns) <= 90
 
 
-def test_what_is_described_is_kept_and_what_is_drawn_holds() -> None:
+def test_sampled_values_leave_the_description_unchanged() -> None:
     world = World()
     vary = {"x": (2, 3), "heading_deg": (90, 90), "scale": (2, 2)}
     box = world.add_body("box", BoxShape(size=(1, 2)), position=(0, 1), random=vary)
@@ -163,7 +163,7 @@ def test_a_body_finds_its_floor_where_chance_has_put_that() -> None:
         assert ball.on_ground
 
 
-def test_who_passes_over_or_under_is_not_in_the_way() -> None:
+def test_bodies_at_other_heights_do_not_block_a_place() -> None:
     world = World()
     world.add_body("roof", BoxShape(size=(4, 4)), kind="static", z=1.5)
     world.add_body("ghost", BoxShape(size=(4, 4)), kind="static", collision_mask=0)
@@ -187,7 +187,7 @@ def test_the_same_seed_gives_the_same_world_however_it_came_about() -> None:
     assert state(other) == later, "any episode comes back from its own seed"
 
 
-def test_what_is_drawn_depends_on_nothing_but_seed_and_name() -> None:
+def test_random_place_depends_on_seed_and_name_only() -> None:
     def place(*names: str) -> tuple[float, float]:
         world = World(seed=5)
         for name in names:
@@ -212,7 +212,7 @@ def test_in_another_process() -> None:
     assert digest(12) != here
 
 
-def test_what_is_fixed_goes_first_wherever_it_stands_in_the_file() -> None:
+def test_fixed_bodies_are_placed_before_random_ones() -> None:
     vary = Variation(x=(-1.2, 1.2))
     robot = BodyDescription(name="robot", shape=CircleShape(radius=0.4), random=vary)
     wall = BodyDescription(name="wall", shape=BoxShape(size=(0.5, 9)), kind="static")

@@ -55,7 +55,7 @@ def test_a_wall_beside_its_own_origin_is_in_the_bounds_at_its_smallest() -> None
     assert world.bounds()[1][0] == pytest.approx(8.2, abs=0.01)
 
 
-def test_who_asks_for_areas_and_floors_gets_them_as_they_are_now() -> None:
+def test_view_returns_the_present_areas_and_floors() -> None:
     world = World()
     world.add_floor("raft", BoxShape(size=(2, 2)), random={"x": (-9, 9)})
     world.add_area("goal", CircleShape(radius=0.5), random={"x": (-9, 9)})

@@ -39,7 +39,7 @@ def test_a_floor_has_no_clearance() -> None:
         FloorDescription(name="f", shape=BoxShape(), random=Variation(x=(0, 1), clearance=1))
 
 
-def test_a_world_without_anything_random_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_random_placement_in_a_fixed_world(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_args: Any) -> None:
         raise AssertionError("somebody looked for a place")
 
@@ -52,7 +52,7 @@ def test_a_world_without_anything_random_pays_nothing(monkeypatch: pytest.Monkey
     assert ball.sampled is ball.description
 
 
-def test_once_the_last_random_thing_is_gone_it_pays_nothing_again(
+def test_no_random_placement_after_the_last_random_body_is_removed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     world = World()

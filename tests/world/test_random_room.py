@@ -20,7 +20,7 @@ from ai4u_edu.world.placement import Places
 from tests.world.random_scene import SEEDS, crowded, state
 
 
-def test_what_comes_in_the_middle_of_an_episode_finds_a_place_among_the_rest() -> None:
+def test_body_added_during_an_episode_gets_a_free_place() -> None:
     world = World(damping=1.0)
     mover = world.add_body("mover", CircleShape(), velocity=(3, 0))
     for _ in range(60):
@@ -39,7 +39,7 @@ def test_what_comes_in_the_middle_of_an_episode_finds_a_place_among_the_rest() -
     assert mover.position == (0.0, 0.0)
 
 
-def test_what_comes_late_or_again_leaves_free_what_is_to_be_free() -> None:
+def test_late_bodies_respect_the_clearance_of_others() -> None:
     world = World()
     world.add_area("goal", CircleShape(radius=1), random={"x": (-0.1, 0.1), "clearance": 1})
     world.add_body("first", CircleShape(radius=0.1), random={"x": (-4, 4), "clearance": 1})
@@ -57,13 +57,13 @@ def test_what_comes_late_or_again_leaves_free_what_is_to_be_free() -> None:
         assert abs(x - first) >= 1.2 - 0.001
 
 
-def test_who_is_put_somewhere_by_others_stays_there() -> None:
+def test_moved_random_body_keeps_its_place() -> None:
     world = crowded()
     world["robot"].move_to(-4.5, 4.5)
     assert world["robot"].position == (-4.5, 4.5)
 
 
-def test_where_there_is_no_room_that_is_told() -> None:
+def test_missing_room_raises_and_changes_nothing() -> None:
     world = World()
     world.add_floor("plate", BoxShape(size=(4, 4)))
     world.add_body("wall", BoxShape(size=(3, 4)), kind="static", position=(0.5, 0))
@@ -122,7 +122,7 @@ def test_an_area_keeps_only_as_much_free_as_it_says() -> None:
     ],
     ids=lambda thing: thing.name,
 )
-def test_what_can_not_be_added_changes_nothing(wrong: Any) -> None:
+def test_failed_addition_changes_nothing(wrong: Any) -> None:
     world = crowded()
     before = state(world)
     with pytest.raises(WorldError):

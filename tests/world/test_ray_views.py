@@ -64,7 +64,7 @@ def test_the_eye_rises_and_sinks_with_the_body() -> None:
     assert seen[-1]
 
 
-def test_what_moves_up_is_seen_where_it_is() -> None:
+def test_rays_see_a_moving_body_at_its_height() -> None:
     world = World()
     robot, lift = robot_in(world), add_wall(world, 2.0)
     fan = RayFan(world, [0.0], 10.0, code_of)

@@ -28,7 +28,7 @@ def test_landing_on_an_obstacle_and_walking_off_again(kind: str) -> None:
     assert robot.position[0] - box.position[0] > 1.0 + 0.3 - 0.02, "beside it, not in it"
 
 
-def test_what_bears_may_go_away() -> None:
+def test_body_falls_when_its_support_is_removed() -> None:
     world = World()
     world.add_body("crate", BoxShape(), kind="static", height=0.5)
     lower = world.add_body("lower", CircleShape(radius=0.3), z=0.5)
@@ -45,7 +45,7 @@ def test_what_bears_may_go_away() -> None:
     assert (upper.z, upper.on_ground) == (0.0, True)
 
 
-def test_what_does_not_collide_does_not_bear() -> None:
+def test_noncolliding_bodies_do_not_support() -> None:
     world = World()
     world.add_body("ghost", BoxShape(), kind="static", height=0.5, collision_mask=2)
     world.add_body("other", BoxShape(), kind="static", height=0.5, collision_layer=2)
@@ -55,7 +55,7 @@ def test_what_does_not_collide_does_not_bear() -> None:
     assert robot.z == 0.0
 
 
-def test_who_carries_somebody_can_not_jump() -> None:
+def test_body_that_carries_another_cannot_jump() -> None:
     world = World()
     robot = robot_in(world)
     rider = world.add_body("rider", CircleShape(radius=0.2), z=1.0)

@@ -11,7 +11,7 @@ const STILL_DECISIONS = 10;
 const WALLS = 3;
 /** A wall ahead, and no wall ahead any more (m). */
 const [WALL_M, CLEAR_M] = [0.9, 1.2];
-/** How far the wall at the right hand may be (m). */
+/** Range of distances to the wall at the right (m). */
 const [RIGHT_MIN_M, RIGHT_MAX_M] = [0.45, 1.3];
 const FOLLOWED_DECISIONS = 300;
 /** Shares of the latest decisions in which the wall is that near, and in which the robot drives on. */
@@ -51,7 +51,7 @@ function nearest(rays, values, side) {
   return (Math.min(...found) * rays.reach_m) / rays.reach;
 }
 
-/** Each check is made anew for a run: `see` takes a decision, and `isDone` and `words` tell how far it is. */
+/** Each check is made again for a run: `see` takes a decision, and `isDone` and `words` tell how far it is. */
 export const CHECKS = [reachesWall, stopsInTime, turnsAway, followsWall, findsExit];
 
 function reachesWall() {

@@ -30,7 +30,7 @@ const STEPS = [
   {
     title: "Turn away",
     texts: [
-      "Now it shall go on. *if … else* does one thing or the other.",
+      "Now it should keep going. *if … else* does one thing or the other.",
       "If the *distance ahead* < 0.8, *turn* 0.5. Else, *forward* 0.5.",
     ],
     goal: "Done when the robot has turned away from three walls in one run.",
@@ -38,7 +38,7 @@ const STEPS = [
   {
     title: "Follow a wall",
     texts: [
-      "Who keeps one hand at the wall finds the way out of many mazes. Your robot takes the right hand.",
+      "Keep one hand on the wall, and you find the way out of many mazes. Your robot uses its right hand.",
       "At a wall ahead (< 0.9) it turns to the left: *turn* -0.8.",
       "Else it goes *forward* 0.5, and below that stands another *turn*: by the *distance to the right* − 0.8. " +
         "Too far from the wall, that is above 0, and the robot turns to the right; too near, it is below 0.",
@@ -48,7 +48,7 @@ const STEPS = [
   {
     title: "Find the exit",
     texts: [
-      "To your robot, the exit is a wall like others. So put one more *if … else* around all that you have:",
+      "To your robot, the exit is a wall like any other. So put one more *if … else* around all that you have:",
       "If it *sees target*, go *forward* 0.6, and *turn* by the *direction of target* ÷ 40. Else, do as before.",
       "Press *Test*: it tries ten starts that nobody has seen.",
     ],
@@ -60,7 +60,7 @@ export class BlockSteps {
   #panel;
   /** @type {PythonPart | null} */
   #part = null;
-  /** How many are done; the next one is checked. */
+  /** Number of steps that are done; the next one is checked. */
   #done = 0;
   /** Number of the step that is shown, from 0. */
   #shown = 0;
@@ -124,7 +124,7 @@ export class BlockSteps {
     return this.#panel.part("scene")?.scene === SCENE;
   }
 
-  /** Where it is kept how many are done: students of a class may use one device in turn. */
+  /** Storage key of the number of finished steps: students of a class may use one device in turn. */
   get #key() {
     const room = roomOfPage();
     return `${room && `${room}/`}blocks-steps`;

@@ -1,6 +1,6 @@
 /** Python's words: names that a program can have, and the order in which operators bind. */
 
-/** How tightly code binds, the tightest first: code in an operator of a smaller number needs brackets. */
+/** Precedence of operators, the highest first: code in an operator of a smaller number needs brackets. */
 export const [ATOM, SIGN, PRODUCT, SUM, COMPARISON, NOT, AND, OR, ANY] = [0, 1, 2, 3, 4, 5, 6, 7, 8];
 
 const KEYWORDS = new Set(

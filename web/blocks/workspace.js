@@ -7,7 +7,7 @@ import { blocksTheme } from "./theme.js";
 import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
 import { Blockly } from "../vendor/blockly.js?v=e631db10";
 
-/** Where a block stands if nobody has moved it (pixels of the workspace). */
+/** Place of a block that nobody has moved (pixels of the workspace). */
 const FIRST_PLACE = { x: 16, y: 16 };
 /** No address, so that Blockly asks for none of its pictures and sounds; nothing that is used here needs one. */
 const NO_MEDIA = "data:,";

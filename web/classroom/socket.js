@@ -30,7 +30,7 @@ export function openClassSocket(path, receive, say) {
   socket.open();
 }
 
-/** Return true if the class is there but asks for its token again. A script isn't told why a handshake failed. */
+/** Return true if the class is there but asks for its token again. Browsers don't say why a handshake failed. */
 async function isTokenAsked() {
   try {
     return (await fetch(location.href, { method: "HEAD", cache: "no-store" })).status === 401;

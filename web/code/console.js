@@ -1,4 +1,4 @@
-/** What a program prints, with the number of the decision; the oldest lines go. */
+/** Output of a program, with the number of the decision; the oldest lines go. */
 
 import { element } from "../shared/dom.js";
 import { section } from "../panel/widgets/parts.js";

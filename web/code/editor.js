@@ -40,7 +40,7 @@ const COLORS = tagHighlighter([
 const PERCEPT_KEY = /\bpercept\[\s*["'][^"']*$/;
 const ACTION_NAME = /\breturn\s*\{\s*(?:.*,\s*)?["'][^"']*$/;
 
-/** How much further than its first row a line's other rows are indented (characters). */
+/** Hanging indent of a wrapped line's further rows (characters). */
 const HANG_CHARS = 2;
 
 /** @type {EffectType<number[]>} */

@@ -10,7 +10,7 @@
 
 /** Most numbers that are named one by one. */
 const MAX_NAMED = 6;
-/** How the first program turns, from -1 to 1. */
+/** Turn of the first program, from -1 to 1. */
 const TURN = 0.3;
 
 /**

@@ -34,7 +34,7 @@ export class CodeTab {
   #run;
   #test;
   /**
-   * What ran last.
+   * The latest run or test.
    * @type {CodeRun | CodeTest}
    */
   #active;
@@ -51,7 +51,7 @@ export class CodeTab {
   /** @type {AgentPart | null} */
   #agent = null;
   /**
-   * How the latest run ended; null before the first one.
+   * End of the latest run; null before the first one.
    * @type {(RunEnd & {summary?: string}) | null}
    */
   #end = null;
@@ -80,7 +80,7 @@ export class CodeTab {
   #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
   #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
-  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as it goes" });
+  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as possible" });
   #state = element("p", { role: "status" });
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);

@@ -35,7 +35,7 @@ export class TestTable {
 
   /**
    * @param {(seed: number) => void} onChoose called with the seed of a start that is clicked
-   * @param {() => void} onWatch called when the first failure is to be shown
+   * @param {() => void} onWatch called to show the first failure
    */
   constructor(onChoose, onWatch) {
     this.#watch = button("Watch the first failure", onWatch, { icon: "play" });

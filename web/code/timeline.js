@@ -1,4 +1,4 @@
-/** What a program told at each of its decisions, for when the person goes back in time; the oldest are dropped. */
+/** Records of a program's decisions, shown when the person goes back in time; the oldest are dropped. */
 
 /** @typedef {{lines: number[], variables: Record<string, string>, printed: string}} Told lines that ran, variables at the end, and output */
 

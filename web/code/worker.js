@@ -50,7 +50,7 @@ self.addEventListener("message", async ({ data: { id, method, text, parts } }) =
   } catch (error) {
     answer = problem("broken", `Python has stopped: ${String(error).trim().slice(-500)}`);
   }
-  if (answer.length > MAX_ANSWER_CHARS) answer = problem("too_large", "The program gave too much at once.");
+  if (answer.length > MAX_ANSWER_CHARS) answer = problem("too_large", "The program sent too much at once.");
   send({ id, text: answer });
 });
 

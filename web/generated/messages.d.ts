@@ -136,7 +136,7 @@ export interface PaidDecision {
 
 /** The progress of an agent's decision: sense, decide, act for some ticks, reward. */
 export interface DecisionPhases {
-  /** Ticks of the decision that are told apart. */
+  /** Ticks of the decision that are listed one by one. */
   ticks: number;
   /** Ticks of the decision. */
   all_ticks: number;
@@ -847,7 +847,7 @@ export interface AddBody {
   y?: number | null;
 }
 
-/** Return the action at another pose, and show it; left out, where the agent stands now. */
+/** Return the action at another pose, and show it; by default where the agent stands now. */
 export interface AskElsewhere {
   x?: number | null;
   y?: number | null;

@@ -34,8 +34,8 @@ const COMMANDS = {
   Resume: "resume",
   "Back to live": "resume",
 };
-const LOST = "No connection to this world. It goes on here by itself as soon as there is one again.";
-/** How long the error of a failed request stays (ms). */
+const LOST = "No connection to this world. The page reconnects by itself.";
+/** Time that the error of a failed request stays (ms). */
 const REQUEST_ERROR_MS = 8000;
 /** Terms smaller than this round to 0.00 and are left out of the details. */
 const MIN_TERM = 0.005;

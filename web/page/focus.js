@@ -1,4 +1,4 @@
-/** Where the keyboard goes: to the page, or into a text field or another window. */
+/** Keyboard focus: on the page, in a text field or another window. */
 
 import { isTextInput } from "./keys.js";
 

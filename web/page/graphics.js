@@ -1,4 +1,4 @@
-/** Whether the browser draws without a graphics card. */
+/** Detection of browsers that draw without a graphics card. */
 
 const SOFTWARE_RENDERERS = ["swiftshader", "llvmpipe", "softpipe", "software"];
 

@@ -5,7 +5,7 @@ import { label } from "./labels.js";
 import { dpadActions } from "./dpad.js";
 import { Stick } from "./stick.js";
 
-/** How long a key counts as held after a click without pointer events (ms), as from a screen reader. */
+/** Time that a key counts as held after a click without pointer events (ms), as from a screen reader. */
 const CLICK_HOLD_MS = 150;
 const TOUCH_SCREEN = matchMedia("(pointer: coarse)");
 

@@ -50,7 +50,7 @@ export class HeldKeys {
   #sticks = new Map();
   #changed;
   #timer = 0;
-  /** When `changed` was called last (ms, performance.now). */
+  /** Time of the latest call of `changed` (ms, performance.now). */
   #notifiedAt = 0;
   /**
    * The control that the person moved to with the keyboard.

@@ -31,7 +31,7 @@ import { playTone } from "../shared/tone.js";
 const NEW_START_CODE = "KeyN";
 /** Time without a connection (ms) after which the page says so; another world takes less. */
 const LOST_MS = 3000;
-/** What a world waits for while a teacher holds it. */
+/** Value of `waiting` while a teacher holds the world. */
 const HELD = "teacher";
 
 const HAS_PANEL = "ai4uPanel" in document.documentElement.dataset;

@@ -12,7 +12,7 @@
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
   const url = new URL(location.href);
-  // viser writes the address anew, without what stands after its "#"; scenes/share.js looks here first
+  // viser writes the address again, without what stands after its "#"; scenes/share.js looks here first
   document.documentElement.dataset.ai4uFragment = url.hash;
   if (!("panel" in document.currentScript.dataset)) return;
 

@@ -30,7 +30,7 @@ export class Results {
    *
    * @param {StateEvent | null} state the server's last one; null while disconnected
    * @param {string} task what is driven, such as the scene's name
-   * @param {string} by KEYS or PROGRAM for who drives; empty for others, whose results are not kept
+   * @param {string} by KEYS or PROGRAM: what drives; empty for others, whose results are not kept
    */
   of(state, task, by) {
     if (!state?.outcome || state.past) {

@@ -1,5 +1,5 @@
 /**
- * Where the panel stands: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
+ * Place of the panel: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
  *
  * It sets data-ai4u-layout (side, below, sheet) and data-ai4u-panel (open, folded) of the document's root, and
  * the CSS variables --ai4u-panel-size and --ai4u-dock-height; styles/panel/panel.css does the rest.
@@ -18,7 +18,7 @@ const UPRIGHT = matchMedia("(orientation: portrait) and (max-width: 1000px)");
  */
 const SIZES = { side: [280, 560, 340], below: [25, 70, 42] };
 /**
- * What an arrow key on the handle adds.
+ * Change by an arrow key on the handle.
  * @type {Record<string, number>}
  */
 const STEPS = { side: 20, below: 5 };

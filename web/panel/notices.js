@@ -2,7 +2,7 @@
 
 import { button, element } from "../shared/dom.js";
 
-/** How long a result is shown (ms); an error stays until somebody closes it or the next one comes. */
+/** Time that a result is shown (ms); an error stays until somebody closes it or the next one comes. */
 const INFO_MS = 6000;
 /** The same for a result with a button (ms). */
 const ACTION_MS = 20_000;

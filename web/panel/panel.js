@@ -60,7 +60,7 @@ export function startPanel(driving, dock) {
 
 export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget) {
   /**
-   * What this page looks at.
+   * The parts that this page looks at.
    * @type {Omit<Show, "type">}
    */
   shown;

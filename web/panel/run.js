@@ -20,7 +20,7 @@ export class RunControls {
   #goal = element("p", { className: "ai4u-goal-text" }, this.#goalText);
   #facts = { time: fact("Time"), score: fact("Score"), best: fact("Best") };
   #stages = element("ol", { className: "ai4u-stages", ariaLabel: "Stages" });
-  /** For screen readers: the banner over the picture says it, too, and a line that comes would move the buttons. */
+  /** Result for screen readers: the banner over the picture shows it, and a visible line would move the buttons. */
   #result = element("p", { className: "ai4u-hidden-text", role: "status" });
   #problem = element("p", { className: "ai4u-run-problem", role: "alert" });
   #status = element("p", { className: "ai4u-soft ai4u-details-only ai4u-run-status" });
@@ -150,7 +150,7 @@ export class RunControls {
       if (answer.ok) return close();
       setText(problem, answer.problems.map((problem) => problem.text).join(" ") || answer.text);
     };
-    const label = element("label", { htmlFor: text.id, textContent: "What is to be done, in a sentence" });
+    const label = element("label", { htmlFor: text.id, textContent: "The task, in a sentence" });
     const { close } = this.#panel.dialog("Goal", label, text, problem, button("Save", save, { kind: "main" }));
     text.focus();
   }

@@ -3,9 +3,9 @@
 /** @import { Panel } from "./panel.js" */
 import { isTextInput } from "../page/keys.js";
 
-/** How far an arrow key moves a thing if there is no grid, or while Alt is held (m). */
+/** Distance by which an arrow key moves a thing if there is no grid, or while Alt is held (m). */
 const FREE_STEP_M = 0.05;
-/** How far an arrow key rotates a thing while Shift is held (degrees). */
+/** Angle by which an arrow key rotates a thing while Shift is held (degrees). */
 const TURN_STEP_DEG = 15;
 /** @type {Record<string, [right: number, up: number]>} */
 const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };

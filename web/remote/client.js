@@ -35,7 +35,7 @@ export class RemoteClient {
    * @param {object} [options]
    * @param {string} [options.agent] its id; may be left out where there is only one
    * @param {"realtime"|"lockstep"} [options.mode] in lockstep, the world waits for each action
-   * @param {""|"hold"|"coast"|"stop"} [options.onMissing] in place of an action that is late; empty: as the world has it
+   * @param {""|"hold"|"coast"|"stop"} [options.onMissing] in place of an action that is late; empty: the world's setting
    * @returns {Promise<RemoteClient>}
    */
   static async connect({ agent = "", mode = "realtime", onMissing = "" } = {}) {
@@ -75,7 +75,7 @@ export class RemoteClient {
   /**
    * Begin an episode, and return its first percept.
    *
-   * @param {number} [seed] resets the whole world; left out, the agent alone if there are others
+   * @param {number} [seed] resets the whole world; default: the agent alone if there are others
    */
   reset(seed) {
     return this.#run(this.#dialogue.reset(seed));

@@ -9,7 +9,7 @@ import { request, unsavedSentence } from "./api.js";
 import { keepShared } from "./shared_program.js";
 
 const PREFIX = "#scene=";
-const BRINGS_PROGRAM = "It brings a program along, which the tab “Code” will offer you. Nothing of it runs by itself.";
+const BRINGS_PROGRAM = "It contains a program, which the tab “Code” offers you. It does not run by itself.";
 const ONLY_HERE = " In a browser it opens on this computer only. To give the scene to someone else, send its file (World, Download).";
 let isAsking = false;
 

@@ -1,4 +1,4 @@
-/** What this browser remembers of a person's choices. Without storage they last as long as the page. */
+/** Storage of a person's choices in this browser. Without storage they last as long as the page. */
 
 const PREFIX = "ai4u-";
 const unstored = new Map();

@@ -58,7 +58,7 @@ class LocalBrain(Brain):
         return controller.get_action(percept)
 
     def title(self) -> str:
-        """Return its own name and its controller's."""
+        """Return the name of the brain and its controller."""
         return f"{type(self).__name__}({type(self.controller).__name__})"
 
     @property

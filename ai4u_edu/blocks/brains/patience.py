@@ -46,7 +46,7 @@ class Patience:
         return self._clock()
 
     def restart(self) -> None:
-        """Give the script its time anew, as for another answer."""
+        """Give the script its time again, as for another answer."""
         self._asked = self._clock()
 
     def give_up(self) -> None:

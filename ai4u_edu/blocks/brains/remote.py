@@ -129,7 +129,7 @@ class RemoteBrain(Brain):
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Begin to wait for a script."""
-        self.close("the agent is set up anew")
+        self.close("the agent is set up again")
         self.override = None
         self._agent, self._view = agent, view
         self._actions = _RemoteActions(agent)

@@ -19,7 +19,7 @@ from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
 
 TIMEOUT_S = 10.0
 CACHE_S = 60.0
-"""Time for which the hub's answer on a token counts: so long may who has left the hub go on."""
+"""Cache lifetime of a token's user; someone who has left the hub keeps access for that long."""
 MAX_CACHED = 1000
 TOO_MANY = "Too many sign-ins come from your network. Try again in a moment."
 _TOKEN = re.compile(r"[!-~]+")

@@ -78,7 +78,7 @@ class Networks:
         """All networks, in the order in which they came."""
 
     def clear(self) -> None:
-        """Forget all in memory, since everything is to be deleted."""
+        """Forget all in memory, because everything will be deleted."""
         with self._lock:
             self.rows = ()
 

@@ -43,8 +43,8 @@ class TournamentRunner:
 
     Args:
         store: of the class.
-        tell_seat: tells the link of a seat of its networks.
-        note_change: called when pages are to be told.
+        tell_seat: sends a seat's networks to its link.
+        note_change: called when pages must be updated.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class TournamentRunner:
         return self._ended_view if self._played is None else self._played.view
 
     def tick(self) -> None:
-        """Tell news, and go on with what is to be done."""
+        """Send changes, and go on with the next step."""
         seats = set()
         while self._news:
             seats.add(self._news.popleft())
@@ -180,7 +180,7 @@ class TournamentRunner:
             self.tournaments.dismiss()
 
     async def end(self) -> None:
-        """End all processes and forget everything in memory, since it is to be deleted."""
+        """End all processes and forget everything in memory, because it will be deleted."""
         self.networks.clear()
         self.tournaments.now = None
         if self._checking is not None:

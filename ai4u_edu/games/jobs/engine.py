@@ -44,8 +44,8 @@ def engine(name: str = "processes", *, width: int | None = None, address: str = 
     Args:
         name: ``inline`` runs jobs one after another in this process; ``processes`` runs them in
             processes of this machine; ``ray`` runs them on Ray.
-        width: number of jobs at a time; left out, one for each core.
-        address: of a Ray cluster, such as ``192.0.2.7:6379``; left out, Ray is started on this
+        width: number of jobs at a time; default: one for each core.
+        address: of a Ray cluster, such as ``192.0.2.7:6379``; default: Ray is started on this
             machine.
 
     Raises:

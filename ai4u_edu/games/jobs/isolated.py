@@ -29,7 +29,7 @@ class _Process(NamedTuple):
 
 
 class IsolatedJobs:
-    """Runs jobs one after the other in a process, which is replaced if it takes too long or dies.
+    """Runs jobs one at a time in a process, which is replaced if it takes too long or dies.
 
     Belongs to the event loop.
 
@@ -52,7 +52,7 @@ class IsolatedJobs:
         self._first = Job.of(ready) if first is None else first
         self._lock = asyncio.Lock()
         self._running: _Process | None = None
-        # started anew and not forked, as this process has threads
+        # spawned and not forked, as this process has threads
         self._context = multiprocessing.get_context("spawn")
 
     async def run(self, job: Job, max_cpu_s: float | None = None) -> JobAnswer:

@@ -35,7 +35,7 @@ class ProcessEngine:
     """Starts its processes with their first jobs; one that dies is replaced.
 
     Args:
-        width: number of processes; left out, one for each core that this process may use.
+        width: number of processes; default: one for each core that this process may use.
     """
 
     def __init__(self, width: int | None = None) -> None:

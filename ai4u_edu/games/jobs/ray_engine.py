@@ -26,7 +26,7 @@ from ai4u_edu.games.jobs.job import Job
 JOBS_PER_CORE = 2
 """Jobs that Ray has for each core, so that none waits for the way there and back."""
 START_TIMEOUT_S = 300.0
-"""Time in which Ray starts, or answers at an address; mostly it gives up by itself before."""
+"""Time in which Ray starts, or answers at an address; usually it gives up by itself before."""
 HINT = "Look whether the cluster is there; a busy machine may start Ray too slowly: then try again."
 CONNECT_TIMEOUT_S = 10.0
 MAX_PORT = 65_535
@@ -48,8 +48,8 @@ class RayEngine:
     killed, and its end can be told.
 
     Args:
-        width: number of jobs at a time; left out, as many as the cluster has cores for.
-        address: of the cluster; left out, Ray is started here.
+        width: number of jobs at a time; default: as many as the cluster has cores for.
+        address: of the cluster; default: Ray is started here.
 
     Raises:
         SetupError: Ray is not installed, or there is no cluster at that address.
@@ -130,7 +130,7 @@ class RayEngine:
         self._process.join(END_TIMEOUT_S)
         return SetupError(
             f"Ray on {self._where} has ended (exit code {self._process.exitcode}); start the "
-            "cluster anew, and run the same command again"
+            "cluster again, and run the same command again"
         )
 
 

@@ -33,8 +33,8 @@ class LineReader:
     def line(self, timeout_s: float) -> bytes | None:
         """Return the next line; None if none comes in time.
 
-        At the end of the pipe the line has no line break at its end, and is mostly empty; nor has a
-        line that was cut off.
+        At the end of the pipe the line has no line break, and is usually empty; nor has a line that
+        was cut off.
         """
         try:
             return self._lines.get(timeout=timeout_s)

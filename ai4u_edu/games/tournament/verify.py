@@ -66,7 +66,7 @@ class _Verification:
         self._problems: list[str] = []
         self._outcomes: dict[str, JobOutcome] = {}
         self._wrong: set[str] = set()
-        """Keys of the jobs of games that are told to differ."""
+        """Keys of the jobs of games that are reported to differ."""
         self._there = dict(self._read(folder))
         self._lines = self._journal()
         self._claims = self._claimed()

@@ -407,7 +407,7 @@ def _lamp_mistake(actions: list[tuple[float, float]], towards: float) -> str:
         "2, `count = count + 1`; after the loop `return count`.",
         "early": "Your loop ends at the first distance: a `return` ends the whole function. Move "
         "it to the left, below the `for`, so that it comes after the loop.",
-        "reset": "The count begins anew for each distance. `count = 0` has to stand before the "
+        "reset": "The count starts again for each distance. `count = 0` has to stand before the "
         "`for`, not in it.",
         "all": "That is the number of all posts. Count only if the distance is below 2.",
         "limit": "A post at exactly 2 m is not nearer than 2 m: compare with `<`.",
@@ -463,7 +463,7 @@ def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
         'the loop `steps.append("forward")`. Then one "left", then a second loop.',
         "early": "Your loop ends after its first step: a `return` ends the whole function. Move it "
         "to the left, so that it comes after the loops.",
-        "reset": "The list begins anew in the loop. `steps = []` has to stand before it.",
+        "reset": "The list starts again in the loop. `steps = []` has to stand before it.",
         "turn": "It drives straight on. Between the two loops the robot has to turn: once.",
         "turns": "It turns at each step. The turn has to stand after the first loop, not in it: "
         "further to the left.",

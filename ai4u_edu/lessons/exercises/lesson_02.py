@@ -162,7 +162,7 @@ def turns_a_quarter(made: Any) -> Done:
         "empty": "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
         "An action of zeros brakes.",
         "once": "It looked once, and kept what it saw. Read the distance in the function, at every "
-        "decision: it is called anew each time.",
+        "decision: it is called again each time.",
         "reversed": "It drives away from the box. Drive where the distance is above 2, not below.",
     },
 )

@@ -291,7 +291,7 @@ exit_ticket(
         "b",
         {
             "a": "The reward is paid anyway. This parameter only says whether the episode ends.",
-            "c": "It is the other way round: left out, the parameter is False, and nothing ends.",
+            "c": "It is the other way round: by default the parameter is False, and nothing ends.",
         },
     ),
 )

@@ -216,7 +216,7 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
         "forgets": "It never rests anywhere for 2 seconds, nor does it get from post to post. What "
         "has to last until the next decision belongs in `self`, with a value at the beginning.",
         "back": "It stays at the second post: resting there has to change the goal as well. And "
-        "the count has to begin anew each time.",
+        "the count has to start again each time.",
     },
 )
 def patrols(patrol: Any) -> Done:

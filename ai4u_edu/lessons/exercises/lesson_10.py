@@ -186,7 +186,7 @@ def discounts(worth: Any) -> str:
         "value a part of the way to that.",
         "jump": "The value jumps all the way to what happened last. Once is no proof: go only the "
         "part `rate` of the way, `value + rate * (target - value)`.",
-        "undiscounted": "What is to be had later counts less than what is paid now: multiply "
+        "undiscounted": "What comes later counts less than what is paid now: multiply "
         "`best_next` by `discount`.",
         "minus-value": "The value grows and grows. Move it by a part of the *difference* between "
         "target and value: `rate * (target - value)`.",
@@ -215,7 +215,7 @@ def learns_a_step(update: Any) -> str:
                 "stays": ("the value as it was: nothing is learned", value),
                 "jump": ("the target itself, as if the rate were 1", target),
                 "future": (
-                    "right without what is to be had from there",
+                    "right without the rewards from there on",
                     value + rate * (reward - value),
                 ),
                 "undiscounted": (

@@ -44,7 +44,7 @@ def layers_of(path: str = ZOO) -> list[Layer]:
     """Return the weights (outputs, inputs) and biases (outputs,) of each layer of a policy.
 
     Args:
-        path: the file of a network such as PPO's: layers one after the other. Those of a critic
+        path: the file of a network such as PPO's: layers in a row. Those of a critic
             beside them are left out.
     """
     need("train", "onnx")

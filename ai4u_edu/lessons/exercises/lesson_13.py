@@ -135,7 +135,7 @@ def _told_of_brains(make: Callable[..., Any], unknown: Path) -> list[str]:
 
 
 def _network_of_interval(interval: int, folder: Path) -> Path:
-    """Write the box chase's network, as one that decides after so many ticks.
+    """Write the box chase's network, as one that decides every `skip_frame + 1` ticks.
 
     Args:
         interval: ticks that are left out after each decision, as ``skip_frame``.
@@ -345,7 +345,7 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "A large influence is not yet a need: the box chase's network mostly got along "
+            "a": "A large influence is not yet a need: the box chase's network usually got along "
             "without it.",
             "c": "You have not measured the others. Several readings can matter at once.",
         },

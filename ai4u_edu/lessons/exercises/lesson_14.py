@@ -157,7 +157,7 @@ def _updated(
         discount: of later rewards.
         order: ``once``: all steps from the preferences before; else one after another.
         weighted: whether later steps of an episode count less, as in Sutton and Barto's book.
-        worth_of: what a step is multiplied by; left out, its discounted return.
+        worth_of: what a step is multiplied by; default: its discounted return.
         gradient: of the logarithm of an action's probability, from probabilities and action.
     """
     after = preferences.copy()

@@ -88,7 +88,7 @@ def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
     """Change parameters of a block; None, or the default, leaves a parameter out.
 
     Raises:
-        ChangeError: some are wrong; each is told with its path relative to the block.
+        ChangeError: some are wrong; each is listed with its path relative to the block.
     """
     before = block_at(agent, path)
     check_plain(values)

@@ -21,7 +21,7 @@ class ChangeResult:
     label: str = ""
     """A few words for the undo button."""
     note: str = ""
-    """A warning for the person who asked; mostly empty."""
+    """A warning for the person who asked; usually empty."""
 
     def __str__(self) -> str:
         """Return a sentence to show to a person."""

@@ -31,7 +31,7 @@ def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> Contr
 
     Args:
         state: the state to try.
-        path: of the part that was changed; problems are told relative to it.
+        path: of the part that was changed; paths of problems are relative to it.
         resets: number of resets to try if the scene is randomized.
 
     Raises:

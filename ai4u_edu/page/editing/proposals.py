@@ -22,17 +22,17 @@ Poses = Mapping[str, Pose]
 
 
 class Proposal(NamedTuple):
-    """A wanted state, and what to tell about it."""
+    """A wanted state, and the notes to show with it."""
 
     state: EditState
     label: str
     """A few words for the undo button."""
     path: BlockPath = ()
-    """The changed part of the scene; problems are told relative to it."""
+    """The changed part of the scene; paths of problems are relative to it."""
     poses: Poses = MappingProxyType({})
     """Poses to which bodies are moved, by name."""
     restarts: bool = False
-    """True if the world has to be built anew at once, which begins another episode."""
+    """True if the world must be rebuilt at once, which begins another episode."""
     merge_key: str = ""
     """Changes with the same key that follow each other within a second are undone as one."""
 

@@ -408,7 +408,7 @@ class _AgentEdits:
         brains = _reuse_or_make(Brain, described, old, new, "brains")
         driving = agent.brain
         is_guest = not any(driving is brain for brain in described)
-        # a script that connected by itself was told the blocks of before, so it has to reconnect
+        # a script that connected by itself got the blocks of before, so it must reconnect
         is_outdated = blocks_changed and isinstance(driving, RemoteBrain) and driving.has_own_link
         if is_guest and not brain_changed and not is_outdated:
             return [*brains, driving]

@@ -59,7 +59,7 @@ def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bod
     """Validate a thing's description.
 
     Raises:
-        ChangeError: some parameters are wrong; each is told with its path.
+        ChangeError: some parameters are wrong; each is listed with its path.
     """
     cls = KINDS[kind]
     if isinstance(given, cls):

@@ -24,7 +24,7 @@ BLOCK_HINTS = {
     "StepSensor": "Counts the decisions of this episode.",
     "DoneSensor": "1 once the episode is over.",
     "TruncatedSensor": "1 once the time is up.",
-    "IDSensor": "Tells the robot's own name.",
+    "IDSensor": "Gives the name of the robot.",
     "AgentArraySensor": "Numbers that a Python script tells the robot.",
     "FloatArrayCompositeSensor": "Joins several sensors to one.",
     "RBMoveActuator": "Drives, turns and jumps.",

@@ -9,7 +9,7 @@ FIELD_HINTS = {
     "perception_key": "The sensor's name.",
     "stacked_observations": "How many of the latest readings are kept.",
     "normalized": "On: numbers from -1 to 1; off: metres, degrees and so on.",
-    "resetable": "On: readings start anew with each episode.",
+    "resetable": "On: readings start again with each episode.",
     "is_input": "On: a learning robot gets this reading.",
     "noise": "Random error of the reading.",
     "delay": "How many decisions the reading is late.",

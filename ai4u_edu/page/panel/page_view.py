@@ -117,7 +117,7 @@ class PageView:
         pictures: those of all pages.
         page_id: the page's random id; empty if it has no picture.
         agent: id of the agent that is shown first.
-        panel: told what the user does in the picture.
+        panel: notified of what the user does in the picture.
         agent_parts: names of the parts that the page clears when it shows another agent.
     """
 
@@ -207,7 +207,7 @@ class PageView:
         self._apply(self._choose_shown)
 
     def is_curve_due(self) -> bool:
-        """Return True if the agent's curve of rewards is to be sent with the other texts now."""
+        """Return True if the agent's curve of rewards is due with the other texts."""
         agent, left = self._curve
         is_due = agent != self.agent or left <= 0
         self._curve = self.agent, TEXTS_PER_CURVE - 1 if is_due else left - 1

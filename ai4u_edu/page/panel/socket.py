@@ -195,6 +195,8 @@ class _Connection:
         try:
             answer: Answer = await self._panel.handlers[type(command)](self._page, command)
         except asyncio.CancelledError:
+            # either the page has left, and this task was cancelled, or the world has ended, and the
+            # future that the handler awaits was
             task = asyncio.current_task()
             if task is not None and task.cancelling():
                 raise
@@ -224,6 +226,7 @@ class _Connection:
     async def _send_parts(self) -> None:
         period = 1 / self._context.runner.frame_budget.texts_per_s
         while True:
+            # cleared before the parts are read, so that a change meanwhile makes another round
             self._changed.clear()
             self._view.refresh()
             self._settle()
@@ -234,6 +237,7 @@ class _Connection:
                     if self._sent.get(name) != text:
                         self._sent[name] = text
                         await self._send_text(text.decode())
+            # changes that come together are sent together
             await asyncio.sleep(MIN_SEND_S)
             with suppress(TimeoutError):
                 async with asyncio.timeout(self._context.until_next_look(period)):

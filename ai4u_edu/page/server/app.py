@@ -62,7 +62,7 @@ def room_app(
         proxy_hosts: host names of a reverse proxy in front; see there.
         rules: for scripts that drive agents from other machines; the page and the API ask for
             their token too.
-        panel: serves the sockets of the pages' panels; left out, pages have viser's panel only.
+        panel: serves the sockets of the pages' panels; default: pages have viser's panel only.
         tab_scripts: modules of the tabs that options bring, by the tab's name.
         editor: lets pages open and share scenes; without it the scene stays as it is, and there is
             no start page.

@@ -48,7 +48,7 @@ MAX_MESSAGES_PER_S = 200
 POLL_S = 0.2
 """Period at which the state is compared with what the page knows."""
 HELLO_S = 1.0
-"""The same for the keys, which change if the scene is edited; a new driver is told at once."""
+"""The same for the keys, which change if the scene is edited; a new driver is sent at once."""
 MAX_PENDING_COMMANDS = 4
 """Commands of one page that may wait for the runner."""
 MAX_ERROR_CHARS = 2000
@@ -183,7 +183,7 @@ class _Page:
                 self._command(lambda: command.submit(self._runner, message))
 
     def _hold(self, held: frozenset[str], stick: Stick) -> None:
-        """Drive with what is held; what has been pressed anew may start or repeat an episode.
+        """Drive with what is held; what has been pressed again may start or repeat an episode.
 
         A key that is still held when an episode begins does not start it: pages repeat what is
         held, and the person has not seen the new start.

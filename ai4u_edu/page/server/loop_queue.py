@@ -49,7 +49,7 @@ class LoopQueue:
             self._loop.call_soon_threadsafe(self._make_calls)
 
     def _make_calls(self) -> None:
-        self._is_scheduled = False  # first: a call that is added from here on schedules anew
+        self._is_scheduled = False  # first: a call that is added from here on schedules again
         try:
             for _ in range(min(MAX_CALLS_AT_ONCE, len(self._calls))):
                 function, argument = self._calls.popleft()

@@ -116,7 +116,7 @@ class _Index(NamedTuple):
 def _index(title: str, modules: list[str], files: WebFiles, *, has_panel: bool) -> _Index:
     spec = find_spec("viser")
     if spec is None or spec.origin is None:
-        raise SetupError("expected the package viser, found none; install ai4u-edu anew")
+        raise SetupError("expected the package viser, found none; install ai4u-edu again")
     path = Path(spec.origin).parent / "client" / "build" / "index.html"
     text = path.read_text(encoding="utf-8") if path.is_file() else ""
     if text.count(_PLACE) != 1:

@@ -33,7 +33,7 @@ async def receive_messages(
         socket: the connection.
         limits: what it may send.
         read: returns the message in a frame; raises a ValueError if there is none.
-        refuse: tells the page of a frame that was refused, and why.
+        refuse: sends the page the reason for which a frame was refused.
     """
     limit, mistakes = RateLimit(limits.messages_per_s), 0
     while (frame := await socket.receive())["type"] == "websocket.receive":

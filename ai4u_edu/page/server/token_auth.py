@@ -34,7 +34,7 @@ def token_for(host: str, wanted: str = "") -> str:
 
     Args:
         host: the address.
-        wanted: a token chosen by a person; left out, a random one if one is needed.
+        wanted: a token chosen by a person; default: a random one if one is needed.
 
     Raises:
         SetupError: the chosen token is too short.

@@ -114,7 +114,7 @@ def web_folder() -> Path:
         if (folder / "page" / "main.js").is_file():
             return folder
     raise SetupError(
-        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu anew"
+        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu again"
     )
 
 

@@ -42,8 +42,8 @@ class Viewer:
     Args:
         runner: whose world is drawn.
         title: of viser's page.
-        editor: changes the world; left out, nothing can be moved with the mouse.
-        ghosts: recorded episodes to draw beside the agents; left out, there are none.
+        editor: changes the world; without it nothing can be moved with the mouse.
+        ghosts: recorded episodes to draw beside the agents; default: none.
         options: draw what they add.
     """
 

@@ -24,7 +24,7 @@ DARK_HEADER = "X-AI4U-Edu-Dark"
 
 
 class PagePanel(Protocol):
-    """The panel of a page, which is told what its user does in the picture; in viser's loop."""
+    """The panel of a page, notified of what its user does in the picture; in viser's loop."""
 
     def on_selected(self, body: str) -> None:
         """Note that somebody clicked on a body."""

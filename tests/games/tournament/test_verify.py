@@ -122,7 +122,7 @@ def problems(folder: Path) -> list[str]:
 
 
 def renew_sums(folder: Path) -> None:
-    """Write the hashes of the files anew, as whoever changes a file would."""
+    """Write the hashes of the files again, as whoever changes a file would."""
     files = sorted(each for each in folder.rglob("*") if each.is_file())
     lines = [
         f"{hashlib.sha256(each.read_bytes()).hexdigest()}  {each.relative_to(folder).as_posix()}\n"

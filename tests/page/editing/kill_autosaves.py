@@ -36,7 +36,7 @@ while True:
 
 
 def run(times: int, seed: int = 1, saver: str = SAVER) -> list[str]:
-    """Kills so often; what was wrong."""
+    """Kill the process `times` times, and return what was wrong."""
     rng = random.Random(seed)
     wrong, found = [], 0
     with tempfile.TemporaryDirectory() as name:

@@ -60,7 +60,7 @@ def test_a_changed_scene_is_written_and_read(saver: Autosave, tmp_path: Path) ->
     assert len(left.when) == 5
 
 
-def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
+def test_undone_changes_are_not_offered_for_recovery(tmp_path: Path) -> None:
     harness, saver = EditorHarness(), Autosave(tmp_path, "small")
     harness.editor.recovery.autosave = saver
     harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
@@ -71,7 +71,7 @@ def test_what_was_taken_back_is_not_offered(tmp_path: Path) -> None:
     assert "ball" in left.text
 
 
-def test_what_was_written_goes_when_it_is_taken_back(tmp_path: Path, written: Semaphore) -> None:
+def test_undo_deletes_the_autosave_file(tmp_path: Path, written: Semaphore) -> None:
     harness, saver = EditorHarness(), Autosave(tmp_path, "small")
     harness.editor.recovery.autosave = saver
     harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
@@ -247,7 +247,7 @@ def test_many_changes_are_written_once(saver: Autosave, monkeypatch: pytest.Monk
     assert [each.description.title for each in written] == ["99"]
 
 
-def test_what_is_no_such_file_is_not_offered(tmp_path: Path) -> None:
+def test_malformed_autosave_files_are_ignored(tmp_path: Path) -> None:
     for name, text in (("a", "{"), ("b", "[]"), ("c", '{"text": "x"}'), ("d", "\0")):
         (tmp_path / f"{name}.unsaved").write_text(text)
     assert latest(tmp_path) is None

@@ -136,7 +136,7 @@ def test_two_of_one_name_are_refused(harness: EditorHarness) -> None:
         harness.done(harness.editor.add_block("0", "sensors", RAYS))
 
 
-def test_what_was_changed_is_what_a_new_world_would_be(harness: EditorHarness) -> None:
+def test_edited_world_equals_a_rebuilt_one(harness: EditorHarness) -> None:
     harness.tick(5)
     for change in (
         harness.editor.add_block("0", "sensors", RAYS | {"noise": 0.1, "stacked_observations": 2}),
@@ -190,7 +190,7 @@ def test_before_the_first_decision_the_episode_begins_again() -> None:
     assert Replay(episode).verdict.exact
 
 
-def test_what_is_recorded_ends_with_a_change_and_begins_anew_at_the_reset() -> None:
+def test_change_ends_a_recording_and_reset_starts_another() -> None:
     harness = EditorHarness(record=True)
     recorder = harness.runner.recorder
     assert recorder is not None

@@ -32,7 +32,7 @@ def test_a_body_is_put_somewhere_now_and_for_later(harness: EditorHarness) -> No
     assert harness.world["wall"].position == (-2, 3)
 
 
-def test_what_is_seen_then_is_sensed_at_once(harness: EditorHarness) -> None:
+def test_moved_body_is_sensed_at_once(harness: EditorHarness) -> None:
     before = (
         harness.agent.percept["bearing"][-1].tolist(),
         harness.agent.percept["bearing"][:-1].tolist(),
@@ -55,7 +55,7 @@ def test_undo_puts_it_back_where_it_was_taken_up(harness: EditorHarness) -> None
     assert harness.world["box"].position == (2, 4)
 
 
-def test_one_that_overlaps_goes_back(harness: EditorHarness) -> None:
+def test_overlapping_move_is_undone(harness: EditorHarness) -> None:
     x, y = -3, 4
     harness.world["robot"].move_to(x, y)
     harness.done(harness.editor.drag("box", x, y))
@@ -132,7 +132,7 @@ def test_the_world_is_full() -> None:
         harness.done(harness.editor.add_body({"name": "one too many", "position": [0, -4]}))
 
 
-def test_what_is_needed_stays(harness: EditorHarness) -> None:
+def test_bodies_in_use_cannot_be_removed(harness: EditorHarness) -> None:
     with pytest.raises(ChangeError, match="it is the body of agent '0'; an agent needs its body"):
         harness.done(harness.editor.remove_body("robot"))
     with pytest.raises(
@@ -161,7 +161,7 @@ class Moody(Sensor):
 
 
 @pytest.mark.parametrize("verb", ["remove", "change", "add"])
-def test_what_fails_in_the_running_world_is_taken_back(
+def test_change_that_fails_in_the_running_world_is_rolled_back(
     verb: str, harness: EditorHarness, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     harness.done(harness.editor.add_block("0", "sensors", {"type": "Moody"}))
@@ -181,7 +181,7 @@ def test_what_fails_in_the_running_world_is_taken_back(
     harness.tick(2)
 
 
-def test_where_chance_or_an_actuator_has_a_say_it_is_told() -> None:
+def test_moving_a_respawning_body_gives_a_note() -> None:
     harness = EditorHarness(Scene.load("box_chase"))
     harness.tick(3)
     outcome = harness.done(harness.editor.move_body("robot", 1, 1))

@@ -53,7 +53,7 @@ def test_keys_and_back() -> None:
     assert isinstance(controller(harness), ReplayController)
 
 
-def test_who_drives_does_not_end_the_recording() -> None:
+def test_driver_change_keeps_the_recording_running() -> None:
     harness = EditorHarness(record=True)
     harness.tick(3)
     harness.done(harness.editor.set_driver("0", "keys:WASDRBMoveController"))
@@ -107,7 +107,7 @@ def test_a_script_that_was_named(tmp_path: Path) -> None:
         "import os",
     ],
 )
-def test_nothing_else_is_run(tmp_path: Path, name: str) -> None:
+def test_files_that_were_not_offered_are_not_run(tmp_path: Path, name: str) -> None:
     (tmp_path / "mine.py").write_text("raise SystemExit\n" + SCRIPT)
     (tmp_path / "offered").mkdir()
     harness = EditorHarness(offers=(tmp_path / "offered",))
@@ -228,7 +228,7 @@ def test_an_ai4u_script_at_an_address_that_was_named() -> None:
 
 
 @pytest.mark.parametrize("name", ["nothere.py", "nothere.onnx", "nothere", "notes.txt", "http://x"])
-def test_what_cant_be_offered_is_told_at_the_start(tmp_path: Path, name: str) -> None:
+def test_unsupported_offers_raise_at_start(tmp_path: Path, name: str) -> None:
     (tmp_path / "notes.txt").write_text("hello")
     place = name if "://" in name else str(tmp_path / name)
     with pytest.raises(SetupError, match=r"expected a Python file \(\.py\), a recorded episode"):

@@ -51,7 +51,7 @@ def test_a_new_block_fits_and_its_form_says_what_it_is(kind: str, name: str) -> 
         assert read == (list(same) if isinstance(same, tuple) else same), field
 
 
-def test_a_field_has_what_a_person_needs() -> None:
+def test_form_field_has_label_limits_and_order() -> None:
     harness = EditorHarness(RICH)
     seen = fields(harness, {"type": "LinearRayCastingSensor", "number_of_rays": 9})
     assert seen["number_of_rays"].kind == "whole"
@@ -90,14 +90,14 @@ def test_a_field_has_what_a_person_needs() -> None:
         ("text", "eyes", "eyes"),
     ],
 )
-def test_what_a_person_says_is_read(kind: Any, said: Any, read: Any) -> None:
+def test_form_field_parses_typed_text(kind: Any, said: Any, read: Any) -> None:
     got = Field("x", "x", kind, None, "").read(said)
     assert got == read
     assert type(got) is type(read)
 
 
 @pytest.mark.parametrize("said", ["{a: ", "[1, 2", "!!python/object:os.system 1", "&a [*a]"])
-def test_what_can_not_be_read_is_explained(said: str) -> None:
+def test_unparsable_field_text_is_explained(said: str) -> None:
     with pytest.raises(ChangeError) as error:
         Field("poses", "poses", "data", None, "").read(said)
     (problem,) = error.value.problems

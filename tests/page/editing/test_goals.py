@@ -77,7 +77,7 @@ def test_an_episode_is_recorded_with_the_goal_that_it_has() -> None:
     assert (episode.scene.goal, episode.success) == ("Reach the target.", True)
 
 
-def test_a_second_one_pays_and_ends_nothing(harness: EditorHarness) -> None:
+def test_second_goal_pays_without_ending_the_episode(harness: EditorHarness) -> None:
     added(harness)
     second = added(harness)
     assert second["reward"] == 1

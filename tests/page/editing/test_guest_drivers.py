@@ -86,7 +86,7 @@ def test_a_body_that_does_not_fit_the_brain_is_not_given_to_it(harness: EditorHa
     harness.tick(2)
 
 
-def test_one_who_took_over_stays(harness: EditorHarness) -> None:
+def test_edits_keep_a_brain_that_took_over(harness: EditorHarness) -> None:
     harness.done(harness.editor.set_driver("0", "keys:WASDRBMoveController"))
     first = harness.agent.brains[0]
     harness.agent.use_brain(first)  # as a page does when somebody lets go
@@ -102,7 +102,7 @@ def test_a_script_that_was_told_what_it_senses_has_to_come_again(harness: Editor
     harness.tick(2)
     harness.done(harness.editor.move_body("wall", -4, 1))  # that changes nothing for it
     assert harness.agent.brain is brain
-    assert line.closed == ["the agent is set up anew"] * 0
+    assert line.closed == ["the agent is set up again"] * 0
     harness.done(harness.editor.add_block("0", "sensors", {"type": "HeadingSensor"}))
     assert harness.agent.brain is harness.agent.brains[0]
     assert all(each is not brain for each in harness.agent.brains)

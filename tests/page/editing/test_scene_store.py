@@ -52,7 +52,7 @@ def test_two_servers_that_save_one_name_don_t_replace_each_other_s(tmp_path: Pat
     assert [path.name for path in tmp_path.iterdir()] == ["Maze.yaml"]
 
 
-def test_nothing_is_replaced_without_a_word(store: SceneStore) -> None:
+def test_saving_over_a_scene_needs_confirmation(store: SceneStore) -> None:
     store.save("Maze", scene("one"))
     with pytest.raises(SceneExistsError, match="'Maze' is there already"):
         store.save("maze", scene("two"))
@@ -93,7 +93,7 @@ def test_names_are_no_paths(store: SceneStore, name: str) -> None:
 
 
 @given(st.text(max_size=70))
-def test_whatever_is_a_name_names_one_file_in_the_folder(name: str) -> None:
+def test_any_scene_name_maps_to_one_file_in_the_folder(name: str) -> None:
     try:
         kept = normalized_name(name)
     except SetupError:
@@ -133,7 +133,7 @@ def test_a_page_can_not_fill_the_disk(store: SceneStore, monkeypatch: pytest.Mon
         store.load("b")
 
 
-def test_of_two_who_take_a_name_at_once_one_is_told(store: SceneStore) -> None:
+def test_simultaneous_saves_of_one_name_let_one_win(store: SceneStore) -> None:
     def save(number: int) -> bool:
         try:
             store.save("mine", scene(str(number)))
@@ -145,7 +145,7 @@ def test_of_two_who_take_a_name_at_once_one_is_told(store: SceneStore) -> None:
         assert sum(pool.map(save, range(8))) == 1
 
 
-def test_a_network_that_lies_beside_has_to_lie_here_too(store: SceneStore) -> None:
+def test_saving_needs_relative_network_files_in_the_store(store: SceneStore) -> None:
     network = {"type": "NeuralNetController", "model_path": "mine.onnx"}
     agent = {
         **PLAIN.description.agents[0],

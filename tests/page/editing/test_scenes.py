@@ -114,7 +114,7 @@ def test_a_page_names_no_other_machine_and_no_file_elsewhere(brain: str, told: s
     assert "can't have this machine connect to 'x.org'" in str(error.value)
 
 
-def test_what_waits_for_the_reset_comes_with_it() -> None:
+def test_pending_scene_changes_apply_at_reset() -> None:
     harness = EditorHarness(record=True)
     harness.tick(4)
     sim = harness.runner.sim
@@ -132,7 +132,7 @@ def test_what_waits_for_the_reset_comes_with_it() -> None:
     assert trace(harness.runner.sim, 5) == trace(harness.editor.scene.build(), 5)
 
 
-def test_what_waits_can_be_taken_back() -> None:
+def test_pending_scene_changes_can_be_undone() -> None:
     harness = EditorHarness()
     harness.done(harness.editor.change_scene({"world": {"damping": 0.5}}))
     harness.done(harness.editor.undo())
@@ -142,7 +142,7 @@ def test_what_waits_can_be_taken_back() -> None:
     assert harness.runner.sim is sim
 
 
-def test_somebody_elses_world_is_taken_over() -> None:
+def test_editor_adopts_a_replaced_world() -> None:
     harness = EditorHarness()
     harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
     harness.done(harness.runner.replace_sim(harness.scene.build()))

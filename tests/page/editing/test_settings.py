@@ -42,7 +42,7 @@ def test_an_agents_settings_apply_at_the_next_decision_and_can_be_undone() -> No
     assert (harness.agent.max_steps_per_episode, harness.agent.reward_scale) == (0, 1)
 
 
-def test_who_acts_first_is_settled_at_a_reset() -> None:
+def test_priority_changes_at_the_next_reset() -> None:
     harness = EditorHarness()
     outcome = harness.done(harness.editor.change_agent("0", {"priority": 3}))
     assert outcome.when == "next reset"
@@ -106,7 +106,7 @@ def test_whether_the_world_waits_for_a_key_applies_at_once() -> None:
         ({"agents": []}, "agents: unknown"),
     ],
 )
-def test_what_is_wrong_is_told_by_field(values: dict[str, object], told: str) -> None:
+def test_invalid_settings_are_reported_by_field(values: dict[str, object], told: str) -> None:
     harness = EditorHarness()
     with pytest.raises(ChangeError) as caught:
         harness.done(harness.editor.change_settings(values))

@@ -91,7 +91,7 @@ def test_an_episode_is_stepped_through_and_left(page: PanelPage) -> None:
     page.part("past", is_showing=False)
 
 
-def test_what_paid_in_an_episode(page: PanelPage, room: PanelRoom) -> None:
+def test_paid_lists_reward_terms_and_moments(page: PanelPage, room: PanelRoom) -> None:
     assert "choose an episode first" in page.failed("paid")["text"]
     agent = room.runner.sim.agents[0]
     agent.end_of_step.connect(lambda _: agent.add_reward(7 * (agent.steps == 2), name="found"))
@@ -145,6 +145,6 @@ def test_a_recording_is_opened(page: PanelPage, room: PanelRoom) -> None:
     assert "friend.episode" in page.failed("open_recording", name="friend.episode", size=8)["text"]
 
 
-def test_nothing_is_chosen_yet(page: PanelPage) -> None:
+def test_commands_without_a_chosen_episode_are_refused(page: PanelPage) -> None:
     for command in ("play", "continue", "race"):
         assert page.failed(command)["text"] == "choose an episode first"

@@ -130,7 +130,7 @@ def served(
 
 
 class SharedServer:
-    """Server of rooms, one after the other, at one address.
+    """Server of rooms, one at a time, at one address.
 
     A browser keeps what it loaded from there, and no test waits for a server to end.
     """
@@ -261,7 +261,7 @@ def log_intervals(began: float) -> int:
     Args:
         began: earliest time (s, of time.monotonic) of the first one.
     """
-    # real time: the log's limit is one line every so often; who takes longer may write more
+    # real time: the log's limit is one line every so often; a test that takes longer may write more
     return 1 + math.ceil((time.monotonic() - began) / LOG_INTERVAL_S)
 
 

@@ -200,7 +200,7 @@ def test_a_block_that_sleeps_keeps_nobody_but_the_world_waiting() -> None:
             robot.sense()
 
 
-def test_what_json_has_no_word_for_becomes_null() -> None:
+def test_nonfinite_numbers_become_null_in_json() -> None:
     runner = Runner(small_sim(rewards=[MinDistReward(target="box")]), time_scale=math.inf)
     seen = json.loads(SnapshotView.of(runner.latest).model_dump_json())
     assert seen["time_scale"] is None

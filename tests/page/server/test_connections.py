@@ -44,7 +44,7 @@ def connect(connections: Connections, peer: tuple[str, int], *, idle: bool = Tru
     return transport
 
 
-def test_an_address_has_so_many_connections_and_others_have_theirs() -> None:
+def test_connection_limit_counts_each_address_by_itself() -> None:
     connections = Connections(limit=500)
     for port in range(MAX_PER_ADDRESS):
         connect(connections, ("10.0.0.7", port), idle=False)

@@ -65,7 +65,7 @@ def test_who_presses_first_drives_and_nobody_else(room: Room) -> None:
         until(lambda: room.held == ["KeyW"])
 
 
-def test_holding_nothing_does_not_take_control(room: Room) -> None:
+def test_empty_key_list_does_not_take_control(room: Room) -> None:
     with room.page() as page, room.page() as other:
         page.hold()
         page.settle()

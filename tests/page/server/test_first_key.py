@@ -72,7 +72,7 @@ def test_a_stick_starts_and_so_does_a_key_that_drives_nothing(room: Room, start:
         page.receive("seat", driver=number)
 
 
-def test_what_is_held_since_before_the_reset_does_not_start(room: Room) -> None:
+def test_keys_held_since_before_a_reset_do_not_start_the_world(room: Room) -> None:
     with room.page() as page:
         page.hold("KeyW")
         until(lambda: runs(room))
@@ -87,7 +87,7 @@ def test_what_is_held_since_before_the_reset_does_not_start(room: Room) -> None:
         until(lambda: runs(room))
 
 
-def test_who_does_not_drive_does_not_start(room: Room) -> None:
+def test_a_page_without_control_does_not_start_the_world(room: Room) -> None:
     episode = room.runner.latest.episode
     with room.page() as driver, room.page() as other:
         driver.send("take")

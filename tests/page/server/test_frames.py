@@ -60,7 +60,7 @@ def test_a_malformed_message_is_explained(text: str, explained: str) -> None:
 
 
 @given(st.text() | st.binary())
-def test_whatever_comes_is_a_message_or_a_value_error(said: str | bytes) -> None:
+def test_any_input_frame_is_read_or_raises_value_error(said: str | bytes) -> None:
     with suppress(ValueError):
         INPUT_READER.read(said)
 
@@ -85,7 +85,7 @@ NEARLY = st.fixed_dictionaries(
 
 @pytest.mark.slow
 @given(NEARLY)
-def test_what_is_read_is_what_was_said(said: dict[str, Any]) -> None:
+def test_fields_of_an_input_frame_keep_their_values(said: dict[str, Any]) -> None:
     with suppress(ValueError):
         read = msgspec.to_builtins(INPUT_READER.read(json.dumps(said)))
         assert said == {key: read[key] for key in said}

@@ -201,7 +201,7 @@ def test_a_link_and_a_notebooks_frame_open_the_page(
     assert client.get(room.url, headers=headers).status_code == 403
 
 
-def test_what_our_own_page_and_a_person_ask_for_is_given(client: httpx.Client, room: Room) -> None:
+def test_same_origin_and_typed_addresses_are_allowed(client: httpx.Client, room: Room) -> None:
     for site in ("same-origin", "none"):
         for path in ("", "healthz", "web/page/main.js", "api/past"):
             for how in (FETCHED, VISIT):

@@ -121,7 +121,7 @@ def test_a_click_and_a_stick_take_over_as_well(room: Room) -> None:
         page.receive("hello", others="")
 
 
-def test_neither_restarting_nor_a_key_that_means_nothing_takes_over(room: Room) -> None:
+def test_restart_and_unbound_keys_do_not_take_over(room: Room) -> None:
     with room.page() as page, room.page() as other:
         page.hold("KeyR", "KeyX")
         page.settle()
@@ -131,7 +131,7 @@ def test_neither_restarting_nor_a_key_that_means_nothing_takes_over(room: Room) 
         other.receive("seat", driver=2)
 
 
-def test_a_brain_that_lies_ready_is_used_and_stays() -> None:
+def test_take_over_enables_a_disabled_keyboard_brain() -> None:
     ready = LocalBrain(controller=ArrowController(speed=0.25), enabled=False)
     mine = LocalBrain(controller=spin)
     with served(small_sim(brains=[mine, ready])) as room, room.page() as page:
@@ -219,7 +219,7 @@ def test_a_script_that_leaves_meanwhile_takes_nobody_along() -> None:
         assert brain_of(room) == "LocalBrain(ScriptController)"
 
 
-def test_whoever_changes_the_brain_meanwhile_has_the_last_word(room: Room) -> None:
+def test_letting_go_keeps_a_brain_that_was_set_meanwhile(room: Room) -> None:
     agent = room.sim.agents[0]
     third = LocalBrain(controller=still)
     with room.page() as page:

@@ -65,7 +65,7 @@ def test_every_key_that_is_shown_does_something(scene: str, agent_id: str) -> No
 
 
 @pytest.mark.parametrize(("scene", "agent_id"), AGENTS)
-def test_who_can_jump_has_a_key_for_it(scene: str, agent_id: str) -> None:
+def test_jump_key_exists_where_controls_mention_jump(scene: str, agent_id: str) -> None:
     _, agent = driven(scene, agent_id)
     told = Scene.load(scene).description.controls
     names = {key_labels(agent).get(action, action) for action in usable_keys(agent)}
@@ -73,7 +73,7 @@ def test_who_can_jump_has_a_key_for_it(scene: str, agent_id: str) -> None:
 
 
 @pytest.mark.parametrize(("scene", "agent_id"), AGENTS)
-def test_a_stick_is_there_for_whoever_takes_halves(scene: str, agent_id: str) -> None:
+def test_stick_is_offered_for_continuous_actuators(scene: str, agent_id: str) -> None:
     sim, agent = driven(scene, agent_id)
     if not has_stick(agent.brain):
         assert not any(actuator.is_continuous for actuator in agent.actuators[:1])

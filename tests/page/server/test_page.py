@@ -177,7 +177,7 @@ def test_no_file_asks_for_anything_elsewhere_or_makes_html_of_text(name: str) ->
         "web/....//pyproject.toml",
     ],
 )
-def test_nothing_else_has_a_name(room: Room, path: str) -> None:
+def test_paths_outside_the_web_folder_are_refused(room: Room, path: str) -> None:
     status, text = raw_answer(room.url + path, "Host: localhost")
     assert status in (404, 400)
     assert "[project]" not in text

@@ -57,7 +57,7 @@ def test_alone(ended: dict[str, Any], word: str) -> None:
     assert end_of(replace(whole, agents=(agent,)), agent) == word
 
 
-def test_where_no_success_is_named_what_is_paid_at_the_end_is_one() -> None:
+def test_positive_reward_counts_as_goal_without_a_success_term() -> None:
     whole = picture("box_chase", {})
     nameless = replace(whole, static_scene=replace(whole.static_scene, success=""))
     agent = whole.agents[0]._replace(terminated=True, episode_reward=3.0)
@@ -74,7 +74,7 @@ def test_one_wins_and_the_others_lose() -> None:
     assert outcomes("sumo", blue=tie, orange=tie) == {"blue": "time", "orange": "time"}
 
 
-def test_who_is_caught_has_lost_while_the_others_play_on() -> None:
+def test_caught_runner_loses_while_others_continue() -> None:
     caught = OVER | {"reward": -10.0, "episode_reward": 3.0}
     words = outcomes("tag", runner_1=caught)
     assert words == {"chaser": "", "runner_1": "lost", "runner_2": "", "runner_3": ""}
@@ -100,7 +100,7 @@ def test_a_runner_that_is_caught_did_not_fall() -> None:
     assert end_of(whole, caught) == "lost"
 
 
-def test_who_is_taken_away_for_no_reward_did_not_fall_either() -> None:
+def test_agent_that_leaves_the_world_did_not_fall() -> None:
     sim = small_sim()
     sim.world["robot"].leave()
     sim.step()
@@ -108,7 +108,7 @@ def test_who_is_taken_away_for_no_reward_did_not_fall_either() -> None:
     assert (state.terminated, state.fell) == (True, False)
 
 
-def test_who_drives_over_the_edge_fell() -> None:
+def test_agent_over_the_edge_fell() -> None:
     sim = sim_of("box_chase")
     (agent,) = sim.agents
     agent.body.move_to(20.0, 0.0)
@@ -119,7 +119,7 @@ def test_who_drives_over_the_edge_fell() -> None:
     assert capture_snapshot(sim).agents[0].fell
 
 
-def test_who_won_and_rolls_over_the_edge_later_did_not_end_by_that() -> None:
+def test_fall_after_a_win_keeps_the_outcome() -> None:
     sim = sim_of("platform")  # there every end is one of two terms, and falling is part of one
     (agent,) = sim.agents
     agent.body.move_to(31.0, -2.0)

@@ -89,7 +89,7 @@ def test_the_other_files_are_what_they_say(address: str) -> None:
         assert getattr(picture, "n_frames", 1) > 5
 
 
-def test_what_there_is_not_is_said(address: str) -> None:
+def test_unknown_episodes_and_formats_get_404(address: str) -> None:
     answer = get(address, "/7.html")
     assert (answer.status_code, answer.text) == (404, "no episode 7 is kept; there are 1, 2\n")
     for name in ("1.pickle", "x.html", "..%2f1.html", "1", "٣.html"):
@@ -106,7 +106,7 @@ def test_one_that_was_made_is_not_made_again(fresh: str, monkeypatch: pytest.Mon
     assert (answer.status_code, answer.text) == (409, "it can't be\n")
 
 
-def test_many_at_once_get_the_same_one_and_too_many_are_told_when_to_come_again(
+def test_simultaneous_exports_share_one_file_and_the_queue_has_a_limit(
     fresh: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(exports, "MAX_QUEUED", 1)
@@ -158,7 +158,7 @@ def test_those_who_wait_leave_connections_for_others(
         assert sorted(each.result().status_code for each in asked) == [200, 200, 503, 503, 503]
 
 
-def test_nothing_is_made_for_those_who_have_gone(
+def test_export_is_cancelled_when_its_client_leaves(
     fresh: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[str] = []

@@ -165,7 +165,7 @@ def test_large_frames_come_through_whole_in_both_directions() -> None:
             assert page.recv(LIMIT_S) == bytes(40 * len(frame))
 
 
-def test_viser_gets_what_was_understood_and_nothing_else() -> None:
+def test_proxy_forwards_only_validated_messages() -> None:
     heard: list[bytes] = []
 
     async def listen(connection: ServerConnection) -> None:
@@ -193,7 +193,7 @@ def test_the_fields_are_those_of_visers_own_messages() -> None:
 
 
 @pytest.mark.parametrize("kind", page_messages.KINDS)
-def test_viser_reads_what_was_checked(kind: type[msgspec.Struct]) -> None:
+def test_validated_messages_are_readable_by_viser(kind: type[msgspec.Struct]) -> None:
     texts = {"phase": "start", "button": "left", "modifier": None, "instance_index": None}
     numbers = {"wxyz": [1.5] * 4, "screen_pos": [1, 2]}
     values: dict[str, object] = {"updates": {"value": "x"}, "content": b"x"} | texts | numbers

@@ -197,7 +197,7 @@ def test_a_handshake_that_is_too_large_is_refused(
 @pytest.mark.parametrize(
     "line", [b"\x00\xff\r\n\r\n", b"GET /\r\n\r\n", b"G\xc3\xa9T / HTTP/1.1\r\n\r\n"]
 )
-def test_what_is_no_request_is_refused(room: Room, line: bytes) -> None:
+def test_malformed_request_line_gets_400(room: Room, line: bytes) -> None:
     with connected(room.url) as connection:
         connection.sendall(line)
         assert heard(connection).startswith(b"HTTP/1.1 400 Bad Request\r\n")

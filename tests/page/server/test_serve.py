@@ -112,7 +112,7 @@ def test_a_signal_ends_it_cleanly_with_pages_open(number: signal.Signals) -> Non
 
 
 @posix
-def test_it_ends_with_half_requests_and_readers_that_take_nothing() -> None:
+def test_server_stops_despite_half_requests_and_stalled_readers() -> None:
     ask = b"GET /api/openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n"
     with program() as (process, url), ExitStack() as stack:
         place = ("127.0.0.1", int(url.rstrip("/").rpartition(":")[2]))

@@ -65,7 +65,7 @@ def test_browsers_keep_a_picture_until_it_is_another_one(room: Room) -> None:
 
 
 @pytest.mark.parametrize("name", ["box_chase", "nothing.png", "..%2fmaze.png", "my_scene.png"])
-def test_nothing_else_has_a_picture(room: Room, name: str) -> None:
+def test_unknown_scene_pictures_get_404(room: Room, name: str) -> None:
     assert http_client.get(f"{room.url}api/scenes/{name}").status_code == 404
 
 

@@ -144,7 +144,7 @@ def playing(folder: Path, how: str) -> Iterator[tuple[subprocess.Popen[str], str
         ),
     ],
 )
-def test_what_does_not_return_is_named_and_the_first_signal_ends_it(
+def test_blocked_code_is_named_and_the_first_signal_ends_the_process(
     tmp_path: Path, how: str, number: signal.Signals, block: str
 ) -> None:
     with playing(tmp_path, how) as (process, url):

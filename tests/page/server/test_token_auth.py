@@ -172,7 +172,7 @@ def test_without_a_token_nothing_is_asked() -> None:
             page.receive("hello")
 
 
-def test_who_gets_a_token() -> None:
+def test_token_is_needed_beyond_loopback_only() -> None:
     assert token_for("localhost") == token_for("127.0.0.1") == token_for("::1") == ""
     fresh = {token_for(WILDCARD_HOSTS), token_for(WILDCARD_HOSTS), token_for("192.0.2.7")}
     assert len(fresh) == 3
@@ -182,7 +182,7 @@ def test_who_gets_a_token() -> None:
         token_for("127.0.0.1", "short")
 
 
-def test_what_is_on_this_machine_only() -> None:
+def test_loopback_addresses_and_their_hosts() -> None:
     assert is_loopback("127.0.0.2")
     assert not is_loopback("")
     assert not is_loopback("no such name.invalid")
@@ -190,14 +190,14 @@ def test_what_is_on_this_machine_only() -> None:
     assert ANY_ADDRESS not in hosts_for("127.0.0.2")
 
 
-def test_a_frame_that_nobody_means_is_not_even_read(room: Room) -> None:
+def test_oversized_frame_closes_the_socket(room: Room) -> None:
     with Page(room.url + "ws/input" + QUERY, compression=None) as page:
         page.socket.send("x" * (2**20 + 1))
         with pytest.raises(ConnectionClosed, match="1009"):
             page.receive("error")
 
 
-def test_whatever_an_address_says_is_answered(room: Room) -> None:
+def test_malformed_tokens_in_an_address_get_401(room: Room) -> None:
     async def ask() -> list[int]:
         async with http_client.AsyncClient(base_url=room.url) as client:
             odd = ["?token=%ff%fe", "?token=%00", "?%", "?token=a&token=b", "?token=" + "x" * 5000]

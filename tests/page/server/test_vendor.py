@@ -92,7 +92,7 @@ def test_versions_in_addresses_are_those_of_the_files() -> None:
         "/etc/passwd",
     ],
 )
-def test_nothing_else_has_a_name(room: Room, name: str) -> None:
+def test_unknown_vendor_files_are_refused(room: Room, name: str) -> None:
     assert raw_answer(f"{room.url}web/vendor/{name}", "Host: localhost")[0] in (400, 404)
 
 

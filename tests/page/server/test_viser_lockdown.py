@@ -33,7 +33,7 @@ def directly(server: viser.ViserServer, **headers: str) -> ClientConnection:
 @pytest.mark.parametrize(
     "headers", [{}, {"Origin": "http://evil.example"}, {PROXY_SECRET_HEADER: "guess"}]
 )
-def test_who_comes_around_the_proxy_hears_nothing(
+def test_direct_connection_to_viser_is_closed(
     inner: viser.ViserServer, headers: dict[str, str]
 ) -> None:
     inner.gui.add_text("Name", initial_value="secret")

@@ -86,7 +86,7 @@ def test_other_actions_are_not_drawn() -> None:
     assert not drawn(busy_sim()).below_bodies["robot"].visible
 
 
-def test_what_has_no_effect_is_not_drawn() -> None:
+def test_actions_without_effect_are_not_drawn() -> None:
     def count(**powers: float) -> int:
         sim = drives(0.0, 1.0, 1.0, 1.0)
         for name, value in powers.items():

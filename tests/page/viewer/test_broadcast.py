@@ -102,7 +102,7 @@ def marks(messages: list[dict[str, Any]]) -> list[str]:
 
 
 def settled(server: LocalServer, pages: int) -> Broadcaster:
-    """Return the server's broadcaster as soon as so many pages are up to date."""
+    """Return the server's broadcaster as soon as `pages` pages are up to date."""
     out: Broadcaster = server._websock_server._broadcast_buffer._ai4u_edu_broadcaster  # type: ignore[attr-defined]
     until(lambda: len(out._pages) == pages)
     until(lambda: not any(waiting(page) for page in out._pages.values()))
@@ -173,7 +173,7 @@ def test_pages_that_are_up_to_date_share_one_packing(
         page.close()
 
 
-def test_who_comes_gets_what_there_is_then_the_mark_and_then_what_is_new(
+def test_late_page_gets_kept_messages_then_the_mark_then_news(
     server: LocalServer,
 ) -> None:
     text = server.gui.add_markdown("first")
@@ -193,7 +193,7 @@ def test_who_comes_gets_what_there_is_then_the_mark_and_then_what_is_new(
     assert "new" in str(seen[mark:])
 
 
-def test_what_belongs_together_comes_together(server: LocalServer) -> None:
+def test_atomic_messages_arrive_in_one_frame(server: LocalServer) -> None:
     with client(server) as page:
         settled(server, 1)
         with server.atomic():
@@ -209,7 +209,7 @@ def test_what_belongs_together_comes_together(server: LocalServer) -> None:
         assert names == [f"/frame {number}" for number in range(300)]
 
 
-def test_what_one_page_has_said_goes_to_all_others(server: LocalServer) -> None:
+def test_gui_update_of_one_page_reaches_the_others(server: LocalServer) -> None:
     field = server.gui.add_text("Name", initial_value="before")
     with client(server) as writer, client(server) as reader:
         settled(server, 2)
@@ -288,7 +288,7 @@ def test_a_message_that_can_not_be_packed_is_left_out(
         server._websock_server.queue_message(GuiUpdateMessage("no widget", {"value": value}))
         server.gui.add_markdown("<after>")
         frame_with(page, "<after>")
-        with client(server) as late:  # the message is still kept for who comes
+        with client(server) as late:  # the message is still kept for later pages
             seen: list[dict[str, Any]] = []
             while "ReplayDoneMessage" not in str(seen):
                 seen += told(late.recv(LIMIT_S))
@@ -315,7 +315,7 @@ def test_a_page_keeps_what_can_be_packed_of_its_own(server: LocalServer) -> None
         frame_with(page, "<for_all>")
 
 
-def test_nothing_that_goes_wrong_while_sending_ends_it(
+def test_send_errors_do_not_end_the_broadcast(
     server: LocalServer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     has_failed = Event()

@@ -95,7 +95,7 @@ def test_nothing_is_sent_while_it_stands(race: Race, monkeypatch: pytest.MonkeyP
     part_of(race.viewer, GhostBodies).draw(race.viewer.runner.latest)
 
 
-def test_it_says_whose_it_is_and_where_that_is_unfair(race: Race) -> None:
+def test_ghost_text_names_its_episode_and_unfair_starts(race: Race) -> None:
     ghosts, runner = race.ghosts, race.viewer.runner
     race.step()
     assert ghosts.text(runner.latest) == "Ghost: episode <1>"

@@ -53,7 +53,7 @@ def test_a_script_whose_actions_have_no_effect_is_named_at_its_agent(
     assert "its script sends what has no effect" in written(viewer)[0]
 
 
-def test_who_has_no_script_has_no_trouble(runner: Runner) -> None:
+def test_agent_without_a_script_has_no_script_problem(runner: Runner) -> None:
     assert script_problem(runner.latest.agents[0]) == ""
 
 

@@ -36,7 +36,7 @@ class Drawn:
 
 
 @pytest.mark.parametrize(("takes", "times"), [(0.001, 60), (0.01, 17), (0.1, 2)])
-def test_what_takes_long_is_drawn_less_often(
+def test_slow_parts_are_drawn_less_often(
     takes: float, times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     clock = Clock()

@@ -53,7 +53,7 @@ def test_a_shadow_lies_on_what_bears_the_body() -> None:
     assert where.shadow_positions[0, 2] == pytest.approx(1.0 + layers.shadow)
 
 
-def test_what_falls_shrinks_and_then_is_gone() -> None:
+def test_falling_body_shrinks_and_disappears() -> None:
     half, _ = robot_at(x=50.0, z=-1.0, on_ground=False)
     deep, _ = robot_at(x=50.0, z=-1.9, on_ground=False)
     gone, _ = robot_at(x=50.0, z=-2.1, on_ground=False, fallen=True)

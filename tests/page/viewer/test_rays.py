@@ -29,7 +29,7 @@ def test_a_line_runs_from_the_eye_to_the_end_of_each_ray() -> None:
     assert (lines[:, 1] == PICTURE.ends).all()
 
 
-def test_a_dot_touches_what_was_met_from_outside() -> None:
+def test_ray_dot_touches_the_hit_surface_from_outside() -> None:
     dots = ray_dots(ray_lines(PICTURE).astype(np.float32), 0.1)
     assert dots[0] == pytest.approx([3.9, 0.0, 0.5])
     assert np.isfinite(dots).all()  # a ray of no length has its dot at the eye

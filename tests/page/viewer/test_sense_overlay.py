@@ -147,7 +147,7 @@ def test_a_sensor_lights_up_at_a_click_and_goes_out_again(viewer: Viewer) -> Non
         assert not viewer_client.shows_sensor("fan", is_default=True)  # it stays as it was chosen
 
 
-def test_who_fell_out_of_the_world_sees_nothing(viewer: Viewer, runner: Runner) -> None:
+def test_fallen_agent_has_no_rays(viewer: Viewer, runner: Runner) -> None:
     with page(viewer):
         shown(viewer)
         assert "/rays1/lines" in own_nodes(viewer)

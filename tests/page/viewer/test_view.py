@@ -100,9 +100,7 @@ def test_a_camera_that_a_person_moved_is_theirs(watched: Watched, runner: Runner
     assert watched.camera.position == pytest.approx(PLACE)
 
 
-def test_until_a_page_has_followed_its_old_place_counts_for_nothing(
-    watched: Watched, runner: Runner
-) -> None:
+def test_stale_camera_reports_are_ignored(watched: Watched, runner: Runner) -> None:
     watched.view.update(runner.latest, "0")
     watched.report((3.0, 3.0, 3.0), size=(500, 800))  # from before our message came
     watched.view.update(runner.latest, "0")
@@ -158,7 +156,7 @@ def test_a_followed_agent_comes_to_the_middle_smoothly(watched: Watched, runner:
     assert watched.sent() - before <= 4  # it has arrived: nothing more is sent
 
 
-def test_who_follows_may_zoom(watched: Watched, runner: Runner) -> None:
+def test_zoom_is_kept_while_following(watched: Watched, runner: Runner) -> None:
     view = watched.view
     view.choose(Mode.FOLLOW)
     view.update(runner.latest, "0")

@@ -64,7 +64,7 @@ def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
     assert pushed(viewer) == before
 
 
-def test_what_is_kept_for_later_pages_does_not_grow(viewer: Viewer) -> None:
+def test_messages_kept_for_later_pages_do_not_grow(viewer: Viewer) -> None:
     sim = busy_sim(controller=lambda _percept: {"move": [0.5, 0.3, 0.0, 0.0]})
     runner = Runner(sim, seed=1)
 

@@ -1,4 +1,4 @@
-"""An AI4U script as its users write it: so many steps, with a reset after each episode."""
+"""An AI4U script as its users write it: a number of steps, with a reset after each episode."""
 
 import json
 import os

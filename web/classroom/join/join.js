@@ -8,7 +8,7 @@ const code = /** @type {HTMLInputElement} */ (find("#code"));
 const join = /** @type {HTMLButtonElement} */ (find("#join"));
 const problem = find("#problem");
 
-/** True if a seat of another device is to be used here, too. */
+/** True if a seat of another device will be used here, too. */
 let isMoving = false;
 
 const given = new URLSearchParams(location.search).get("code");

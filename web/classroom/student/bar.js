@@ -46,7 +46,7 @@ export class ClassBar {
   #countdown = new RaceCountdown();
   /** @type {ClassEvent | null} */
   #event = null;
-  /** When countdowns end (ms, performance.now); Infinity for none. */
+  /** End of countdowns (ms, performance.now); Infinity for none. */
   #attentionEndsAt = Infinity;
   #raceStartsAt = -Infinity;
   #timer = 0;

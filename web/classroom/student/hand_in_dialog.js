@@ -24,7 +24,7 @@ export async function showHandIn() {
   const first = facts.scene || facts.scenes.find(({ name }) => name === "sumo")?.name;
   const scene = select(facts.scenes.map(({ name, title }) => [name, title]), first);
   const part = element("select");
-  const partField = field("It drives", part, "Robots without a network of yours are driven by the scene’s own player.");
+  const partField = field("It drives", part, "The scene’s own player drives robots for which you have no network.");
   const file = element("input", { type: "file", accept: ".onnx" });
   const list = element("ul", { className: "ai4u-handed-in", "aria-label": "Handed in", "aria-live": "polite" });
   let timer = 0;

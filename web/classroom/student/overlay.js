@@ -1,10 +1,10 @@
-/** What a class lays over the world: the teacher's blank screen, and a race's countdown. */
+/** Overlays of a class: the teacher's blank screen, and a race's countdown. */
 
 import { element, setText } from "../../shared/dom.js";
 
-/** How long "Go!" is shown (ms). */
+/** Time that "Go!" is shown (ms). */
 const GO_MS = 900;
-/** How long its words are there for screen readers (ms). */
+/** Time that its words stay for screen readers (ms). */
 const GO_WORDS_MS = 3000;
 
 /** A screen that hides the page, and keeps focus and keys, until the teacher ends it. */

@@ -6,7 +6,7 @@
 import { roomOfPage } from "../../shared/room.js";
 
 const ADDRESS = "../../api/program/run";
-/** Delay before the class is told again if it can't be reached (ms). */
+/** Delay before a report is sent again if the class can't be reached (ms). */
 const RETRY_MS = 10_000;
 /** Longest sentence; the class takes a bit more. */
 const MAX_TEXT_CHARS = 600;

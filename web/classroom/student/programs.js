@@ -17,7 +17,7 @@ import { recall, remember } from "../../shared/storage.js";
 const SAVE_DELAY_MS = 2000;
 /** Delays before the class is asked again if it can't be reached (ms); the last one is used again. */
 const RETRY_DELAYS_MS = [3000, 10_000, 30_000];
-/** Largest body that a page which is closed can still send (characters, all of them maybe of three bytes). */
+/** Most characters of a program that a closing page can still send; UTF-8 needs up to three times as much. */
 const MAX_LAST_CHARS = 20_000;
 const MAX_SCENE_NAME_CHARS = 200;
 const ADDRESS = "../../api/program";
@@ -28,7 +28,7 @@ const UNREACHABLE = "The class can't be reached. Your program is kept in this br
 /** @typedef {{place: Place, source: string}} Program */
 
 export class ClassPrograms {
-  /** Where the present program is kept, in words. */
+  /** Sentence on where the present program is kept. */
   element = element("p", { className: "ai4u-soft", role: "status", hidden: true });
   #tab;
   #isInClass = roomOfPage() !== "";

@@ -8,7 +8,7 @@ import { choice, choices, chosenIn, field, showForm } from "../../shared/form_di
 import { roomName } from "../room_words.js";
 import { sceneChoice, seedField } from "./scene_choice.js";
 
-/** As MAX_STARTING_PROGRAM_CHARS of the class link. */
+/** The same as MAX_STARTING_PROGRAM_CHARS of the class link. */
 const MAX_PROGRAM_CHARS = 20_000;
 const PROGRAM_HINT = "Optional. The tab Code offers it; what students wrote stays.";
 

@@ -40,7 +40,7 @@ export function showAttention() {
   const message = element("input", { maxLength: MAX_MESSAGE_CHARS, autocomplete: "off", value: "Please look at the board." });
   const time = select(TIMES, "0");
   const content = [kind, field("Message", message), field("How long", time)];
-  const text = "It holds for everybody, also for who reloads the page or joins later. Your own page stays as it is.";
+  const text = "It holds for everybody, including anyone who reloads the page or joins later. Your own page stays as it is.";
   return showForm({ title: "Attention", text, content, yes: "Begin" }, () => {
     const chosen = chosenIn(kind) === "message" ? "" : chosenIn(kind);
     const words = message.value.trim();

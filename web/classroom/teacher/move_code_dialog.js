@@ -9,7 +9,7 @@ import { ask, tell } from "../../shared/dialog.js";
 export async function showMoveCode(seat) {
   try {
     const { code, minutes } = await command({ do: "move code", seat: seat.number });
-    const text = `Typed in on the join page within ${minutes} minutes, once, it gives ${seat.name} this seat and its work on another device.`;
+    const text = `${seat.name} types it on the join page of another device, once, within ${minutes} minutes, and has this seat and its work there.`;
     await ask({ title: `Code for ${seat.name}: ${code}`, text, yes: "Close", no: "" });
   } catch (error) {
     await tell("That can't be done", error.message);

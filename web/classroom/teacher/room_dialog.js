@@ -117,7 +117,7 @@ function person(seat, realNames, hasCodes) {
 }
 
 /**
- * Who is banned may join again with the code in another browser, unless the code changes.
+ * Ban a seat. Its student may join again with the code in another browser, unless the code changes.
  * @param {Seat} seat
  * @param {boolean} hasCodes
  */

@@ -1,4 +1,4 @@
-/** Where a scene for the class comes from: the library, a student's room, or a file of the teacher. */
+/** Choice of a scene for the class: the library, a student's room, or a file of the teacher. */
 
 /** @import { ClassState } from "../../types/class.js" */
 

@@ -34,7 +34,7 @@ export function showBegin(state) {
 }
 
 /**
- * Ask how a tournament is to be played, and start it.
+ * Ask how to play a tournament, and start it.
  * @param {ClassState} state
  */
 export function showStart(state) {

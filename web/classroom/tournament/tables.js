@@ -10,7 +10,7 @@ const MAX_CROSSED = 16;
 const MAX_CONTESTANTS = 5;
 
 /**
- * Return the table of standings; with few entries also who won how often against whom, as in chess.
+ * Return the table of standings; with few entries also wins and losses against each other entry.
  *
  * @param {Results} results
  * @param {object} [options]

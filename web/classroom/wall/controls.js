@@ -14,7 +14,7 @@ const MAX_WIDTH_PX = 640;
 export class WallControls {
   #wall;
   /**
-   * By filter.
+   * Buttons by filter.
    * @type {Map<string, HTMLButtonElement>}
    */
   #buttons = new Map();

@@ -1,4 +1,4 @@
-/** Which rooms a wall shows, and in which order. */
+/** Choice and order of the rooms on a wall. */
 
 /** @import { Room } from "../../types/class.js" */
 

@@ -12,7 +12,7 @@ const GAP_PX = 10;
 const MIN_CARD_PX = 112;
 /** Cards below this width have no foot; as in styles/classroom/wall.css. */
 const MIN_FOOT_PX = 170;
-/** How long a pointer that rests on a card holds the order. */
+/** Time that a pointer resting on a card keeps the order (ms). */
 const POINTER_HOLDS_MS = 10_000;
 
 /** @typedef {{of: (seat: Seat) => string}} Names real names, see classroom/teacher/real_names.js */

@@ -19,7 +19,7 @@ const KINDS = [
   { kind: "rewards", title: "Rewards", one: "Reward", add: "Add a reward", none: "It gets no reward yet." },
   { kind: "brains", title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
 ];
-/** How long after a change the drivers are listed again (ms). */
+/** Delay after a change until the drivers are listed again (ms). */
 const DRIVERS_DELAY_MS = 300;
 
 export class BuildTab {

@@ -43,7 +43,7 @@ export class Comparison {
     element("div", { className: "ai4u-what-if-row" }, this.#checkpoint, this.#learned),
   );
   #start = button("Compare", () => this.#compare(), { kind: "main" });
-  #none = element("p", { className: "ai4u-hint-text", hidden: true, textContent: "There is no network yet that could be asked. Train one, or open a scene of the library." });
+  #none = element("p", { className: "ai4u-hint-text", hidden: true, textContent: "There is no network to compare with yet. Train one, or open a scene from the library." });
   #says = element("p", { role: "status" });
   #distance = new Curve("Difference of the two actions over the steps");
   #jump = button("Show step", () => this.#goTo(), { icon: "forward" });

@@ -8,7 +8,7 @@ import { button, element, keyed, setAttributes, setText } from "../../shared/dom
 import { Card } from "../widgets/card.js";
 import { fact } from "../widgets/parts.js";
 
-/** How long "Copied" stands on a button (ms). */
+/** Time that "Copied" stands on a button (ms). */
 const COPIED_MS = 1500;
 
 export class EpisodeCard {

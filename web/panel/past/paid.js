@@ -1,4 +1,4 @@
-/** What the chosen episode was rewarded for: each term over time, and the decisions that paid most. */
+/** Rewards of the chosen episode: each term over time, and the decisions that paid most. */
 
 /**
  * @import { PaidCurve, PaidMoment } from "../../types/panel.js"

@@ -13,7 +13,7 @@ import { Player } from "./player.js";
 
 /** Number that stands for the episode that is still running. */
 const RUNNING_EPISODE = 0;
-/** Largest recording that is sent, as the server has it (MAX_FILE_BYTES of episodes). */
+/** Largest recording that is sent, the server's limit (MAX_FILE_BYTES of episodes). */
 const MAX_RECORDING_MB = 16;
 
 export class PastTab {

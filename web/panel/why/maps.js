@@ -180,5 +180,5 @@ function turnItem({ text, kind }) {
 
 /** @param {number} time (s) */
 function momentWords(time) {
-  return `At each place it is put at rest, as if its episode began there; all else stands as it stood at ${seconds(time)}.`;
+  return `At each place the robot is at rest, as if an episode began there; everything else is as it was at ${seconds(time)}.`;
 }

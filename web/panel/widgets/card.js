@@ -14,7 +14,7 @@ export class Card {
   #head;
   #actions = element("div", { className: "ai4u-card-actions" });
   #iconName = "";
-  /** What the card holds when it is open. */
+  /** Content of the open card. */
   body = element("div", { className: "ai4u-card-body", id: freeId(), hidden: true });
   element = element("article", { className: "ai4u-card" });
 

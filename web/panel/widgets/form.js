@@ -6,7 +6,7 @@ import { element, keyed, setText } from "../../shared/dom.js";
 import { FieldRow } from "./field.js";
 import { recall, remember } from "../../shared/storage.js";
 
-/** How many fields stand before "More" if none are marked as the ones that matter most. */
+/** Number of fields before "More" if none are marked as the ones that matter most. */
 const FIRST_COUNT = 3;
 
 /** @typedef {Record<string, string | boolean>} Entries by field */

@@ -19,7 +19,7 @@ export class SceneFiles {
   #unsaved;
   #kept = element("p");
   element = element("div");
-  /** What is left after a restart, in words. */
+  /** Sentences on what is kept after a restart. */
   kept = section("world-kept", "What is kept after a restart?", { isOpen: false }, this.#kept);
 
   /** @param {Panel} panel */

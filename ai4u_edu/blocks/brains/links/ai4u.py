@@ -92,7 +92,7 @@ class AI4ULink:
 
     def open(self, spec: AgentSpec) -> None:
         """Begin to look for a script."""
-        self.close("the agent is set up anew")
+        self.close("the agent is set up again")
         self._codec = AI4UCodec(spec)
         self._dialogue = AI4UDialogue(
             spec.agent,
@@ -126,6 +126,7 @@ class AI4ULink:
         if self._is_threaded:
             self._thread.put(observation)
         elif self._early_reply is None and not self._dialogue.in_flight:
+            # the script computes while this world ticks on; the next `ask` reads its answer
             self._send(observation, NEVER)
 
     def ask(self, observation: Observation, timeout: float) -> Reply | None:
@@ -191,6 +192,7 @@ class AI4ULink:
             if self._state is None or self._state[0] is not observation:
                 self._state = observation, self._codec.state(observation)
         udp = self._open_socket
+        # the protocol has no numbers: an old reply would be taken for the answer to this request
         self.ignored += udp.drain()
         request = self._dialogue.request(self._state[1] if self._state else None)
         try:
@@ -199,6 +201,7 @@ class AI4ULink:
             self._handle_unreachable(error)
             return False
         finally:
+            # also after a failure, so that the next attempt keeps its distance
             self._sent_at = self._clock()
         return True
 
@@ -255,6 +258,7 @@ class AI4ULink:
             self.state, self.reason = LinkState.CONNECTED, ""
         match kind:
             case ReplyKind.CONFIGURED:
+                # NEVER lies in the past: the next request is due at once
                 self._sent_at = NEVER
             case ReplyKind.WAIT:
                 self.time_asked_at = self._clock()
@@ -373,8 +377,10 @@ class AI4UCodec(AgentCodec):
         reward = observation.reward
         if last is not None and last.episode == observation.episode:
             if observation.steps > last.steps + 1:
+                # decisions without a state in between, in realtime: the sum has what they paid
                 reward = observation.episode_reward - last.episode_reward
         elif observation.steps > 1:
+            # the first state in this episode, which began before the script came
             reward = observation.episode_reward
         return State(
             sensors=self.sensors(observation.percept),

@@ -32,8 +32,8 @@ class UdpSocket:
             # without it, only a timeout shows that nobody listens at a port
             self._socket.setsockopt(socket.IPPROTO_IP, LINUX_IP_RECVERR, 1)
         self.wait_readable = _poller(self._socket)
-        """Waits up to so many milliseconds; returns something true if there is a datagram, or an
-        error, to receive."""
+        """Waits at most the given milliseconds; returns something true if there is a datagram or an
+        error to receive."""
         self.close = self._socket.close
 
     def send(self, data: bytes) -> None:

@@ -25,9 +25,9 @@ from ai4u_edu.snapshot.theme import body_colour, group_colours
 MAX_PAID_DECISIONS = 6
 """Most decisions in the list of the latest rewards; those without a reward are left out."""
 MAX_TICKS = 24
-"""Most ticks of a decision that are told apart."""
+"""Most ticks of a decision that are listed one by one."""
 MAX_VISIBLE_SPEED = 0.25
-"""Largest time scale at which the current tick is told; faster, nobody could follow."""
+"""Largest time scale at which the current tick is sent; faster, nobody could follow."""
 DEFAULT_ADDRESS = "http://127.0.0.1:8080"
 """Address in the code of a script if the page's own address is unknown."""
 
@@ -112,7 +112,7 @@ class DecisionPhases(Struct, frozen=True):
     """The progress of an agent's decision: sense, decide, act for some ticks, reward."""
 
     ticks: int
-    """Ticks of the decision that are told apart."""
+    """Ticks of the decision that are listed one by one."""
     all_ticks: int
     """Ticks of the decision."""
     tick: int | None

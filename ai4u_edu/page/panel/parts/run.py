@@ -13,9 +13,9 @@ from ai4u_edu.snapshot.agent_words import ending
 from ai4u_edu.snapshot.outcome import outcome
 
 MAX_STAGES = 12
-"""Most stages that are told one by one."""
+"""Most stages that are listed one by one."""
 MIN_SPEED_SHARE = 0.9
-"""Share of the wanted speed below which a page is told that the world can't keep up."""
+"""Share of the wanted speed below which a page shows that the world can't keep up."""
 MAX_USUAL_CONTACTS = 6
 """Contacts for each body above which bodies must overlap; side by side they have fewer."""
 

@@ -29,7 +29,7 @@ class ConcurrencyLimit:
     Args:
         per_holder: limit of one holder.
         share: of the server's connections, for all holders, between 0 and 1.
-        life_s: time after which each one is ended; left out, there is no limit.
+        life_s: time after which each one is ended; default: no limit.
         what: plural of what is counted, for the message.
     """
 
@@ -95,7 +95,7 @@ class ConcurrencyLimit:
             # else the answer is cut off, which its client sees by its length
 
     def _has_room_for(self, holder: Hashable) -> bool:
-        """Return True if one more may be open, after one of who has the most was ended for it."""
+        """Return True if one more may be open, after ending one of whoever has the most."""
         if sum(map(len, self._open.values())) < int(self._share * max_connections()):
             return True
         most = max(self._open, key=lambda each: len(self._open[each]), default=holder)

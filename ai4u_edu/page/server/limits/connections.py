@@ -33,7 +33,7 @@ class Connections:
     """The connections of a server, by the address of their other end. Belongs to its event loop.
 
     Args:
-        limit: of all connections; left out, as the process's limit of descriptors allows.
+        limit: of all connections; default: what the process's limit of descriptors allows.
         per_address: of one address. This machine has no limit besides ``limit``: a proxy on it may
             stand for any number of clients.
     """

@@ -15,7 +15,7 @@ class RateLimit:
 
     Args:
         per_second: tokens added in a second.
-        burst: the most tokens that it holds; left out, those of one second.
+        burst: the most tokens that it holds; default: those of one second.
         max_debt: tokens that may be taken before they are there.
         clock: returns seconds; to be replaced in tests.
 

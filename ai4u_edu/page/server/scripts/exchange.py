@@ -66,6 +66,7 @@ class Exchange:
         with self._lock:
             if self.turn is Turn.RESETTING:
                 return False
+            # in realtime a newer percept replaces one that the script never answered
             self._change_to(Turn.ASKED)
             self.observation, self._frame = observation, frame
             return True
@@ -85,9 +86,11 @@ class Exchange:
             if not self._replies:
                 return None
             reply = self._replies.popleft()
+            # only actions grow old: a reset or a pause is carried out however late it comes
             while self._replies and isinstance(reply.answer, Mapping):
                 self.ignored += 1
                 reply = self._replies.popleft()
+            # else a newer percept was sent meanwhile, and still waits for its own answer
             if reply.observation is self.observation:
                 self._become_idle()
             return reply
@@ -119,6 +122,7 @@ class Exchange:
     def unanswered_frame(self) -> bytes | None:
         """Return the frame of the percept that waits for an answer, if there is one."""
         with self._lock:
+            # a script that reconnects gets this frame again: the same bytes, the same number
             return self._frame if self.turn is Turn.ASKED else None
 
     # -- state ------------------------------------------------------------------------------------

@@ -57,7 +57,7 @@ class LeaseRegistry:
         elif hello.session:
             raise RefusalError(
                 "session_over",
-                f"session {hello.session!r} of agent {agent.id!r} is over; connect anew",
+                f"session {hello.session!r} of agent {agent.id!r} is over; connect again",
             )
         elif lease is not None:
             raise RefusalError("agent_taken", self._taken(agent))
@@ -76,7 +76,7 @@ class LeaseRegistry:
         await lease.claimed.wait()
         if lease.is_released:
             agent = lease.agent.id
-            raise RefusalError("ended", f"agent {agent!r} could not be taken; connect anew")
+            raise RefusalError("ended", f"agent {agent!r} could not be taken; connect again")
         if lease.outbox is not None and lease.outbox is not outbox:
             text = "the session goes on over another connection"
             lease.outbox.close_with_problem("taken_over", text)

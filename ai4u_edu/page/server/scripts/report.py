@@ -103,12 +103,15 @@ class ScriptReport:
             self._put(_plain(text) + more)
 
     def _put(self, line: str) -> None:
+        # lose a line rather than block the caller, which may be the server's event loop
         with suppress(Full):
             self._lines.put_nowait(line)
 
     def _run(self) -> None:
         look_at = 0.0
+        # after the end, lines that wait are still written
         while not (self._is_over.is_set() and self._lines.empty()):
+            # lines go first: a flood of them delays the look at AI4U's scripts
             try:
                 line = self._lines.get(timeout=max(0.0, look_at - time.monotonic()))
             except Empty:

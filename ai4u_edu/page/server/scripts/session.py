@@ -25,7 +25,7 @@ class Session:
         runner: the room's.
         on_close: called in the event loop when the agent's brain is closed.
         may_seed: whether a reset may have a seed, which resets the whole world.
-        queue: of calls for the event loop, shared by a room; left out, a new one.
+        queue: of calls for the event loop, shared by a room; default: a new one.
         report_mistake: called with the reason why an action has no effect, in any thread.
     """
 
@@ -217,7 +217,7 @@ def _replaces(observation: Observation, asked: Observation) -> bool:
 
 
 class _RewardSum:
-    """Reward of all decisions that a script has not been told yet, in total and by term."""
+    """Reward of all decisions that were not sent to a script yet, in total and by term."""
 
     def __init__(self) -> None:
         self.total = 0.0

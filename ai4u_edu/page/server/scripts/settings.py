@@ -34,7 +34,7 @@ class Rules:
     seeded_resets: bool = False
     """True allows the script of one of several agents to reset the whole world with a seed."""
     lockstep: bool | None = None
-    """True allows scripts to make the world wait for their actions; left out, this is allowed only
+    """True allows scripts to make the world wait for their actions; by default this is allowed only
     if there is a single agent. A program that drives all agents in lockstep needs True."""
     on_missing: OnMissing = ""
     """Substitute for an action that is missing, if a script does not choose; empty: hold

@@ -1,6 +1,6 @@
 """Broadcast of viser's messages: each is packed once for all pages, not once for each page.
 
-viser lets every page gather, pack and compress the same messages anew, which takes most of a core
+viser lets every page gather, pack and compress the same messages again, which takes most of a core
 with thirty pages. Here all pages that are up to date share one packing. A page that can't keep up
 skips outdated messages. See ``docs/adr/0006-serialize-once-for-all-pages.md``.
 """

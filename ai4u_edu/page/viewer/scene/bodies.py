@@ -129,7 +129,7 @@ class Poses(NamedTuple):
 def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
     """Return the drawn poses of all bodies of a snapshot.
 
-    It runs in every frame, mostly for few bodies: so it makes few calls of numpy.
+    It runs in every frame, usually for few bodies: so it makes few calls of numpy.
     """
     bodies, static_scene = snapshot.bodies, snapshot.static_scene
     grounds = [_ground(snapshot, body) for body in bodies]

@@ -374,7 +374,7 @@ class Handles:
         """Return the height of the mark around a floor or an area."""
         return _surface_z(region, static_scene) + self._lift
 
-    # -- events; in viser's event loop, one after the other --------------------------------------
+    # -- events; in viser's event loop, one at a time -------------------------------------------
 
     async def _on_click(self, event: SceneNodePointerEvent[BatchedMeshHandle]) -> None:
         name = _name(self._bodies, event.instance_index)
@@ -531,7 +531,7 @@ class PageHandles:
         self.pages: dict[int, Handles] = {}
 
     def build(self, static_scene: StaticScene) -> None:  # noqa: ARG002 - handles find it in snapshots
-        """Draw all pages' handles anew, at once."""
+        """Draw all pages' handles again, at once."""
         self._turns = PageTurns(SENSES_PER_S)
 
     def draw(self, snapshot: Snapshot) -> None:
