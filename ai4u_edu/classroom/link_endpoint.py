@@ -13,7 +13,7 @@ from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
-from ai4u_edu.page.server.limits.attempts import Attempts, Verdict, client_address
+from ai4u_edu.page.server.limits.attempts import AttemptResult, Attempts, client_address
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit, TooManyOpenError
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.limits.socket_close import (
@@ -155,7 +155,7 @@ class LinkEndpoint:
             return bool(found)
 
         verdict = await self._attempts.check(address, is_right)
-        if verdict is Verdict.TOO_MANY:
+        if verdict is AttemptResult.TOO_MANY:
             await socket.close(TRY_LATER, "too many wrong secrets from this address")
             return None
         if not found:

@@ -21,7 +21,7 @@ from ai4u_edu.member.class_view import ClassView
 from ai4u_edu.member.client import LinkClient
 from ai4u_edu.member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.member.holds import Holds
-from ai4u_edu.member.link import ClassLinkSettings, Link, Receive
+from ai4u_edu.member.link import ClassLink, ClassLinkSettings, Receive
 from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.member.race_run import RaceRun, ShowGhosts
 from ai4u_edu.member.room_state import RoomState
@@ -86,7 +86,7 @@ class ClassMember:
         self,
         runner: Runner,
         editor: SceneEditor | None,
-        link: ClassLinkSettings | Callable[[Receive], Link],
+        link: ClassLinkSettings | Callable[[Receive], ClassLink],
         folder: Path | None = None,
         *,
         title: str = "",
@@ -300,6 +300,6 @@ class ClassMember:
             self.link.send(Work(shorten(editor.title, MAX_TEXT_CHARS), text))
 
 
-def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> Link:
+def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> ClassLink:
     outbox = ResultOutbox(None if folder is None else folder / OUTBOX)
     return LinkClient(settings.url, settings.secret, settings.kind, receive, outbox)

@@ -19,7 +19,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import NameNotFoundError, suggest
-from ai4u_edu.base.parameters import Problem, explain
+from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.recording.columns import check_finite, pack_column, unpack_column, unpack_table
 from ai4u_edu.recording.errors import RecordingError
@@ -48,7 +48,7 @@ MAX_DRIVER_CHARS = 200
 Ticks = npt.NDArray[np.uint32]
 
 
-class Decision(NamedTuple):
+class RecordedDecision(NamedTuple):
     """One decision of an agent: its action and its reward."""
 
     step: int
@@ -102,9 +102,9 @@ class AgentRecord:
     def __len__(self) -> int:
         return len(self.begin)
 
-    def __getitem__(self, step: int) -> Decision:
+    def __getitem__(self, step: int) -> RecordedDecision:
         flags = int(self.flags[step])
-        return Decision(
+        return RecordedDecision(
             step=step,
             begin=int(self.begin[step]),
             end=int(self.end[step]),
@@ -124,7 +124,7 @@ class AgentRecord:
             return {}
         return {name: amount for name, (amount,) in self.carried[step].items()}
 
-    def __iter__(self) -> Iterator[Decision]:
+    def __iter__(self) -> Iterator[RecordedDecision]:
         return (self[step] for step in range(len(self)))
 
     @property
@@ -436,11 +436,11 @@ def _scene(plain: dict[str, Any]) -> SceneDescription:
     except ValidationError as error:
         found = explain(error.errors(), SceneDescription)
         raise RecordingError(
-            _message([Problem(("scene", *each.path), each.text) for each in found])
+            _message([ParameterProblem(("scene", *each.path), each.text) for each in found])
         ) from None
 
 
-def _message(problems: list[Problem]) -> str:
+def _message(problems: list[ParameterProblem]) -> str:
     more = f" (and {len(problems) - 3} more)" if len(problems) > 3 else ""
     return "; ".join(map(str, problems[:3])) + more
 

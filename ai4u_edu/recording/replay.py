@@ -8,7 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError, suggest
 from ai4u_edu.blocks import Brain, Percept
-from ai4u_edu.recording.episode import Decision, Episode
+from ai4u_edu.recording.episode import Episode, RecordedDecision
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.recorder import Recorder
@@ -26,10 +26,10 @@ CACHED_MOMENTS = 100
 
 
 @dataclass(frozen=True)
-class Moment:
+class ReplayMoment:
     """The moment at which a decision was taken."""
 
-    decision: Decision
+    decision: RecordedDecision
     """The decision's action and reward."""
     percept: Percept
     """The percept that the agent's brain got."""
@@ -66,7 +66,7 @@ class Replay:
         self.episode = episode
         self._player = Player(episode, on_step=on_step)
         self._static_scene: tuple[int, StaticScene] | None = None
-        self._cache: dict[tuple[int, int], Moment] = {}
+        self._cache: dict[tuple[int, int], ReplayMoment] = {}
         self._last = (0, -1)
 
     @cached_property
@@ -88,7 +88,7 @@ class Replay:
             return Verdict(False, 0, f"it can't be compared: {recorder.problem}")
         return compare(self.episode, again, problem)
 
-    def at(self, step: int, agent: str | None = None) -> Moment:
+    def at(self, step: int, agent: str | None = None) -> ReplayMoment:
         """Return the moment at which a decision was taken.
 
         Args:
@@ -109,7 +109,7 @@ class Replay:
         self._last = index, step
         return self._cache[index, step]
 
-    def moments(self, agent: str | None = None) -> Iterator[Moment]:
+    def moments(self, agent: str | None = None) -> Iterator[ReplayMoment]:
         """Yield all moments that can be replayed exactly, in order."""
         index = self.episode.ids.index(self.episode.agent(agent).id)
         for step, begin in enumerate(self.episode.agents[index].begin.tolist()):
@@ -238,9 +238,9 @@ class Replay:
             f"{self.verdict.exact_until}) and not beyond: {self.verdict.why}"
         )
 
-    def _moment(self, index: int, step: int) -> Moment:
+    def _moment(self, index: int, step: int) -> ReplayMoment:
         percept = self._player.sim.agents[index].percept
-        return Moment(self.episode.agents[index][step], percept, self._snapshot())
+        return ReplayMoment(self.episode.agents[index][step], percept, self._snapshot())
 
     def _snapshot(self) -> Snapshot:
         sim = self._player.sim

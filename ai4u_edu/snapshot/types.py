@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ai4u_edu.agent import Entry
+from ai4u_edu.agent import LedgerEntry
 from ai4u_edu.agent.cycle import Phase
 from ai4u_edu.blocks import (
     Legend,
@@ -138,7 +138,7 @@ class AgentState(NamedTuple):
     """Colours for showing readings as pictures, by perception key."""
     phase: Phase = NOWHERE
     """Progress in its present decision."""
-    history: tuple[Entry, ...] = ()
+    history: tuple[LedgerEntry, ...] = ()
     """Rewards of its latest decisions, if the ledger keeps them."""
     sensor_infos: tuple[SensorInfo, ...] = ()
     """Descriptions of its sensors; the same object until its blocks are rebound."""

@@ -71,7 +71,7 @@ class Hello(TaggedMessage, frozen=True):
     kind: Literal["room", "notebook"]
 
 
-class Shape(Record, frozen=True):
+class DrawnShape(Record, frozen=True):
     """A filled disc or polygon of a drawing, in metres."""
 
     colour: _Colour
@@ -86,7 +86,7 @@ class BodyDrawing(Record, frozen=True):
 
     name: Text
     is_agent: bool
-    shapes: Annotated[tuple[Shape, ...], LIST]
+    shapes: Annotated[tuple[DrawnShape, ...], LIST]
 
 
 class Drawing(TaggedMessage, frozen=True):
@@ -96,7 +96,7 @@ class Drawing(TaggedMessage, frozen=True):
     """Counted by the room, from 1."""
     bounds: tuple[Finite, Finite, Finite, Finite]
     """Left, bottom, right, top (m)."""
-    ground: Annotated[tuple[Shape, ...], LIST]
+    ground: Annotated[tuple[DrawnShape, ...], LIST]
     """Floors and areas, in the world's frame, in the order in which they are drawn."""
     bodies: Annotated[tuple[BodyDrawing, ...], LIST]
 

@@ -14,11 +14,11 @@ from ai4u_edu.wire.class_link import (
     Assignment,
     Attention,
     Drawing,
+    DrawnShape,
     Hello,
     People,
     Poses,
     Problem,
-    Shape,
     Welcome,
     encode_from_room,
 )
@@ -120,7 +120,7 @@ def test_a_message_that_is_too_large_ends_the_link(served: ServedClass) -> None:
 
 
 def test_a_drawing_that_is_too_large_for_the_wall_is_refused(served: ServedClass) -> None:
-    shape = Shape("#ffffff", 0.0, (0.5,) * 1000)
+    shape = DrawnShape("#ffffff", 0.0, (0.5,) * 1000)
     with RawLink(served, served.joined()) as link:
         link.send(Drawing(1, (0, 0, 1, 1), (shape,) * 40, ()))
         assert "bytes" in link.next(Problem).text

@@ -12,7 +12,7 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.docs import summary
 from ai4u_edu.page.editing.blocks import types_of
 from ai4u_edu.page.editing.drivers import Driver
-from ai4u_edu.page.editing.forms import Field
+from ai4u_edu.page.editing.forms import ParameterField
 from ai4u_edu.page.editing.reasons import reason_against_block
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.page.panel.block_hints import BLOCK_HINTS
@@ -88,7 +88,7 @@ def driver_title(driver: Driver) -> str:
     return driver.title
 
 
-def first_fields(type_name: str, fields: Sequence[Field]) -> list[str]:
+def first_fields(type_name: str, fields: Sequence[ParameterField]) -> list[str]:
     """Return the names of the three fields of a block's form that matter most."""
     chosen = words_of(type_name).first_fields
     own = [field.name for field in fields if not field.is_common]

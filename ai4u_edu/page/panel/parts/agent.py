@@ -7,7 +7,7 @@ from typing import Literal
 
 from msgspec import UNSET, Struct, UnsetType, field
 
-from ai4u_edu.agent.ledger import Entry
+from ai4u_edu.agent.ledger import LedgerEntry
 from ai4u_edu.agent.script_lines import script_lines
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
@@ -277,7 +277,7 @@ def _readings(snapshot: Snapshot, agent: AgentState, shown: Collection[str]) -> 
     ]
 
 
-def _paid_entries(agent: AgentState) -> Iterator[Entry]:
+def _paid_entries(agent: AgentState) -> Iterator[LedgerEntry]:
     """Yield the decisions with a reward, the latest first."""
     return (entry for entry in reversed(agent.history) if any(entry.terms.values()))
 

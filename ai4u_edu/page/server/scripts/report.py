@@ -25,7 +25,7 @@ STOP_TIMEOUT_S = 1.0
 """Time that the last lines may take to be written."""
 
 
-class Report(Protocol):
+class ScriptLog(Protocol):
     """Callback for what happens with scripts; thread-safe, and never blocks."""
 
     def note_event(self, text: str) -> None:

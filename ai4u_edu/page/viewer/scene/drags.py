@@ -16,7 +16,7 @@ MAX_DRAG_M = 1e6
 """Largest distance (m) from the origin to which a thing can be dragged."""
 
 
-class Action(Enum):
+class DragAction(Enum):
     """The part of a thing that is changed."""
 
     MOVE = "move"
@@ -37,7 +37,7 @@ class Drag(NamedTuple):
     """A thing that is being dragged, rotated or resized."""
 
     thing: Thing
-    action: Action
+    action: DragAction
     x: float
     y: float
     """Offset from the pointer to the centre; for a rotation or another size, the centre."""
@@ -52,7 +52,7 @@ class Drag(NamedTuple):
     @property
     def is_live(self) -> bool:
         """True if the world follows during the drag; else the page shows an outline only."""
-        return self.action is not Action.RESIZE and isinstance(self.thing, BodyDescription)
+        return self.action is not DragAction.RESIZE and isinstance(self.thing, BodyDescription)
 
     def goal(
         self, x: float, y: float, snap_m: float = 0.0, *, is_free: bool = False
@@ -66,13 +66,13 @@ class Drag(NamedTuple):
             is_free: True for any place, size and nearly any heading.
         """
         snap_m = 0.0 if is_free else snap_m
-        moves = self.action is Action.MOVE
+        moves = self.action is DragAction.MOVE
         dx, dy = (x + self.x, y + self.y) if moves else (x - self.x, y - self.y)
         if not math.hypot(dx, dy) <= MAX_DRAG_M:  # also true for NaN
             return None
         if moves:
             return Goal(_on_grid(dx, snap_m), _on_grid(dy, snap_m), None)
-        if self.action is Action.TURN:
+        if self.action is DragAction.TURN:
             step = FREE_ROTATION_STEP_DEG if is_free else ROTATION_STEP_DEG
             degrees = math.degrees(math.atan2(dy, dx))
             return Goal(self.x, self.y, step * round(degrees / step))
