@@ -8,7 +8,7 @@ from typing import Any
 import msgspec
 from msgspec import inspect
 
-from ai4u_edu.explain_page import messages as explain_messages
+from ai4u_edu.explain.page import messages as explain_messages
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.page.server import run_commands

@@ -11,8 +11,8 @@ from viser import BatchedMeshHandle, FrameHandle, SceneNodeDragEvent
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.explain.elsewhere import Elsewhere, Pose
 from ai4u_edu.explain.map_maker import LiveMap, MapRequest
-from ai4u_edu.explain_page.choice import OPTION, choice_of
-from ai4u_edu.explain_page.field_arrows import FieldArrows
+from ai4u_edu.explain.page.choice import OPTION, choice_of
+from ai4u_edu.explain.page.field_arrows import FieldArrows
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.arena import arena_size
 from ai4u_edu.page.viewer.scene.drags import Drag, DragAction

@@ -13,10 +13,10 @@ from ai4u_edu.blocks import Block, Controller, LocalBrain, NeuralNetController
 from ai4u_edu.explain.comparison import Comparison, compare
 from ai4u_edu.explain.errors import NotExplainableError
 from ai4u_edu.explain.live import LiveExplainer
+from ai4u_edu.explain.page import messages as m
+from ai4u_edu.explain.page.commands import plain_action
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.statefulness import dependence_of
-from ai4u_edu.explain_page import messages as m
-from ai4u_edu.explain_page.commands import plain_action
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer
