@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu import Scene, zoo
+from ai4u_edu import Scene
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.lessons.progress_file import read_entries
 from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.recording import Episode

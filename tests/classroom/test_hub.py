@@ -7,8 +7,8 @@ from urllib.parse import parse_qs, urlsplit
 import httpx
 import pytest
 
-from ai4u_edu import zoo
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.sign_in import COOKIE, STATE_COOKIE
 from ai4u_edu.member import NotJoinedError, UnreachableError, join_at_hub

@@ -12,7 +12,7 @@ import onnx
 import psutil
 import pytest
 
-from ai4u_edu import zoo
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.errors import CommandError
 from ai4u_edu.classroom.tournament.event import networks_event

@@ -9,13 +9,13 @@ from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX, files_in
+from ai4u_edu.blocks.brains.zoo import names as in_the_zoo
 from ai4u_edu.page.editing.blocks import types_of, with_enabled
 from ai4u_edu.page.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import Plain
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.scenes.serialization import to_plain
-from ai4u_edu.zoo import names as in_the_zoo
 
 KEYS, OWN_BRAIN = "keys:", "brain:"
 
