@@ -15,7 +15,6 @@ from ai4u_edu.page.editing.drivers import Driver
 from ai4u_edu.page.editing.forms import ParameterField
 from ai4u_edu.page.editing.reasons import reason_against_block
 from ai4u_edu.page.editing.state import EditState
-from ai4u_edu.page.panel.block_hints import BLOCK_HINTS
 from ai4u_edu.page.panel.block_words import BLOCK_WORDS, OWN_BLOCKS, BlockWords
 
 MAX_FIRST_FIELDS = 3
@@ -102,7 +101,7 @@ def hint_of(type_name: str) -> str:
     'A reward for touching the target.'
     """
     cls = Block.types.get(type_name)
-    return BLOCK_HINTS.get(type_name) or ("" if cls is None else first_sentence(cls))
+    return words_of(type_name).hint or ("" if cls is None else first_sentence(cls))
 
 
 def first_sentence(cls: type[Block]) -> str:
