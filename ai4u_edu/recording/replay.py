@@ -12,8 +12,9 @@ from ai4u_edu.recording.episode import Episode, RecordedDecision
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.recorder import Recorder
-from ai4u_edu.recording.scene_export import export_scene, without_brains
+from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.recording.verdict import Verdict, compare
+from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import (
     Snapshot,
     StaticScene,
@@ -217,6 +218,10 @@ class Replay:
             return without_brains(export_scene(sim)) == without_brains(self.episode.scene)
         except RecordingError:  # a block that can't be serialized, so it is not in the episode
             return False
+
+    def build(self) -> ControlRequestor:
+        """Return a new world of the episode's scene, without brains of types unknown here."""
+        return Scene(without_unknown_brains(self.episode.scene)).build()
 
     def _find(self, step: int, agent: str | None) -> tuple[int, int]:
         record = self.episode.agent(agent)
