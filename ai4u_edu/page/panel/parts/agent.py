@@ -3,12 +3,12 @@
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from itertools import islice
+from keyword import iskeyword
 from typing import Literal
 
 from msgspec import UNSET, Struct, UnsetType, field
 
-from ai4u_edu.agent.ledger import LedgerEntry
-from ai4u_edu.agent.script_lines import script_lines
+from ai4u_edu.agent import BasicAgent, LedgerEntry
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.panel.context import PanelContext
@@ -296,6 +296,34 @@ def python_part(context: PanelContext, agent: AgentState, address: str) -> Pytho
         lines="" if driven is None else script_lines(address or DEFAULT_ADDRESS, driven),
         actuators=[_actuator(info) for info in agent.actuator_infos if info.components],
         sensors=[program_sensor(info, agent.percept[info.key]) for info in agent.sensor_infos],
+    )
+
+
+def script_lines(address: str, agent: BasicAgent) -> str:
+    """Return the code of a script that drives an agent.
+
+    Names are inserted by ``repr``, so a hostile name can't inject code.
+
+    Args:
+        address: the world's address, as of its page.
+        agent: the agent.
+    """
+    example = {
+        name: [1] + [0] * (len(actuator.limits()[0]) - 1)
+        for name, actuator in agent.bound_blocks.actuators.items()
+        if actuator.is_output
+    }
+    if all(name.isidentifier() and not iskeyword(name) for name in example):
+        numbers = ", ".join(f"{name}={values}" for name, values in example.items())
+    else:
+        numbers = repr(example)
+    return (
+        "from ai4u_edu.remote import connect\n\n"
+        f"robot = connect({address!r}, agent={agent.id!r})\n"
+        "robot.reset()\n"
+        "for percept in robot:\n"
+        f"    robot.act({numbers})\n"
+        "robot.close()\n"
     )
 
 
