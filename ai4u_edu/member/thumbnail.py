@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import (
     DARK,
@@ -150,7 +151,7 @@ def _marks(radius: float, colour: Rgb, is_agent: bool) -> Iterable[DrawnShape]:
 def _disc(disc: tuple[float, float, float], colour: Rgb) -> DrawnShape:
     """Return a disc from its centre and its radius."""
     x, y, radius = disc
-    return DrawnShape(_hex(colour), _rounded(radius), (_rounded(x), _rounded(y)))
+    return DrawnShape(hex_colour(colour), _rounded(radius), (_rounded(x), _rounded(y)))
 
 
 def _polygon(corners: Sequence[Point], colour: Rgb, pose: Pose = ORIGIN) -> DrawnShape:
@@ -159,13 +160,8 @@ def _polygon(corners: Sequence[Point], colour: Rgb, pose: Pose = ORIGIN) -> Draw
     numbers: list[float] = []
     for a, b in corners[:MAX_CORNERS]:
         numbers += [_rounded(x + a * cos - b * sin), _rounded(y + a * sin + b * cos)]
-    return DrawnShape(_hex(colour), 0.0, tuple(numbers))
+    return DrawnShape(hex_colour(colour), 0.0, tuple(numbers))
 
 
 def _rounded(value: float) -> float:
     return round(value, DIGITS) + 0.0  # no minus zero
-
-
-def _hex(colour: Rgb) -> str:
-    red, green, blue = colour
-    return f"#{red:02x}{green:02x}{blue:02x}"

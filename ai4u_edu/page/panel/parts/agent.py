@@ -9,11 +9,11 @@ from typing import Literal
 from msgspec import UNSET, Struct, UnsetType, field
 
 from ai4u_edu.agent import BasicAgent, LedgerEntry
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
-from ai4u_edu.page.panel.parts.colours import hex_colour
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.sensor_slots import ProgramSensor, program_sensor
 from ai4u_edu.page.panel.parts.sensors import SensorReading, sensor_reading
