@@ -3,7 +3,6 @@
 from ai4u_edu.recording.archive import Archive, ArchiveEntry
 from ai4u_edu.recording.episode import AgentRecord, Episode, RecordedDecision
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.folder_recorder import recorder_into
 from ai4u_edu.recording.ghosts import Ghost, Ghosts, ghost_of
 from ai4u_edu.recording.recorder import Recorder
 from ai4u_edu.recording.replay import Replay, ReplayMoment
@@ -23,5 +22,4 @@ __all__ = [
     "ReplayMoment",
     "Verdict",
     "ghost_of",
-    "recorder_into",
 ]

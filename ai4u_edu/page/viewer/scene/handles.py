@@ -22,7 +22,14 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.page.editing import ChangeResult, SceneEditor
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.arena import arena_size
-from ai4u_edu.page.viewer.scene.drags import Drag, DragAction, Goal, Thing
+from ai4u_edu.page.viewer.scene.drags import (
+    Drag,
+    DragAction,
+    Goal,
+    Thing,
+    corner_of,
+    outline_of,
+)
 from ai4u_edu.page.viewer.scene.geometry import (
     Array,
     cap,
@@ -35,7 +42,6 @@ from ai4u_edu.page.viewer.scene.geometry import (
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
-from ai4u_edu.page.viewer.scene.resize import corner_of, outline_of
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
