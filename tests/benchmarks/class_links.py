@@ -33,7 +33,7 @@ from ai4u_edu.wire.class_link import (
     Drawing,
     DrawnShape,
     ExerciseResult,
-    Hello,
+    LinkHello,
     Poses,
     State,
     decode_from_class,
@@ -118,7 +118,7 @@ class _Links:
         async with connect(
             path, subprotocols=[Subprotocol(SUBPROTOCOL)], max_size=None, proxy=None
         ) as link:
-            await link.send(encode_from_room(Hello(VERSION, secret, "room")))
+            await link.send(encode_from_room(LinkHello(VERSION, secret, "room")))
             await link.send(encode_from_room(_drawing()))
             await asyncio.gather(
                 self._poses(link, number),
