@@ -90,7 +90,7 @@ class Table:
         expected = int(_widths(forms)[rows].sum()) if len(rows) else 0
         if len(amounts) != expected:
             raise RecordingError(f"{what}_numbers: expected {expected} numbers, got {len(amounts)}")
-        return cls(tuple(map(tuple, forms)), rows, amounts)
+        return cls([tuple(each) for each in forms], rows, amounts)
 
     def __len__(self) -> int:
         return len(self.form)
