@@ -36,7 +36,7 @@ class Message(Struct, forbid_unknown_fields=True, tag_field="type"):
 
 
 class PageCommand(Struct, forbid_unknown_fields=True, tag_field="command"):
-    """A command; its tag is its name. The panel's answer has the same ``id``."""
+    """A command of a page; its tag is its name. The panel's answer has the same ``id``."""
 
     type: Literal["do"]
     id: Number

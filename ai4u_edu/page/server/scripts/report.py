@@ -26,7 +26,7 @@ STOP_TIMEOUT_S = 1.0
 
 
 class ScriptLog(Protocol):
-    """Callback for what happens with scripts; thread-safe, and never blocks."""
+    """A log of what happens with scripts; thread-safe, and never blocks."""
 
     def note_event(self, text: str) -> None:
         """Report that a script joined, was lost, came back or left."""
