@@ -14,13 +14,13 @@ import zipfile
 from pathlib import Path
 
 NEEDED = (
+    "ai4u_edu/blocks/brains/zoo/box_chase.onnx",
     "ai4u_edu/lessons/course/00_start_here.py",
     "ai4u_edu/py.typed",
     "ai4u_edu/scenes/library/box_chase.yaml",
     "ai4u_edu/web/page/main.js",
     "ai4u_edu/web/vendor/pyodide/LICENSE",
     "ai4u_edu/world/native/rays.c",
-    "ai4u_edu/zoo/box_chase.onnx",
 )
 """Files that each wheel has."""
 SOURCES = ".ci/wheel_hook.py", "pyproject.toml", "tests/conftest.py", "web/page/main.js"

@@ -38,7 +38,7 @@ def main() -> None:
         )
     try:
         python = bootstrap.ensure(ROOT)
-    except bootstrap.SetupError as error:
+    except bootstrap.InstallError as error:
         sys.exit(str(error))
     except KeyboardInterrupt:
         sys.exit("Stopped; the next run goes on from here.")

@@ -26,7 +26,7 @@ WITH_TORCH = {"dev", "train"}
 PIP_INSTALL = ["-m", "pip", "install", "--quiet", "--no-input", "--no-compile"]
 
 
-class SetupError(Exception):
+class InstallError(Exception):
     """The environment can't be made; the text says why and how to mend it."""
 
 
@@ -45,10 +45,10 @@ def ensure(root: Path, extras: Sequence[str] = ()) -> Path:
     of Python.
 
     Raises:
-        SetupError: something stands in the way.
+        InstallError: something stands in the way.
     """
     if not is_checkout(root):
-        raise SetupError(
+        raise InstallError(
             f"Expected AI4U Edu's pyproject.toml in {root}, and it isn't there.\n"
             "Run the command in the folder that `git clone` made."
         )
@@ -74,7 +74,7 @@ def ensure(root: Path, extras: Sequence[str] = ()) -> Path:
     _install(root, python, wanted["extras"])
     wanted["python"] = _version(venv, python)
     if not wanted["python"]:
-        raise SetupError(
+        raise InstallError(
             f"Expected {python} to start, and it doesn't; start it by hand to see why."
         )
     stamp.write_text(json.dumps(wanted), encoding="utf-8")
@@ -110,12 +110,12 @@ def _version(venv: Path, python: Path) -> list[int]:
 def _check_age(version: list[int]) -> None:
     need = "AI4U Edu needs Python {}.{} or newer".format(*OLDEST)
     if version and tuple(version[:2]) < OLDEST:
-        raise SetupError(
+        raise InstallError(
             "{}; the folder .venv holds Python {}.{}.{}.\n".format(need, *version)
             + "Delete .venv, then run the same command with a newer Python."
         )
     if not version and sys.version_info[:2] < OLDEST:
-        raise SetupError(
+        raise InstallError(
             "{}; this is Python {}.{}.{} ({}).\n".format(
                 need, *sys.version_info[:3], sys.executable
             )
@@ -130,7 +130,7 @@ def _begin(venv: Path, stamp: Path, before: dict[str, Any]) -> None:
         venv.mkdir(exist_ok=True)
         stamp.write_text(json.dumps({"extras": before.get("extras", [])}), encoding="utf-8")
     except OSError as error:
-        raise SetupError(
+        raise InstallError(
             f"Expected to write into {venv}, and couldn't: {error.strerror}.\n"
             "Move AI4U Edu into a folder of your own. If .venv is somebody else's, delete it."
         ) from error
@@ -142,7 +142,7 @@ def _give_pip(venv: Path, python: Path, version: list[int]) -> None:
         return
     maker = python if version else Path(sys.executable)
     if _run(maker, "-c", "import ensurepip, venv").returncode:
-        raise SetupError(
+        raise InstallError(
             f"Expected Python's own modules venv and ensurepip, and {maker} comes without them.\n"
             "On Debian and Ubuntu: sudo apt install python3-venv\n"
             "Elsewhere: install Python from python.org. Then run the same command again."
@@ -206,4 +206,4 @@ def _run(python: Path, *args: str, cwd: Path | None = None) -> subprocess.Comple
 def _check(done: subprocess.CompletedProcess[str], what: str, mend: str) -> None:
     if done.returncode:
         lines = done.stdout.strip().splitlines()[-15:]
-        raise SetupError("\n".join([what, *("  " + line for line in lines), mend]))
+        raise InstallError("\n".join([what, *("  " + line for line in lines), mend]))

@@ -106,7 +106,7 @@ def set_up(options: argparse.Namespace, only: str) -> tuple[str, list[str], dict
         debians = pool.submit(setup_browser.install_debians) if wants_all else None
         try:
             python = bootstrap.ensure(ROOT, ["test" if options.fast else "dev"])
-        except bootstrap.SetupError as error:
+        except bootstrap.InstallError as error:
             sys.exit(str(error))
         missing = get_browser(python, debians.result()) if debians else []
         missing += ai4u.result() if ai4u else []

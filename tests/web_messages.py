@@ -15,7 +15,7 @@ from msgspec import inspect
 
 from ai4u_edu.base.options import PAGE_OPTIONS
 from ai4u_edu.blocks.parameterized import field_docs
-from ai4u_edu.page.messages import Command, Message
+from ai4u_edu.page.messages import Message, PageCommand
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.server.input_messages import InputEvent
 
@@ -23,7 +23,7 @@ FILE = Path(__file__).parents[1] / "web" / "generated" / "messages.d.ts"
 HEAD = """\
 /** The messages between a page and its world. Made by python -m tests.web_messages --write */
 """
-COMMAND_FIELDS = {field.name for field in msgspec.structs.fields(Command)}
+COMMAND_FIELDS = {field.name for field in msgspec.structs.fields(PageCommand)}
 """Fields of all commands, which the socket adds."""
 TYPES: Mapping[type[inspect.Type], str] = {
     inspect.AnyType: "unknown",
@@ -87,7 +87,7 @@ class Declarations:
     def _interface(self, info: inspect.StructType | inspect.DataclassType, *, is_sent: bool) -> str:
         docs = field_docs(info.cls)
         lines = []
-        is_command = issubclass(info.cls, Command)
+        is_command = issubclass(info.cls, PageCommand)
         if isinstance(info, inspect.StructType) and info.tag_field is not None and not is_command:
             lines.append(f"  {info.tag_field}: {json.dumps(info.tag)};\n")
         for field in info.fields:
@@ -125,7 +125,9 @@ def source() -> str:
         file.received(kind)
     for kind in subclasses(Message):
         file.sent(kind)
-    commands = [(str(kind.__struct_config__.tag), file.sent(kind)) for kind in subclasses(Command)]
+    commands = [
+        (str(kind.__struct_config__.tag), file.sent(kind)) for kind in subclasses(PageCommand)
+    ]
     file.map("Commands", "The commands by name: what is sent with each of them.", commands)
     return str(file)
 

@@ -10,7 +10,7 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 
 OPTIONS = {
-    "explain": ["ai4u_edu.explain", "ai4u_edu.explain_page"],
+    "explain": ["ai4u_edu.explain"],
     "games": ["ai4u_edu.games"],
     "learn": ["ai4u_edu.learn"],
     "lessons": ["ai4u_edu.lessons"],

@@ -3,6 +3,6 @@
 from ai4u_edu.agent.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.events import EVENTS, Event
-from ai4u_edu.agent.ledger import Entry, Ledger
+from ai4u_edu.agent.ledger import Ledger, LedgerEntry
 
-__all__ = ["EVENTS", "BasicAgent", "ControlRequestor", "Entry", "Event", "Ledger"]
+__all__ = ["EVENTS", "BasicAgent", "ControlRequestor", "Event", "Ledger", "LedgerEntry"]

@@ -26,7 +26,7 @@ MAX_NAME_CHARS = 80
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class CodePlace:
     """The block, or the event's handler, and the line that some frames are in."""
 
     block: str
@@ -40,7 +40,7 @@ class Place:
     def __str__(self) -> str:
         """Name the block and its agent, to begin a sentence with.
 
-        >>> str(Place("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12"))
+        >>> str(CodePlace("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12"))
         "Sensor WallDistance 'wall' of agent '0'"
         """
         return (self.block or "The world") + (f" of agent {self.agent!r}" if self.agent else "")
@@ -58,7 +58,9 @@ def frames_of_thread(thread_id: int) -> list[FrameType]:
     return frames[::-1]
 
 
-def find_place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAgent] = ()) -> Place:
+def find_place(
+    calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAgent] = ()
+) -> CodePlace:
     """Find the block that some calls are in.
 
     Args:
@@ -76,10 +78,10 @@ def find_place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAge
     where = "".join(f"{_file_of(frame)}, line {line}" for frame, line in frame_and_line)
     if isinstance(owner, Event):
         agent = calls[first][0].f_locals.get("agent")
-        return Place(f"Handler of {owner.name}", getattr(agent, "id", ""), where)
+        return CodePlace(f"Handler of {owner.name}", getattr(agent, "id", ""), where)
     if not isinstance(owner, Block):
-        return Place("", "", where)
-    return Place(describe(owner), _agent_of(owner, agents, calls[:first]), where)
+        return CodePlace("", "", where)
+    return CodePlace(describe(owner), _agent_of(owner, agents, calls[:first]), where)
 
 
 def calls_of_thread(thread_id: int) -> list[tuple[FrameType, int]]:

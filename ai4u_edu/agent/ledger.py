@@ -11,7 +11,7 @@ NOTHING: tuple[float, Mapping[str, float]] = (0.0, {})
 """Total and terms before the first decision of an episode is over."""
 
 
-class Entry(NamedTuple):
+class LedgerEntry(NamedTuple):
     """The rewards of one decision."""
 
     step: int
@@ -62,12 +62,12 @@ class Ledger:
         self.episode_terms: dict[str, float] = {}
         self.total = 0.0
         self.episode_total = 0.0
-        self.history: deque[Entry] = deque(maxlen=0)
+        self.history: deque[LedgerEntry] = deque(maxlen=0)
         self.carried: dict[str, float] = {}
         """Amounts by name that were paid between two decisions; the next one gets them."""
         self.brought: Mapping[str, float] = {}
         """The carried amounts that the decision under way has got."""
-        self._latest: tuple[Entry, ...] | None = None
+        self._latest: tuple[LedgerEntry, ...] | None = None
         self._is_closed = False
         self._is_sealed = False
         self._finished: tuple[float, Mapping[str, float]] = NOTHING
@@ -112,7 +112,7 @@ class Ledger:
         """End a decision; amounts that are added until it is sealed still belong to it."""
         self._is_closed = True
         if self.history.maxlen:
-            self.history.append(Entry(step, self.terms, self.episode_total))
+            self.history.append(LedgerEntry(step, self.terms, self.episode_total))
             self._latest = None
 
     def seal(self) -> None:
@@ -134,7 +134,7 @@ class Ledger:
         self.history.clear()
         self._latest = None
 
-    def latest(self) -> tuple[Entry, ...]:
+    def latest(self) -> tuple[LedgerEntry, ...]:
         """Return the history as a tuple, the same object until another decision is over."""
         if self._latest is None:
             self._latest = tuple(self.history)

@@ -35,6 +35,16 @@ def rgb(colour: str) -> tuple[int, int, int]:
     return int(digits[0:2], 16), int(digits[2:4], 16), int(digits[4:6], 16)
 
 
+def hex_colour(colour: tuple[int, int, int]) -> str:
+    """Return a colour as CSS has it.
+
+    >>> hex_colour((0, 114, 178))
+    '#0072b2'
+    """
+    red, green, blue = colour
+    return f"#{red:02x}{green:02x}{blue:02x}"
+
+
 def _known(colour: str) -> str:
     if colour in PALETTE or re.fullmatch(r"#[0-9a-fA-F]{6}", colour):
         return colour

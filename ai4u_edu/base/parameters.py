@@ -78,7 +78,7 @@ DataPath = tuple[str | int, ...]
 """Path of a value in nested data: ``("agents", 0, "sensors", 2, "reach")``."""
 
 
-class Problem(NamedTuple):
+class ParameterProblem(NamedTuple):
     """The path of a wrong parameter, and what is wrong with it."""
 
     path: DataPath
@@ -89,7 +89,7 @@ class Problem(NamedTuple):
         return f"{format_path(self.path)}: {self.text}" if self.path else self.text
 
 
-_UNEXPLAINED = Problem((), "is wrong")
+_UNEXPLAINED = ParameterProblem((), "is wrong")
 
 
 def format_path(path: Sequence[str | int]) -> str:
@@ -104,7 +104,7 @@ def format_path(path: Sequence[str | int]) -> str:
 
 def explain(
     errors: Iterable[ErrorDetails], known: type[BaseModel] | Iterable[str]
-) -> list[Problem]:
+) -> list[ParameterProblem]:
     """Translate pydantic's errors into our form: expected, got, how to mend it.
 
     Args:
@@ -116,7 +116,7 @@ def explain(
     found = [(error, *_walk(error["loc"], names)) for error in all_errors[:MAX_EXPLAINED]]
     holders = {path[:length] for _, path, _ in found for length in range(len(path))}
     explained = [
-        Problem(path, _sentence(error, names_there, hints=place < MAX_HINTS))
+        ParameterProblem(path, _sentence(error, names_there, hints=place < MAX_HINTS))
         for place, (error, path, names_there) in enumerate(found)
         # pydantic also reports a list with wrong entries as too short; the entries' errors suffice
         if not (error["type"] == "too_short" and path in holders)
@@ -125,10 +125,10 @@ def explain(
     return explained + [_UNEXPLAINED] * (len(all_errors) - len(found))
 
 
-def format_problems(problems: Sequence[Problem]) -> str:
+def format_problems(problems: Sequence[ParameterProblem]) -> str:
     """Join problems into one text: the first ones, and how many more there are.
 
-    >>> format_problems([Problem((), "is wrong")] * 22)[-28:]
+    >>> format_problems([ParameterProblem((), "is wrong")] * 22)[-28:]
     'wrong; and 2 more like these'
     """
     told = [*map(str, problems[:MAX_LISTED])]

@@ -61,7 +61,7 @@ class _BrainView(Protocol):
     repeat_action: bool
 
 
-class Event(Protocol):
+class EventView(Protocol):
     """An event of the agent that a block may subscribe to."""
 
     def connect(self, handler: Callable[[Any], None]) -> Any:
@@ -95,15 +95,15 @@ class AgentView(Protocol):
         """Its reward functions."""
 
     @property
-    def begin_of_episode(self) -> Event:
+    def begin_of_episode(self) -> EventView:
         """The event after a reset, when the first percept is available."""
 
     @property
-    def end_of_update_state(self) -> Event:
+    def end_of_update_state(self) -> EventView:
         """The event after all sensors have read."""
 
     @property
-    def percept_ready(self) -> Event:
+    def percept_ready(self) -> EventView:
         """The event after a decision or a reset, when percept, reward and end are final."""
 
     @property

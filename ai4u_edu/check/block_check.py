@@ -13,7 +13,7 @@ from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sens
 from ai4u_edu.blocks.groups import missing_groups, names_groups
 from ai4u_edu.blocks.rewards.eval_value import EvalValue
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Record, Rollout, Script, standard_scene
+from ai4u_edu.check.rollout import Rollout, RolloutStep, Script, standard_scene
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import from_plain, is_serializable, to_plain
 from ai4u_edu.world import WorldView
@@ -63,13 +63,13 @@ class BlockCheck:
         make: Callable[[], Rollout],
         options: Options,
         *,
-        of: Callable[[Record], Any],
+        of: Callable[[RolloutStep], Any],
         words: str,
     ) -> None:
         self.report = report
         self._make, self._of, self._words = make, of, words
         self._seed, self._decisions = options.seed, options.decisions
-        self.records: list[Record] = []
+        self.records: list[RolloutStep] = []
         """The records of the first run."""
 
     def run(self, *, reset_exemption: str = "") -> bool:
@@ -111,7 +111,7 @@ class BlockCheck:
         self._check_reset(rollout, reset_exemption)
         return True
 
-    def drive(self, rollout: Rollout) -> list[Record]:
+    def drive(self, rollout: Rollout) -> list[RolloutStep]:
         """Run a rollout with the check's seed and length."""
         return rollout.run(self._seed, self._decisions)
 
@@ -178,7 +178,7 @@ class BlockCheck:
             else "",
         )
 
-    def _difference(self, run: Callable[[], list[Record]]) -> str:
+    def _difference(self, run: Callable[[], list[RolloutStep]]) -> str:
         """Return where another run first differs from the first one; empty if nowhere."""
         try:
             others = run()

@@ -46,7 +46,7 @@ SCRIPTED = ("handler", "trainer")
 """Attributes that a script sets on a block; a copy needs them too."""
 
 
-class Record(NamedTuple):
+class RolloutStep(NamedTuple):
     """The state after one decision."""
 
     percepts: dict[str, Percept]
@@ -101,7 +101,7 @@ class Rollout:
             agent.setup(self.sim.world)
         self._record_answers(self.agent.brain)
 
-    def run(self, seed: int, decisions: int) -> list[Record]:
+    def run(self, seed: int, decisions: int) -> list[RolloutStep]:
         """Reset with a seed and run; return a record of each decision and each reset."""
         agent, sim = self.agent, self.sim
         sim.reset(seed)
@@ -123,9 +123,9 @@ class Rollout:
                 records.append(self._record())
         return records
 
-    def _record(self) -> Record:
+    def _record(self) -> RolloutStep:
         agents = self.sim.agents
-        return Record(
+        return RolloutStep(
             percepts={agent.id: agent.percept for agent in agents},
             terms={agent.id: agent.reward_terms for agent in agents},
             poses={name: body.pose for name, body in self.sim.world.bodies.items()},

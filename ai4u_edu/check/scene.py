@@ -19,7 +19,7 @@ from ai4u_edu.check.block_check import (
     warn_of_no_end,
 )
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Record, Rollout, Script, title_of
+from ai4u_edu.check.rollout import Rollout, RolloutStep, Script, title_of
 from ai4u_edu.check.sensors import not_in
 from ai4u_edu.scenes import Scene
 
@@ -94,7 +94,7 @@ def _lost(scene: Scene) -> str:
     return "" if again == scene else "expected the same scene back from its file, got another one"
 
 
-def _all_of(record: Record) -> Any:
+def _all_of(record: RolloutStep) -> Any:
     percepts = [(percept.data, percept.texts) for percept in record.percepts.values()]
     return record.poses, percepts, record.terms
 
@@ -135,7 +135,7 @@ def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
     warn_of_no_end(report, rewards)
 
 
-def _look_at_sensors(report: Report, rollout: Rollout, records: list[Record]) -> None:
+def _look_at_sensors(report: Report, rollout: Rollout, records: list[RolloutStep]) -> None:
     wrong, still = [], []
     for agent in rollout.sim.agents:
         for sensor in agent.bound_blocks.sensors:
@@ -162,7 +162,7 @@ def _look_at_sensors(report: Report, rollout: Rollout, records: list[Record]) ->
     )
 
 
-def _look_at_rewards(report: Report, rollout: Rollout, records: list[Record]) -> None:
+def _look_at_rewards(report: Report, rollout: Rollout, records: list[RolloutStep]) -> None:
     never = [
         f"{reward.name!r} of agent {agent.id!r}"
         for agent in rollout.sim.agents

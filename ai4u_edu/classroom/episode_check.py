@@ -13,7 +13,6 @@ from ai4u_edu.games.jobs.isolated import IsolatedJobs
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.scenes import Scene
-from ai4u_edu.snapshot.outcome import outcome
 
 MAX_CHECK_CPU_S = 30.0
 """Processor time in which an episode must be replayed; a longer one is refused. Wall time does not
@@ -66,7 +65,7 @@ def _outcome(replay: Replay) -> str:
     """Return the outcome of a replayed episode for the agent that acts first."""
     found = ""
     for picture in replay.snapshots(every=_EVERY_TICK):  # the last one only
-        found = outcome(picture.agents[0], picture.agents, picture.static_scene.success)
+        found = picture.agents[0].outcome(picture.agents, picture.static_scene.success)
     return found
 
 

@@ -13,7 +13,7 @@ from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
-from ai4u_edu.page.server.limits.attempts import Attempts, Verdict, client_address
+from ai4u_edu.page.server.limits.attempts import AttemptResult, Attempts, client_address
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit, TooManyOpenError
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.limits.socket_close import (
@@ -32,10 +32,10 @@ from ai4u_edu.wire.class_link import (
     ExerciseResult,
     FromClass,
     FromRoom,
-    Hello,
-    Network,
+    HandedInNetwork,
+    LinkHello,
+    LinkProblem,
     Poses,
-    Problem,
     Result,
     State,
     Work,
@@ -127,19 +127,19 @@ class LinkEndpoint:
             hello = decode_from_room(frame)
         except TimeoutError:
             await _refuse(
-                socket, Problem("message", f"expected hello within {HELLO_TIMEOUT_S:g} s")
+                socket, LinkProblem("message", f"expected hello within {HELLO_TIMEOUT_S:g} s")
             )
             return None
         except WireError as error:
-            await _refuse(socket, Problem("message", str(error)))
+            await _refuse(socket, LinkProblem("message", str(error)))
             return None
-        if not isinstance(hello, Hello):
-            await _refuse(socket, Problem("message", "expected hello as the first message"))
+        if not isinstance(hello, LinkHello):
+            await _refuse(socket, LinkProblem("message", "expected hello as the first message"))
             return None
         if hello.version != VERSION:
             text = f"expected version {VERSION} of the class's protocol, got {hello.version}; "
             text += "install the version of ai4u-edu that your teacher has"
-            await _refuse(socket, Problem("version", text))
+            await _refuse(socket, LinkProblem("version", text))
             return None
         found: list[LiveRoom] = []
         address = client_address(socket.scope)
@@ -155,12 +155,12 @@ class LinkEndpoint:
             return bool(found)
 
         verdict = await self._attempts.check(address, is_right)
-        if verdict is Verdict.TOO_MANY:
+        if verdict is AttemptResult.TOO_MANY:
             await socket.close(TRY_LATER, "too many wrong secrets from this address")
             return None
         if not found:
             text = "This place in the class is not yours any more. Join again."
-            await _refuse(socket, Problem("secret", text))
+            await _refuse(socket, LinkProblem("secret", text))
             return None
         return found[0]
 
@@ -180,7 +180,7 @@ class LinkEndpoint:
                     link.end(f"{MAX_MISTAKES} malformed messages in a row", code="message")
                     mistakes = 0
                 else:
-                    link.add(Problem("message", str(error)))
+                    link.add(LinkProblem("message", str(error)))
                 continue
             mistakes = 0
             if room.link is link:  # what a link sends after its end does not count
@@ -191,7 +191,7 @@ class LinkEndpoint:
             case EpisodeResult() | ExerciseResult():
                 self._take_result(room, link, message)
                 return
-            case Network():
+            case HandedInNetwork():
                 await self._take_network(room, link, message)
                 return
             case Drawing():
@@ -209,7 +209,9 @@ class LinkEndpoint:
                 room.problem = message.problem
         self._live.note_change()
 
-    async def _take_network(self, room: LiveRoom, link: "LinkSender", network: Network) -> None:
+    async def _take_network(
+        self, room: LiveRoom, link: "LinkSender", network: HandedInNetwork
+    ) -> None:
         """Keep a network, and acknowledge it when it is on disk."""
         problem = ""
         if not room.seat:
@@ -217,14 +219,14 @@ class LinkEndpoint:
         elif self._live.store.quota.is_full:
             problem = "The class's folder is full. Tell your teacher."
         if problem:
-            link.add(Problem("message", problem))
+            link.add(LinkProblem("message", problem))
             link.add(Ack(network.key))  # sent again it would be refused again
             return
         given = (network.scene, network.part, network.file, network.data, network.key)
         try:
             await asyncio.to_thread(self._live.tournament.networks.add, room.seat, *given)
         except NetworkError as error:
-            link.add(Problem("message", str(error)))  # as above
+            link.add(LinkProblem("message", str(error)))  # as above
         except StoreError:
             link.close_later()
             return
@@ -234,7 +236,7 @@ class LinkEndpoint:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():
             text = f"exercise: no exercise is called {result.exercise[:40]!r}; "
             link.add(
-                Problem("message", text + "install the version of ai4u-edu that the class has")
+                LinkProblem("message", text + "install the version of ai4u-edu that the class has")
             )
             link.add(Ack(result.key))  # sent again it would be refused again
             return
@@ -272,7 +274,7 @@ class LinkSender:
         self._states[type(message)] = message
         self._wake.set()
 
-    def add(self, message: Ack | Problem) -> None:
+    def add(self, message: Ack | LinkProblem) -> None:
         """Send an answer to a message."""
         self._replies.append(message)
         if len(self._replies) > MAX_WAITING_ACKS:  # it does not read
@@ -282,7 +284,7 @@ class LinkSender:
     def end(self, sentence: str, code: str = "over") -> None:
         """End the link for good."""
         self._states.clear()
-        self._replies.append(Problem("message" if code == "message" else "over", sentence))
+        self._replies.append(LinkProblem("message" if code == "message" else "over", sentence))
         self._closing = (NOT_ALLOWED, close_reason(sentence))
         self._wake.set()
 
@@ -337,14 +339,14 @@ def _decoded(frame: bytes) -> FromRoom:
         WireError: there is none in the frame, or another hello, or it is too large.
     """
     message = decode_from_room(frame)
-    if isinstance(message, Hello):
+    if isinstance(message, LinkHello):
         raise WireError("expected hello as the first message only")
     if len(frame) > MAX_STATE_BYTES and isinstance(message, Drawing | Poses | State):
         raise WireError(f"expected at most {MAX_STATE_BYTES} bytes, got {len(frame)}")
     return message
 
 
-async def _refuse(socket: WebSocket, problem: Problem) -> None:
+async def _refuse(socket: WebSocket, problem: LinkProblem) -> None:
     if socket.application_state is WebSocketState.CONNECTED:
         await socket.send_bytes(encode_from_class(problem))
         await socket.close(NOT_ALLOWED, close_reason(problem.text))

@@ -32,9 +32,9 @@ from ai4u_edu.wire.class_link import (
     ExerciseResult,
     FromClass,
     HandedIn,
+    LinkWelcome,
     People,
     Person,
-    Welcome,
     Work,
 )
 
@@ -187,7 +187,7 @@ class LiveClass:
         for each in seats:
             self.progress.begin(each.number)
         name, colour = (seats[0].name, seats[0].colour) if len(seats) == 1 else ("", "")
-        link.send(Welcome(VERSION, name, colour))
+        link.send(LinkWelcome(VERSION, name, colour))
         link.send(self.assignments.of(room.id))
         link.send(self.attention.as_message())
         link.send(self.race.messages()(room.id))

@@ -7,7 +7,7 @@ from typing import Literal, Protocol
 
 from ai4u_edu.classroom.help_score import Signals, help_score
 from ai4u_edu.member.room_state import RoomCounts
-from ai4u_edu.wire.class_link import Drawing, FromClass, People, Poses, Shape, State, Work
+from ai4u_edu.wire.class_link import Drawing, DrawnShape, FromClass, People, Poses, State, Work
 
 REMOTE_PREFIX = "seat-"
 POSE_DIGITS = 3
@@ -125,5 +125,5 @@ def remote_id(seat: int) -> str:
     return f"{REMOTE_PREFIX}{seat}"
 
 
-def _shape(shape: Shape) -> dict[str, object]:
+def _shape(shape: DrawnShape) -> dict[str, object]:
     return {"colour": shape.colour, "radius": shape.radius, "points": shape.points}

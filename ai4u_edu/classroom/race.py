@@ -15,7 +15,7 @@ from ai4u_edu.classroom.assignments import AssignedScene
 from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.store import ClassStore, SeatRow
-from ai4u_edu.wire.class_link import EpisodeResult, Race, RaceRow
+from ai4u_edu.wire.class_link import CurrentRace, EpisodeResult, RaceRow
 
 WINNING = ("goal", "won")
 GHOSTS = 3
@@ -25,7 +25,7 @@ MIN_TELL_INTERVAL_S = 2.0
 """Shortest time between two messages to rooms because of results: ghosts may be large."""
 FOLDER = "race"
 DISMISSED = "dismissed_race"
-_NO_RACE = Race("", "over", 0.0, "", 0, ())
+_NO_RACE = CurrentRace("", "over", 0.0, "", 0, ())
 Phase = Literal["countdown", "running", "over"]
 Verdict = Literal["open", "right", "refused", "none"]
 
@@ -320,7 +320,7 @@ class RaceRunner:
         finally:
             self._judging = None
 
-    def messages(self) -> Callable[[str], Race]:
+    def messages(self) -> Callable[[str], CurrentRace]:
         """Return a function that returns the race as a room gets it."""
         race = self._races.now
         if race is None:
@@ -336,7 +336,7 @@ class RaceRunner:
         starts_in = self._races.starts_in_s
         fields = (race.id, race.phase, starts_in, race.scene, race.seed, tuple(rows))
         ghosts = self._ghosts
-        return lambda room: Race(*fields, ghosts, times.get(room, 0.0))
+        return lambda room: CurrentRace(*fields, ghosts, times.get(room, 0.0))
 
     def event(self, *, is_projected: bool) -> dict[str, Any] | None:
         """Return the race as the teacher's page and the projector page get it."""

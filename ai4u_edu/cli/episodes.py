@@ -74,9 +74,9 @@ def record(
     seeds = seeds_from(seed, episodes)
     loaded = Scene.load(scene)
     sim, loaded = _with_brains(loaded, brain or [])
-    from ai4u_edu.recording import recorder_into
+    from ai4u_edu.recording import Recorder
 
-    recorder = recorder_into(out, sim, loaded)
+    recorder = Recorder.into(out, sim, loaded)
     first = sim.agents[0]
     try:
         for each in seeds:

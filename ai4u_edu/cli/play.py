@@ -14,7 +14,7 @@ from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, expect_scene, load_own_blocks
 
 if TYPE_CHECKING:
-    from ai4u_edu.page.server.start_page import Lesson
+    from ai4u_edu.page.server.start_page import ListedLesson
     from ai4u_edu.room import Room, RoomSettings
 
 
@@ -84,10 +84,12 @@ def play(
     _serve(settings, host, port, open_page, connections)
 
 
-def _lessons() -> "Callable[[], Sequence[Lesson]]":
+def _lessons() -> "Callable[[], Sequence[ListedLesson]]":
     """Return the function that lists the course's lessons; without the course there are none."""
     try:
-        lessons: Callable[[], Sequence[Lesson]] = load_option(COURSE, "the start page").lessons
+        lessons: Callable[[], Sequence[ListedLesson]] = load_option(
+            COURSE, "the start page"
+        ).lessons
     except MissingOptionError:
         return list
     return lessons

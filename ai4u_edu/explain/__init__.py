@@ -15,7 +15,7 @@
 from ai4u_edu.explain.baseline import mean_of, middle_of
 from ai4u_edu.explain.disagreement import Disagreement, first_disagreement, percepts_of
 from ai4u_edu.explain.errors import NotExplainableError
-from ai4u_edu.explain.field import Field, field
+from ai4u_edu.explain.field import ActionField, field
 from ai4u_edu.explain.groups import Group, groups_of_agent
 from ai4u_edu.explain.occlusion import LIMITS, Occlusion, occlusion
 from ai4u_edu.explain.reward_terms import RewardTerms, reward_terms
@@ -24,8 +24,8 @@ from ai4u_edu.explain.value_map import ValueMap, value_map
 
 __all__ = [
     "LIMITS",
+    "ActionField",
     "Disagreement",
-    "Field",
     "Group",
     "NotExplainableError",
     "Occlusion",

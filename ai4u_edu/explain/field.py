@@ -10,7 +10,7 @@ from ai4u_edu.explain.world_copy import DEFAULT_COLUMNS, Poses, WorldCopy, World
 
 
 @dataclass(frozen=True)
-class Field:
+class ActionField:
     """The actions of a policy at n poses, for an action of c numbers."""
 
     poses: Poses
@@ -38,7 +38,7 @@ def field(
     agent: str | None = None,
     seed: int = 0,
     on_pose: Callable[[int, int], object] = lambda _done, _all: None,
-) -> Field:
+) -> ActionField:
     """Return what a policy would do at many poses, in a copy of a world.
 
     The agent is put at each pose as if its episode began there: at rest, and with stacked readings
@@ -72,7 +72,7 @@ def field(
         if found is not None:
             moves[index] = found[1]
         on_pose(index + 1, len(poses))
-    return Field(poses, copy.policy.components, _table(actions), moves)
+    return ActionField(poses, copy.policy.components, _table(actions), moves)
 
 
 def action_at(copy: WorldCopy, pose: Floats) -> tuple[Floats, Floats] | None:

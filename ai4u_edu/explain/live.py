@@ -112,7 +112,7 @@ class LiveExplainer:
         self._stopping = threading.Event()
         self._asked_at: dict[str, float] = {}
         self._known: dict[str, Why] = {}
-        self._drivers: dict[str, Driver] = {}
+        self._drivers: dict[str, BrainExplainer] = {}
 
     def why(self, agent_id: str) -> Why | None:
         """Return the latest explanation of an agent, and keep explaining it for a while.
@@ -143,7 +143,7 @@ class LiveExplainer:
             NotExplainableError: its decision is no function of the percept.
         """
         brain, state = self.brain(agent_id), self._state(agent_id)
-        driver = None if brain is None else Driver(brain, state)
+        driver = None if brain is None else BrainExplainer(brain, state)
         if driver is None or driver.policy is None:
             raise NotExplainableError(driver.problem if driver else GONE)
         return driver.policy
@@ -189,11 +189,11 @@ class LiveExplainer:
             return Why(agent_id, problem=GONE)
         driver = self._drivers.get(agent_id)
         if driver is None or not driver.drives(brain, agent):
-            driver = self._drivers[agent_id] = Driver(brain, agent)
+            driver = self._drivers[agent_id] = BrainExplainer(brain, agent)
         return driver.why(agent, self._recorded(snapshot, agent_id))
 
 
-class Driver:
+class BrainExplainer:
     """A brain that drives an agent, and what the agent sensed meanwhile.
 
     Args:

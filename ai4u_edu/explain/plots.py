@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.explain.disagreement import Disagreement
-from ai4u_edu.explain.field import Field
+from ai4u_edu.explain.field import ActionField
 from ai4u_edu.explain.occlusion import LIMITS, Occlusion
 from ai4u_edu.explain.reward_terms import RewardTerms
 from ai4u_edu.explain.value_map import ValueMap
@@ -50,7 +50,7 @@ def plot_occlusion(told: Occlusion, names: Sequence[str] = ()) -> Figure:
     return figure
 
 
-def plot_field(told: Field) -> Figure:
+def plot_field(told: ActionField) -> Figure:
     """Plot where each pose goes in one decision: arrows, coloured by the side it turns to."""
     figure = Figure(figsize=(6, 5.4), layout="constrained")
     panel = figure.subplots()

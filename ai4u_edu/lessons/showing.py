@@ -12,7 +12,7 @@ from ai4u_edu.lessons.class_membership import set_world
 from ai4u_edu.lessons.live import Live
 from ai4u_edu.lessons.notebook_output import after_each_cell, in_notebook, put
 from ai4u_edu.lessons.rollouts import brain_for
-from ai4u_edu.recording import Recorder, recorder_into
+from ai4u_edu.recording import Recorder
 from ai4u_edu.scenes import Scene
 from ai4u_edu.world import World
 
@@ -44,7 +44,7 @@ def show(
     stop()
     description = scene.description if scene else None
     if record is not None and scene is not None:
-        recorder = recorder_into(Path(record), sim, scene)
+        recorder = Recorder.into(Path(record), sim, scene)
     elif record is not None:
         raise SetupError("record: expected a scene or its name to go with it; give show a scene")
     else:

@@ -12,15 +12,15 @@ from ai4u_edu.member.joining import (
     join_at_hub,
     page_at_hub,
 )
-from ai4u_edu.member.link import ClassLinkSettings, Link, LinkTimeouts, Receive
+from ai4u_edu.member.link import ClassLink, ClassLinkSettings, LinkTimeouts, Receive
 from ai4u_edu.member.member import ClassMember
 from ai4u_edu.member.outbox import ResultOutbox
 
 __all__ = [
+    "ClassLink",
     "ClassLinkSettings",
     "ClassMember",
     "ClassView",
-    "Link",
     "LinkClient",
     "LinkTimeouts",
     "NotJoinedError",

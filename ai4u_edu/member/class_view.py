@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ai4u_edu.wire.class_link import Attention, People, Person, Race, Welcome
+from ai4u_edu.wire.class_link import Attention, CurrentRace, LinkWelcome, People, Person
 
 TEACHER = "teacher"
 STUDENT = "student"
@@ -21,7 +21,7 @@ class _Shown:
     has_teacher: bool = False
     attention: Attention | None = None
     attention_ends_at: float | None = None
-    race: Race | None = None
+    race: CurrentRace | None = None
     race_starts_at: float = 0.0
     own_best: float | None = None
     lesson: str = ""
@@ -47,7 +47,7 @@ class ClassView:
         """A number that grows with every change; 0 while the class has sent nothing."""
         return self._version
 
-    def welcome(self, message: Welcome) -> None:
+    def welcome(self, message: LinkWelcome) -> None:
         """Show whose world it is."""
         self._change(name=message.name, colour=message.colour)
 
@@ -77,7 +77,7 @@ class ClassView:
         """
         self._change(attention=message, attention_ends_at=ends_at)
 
-    def set_race(self, race: Race | None, starts_at: float, own_best: float | None) -> None:
+    def set_race(self, race: CurrentRace | None, starts_at: float, own_best: float | None) -> None:
         """Show a race.
 
         Args:

@@ -25,7 +25,7 @@ from ai4u_edu.wire.class_link import (
     VERSION,
     Delivery,
     FromClass,
-    Hello,
+    LinkHello,
 )
 
 _logger = logging.getLogger("ai4u_edu.member")
@@ -71,7 +71,7 @@ class LinkClient:
         self._timeouts = timeouts or LinkTimeouts()
         self._url = url.rstrip("/") + PATH
         self._receive = receive
-        hello = Hello(VERSION, secret, kind)
+        hello = LinkHello(VERSION, secret, kind)
         self._dialogue = LinkDialogue(hello, self.outbox, timeouts=self._timeouts)
         self._changed = Condition()
         """Guards the dialogue and the attributes below; notified when there is something to do."""

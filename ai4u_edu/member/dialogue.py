@@ -16,11 +16,11 @@ from ai4u_edu.wire.class_link import (
     Applied,
     Drawing,
     FromClass,
-    Hello,
+    LinkHello,
+    LinkProblem,
+    LinkWelcome,
     Poses,
-    Problem,
     State,
-    Welcome,
     Work,
     decode_from_class,
     encode_from_room,
@@ -76,7 +76,7 @@ class LinkDialogue:
 
     def __init__(
         self,
-        hello: Hello,
+        hello: LinkHello,
         outbox: ResultOutbox,
         jitter: Callable[[], float] = random.random,
         timeouts: LinkTimeouts | None = None,
@@ -158,15 +158,15 @@ class LinkDialogue:
             self.problem = f"The class sent a message that this version can't read: {error}"
             return None
         match message:
-            case Welcome() if self.phase is LinkPhase.GREETING:
+            case LinkWelcome() if self.phase is LinkPhase.GREETING:
                 self._begin()
             case Ack(key):
                 self._in_flight.pop(key, None)
                 self._outbox.acknowledge(key)
                 return None
-            case Problem(code="message", text=text):
+            case LinkProblem(code="message", text=text):
                 self.problem = text
-            case Problem(text=text):
+            case LinkProblem(text=text):
                 self.problem = text
                 self._enter(LinkPhase.OVER)
         return message

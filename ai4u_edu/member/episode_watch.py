@@ -11,7 +11,6 @@ from ai4u_edu.recording import Episode
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import AgentState, capture_agent
 from ai4u_edu.snapshot.agent_words import driver_title
-from ai4u_edu.snapshot.outcome import outcome
 
 logger = logging.getLogger(__name__)
 
@@ -47,7 +46,7 @@ class EndedEpisode:
         ] == [(each.id, each.episode) for each in agents]
         if is_same and latest[0].terminated | latest[0].truncated:
             agents = latest
-        return outcome(agents[0], agents, self.success)
+        return agents[0].outcome(agents, self.success)
 
 
 class EpisodeWatch:

@@ -56,7 +56,7 @@ class LinkTimeouts:
     """Time for the class's answer to a close."""
 
 
-class Link(Protocol):
+class ClassLink(Protocol):
     """A connection with a class; thread-safe. :class:`~ai4u_edu.member.client.LinkClient`."""
 
     @property

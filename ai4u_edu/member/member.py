@@ -21,7 +21,7 @@ from ai4u_edu.member.class_view import ClassView
 from ai4u_edu.member.client import LinkClient
 from ai4u_edu.member.episode_watch import EndedEpisode, EpisodeWatch
 from ai4u_edu.member.holds import Holds
-from ai4u_edu.member.link import ClassLinkSettings, Link, Receive
+from ai4u_edu.member.link import ClassLink, ClassLinkSettings, Receive
 from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.member.race_run import RaceRun, ShowGhosts
 from ai4u_edu.member.room_state import RoomState
@@ -37,13 +37,13 @@ from ai4u_edu.wire.class_link import (
     POSES_PER_S,
     Assignment,
     Attention,
+    CurrentRace,
     EpisodeResult,
     FromClass,
+    LinkProblem,
+    LinkWelcome,
     People,
-    Problem,
-    Race,
     State,
-    Welcome,
     Work,
 )
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
@@ -86,7 +86,7 @@ class ClassMember:
         self,
         runner: Runner,
         editor: SceneEditor | None,
-        link: ClassLinkSettings | Callable[[Receive], Link],
+        link: ClassLinkSettings | Callable[[Receive], ClassLink],
         folder: Path | None = None,
         *,
         title: str = "",
@@ -100,7 +100,7 @@ class ClassMember:
         self._runner, self._editor, self._title, self._clock = runner, editor, title, clock
         self._page = link.page if isinstance(link, ClassLinkSettings) else page
         self._wake, self._stopping = threading.Event(), False
-        self._inbox: deque[tuple[Assignment | Race, float]] = deque()
+        self._inbox: deque[tuple[Assignment | CurrentRace, float]] = deque()
         self._watch = EpisodeWatch(runner, self._scene)
         self._holds = Holds(runner, clock)
         self._scenes = AssignedScenes(runner, editor, folder, clock, open_timeout)
@@ -161,7 +161,7 @@ class ClassMember:
 
     def _receive(self, message: FromClass) -> None:
         match message:
-            case Welcome():
+            case LinkWelcome():
                 self.view.welcome(message)
             case People():
                 self.view.set_people(message)
@@ -170,15 +170,15 @@ class ClassMember:
             case Attention():
                 with self._attention_lock:
                     self._pay_attention(message)
-            case Race(phase="countdown", id=str(name)) if name:
+            case CurrentRace(phase="countdown", id=str(name)) if name:
                 starts_at = self._clock() + message.starts_in_s
                 self._holds.for_race(starts_at)  # at once, whatever the other thread does
                 self._inbox.append((message, starts_at))
-            case Race() | Assignment():
+            case CurrentRace() | Assignment():
                 if isinstance(message, Assignment):
                     self.view.set_lesson(message.lesson)
                 self._inbox.append((message, self._clock()))
-            case Problem(code="over"):
+            case LinkProblem(code="over"):
                 with self._attention_lock:
                     # the class is over: nobody could end a pause any more
                     self._pay_attention(NO_ATTENTION)
@@ -226,7 +226,7 @@ class ClassMember:
     def _handle_messages(self) -> None:
         while self._inbox and not self._stopping:
             message, at = self._inbox.popleft()
-            if isinstance(message, Race):
+            if isinstance(message, CurrentRace):
                 answer = self._race.update(message, at)
             else:
                 answer = self._scenes.apply(message) if message.id else None
@@ -304,6 +304,6 @@ class ClassMember:
             self.link.send(Work(shorten(editor.title, MAX_TEXT_CHARS), text))
 
 
-def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> Link:
+def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> ClassLink:
     outbox = ResultOutbox(None if folder is None else folder / OUTBOX)
     return LinkClient(settings.url, settings.secret, settings.kind, receive, outbox)

@@ -23,20 +23,20 @@ from ai4u_edu.wire.class_link import (
     Applied,
     Assignment,
     Attention,
+    CurrentRace,
     ExerciseResult,
     FromClass,
     HandedIn,
-    Network,
+    HandedInNetwork,
+    LinkProblem,
+    LinkWelcome,
     People,
-    Problem,
-    Race,
     Result,
     State,
-    Welcome,
 )
 
 NO_WORLD = "The notebook shows no world at present."
-_REPLAYED = (Welcome, People, Attention, Race)
+_REPLAYED = (LinkWelcome, People, Attention, CurrentRace)
 """Messages of which a world that is shown later gets the latest one. Of assignments it gets only a
 lesson's: a scene would replace the world that a cell has just shown."""
 
@@ -108,7 +108,7 @@ class ClassConnection:
         key = secrets.token_urlsafe(12)
         self.client.send_result(ExerciseResult(key, exercise, event, diagnosis))
 
-    def hand_in(self, network: Network, timeout_s: float) -> SubmissionAnswer:
+    def hand_in(self, network: HandedInNetwork, timeout_s: float) -> SubmissionAnswer:
         """Deliver a network, and wait for the class's check.
 
         Args:
@@ -174,7 +174,7 @@ class ClassConnection:
             if isinstance(message, HandedIn):
                 self._handed_in = message
                 self._changed.notify_all()
-            if isinstance(message, Problem):
+            if isinstance(message, LinkProblem):
                 self._problem = message.text
             if isinstance(message, _REPLAYED):
                 self._latest[type(message)] = message
@@ -257,7 +257,7 @@ def join_notebook(
     return ClassConnection(join_at_hub(service), place)
 
 
-def network_in(path: Path, scene: str, part: str) -> Network:
+def network_in(path: Path, scene: str, part: str) -> HandedInNetwork:
     """Return the message with which a network is handed in.
 
     Args:
@@ -284,4 +284,4 @@ def network_in(path: Path, scene: str, part: str) -> Network:
     if not 0 < len(data) <= MAX_NETWORK_BYTES:
         limit = MAX_NETWORK_BYTES // 2**20
         raise SetupError(f"{path.name}: expected 1 byte to {limit} MB, got {len(data):,} bytes.")
-    return Network(secrets.token_urlsafe(12), scene, part, path.name[-100:], data)
+    return HandedInNetwork(secrets.token_urlsafe(12), scene, part, path.name[-100:], data)

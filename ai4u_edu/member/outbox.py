@@ -10,7 +10,7 @@ from ai4u_edu.wire.class_link import (
     Delivery,
     EpisodeResult,
     ExerciseResult,
-    Network,
+    HandedInNetwork,
     decode_from_room,
     encode_from_room,
 )
@@ -79,7 +79,7 @@ class ResultOutbox:
             self._forget(key)
 
     def _keep(self, result: Delivery, frame: bytes) -> None:
-        if isinstance(result, Network):
+        if isinstance(result, HandedInNetwork):
             place = (result.scene, result.part)
             self._forget(self._networks.get(place, ""))
             self._networks[place] = result.key
@@ -127,7 +127,7 @@ class ResultOutbox:
                 result = decode_from_room(frame)
             except (OSError, WireError):
                 continue
-            if isinstance(result, EpisodeResult | ExerciseResult | Network):
+            if isinstance(result, EpisodeResult | ExerciseResult | HandedInNetwork):
                 self._keep(result, frame)
                 self._files[result.key] = path
         self._drop_oldest()

@@ -15,7 +15,7 @@ from ai4u_edu.recording import Episode, RecordingError
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.scene_export import export_scene, without_brains
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.wire.class_link import Applied, Race
+from ai4u_edu.wire.class_link import Applied, CurrentRace
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 ShowGhosts = Callable[[Sequence[tuple[Episode, str]]], object]
@@ -52,7 +52,7 @@ class RaceRun:
         self._runner, self._scenes, self._watch, self._holds = runner, scenes, watch, holds
         self._view, self._show_ghosts, self._clock = view, show_ghosts, clock
         self._open_timeout = open_timeout
-        self._race: Race | None = None
+        self._race: CurrentRace | None = None
         """The race that runs here; None for none."""
         self._track: list[Any] = []
         """The scene's parts that determine an episode."""
@@ -63,7 +63,7 @@ class RaceRun:
         self._best_of = ""
         self._ghosts: tuple[bytes, ...] = ()
 
-    def update(self, race: Race, starts_at: float) -> Applied | None:
+    def update(self, race: CurrentRace, starts_at: float) -> Applied | None:
         """Follow the class's race.
 
         Args:
@@ -131,7 +131,7 @@ class RaceRun:
         self._show_ghosts(())
         self._ghosts = ()
 
-    def _prepare(self, race: Race, starts_at: float) -> Applied | None:
+    def _prepare(self, race: CurrentRace, starts_at: float) -> Applied | None:
         self._is_late = starts_at <= self._clock()
         self._holds.for_race(starts_at)
         self._was_locked = self._runner.latest.is_seed_locked
@@ -146,7 +146,7 @@ class RaceRun:
         self._watch.has_recordings = True
         return None
 
-    def _go_to_start(self, race: Race) -> None:
+    def _go_to_start(self, race: CurrentRace) -> None:
         """Go to the race's start and repeat it, unless another scene is open.
 
         In the world's thread.
@@ -157,7 +157,7 @@ class RaceRun:
             if sim.world.seeds.seed != race.seed or sim.world.ticks:
                 sim.reset(race.seed)
 
-    def _restore_seed(self, race: Race) -> None:
+    def _restore_seed(self, race: CurrentRace) -> None:
         """Go back to the race's seed; in the world's thread."""
         if self._runner.sim.world.seeds.seed != race.seed:
             self._go_to_start(race)
@@ -165,7 +165,7 @@ class RaceRun:
     def _own_best(self) -> float | None:
         return None if math.isinf(self._best) else round(self._best, 2)
 
-    def _show_best(self, race: Race) -> None:
+    def _show_best(self, race: CurrentRace) -> None:
         if race.ghosts == self._ghosts:
             return
         self._ghosts = race.ghosts

@@ -12,7 +12,6 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.member.episode_watch import driver_of
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.snapshot.outcome import outcome
 from ai4u_edu.wire.class_link import State, Status
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
@@ -150,7 +149,7 @@ class RoomState:
             return "paused"
         agent = snapshot.agents[0] if snapshot.agents else None
         success = snapshot.static_scene.success
-        match outcome(agent, snapshot.agents, success) if agent else "":
+        match agent.outcome(snapshot.agents, success) if agent else "":
             case "goal" | "won":
                 return "solved"
             case "fell":

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import (
     DARK,
@@ -15,7 +16,7 @@ from ai4u_edu.snapshot.marks import (
     half_width,
 )
 from ai4u_edu.snapshot.theme import FLOOR, Rgb, area_fill, body_colour, floor_colour
-from ai4u_edu.wire.class_link import BodyDrawing, Drawing, Poses, Shape
+from ai4u_edu.wire.class_link import BodyDrawing, Drawing, DrawnShape, Poses
 from ai4u_edu.wire.validation import MAX_ENTRIES
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
@@ -75,7 +76,7 @@ def drawing_of(static_scene: StaticScene, number: int) -> Drawing:
         number: of the drawing, from 1.
     """
     (left, low), (right, high) = static_scene.bounds
-    ground: list[Shape] = []
+    ground: list[DrawnShape] = []
     if not static_scene.floors:
         corners = [(left, low), (right, low), (right, high), (left, high)]
         ground.append(_polygon(corners, FLOOR))
@@ -112,7 +113,7 @@ def _drawn_bodies(static_scene: StaticScene) -> list[BodyDescription]:
     return [body for body in bodies if body.name in names]
 
 
-def _region(region: RegionDescription, colour: Rgb) -> Shape:
+def _region(region: RegionDescription, colour: Rgb) -> DrawnShape:
     shape, (x, y) = region.shape, region.position
     if isinstance(shape, CircleShape):
         return _disc((x, y, shape.radius), colour)
@@ -135,7 +136,7 @@ def _body(body: BodyDescription, is_agent: bool) -> BodyDrawing:
     return BodyDrawing(body.name, is_agent, tuple(shapes))
 
 
-def _marks(radius: float, colour: Rgb, is_agent: bool) -> Iterable[Shape]:
+def _marks(radius: float, colour: Rgb, is_agent: bool) -> Iterable[DrawnShape]:
     if is_agent:
         yield _polygon([(x * radius, y * radius) for x, y in NOSE], LIGHT)
         for discs, mark in ((EYES, LIGHT), (PUPILS, DARK)):
@@ -147,25 +148,20 @@ def _marks(radius: float, colour: Rgb, is_agent: bool) -> Iterable[Shape]:
         yield _disc((0.0, 0.0, size * radius), mark)
 
 
-def _disc(disc: tuple[float, float, float], colour: Rgb) -> Shape:
+def _disc(disc: tuple[float, float, float], colour: Rgb) -> DrawnShape:
     """Return a disc from its centre and its radius."""
     x, y, radius = disc
-    return Shape(_hex(colour), _rounded(radius), (_rounded(x), _rounded(y)))
+    return DrawnShape(hex_colour(colour), _rounded(radius), (_rounded(x), _rounded(y)))
 
 
-def _polygon(corners: Sequence[Point], colour: Rgb, pose: Pose = ORIGIN) -> Shape:
+def _polygon(corners: Sequence[Point], colour: Rgb, pose: Pose = ORIGIN) -> DrawnShape:
     x, y, heading = pose
     cos, sin = math.cos(heading), math.sin(heading)
     numbers: list[float] = []
     for a, b in corners[:MAX_CORNERS]:
         numbers += [_rounded(x + a * cos - b * sin), _rounded(y + a * sin + b * cos)]
-    return Shape(_hex(colour), 0.0, tuple(numbers))
+    return DrawnShape(hex_colour(colour), 0.0, tuple(numbers))
 
 
 def _rounded(value: float) -> float:
     return round(value, DIGITS) + 0.0  # no minus zero
-
-
-def _hex(colour: Rgb) -> str:
-    red, green, blue = colour
-    return f"#{red:02x}{green:02x}{blue:02x}"

@@ -35,8 +35,8 @@ class Message(Struct, forbid_unknown_fields=True, tag_field="type"):
     """A message that is no command; its tag is its ``type``."""
 
 
-class Command(Struct, forbid_unknown_fields=True, tag_field="command"):
-    """A command; its tag is its name. The panel's answer has the same ``id``."""
+class PageCommand(Struct, forbid_unknown_fields=True, tag_field="command"):
+    """A command of a page; its tag is its name. The panel's answer has the same ``id``."""
 
     type: Literal["do"]
     id: Number
@@ -66,11 +66,11 @@ class MessageReader(Generic[M]):
     ValueError: no command is called 'puase'; did you mean 'pause'?
     """
 
-    def __init__(self, messages: Iterable[type[M]], commands: Iterable[type[Command]]) -> None:
+    def __init__(self, messages: Iterable[type[M]], commands: Iterable[type[PageCommand]]) -> None:
         self._messages = {_tag(kind): msgspec.json.Decoder(kind) for kind in messages}
         self._commands = {_tag(kind): msgspec.json.Decoder(kind) for kind in commands}
 
-    def read(self, text: str | bytes) -> M | Command:
+    def read(self, text: str | bytes) -> M | PageCommand:
         """Return the message in a JSON text.
 
         Raises:
@@ -83,7 +83,7 @@ class MessageReader(Generic[M]):
         except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
             raise ValueError(f"expected JSON, got {text[:40]!r}: {error}") from None
 
-    def _decoded(self, text: str | bytes) -> M | Command:
+    def _decoded(self, text: str | bytes) -> M | PageCommand:
         envelope = _ENVELOPE.decode(text)
         if envelope.type in self._messages:
             return self._messages[envelope.type].decode(text)

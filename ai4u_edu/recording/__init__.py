@@ -1,27 +1,25 @@
 """Recording, exact replay and export of episodes."""
 
 from ai4u_edu.recording.archive import Archive, ArchiveEntry
-from ai4u_edu.recording.episode import AgentRecord, Decision, Episode
+from ai4u_edu.recording.episode import AgentRecord, Episode, RecordedDecision
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.folder_recorder import recorder_into
 from ai4u_edu.recording.ghosts import Ghost, Ghosts, ghost_of
 from ai4u_edu.recording.recorder import Recorder
-from ai4u_edu.recording.replay import Moment, Replay
+from ai4u_edu.recording.replay import Replay, ReplayMoment
 from ai4u_edu.recording.verdict import Verdict
 
 __all__ = [
     "AgentRecord",
     "Archive",
     "ArchiveEntry",
-    "Decision",
     "Episode",
     "Ghost",
     "Ghosts",
-    "Moment",
+    "RecordedDecision",
     "Recorder",
     "RecordingError",
     "Replay",
+    "ReplayMoment",
     "Verdict",
     "ghost_of",
-    "recorder_into",
 ]

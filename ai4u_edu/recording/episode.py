@@ -19,11 +19,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import NameNotFoundError, suggest
-from ai4u_edu.base.parameters import Problem, explain
+from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.base.seeding import MAX_SEED
-from ai4u_edu.recording.columns import check_finite, pack_column, unpack_column, unpack_table
 from ai4u_edu.recording.errors import RecordingError
-from ai4u_edu.recording.table import MAX_FORMS, Table
+from ai4u_edu.recording.table import MAX_FORMS, Table, check_finite, pack_column, unpack_column
 from ai4u_edu.scenes import Scene, SceneDescription
 
 HEADER = b"ai4u-edu episode 1\n"
@@ -48,7 +47,7 @@ MAX_DRIVER_CHARS = 200
 Ticks = npt.NDArray[np.uint32]
 
 
-class Decision(NamedTuple):
+class RecordedDecision(NamedTuple):
     """One decision of an agent: its action and its reward."""
 
     step: int
@@ -102,9 +101,9 @@ class AgentRecord:
     def __len__(self) -> int:
         return len(self.begin)
 
-    def __getitem__(self, step: int) -> Decision:
+    def __getitem__(self, step: int) -> RecordedDecision:
         flags = int(self.flags[step])
-        return Decision(
+        return RecordedDecision(
             step=step,
             begin=int(self.begin[step]),
             end=int(self.end[step]),
@@ -124,7 +123,7 @@ class AgentRecord:
             return {}
         return {name: amount for name, (amount,) in self.carried[step].items()}
 
-    def __iter__(self) -> Iterator[Decision]:
+    def __iter__(self) -> Iterator[RecordedDecision]:
         return (self[step] for step in range(len(self)))
 
     @property
@@ -436,11 +435,11 @@ def _scene(plain: dict[str, Any]) -> SceneDescription:
     except ValidationError as error:
         found = explain(error.errors(), SceneDescription)
         raise RecordingError(
-            _message([Problem(("scene", *each.path), each.text) for each in found])
+            _message([ParameterProblem(("scene", *each.path), each.text) for each in found])
         ) from None
 
 
-def _message(problems: list[Problem]) -> str:
+def _message(problems: list[ParameterProblem]) -> str:
     more = f" (and {len(problems) - 3} more)" if len(problems) > 3 else ""
     return "; ".join(map(str, problems[:3])) + more
 
@@ -452,12 +451,7 @@ def _record(agent: _Agent) -> AgentRecord:
         end=unpack_column(agent.end, np.uint32, "end"),
         skip=unpack_column(agent.skip, np.uint16, "skip"),
         flags=unpack_column(agent.flags, np.uint8, "flags"),
-        actions=unpack_table(
-            [[(name, width) for name, width in form] for form in agent.action_forms],
-            agent.action_form,
-            agent.action_numbers,
-            "action",
-        ),
+        actions=Table.unpack(agent.action_forms, agent.action_form, agent.action_numbers, "action"),
         terms=_terms(agent.term_forms, agent.term_form, agent.term_numbers, "term"),
         rewards=check_finite(unpack_column(agent.rewards, np.float64, "rewards"), "rewards"),
         percepts=unpack_column(agent.percepts, np.uint32, "percepts"),
@@ -480,7 +474,7 @@ def _packed_terms(what: str, terms: Table) -> dict[str, Any]:
 
 def _terms(forms: list[list[str]], form: bytes, numbers: bytes, what: str) -> Table:
     """Return a table of reward terms from its columns."""
-    return unpack_table([[(name, 1) for name in each] for each in forms], form, numbers, what)
+    return Table.unpack([[(name, 1) for name in each] for each in forms], form, numbers, what)
 
 
 def _validate(episode: Episode) -> None:

@@ -3,23 +3,30 @@
 import logging
 import sys
 from collections.abc import Callable
-from typing import Any, TypeVar
+from functools import partial
+from pathlib import Path
+from typing import Any, Self, TypeVar
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.atomic_write import make_folder, write_atomically
+from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.blocks import Block
 from ai4u_edu.recording.archive import Archive
 from ai4u_edu.recording.checksum import editable_state
-from ai4u_edu.recording.episode import Episode
+from ai4u_edu.recording.episode import Episode, encode
 from ai4u_edu.recording.episode_builder import EpisodeBuilder
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.scene_export import export_scene
-from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.scenes import Scene, SceneDescription
 
 T = TypeVar("T")
 
 logger = logging.getLogger(__name__)
+
+MAX_SCENE_NAME_BYTES = 150
+"""Length of a scene's name in the name of a file."""
 
 
 class Recorder:
@@ -71,6 +78,33 @@ class Recorder:
         """Number by which the world counts the present episode."""
         self._listening = False
         self._start()
+
+    @classmethod
+    def into(
+        cls,
+        folder: Path | None,
+        sim: ControlRequestor,
+        scene: Scene,
+        keep: int = DEFAULT_KEPT_EPISODES,
+    ) -> Self:
+        """Return a recorder that also writes each episode to a folder when it ends.
+
+        An episode that can't be written, for example since the disk is full, stays in memory.
+
+        Args:
+            folder: folder for episode files; None writes none.
+            sim: the world and its agents.
+            scene: the scene that the world was built from.
+            keep: number of episodes that are kept in memory.
+
+        Raises:
+            SetupError: the folder can't be created.
+        """
+        write = None
+        if folder is not None:
+            make_folder(folder, "recorded episodes")
+            write = partial(_write, folder)
+        return cls(sim, scene=scene.description, episodes=Archive(keep), on_episode=write)
 
     def listen_to(self, sim: ControlRequestor) -> None:
         """Record another world from now on; the present episode is finished."""
@@ -187,3 +221,19 @@ class Recorder:
 
 def _values(block: Block) -> dict[str, Any]:
     return {name: repr(value) for name, value in block.values().items()}
+
+
+def _write(folder: Path, episode: Episode) -> None:
+    """Write an episode to a file of its own."""
+    folder.mkdir(parents=True, exist_ok=True)  # somebody may have removed it meanwhile
+    scene = episode.scene.name.encode()[:MAX_SCENE_NAME_BYTES].decode(errors="ignore")
+    name, data, count = f"{scene}-{episode.seed}", encode(episode), 1
+    path = folder / f"{name}.episode"
+    while True:
+        try:
+            write_atomically(path, data, over=False)
+        except FileExistsError:  # of an earlier episode, or of another server
+            count += 1
+            path = folder / f"{name}-{count}.episode"
+        else:
+            return

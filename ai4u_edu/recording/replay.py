@@ -8,12 +8,13 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError, suggest
 from ai4u_edu.blocks import Brain, Percept
-from ai4u_edu.recording.episode import Decision, Episode
+from ai4u_edu.recording.episode import Episode, RecordedDecision
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.recorder import Recorder
-from ai4u_edu.recording.scene_export import export_scene, without_brains
+from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.recording.verdict import Verdict, compare
+from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import (
     Snapshot,
     StaticScene,
@@ -26,10 +27,10 @@ CACHED_MOMENTS = 100
 
 
 @dataclass(frozen=True)
-class Moment:
+class ReplayMoment:
     """The moment at which a decision was taken."""
 
-    decision: Decision
+    decision: RecordedDecision
     """The decision's action and reward."""
     percept: Percept
     """The percept that the agent's brain got."""
@@ -66,7 +67,7 @@ class Replay:
         self.episode = episode
         self._player = Player(episode, on_step=on_step)
         self._static_scene: tuple[int, StaticScene] | None = None
-        self._cache: dict[tuple[int, int], Moment] = {}
+        self._cache: dict[tuple[int, int], ReplayMoment] = {}
         self._last = (0, -1)
 
     @cached_property
@@ -88,7 +89,7 @@ class Replay:
             return Verdict(False, 0, f"it can't be compared: {recorder.problem}")
         return compare(self.episode, again, problem)
 
-    def at(self, step: int, agent: str | None = None) -> Moment:
+    def at(self, step: int, agent: str | None = None) -> ReplayMoment:
         """Return the moment at which a decision was taken.
 
         Args:
@@ -109,7 +110,7 @@ class Replay:
         self._last = index, step
         return self._cache[index, step]
 
-    def moments(self, agent: str | None = None) -> Iterator[Moment]:
+    def moments(self, agent: str | None = None) -> Iterator[ReplayMoment]:
         """Yield all moments that can be replayed exactly, in order."""
         index = self.episode.ids.index(self.episode.agent(agent).id)
         for step, begin in enumerate(self.episode.agents[index].begin.tolist()):
@@ -218,6 +219,10 @@ class Replay:
         except RecordingError:  # a block that can't be serialized, so it is not in the episode
             return False
 
+    def build(self) -> ControlRequestor:
+        """Return a new world of the episode's scene, without brains of types unknown here."""
+        return Scene(without_unknown_brains(self.episode.scene)).build()
+
     def _find(self, step: int, agent: str | None) -> tuple[int, int]:
         record = self.episode.agent(agent)
         count = len(record)
@@ -238,9 +243,9 @@ class Replay:
             f"{self.verdict.exact_until}) and not beyond: {self.verdict.why}"
         )
 
-    def _moment(self, index: int, step: int) -> Moment:
+    def _moment(self, index: int, step: int) -> ReplayMoment:
         percept = self._player.sim.agents[index].percept
-        return Moment(self.episode.agents[index][step], percept, self._snapshot())
+        return ReplayMoment(self.episode.agents[index][step], percept, self._snapshot())
 
     def _snapshot(self) -> Snapshot:
         sim = self._player.sim

@@ -7,7 +7,7 @@ import threading
 import time
 
 from ai4u_edu.remote.errors import RemoteError
-from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, State
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, SentState, SessionPhase
 from ai4u_edu.wire.validation import WireError
 
 CONNECT_INTERVAL_S = 0.25
@@ -66,7 +66,7 @@ class AI4UScript:
         if sys.platform == "win32":  # there each later datagram would raise for an earlier refusal
             self._socket.ioctl(0x9800000C, False)
 
-    def ask(self, state: State | None = None) -> AI4UReply | None:
+    def ask(self, state: SentState | None = None) -> AI4UReply | None:
         """Send the next request, and wait for the reply.
 
         Only requests that look for a script are repeated: the script would take a repeated datagram
@@ -79,7 +79,7 @@ class AI4UScript:
             ScriptGoneError: a script that was connected does not reply.
         """
         dialogue = self.dialogue
-        is_connecting = dialogue.phase is Phase.CONNECTING
+        is_connecting = dialogue.phase is SessionPhase.CONNECTING
         self._drain()
         until = time.monotonic() + (CONNECT_INTERVAL_S if is_connecting else self.patience)
         try:
@@ -105,7 +105,7 @@ class AI4UScript:
 
     def say_goodbye(self) -> None:
         """Tell a script that the world has ended."""
-        if self.dialogue.phase not in (Phase.CONNECTING, Phase.OVER):
+        if self.dialogue.phase not in (SessionPhase.CONNECTING, SessionPhase.OVER):
             with contextlib.suppress(OSError):
                 self._socket.send(self.dialogue.goodbye_request())
                 self._socket.settimeout(GOODBYE_TIMEOUT_S)

@@ -23,8 +23,8 @@ from ai4u_edu.remote.spaces import output_space, reading_space
 from ai4u_edu.remote.sync_connection import ConnectionStoppedError, SyncConnection
 from ai4u_edu.wire import ai4u_dialogue, native
 from ai4u_edu.wire.agent_codec import AgentCodec
-from ai4u_edu.wire.ai4u import Order, number
-from ai4u_edu.wire.ai4u_dialogue import Phase, ReplyKind, State
+from ai4u_edu.wire.ai4u import ReplyCommand, number
+from ai4u_edu.wire.ai4u_dialogue import ReplyKind, SentState, SessionPhase
 from ai4u_edu.wire.validation import WireError
 
 SETTLE_S = 0.1
@@ -164,7 +164,7 @@ class Bridge:
         """Look for a script until one starts; return False if the bridge was stopped before."""
         script, told = self._script, False
         while not script.is_over.is_set():
-            if script.dialogue.phase in (Phase.STARTED, Phase.PLAYING):
+            if script.dialogue.phase in (SessionPhase.STARTED, SessionPhase.PLAYING):
                 return True
             try:
                 reply = script.ask()
@@ -177,7 +177,7 @@ class Bridge:
             elif reply is not None and reply.kind is ReplyKind.HALT:
                 script.dialogue.begin()
             elif reply is not None:
-                greets = script.dialogue.phase is Phase.HANDSHAKE
+                greets = script.dialogue.phase is SessionPhase.HANDSHAKE
                 time.sleep(SETTLE_S if greets else POLL_INTERVAL_S)
         return False
 
@@ -186,7 +186,7 @@ class Bridge:
         script = self._script
         self._connection, self._robot = self._connect()
         self._tell(f"an AI4U script drives {self._title}")
-        starts = script.dialogue.phase is Phase.STARTED
+        starts = script.dialogue.phase is SessionPhase.STARTED
         percept = self._connection.run(self._robot.sense() if starts else self._robot.reset())
         if starts:
             time.sleep(SETTLE_S)
@@ -211,7 +211,7 @@ class Bridge:
                 percept, state = after, self._state(after)
 
     def _carry_out(
-        self, kind: ReplyKind, orders: list[Order], percept: RemotePercept
+        self, kind: ReplyKind, orders: list[ReplyCommand], percept: RemotePercept
     ) -> RemotePercept | None:
         """Carry out a script's reply; return the next percept, or None if nothing was done."""
         run, robot = self._connection.run, self._robot
@@ -223,7 +223,7 @@ class Bridge:
         if (
             kind is not ReplyKind.ACTION
             or percept.done
-            or self._script.dialogue.phase is Phase.STARTED
+            or self._script.dialogue.phase is SessionPhase.STARTED
         ):
             return None
         try:
@@ -234,8 +234,8 @@ class Bridge:
             run(robot.act({}))
             return run(robot.sense())
 
-    def _state(self, percept: RemotePercept) -> State:
-        return State(
+    def _state(self, percept: RemotePercept) -> SentState:
+        return SentState(
             sensors=self._codec.sensors(percept),
             reward=percept.reward,
             steps=percept.step,

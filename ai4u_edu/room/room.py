@@ -11,7 +11,7 @@ from ai4u_edu.page.editing.scene_store import SceneStore
 from ai4u_edu.page.editing.sharing import SharedScene, read_shared
 from ai4u_edu.page.editing.unsaved import Unsaved, choose_unsaved
 from ai4u_edu.page.server.scripts import ScriptReport
-from ai4u_edu.recording import Episode, Ghosts, recorder_into
+from ai4u_edu.recording import Episode, Ghosts, Recorder
 from ai4u_edu.room.served_world import ServedWorld, serve_world
 from ai4u_edu.room.settings import RoomSettings
 from ai4u_edu.runtime.frame_budget import FrameBudget
@@ -46,7 +46,7 @@ class Room:
         scene, linked_seed = _scene_of(settings, restored)
         self.title = scene.description.title or scene.description.name
         sim, scene = settings.build(scene)
-        recorder = recorder_into(settings.record, sim, scene, settings.keep)
+        recorder = Recorder.into(settings.record, sim, scene, settings.keep)
         ghost = Episode.load(settings.ghost) if settings.ghost else None
         self.runner = Runner(
             sim,

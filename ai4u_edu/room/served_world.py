@@ -10,7 +10,7 @@ from starlette.applications import Starlette
 
 from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, OptionTab, load_option
 from ai4u_edu.page.editing import SceneEditor
-from ai4u_edu.page.messages import Command
+from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel import PanelContext, PanelSockets
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page_view import PageView
@@ -19,8 +19,8 @@ from ai4u_edu.page.panel.socket import PanelOption
 from ai4u_edu.page.server import LOOPBACK, Rules, ServerThread, lock_viser_port, room_app
 from ai4u_edu.page.server.class_feed import ClassFeed
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
-from ai4u_edu.page.server.scripts import Report
-from ai4u_edu.page.server.start_page import Lesson
+from ai4u_edu.page.server.scripts import ScriptLog
+from ai4u_edu.page.server.start_page import ListedLesson
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption
@@ -56,9 +56,9 @@ def serve_world(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     viser_secret: str = PROXY_SECRET,
-    lessons: Callable[[], Sequence[Lesson]] | None = None,
+    lessons: Callable[[], Sequence[ListedLesson]] | None = None,
     class_feed: ClassFeed | None = None,
-    script_report: Report | None = None,
+    script_report: ScriptLog | None = None,
     options: Sequence[str] = PAGE_OPTIONS,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> "ServedWorld":
@@ -204,7 +204,7 @@ class ServedWorld:
 class _TabList(PanelOption):
     """Part "tabs" of the panel: the tabs that options bring."""
 
-    commands: Mapping[type[Command], Handler] = {}
+    commands: Mapping[type[PageCommand], Handler] = {}
     agent_parts = ()
 
     def __init__(self, tabs: Sequence[OptionTab]) -> None:

@@ -15,7 +15,6 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder, Replay
-from ai4u_edu.recording.scene_export import without_unknown_brains
 from ai4u_edu.runtime.clock import Clock, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
 from ai4u_edu.runtime.episode_clock import EpisodeClock
@@ -25,7 +24,6 @@ from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
 from ai4u_edu.runtime.start_wait import StartWait
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
-from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 
 T = TypeVar("T")
@@ -335,8 +333,7 @@ class Runner:
 
         def command() -> None:
             if not replay.fits(self.sim):
-                other = Scene(without_unknown_brains(replay.episode.scene)).build()
-                self.replace_sim_now(other, seed=replay.episode.seed)
+                self.replace_sim_now(replay.build(), seed=replay.episode.seed)
             replay.continue_from(step, agent=agent, sim=self.sim)
             self.error, self._publisher.past, self.paused = "", None, False
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.block_frames import Place, calls_of_thread, find_place
+from ai4u_edu.agent.block_frames import CodePlace, calls_of_thread, find_place
 from ai4u_edu.snapshot import SlowTick
 
 logger = logging.getLogger(__name__)
@@ -29,7 +29,7 @@ class Stall:
     """Time at which it began, by the runner's clock (s)."""
     seconds: float
     """Time since then."""
-    place: Place
+    place: CodePlace
     """The block and the line where the thread is."""
 
     @property
@@ -55,7 +55,7 @@ class Stall:
     def __str__(self) -> str:
         """Return a sentence about it.
 
-        >>> place = Place("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12")
+        >>> place = CodePlace("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12")
         >>> str(Stall(since=3.0, seconds=5.2, place=place))
         "Sensor WallDistance 'wall' of agent '0' has not answered for 5 s (my_blocks.py, line 12)"
         """

@@ -8,7 +8,7 @@ from pydantic import Field
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.ledger import HANDLERS
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.base.parameters import DataPath, Name, Problem, quantity
+from ai4u_edu.base.parameters import DataPath, Name, ParameterProblem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
 from ai4u_edu.scenes.serialization import PlainDataError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
@@ -71,7 +71,7 @@ def make_agents(scene: SceneDescription) -> list[BasicAgent]:
     Raises:
         PlainDataError: some parameters are wrong; it has all problems.
     """
-    problems: list[Problem] = []
+    problems: list[ParameterProblem] = []
     agents = []
     for index, given in enumerate(scene.agents):
         try:
@@ -103,7 +103,7 @@ def check_success(success: str | None, agents: Sequence[BasicAgent]) -> None:
     ]
     hint = f"it is paid under the name {parents[0]!r}" if parents else suggest(success, terms)
     text = f"no reward function has the name {success!r}, so no episode could succeed; {hint}"
-    raise PlainDataError([Problem(("success",), text)])
+    raise PlainDataError([ParameterProblem(("success",), text)])
 
 
 def _names_below(reward: CombinedRewardFunc) -> set[str]:

@@ -9,7 +9,7 @@ from yaml import YAMLError
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest
-from ai4u_edu.base.parameters import Problem, explain
+from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.serialization import PlainDataError
@@ -107,13 +107,13 @@ class Scene:
             raise _scene_error(file, error.problems) from None
         except WorldError as error:
             raise _scene_error(
-                file, [Problem(description.where_is(error.thing), str(error))]
+                file, [ParameterProblem(description.where_is(error.thing), str(error))]
             ) from None
         except AI4UError as error:
             path = path_of(error, description.agents)
             if not path:
                 raise SceneError(f"{name}: {error}") from None
-            raise _scene_error(file, [Problem(path, str(error))]) from None
+            raise _scene_error(file, [ParameterProblem(path, str(error))]) from None
         return scene
 
     @staticmethod
@@ -217,7 +217,9 @@ def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[st
     return plain
 
 
-def _scene_error(file: YamlFile, problems: "list[Problem] | tuple[Problem, ...]") -> SceneError:
+def _scene_error(
+    file: YamlFile, problems: "list[ParameterProblem] | tuple[ParameterProblem, ...]"
+) -> SceneError:
     shown = problems[:MAX_ERRORS]
     lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in shown]
     if len(problems) > len(shown):

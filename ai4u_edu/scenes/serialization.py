@@ -7,7 +7,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 
 from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest
-from ai4u_edu.base.parameters import MAX_HINTS, DataPath, Problem, explain, format_problems
+from ai4u_edu.base.parameters import MAX_HINTS, DataPath, ParameterProblem, explain, format_problems
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
 from ai4u_edu.blocks.parameterized import Parameterized
 
@@ -26,7 +26,7 @@ def is_serializable(cls: type[Block]) -> bool:
 class PlainDataError(AI4UError):
     """All problems of plain data, with their paths."""
 
-    def __init__(self, problems: Sequence[Problem]) -> None:
+    def __init__(self, problems: Sequence[ParameterProblem]) -> None:
         super().__init__(format_problems(problems))
         self.problems = tuple(problems)
 
@@ -55,7 +55,7 @@ def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
     """
     if not isinstance(data, Mapping):
         raise PlainDataError(
-            [Problem(path, f"expected a mapping with a 'type', got {shown(data)}")]
+            [ParameterProblem(path, f"expected a mapping with a 'type', got {shown(data)}")]
         )
     known = {
         name: cls
@@ -64,11 +64,11 @@ def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
     }
     name = data.get("type")
     if name is None:
-        raise PlainDataError([Problem(path, f"needs a 'type'; {suggest('', known)}")])
+        raise PlainDataError([ParameterProblem(path, f"needs a 'type'; {suggest('', known)}")])
     if not isinstance(name, str) or name not in known:
         hint = suggest(name if isinstance(name, str) else "", known)
         text = f"unknown type of {kind.__name__.lower()} {shown(name)}; {hint}"
-        raise PlainDataError([Problem((*path, "type"), f"{text}; {OWN}")])
+        raise PlainDataError([ParameterProblem((*path, "type"), f"{text}; {OWN}")])
     given = {str(key): value for key, value in data.items() if key != "type"}
     made = make(known[name], given, path)
     if not isinstance(made, Block):  # pragma: no cover - known holds blocks only
@@ -78,7 +78,7 @@ def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
 
 def make(cls: type[Parameterized], given: Mapping[str, Any], path: DataPath) -> Parameterized:
     """Make an object from plain parameters; some of them may be blocks."""
-    problems: list[Problem] = []
+    problems: list[ParameterProblem] = []
     values: dict[str, Any] = {}
     fields = cls.parameters()
     for name, value in given.items():
@@ -94,17 +94,19 @@ def make(cls: type[Parameterized], given: Mapping[str, Any], path: DataPath) -> 
     except ParameterError as error:
         cause = error.details
         if not isinstance(cause, ValidationError):
-            raise PlainDataError([Problem(path, str(error))]) from None
+            raise PlainDataError([ParameterProblem(path, str(error))]) from None
         found = explain(cause.errors(), fields)
-        raise PlainDataError([Problem((*path, *each.path), each.text) for each in found]) from None
+        raise PlainDataError(
+            [ParameterProblem((*path, *each.path), each.text) for each in found]
+        ) from None
     except AI4UError as error:
-        raise PlainDataError([Problem(path, str(error))]) from None
+        raise PlainDataError([ParameterProblem(path, str(error))]) from None
 
 
 def _convert(kind: type[Block], value: Any, path: DataPath) -> Any:
     if not isinstance(value, list | tuple):
         return from_plain(kind, value, path)
-    problems: list[Problem] = []
+    problems: list[ParameterProblem] = []
     blocks = []
     for index, each in enumerate(value):
         try:

@@ -1,12 +1,12 @@
 """Types of snapshots: the state of a world at one tick, for the page, the API and the recorder."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ai4u_edu.agent import Entry
+from ai4u_edu.agent import LedgerEntry
 from ai4u_edu.agent.cycle import Phase
 from ai4u_edu.blocks import (
     Legend,
@@ -138,12 +138,37 @@ class AgentState(NamedTuple):
     """Colours for showing readings as pictures, by perception key."""
     phase: Phase = NOWHERE
     """Progress in its present decision."""
-    history: tuple[Entry, ...] = ()
+    history: tuple[LedgerEntry, ...] = ()
     """Rewards of its latest decisions, if the ledger keeps them."""
     sensor_infos: tuple[SensorInfo, ...] = ()
     """Descriptions of its sensors; the same object until its blocks are rebound."""
     actuator_infos: tuple[ActuatorInfo, ...] = ()
     """Descriptions of its actuators, likewise."""
+
+    def outcome(self, agents: Iterable["AgentState"], success: str) -> str:
+        """Return the end of its episode in a word that pages know; empty before it.
+
+        Args:
+            agents: all agents of the world at that time.
+            success: the reward term that is paid when the goal is reached; empty if there is none.
+
+        Returns:
+            ``goal``, ``won``, ``lost``, ``fell``, ``time``, ``over``, or an empty text.
+        """
+        if not (self.terminated or self.truncated):
+            return ""
+        others = [other for other in agents if other.id != self.id]
+        if self.succeeded:
+            return "won" if others else "goal"
+        if self.truncated:
+            return "time"
+        if others:
+            beaten = self.reward < 0 or any(other.succeeded for other in others)
+            return "lost" if beaten else "over"
+        if self.fell:
+            return "fell"
+        # a scene that names no success has one all the same
+        return "goal" if self.episode_reward > 0 and not success else "over"
 
     def has_marks(self, sensor: SensorInfo) -> bool:
         """Return True if a sensor's last reading has rays or spots to draw in the world."""

@@ -8,7 +8,7 @@ import numpy as np
 from gymnasium import spaces
 
 from ai4u_edu.base.errors import suggest
-from ai4u_edu.wire.ai4u import Kind, Order, packer
+from ai4u_edu.wire.ai4u import Kind, ReplyCommand, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
 from ai4u_edu.wire.ai4u_metadata import ModelInput, ModelOutput, metadata
 from ai4u_edu.wire.png import grey_png
@@ -31,7 +31,7 @@ TEXT_TYPES = ("sstring", "sstrings")
 """Types that are sent, but not part of the metadata: a script has no space for texts."""
 
 
-class Reading(Protocol):
+class ReadingLike(Protocol):
     """The description of one sensor's reading in the percept."""
 
     @property
@@ -51,7 +51,7 @@ class Reading(Protocol):
         """True if it is part of a policy's observation."""
 
 
-class Output(Protocol):
+class OutputLike(Protocol):
     """The description of one actuator's action."""
 
     @property
@@ -84,7 +84,7 @@ class AgentCodec:
         WireError: AI4U's protocol can't express what a sensor reads.
     """
 
-    def __init__(self, readings: Sequence[Reading], outputs: Sequence[Output]) -> None:
+    def __init__(self, readings: Sequence[ReadingLike], outputs: Sequence[OutputLike]) -> None:
         self._packers = [
             (each.name, _packer(each)) for each in readings if each.name not in STANDARD
         ]
@@ -97,12 +97,12 @@ class AgentCodec:
         """Return the encoded readings for a script."""
         return [pack(percept[name]) for name, pack in self._packers]
 
-    def action(self, orders: Sequence[Order]) -> dict[str, tuple[str, ...]]:
+    def action(self, orders: Sequence[ReplyCommand]) -> dict[str, tuple[str, ...]]:
         """Return the action in a reply: its command, and the fields that name an actuator."""
         (name, args), *fields = orders
         return {each: numbers for each, numbers in fields if each in self._known} | {name: args}
 
-    def find_dropped(self, orders: Sequence[Order], *, is_action: bool) -> str:
+    def find_dropped(self, orders: Sequence[ReplyCommand], *, is_action: bool) -> str:
         """Return a sentence about the fields of a reply that have no effect; empty for none.
 
         Args:
@@ -131,13 +131,13 @@ class AgentCodec:
         return f"{who} had no effect: {expected}"
 
 
-def _wire_kind(reading: Reading) -> Kind:
+def _wire_kind(reading: ReadingLike) -> Kind:
     if reading.kind == "sbytearray" and reading.is_input:
         return Kind.FLOATS  # the script's side does not decode the base64 of bytes
     return KINDS.get(reading.kind, Kind.FLOATS)
 
 
-def _packer(reading: Reading) -> Callable[[Any], bytes]:
+def _packer(reading: ReadingLike) -> Callable[[Any], bytes]:
     """Return a function that encodes a reading as a field."""
     kind = _wire_kind(reading)
     pack = packer(reading.name, kind)
@@ -158,7 +158,7 @@ def _channels_first(picture: Any) -> Any:
     return picture[None] if picture.ndim == 2 else np.moveaxis(picture, -1, 0)
 
 
-def _input(reading: Reading) -> ModelInput:
+def _input(reading: ReadingLike) -> ModelInput:
     space = reading.space
     shape = space.shape or (1,)
     if isinstance(space, spaces.Discrete):
@@ -177,7 +177,7 @@ def _input(reading: Reading) -> ModelInput:
     return ModelInput(reading.name, (int(np.prod(shape)),), kind, low, high)
 
 
-def _output(output: Output) -> ModelOutput:
+def _output(output: OutputLike) -> ModelOutput:
     space = output.space
     if isinstance(space, spaces.Discrete):
         return ModelOutput(output.name, False, (int(space.n),), (0.0,), (float(space.n - 1),))

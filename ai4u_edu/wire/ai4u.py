@@ -54,7 +54,7 @@ class Field(NamedTuple):
     """float, int, bool, str, bytes, an array of float64 or int64, or a list of str."""
 
 
-class Order(NamedTuple):
+class ReplyCommand(NamedTuple):
     """A command of a reply."""
 
     name: str
@@ -256,10 +256,10 @@ def _words(data: bytes, at: int, size: int, what: str) -> tuple[str, int]:
 # -- replies ---------------------------------------------------------------------------------------
 
 
-def encode_reply(orders: Sequence[Order]) -> bytes:
+def encode_reply(orders: Sequence[ReplyCommand]) -> bytes:
     """Return a reply as a datagram: a command, and its fields.
 
-    >>> encode_reply([Order("move", ("1.0", "0", "0", "0"))])
+    >>> encode_reply([ReplyCommand("move", ("1.0", "0", "0", "0"))])
     b'move;4;1.0;0;0;0'
     """
     if orders and orders[0].name == HALT:
@@ -267,14 +267,14 @@ def encode_reply(orders: Sequence[Order]) -> bytes:
     return "@".join(";".join((name, str(len(args)), *args)) for name, args in orders).encode()
 
 
-def decode_reply(data: bytes) -> list[Order]:
+def decode_reply(data: bytes) -> list[ReplyCommand]:
     """Return the commands of a reply: the first one counts, the others are its fields.
 
     Raises:
         WireError: the bytes are no reply. No other error is raised for any bytes.
 
     >>> decode_reply(b"move;2;1.0;0.5@speed;1;3")
-    [Order(name='move', args=('1.0', '0.5')), Order(name='speed', args=('3',))]
+    [ReplyCommand(name='move', args=('1.0', '0.5')), ReplyCommand(name='speed', args=('3',))]
     >>> decode_reply(b"move;2;1.0")
     Traceback (most recent call last):
     ...
@@ -287,14 +287,14 @@ def decode_reply(data: bytes) -> list[Order]:
     except UnicodeDecodeError:
         raise WireError(f"expected a reply in UTF-8, got {shown(data)}") from None
     if text == HALT:
-        return [Order(HALT)]
+        return [ReplyCommand(HALT)]
     return [_order(part) for part in text.split("@")]
 
 
-def _order(text: str) -> Order:
+def _order(text: str) -> ReplyCommand:
     name, *rest = text.strip().split(";")
     if name and rest and rest[0] == str(len(rest) - 1):  # the common case
-        return Order(name, tuple(rest[1:]))
+        return ReplyCommand(name, tuple(rest[1:]))
     if not name or not rest or not re.fullmatch(r"\d{1,5}", rest[0], re.A):
         raise WireError(f"expected a command as in 'move;2;1.0;0.5', got {shown(text)}")
     count, args = int(rest[0]), rest[1:]
@@ -302,4 +302,4 @@ def _order(text: str) -> Order:
         args = []  # the package writes a semicolon after a 0
     if count != len(args):
         raise WireError(f"{shown(name)}: expected {count} arguments as it says, got {len(args)}")
-    return Order(name, tuple(args))
+    return ReplyCommand(name, tuple(args))

@@ -34,7 +34,7 @@ from ai4u_edu.wire.ai4u import (
     HALT,
     Field,
     Kind,
-    Order,
+    ReplyCommand,
     decode_reply,
     encode_request,
     joined,
@@ -46,7 +46,7 @@ from ai4u_edu.wire.validation import WireError
 COMMANDS = "restart, resume, start_and_reset, start"
 
 
-class Phase(Enum):
+class SessionPhase(Enum):
     """Phases of a session."""
 
     CONNECTING = "connecting"
@@ -77,18 +77,18 @@ class ReplyKind(StrEnum):
 
 _COMMANDS = {ReplyKind.NOOP, ReplyKind.START, ReplyKind.RESET, ReplyKind.RESTART}
 VALID_KINDS = {
-    Phase.CONNECTING: {ReplyKind.NOOP, ReplyKind.START, ReplyKind.RESET, ReplyKind.RESTART},
-    Phase.HANDSHAKE: {ReplyKind.CONFIGURED, ReplyKind.HALT},
-    Phase.POLLING: {
+    SessionPhase.CONNECTING: {ReplyKind.NOOP, ReplyKind.START, ReplyKind.RESET, ReplyKind.RESTART},
+    SessionPhase.HANDSHAKE: {ReplyKind.CONFIGURED, ReplyKind.HALT},
+    SessionPhase.POLLING: {
         ReplyKind.NOOP,
         ReplyKind.START,
         ReplyKind.RESET,
         ReplyKind.RESTART,
         ReplyKind.HALT,
     },
-    Phase.STARTED: set(ReplyKind) - {ReplyKind.CONFIGURED, ReplyKind.START},
-    Phase.PLAYING: set(ReplyKind) - {ReplyKind.CONFIGURED, ReplyKind.START},
-    Phase.OVER: {ReplyKind.HALT},
+    SessionPhase.STARTED: set(ReplyKind) - {ReplyKind.CONFIGURED, ReplyKind.START},
+    SessionPhase.PLAYING: set(ReplyKind) - {ReplyKind.CONFIGURED, ReplyKind.START},
+    SessionPhase.OVER: {ReplyKind.HALT},
 }
 """Kinds of replies that are valid in each phase."""
 
@@ -97,11 +97,11 @@ class AI4UReply(NamedTuple):
     """A reply of a script, parsed."""
 
     kind: ReplyKind
-    orders: list[Order]
+    orders: list[ReplyCommand]
     """All of its commands; the first one of an action has the actuator's name."""
 
 
-class State(NamedTuple):
+class SentState(NamedTuple):
     """The state of an agent, as it is sent to a script."""
 
     sensors: Sequence[bytes]
@@ -132,13 +132,13 @@ class AI4UDialogue:
     >>> dialogue.request(None)[:40]
     b'   4  10__target__3      10envcontrol  1'
     >>> dialogue.parse_reply(b"__noop__;1;0").kind, dialogue.phase
-    (<ReplyKind.NOOP: '__noop__'>, <Phase.HANDSHAKE: 'handshake'>)
+    (<ReplyKind.NOOP: '__noop__'>, <SessionPhase.HANDSHAKE: 'handshake'>)
     >>> handshake = dialogue.request(None)
     >>> dialogue.parse_reply(b"max_steps;1;0@id;1;0").kind, dialogue.phase
-    (<ReplyKind.CONFIGURED: 'max_steps'>, <Phase.POLLING: 'polling'>)
+    (<ReplyKind.CONFIGURED: 'max_steps'>, <SessionPhase.POLLING: 'polling'>)
     >>> poll = dialogue.request(None)
     >>> dialogue.parse_reply(b"__reset__;1;0").kind, dialogue.phase
-    (<ReplyKind.RESET: '__reset__'>, <Phase.PLAYING: 'playing'>)
+    (<ReplyKind.RESET: '__reset__'>, <SessionPhase.PLAYING: 'playing'>)
     """
 
     def __init__(
@@ -151,7 +151,7 @@ class AI4UDialogue:
         repeat_action: bool = True,
     ) -> None:
         self.agent = agent
-        self.phase = Phase.CONNECTING
+        self.phase = SessionPhase.CONNECTING
         self.in_flight = False
         """True while a request waits for its reply; no other one may be sent."""
         self._last = ""
@@ -167,7 +167,7 @@ class AI4UDialogue:
             )
         )
         self._reward, self._steps = packer("reward", Kind.FLOAT), packer("steps", Kind.INT)
-        self._last_request: tuple[State, Phase, bytes] | None = None
+        self._last_request: tuple[SentState, SessionPhase, bytes] | None = None
         """The last state request; a script that asks for time gets the same bytes again."""
         self._always = [
             packed(field)
@@ -183,9 +183,9 @@ class AI4UDialogue:
 
     def begin(self) -> None:
         """Forget the session; the next request looks for a script."""
-        self.phase, self.in_flight, self._last = Phase.CONNECTING, False, ""
+        self.phase, self.in_flight, self._last = SessionPhase.CONNECTING, False, ""
 
-    def request(self, state: State | None) -> bytes:
+    def request(self, state: SentState | None) -> bytes:
         """Return the next request.
 
         Args:
@@ -194,10 +194,10 @@ class AI4UDialogue:
         self.in_flight = True
         phase = self.phase
         if state is None or phase not in _STATE_PHASES:
-            return self._handshake if phase is Phase.HANDSHAKE else self._poll()
+            return self._handshake if phase is SessionPhase.HANDSHAKE else self._poll()
         last = self._last_request
         if last is None or last[0] is not state or last[1] is not phase:
-            request = self._state(state, done=state.done or phase is Phase.STARTED)
+            request = self._state(state, done=state.done or phase is SessionPhase.STARTED)
             self._last_request = last = state, phase, request
         return last[2]
 
@@ -212,11 +212,11 @@ class AI4UDialogue:
         kind = _KINDS.get(name, ReplyKind.ACTION)
         if kind not in VALID_KINDS[self.phase]:
             raise WireError(f"nothing that can be said while {self.phase.value}: {name!r}")
-        if kind is ReplyKind.CONFIGURED and Order("id", (self.agent,)) not in orders[1:]:
+        if kind is ReplyKind.CONFIGURED and ReplyCommand("id", (self.agent,)) not in orders[1:]:
             raise WireError(f"expected an answer for agent {self.agent!r}, got {orders[1:]}")
         self.in_flight, self._last = False, name
-        if self.phase is Phase.CONNECTING:
-            self.phase, self._first_kind = Phase.HANDSHAKE, kind
+        if self.phase is SessionPhase.CONNECTING:
+            self.phase, self._first_kind = SessionPhase.HANDSHAKE, kind
             return AI4UReply(ReplyKind.NOOP, orders)
         if kind is ReplyKind.CONFIGURED and self._first_kind is not ReplyKind.NOOP:
             kind = self._first_kind
@@ -224,18 +224,18 @@ class AI4UDialogue:
             case ReplyKind.ACTION | ReplyKind.WAIT:
                 pass  # most replies
             case ReplyKind.CONFIGURED | ReplyKind.CONTROL:
-                self.phase = Phase.POLLING
+                self.phase = SessionPhase.POLLING
             case ReplyKind.START:
-                self.phase = Phase.STARTED
+                self.phase = SessionPhase.STARTED
             case ReplyKind.RESET | ReplyKind.RESTART:
-                self.phase = Phase.PLAYING
+                self.phase = SessionPhase.PLAYING
             case ReplyKind.HALT:
-                self.phase = Phase.OVER
+                self.phase = SessionPhase.OVER
         return AI4UReply(ReplyKind.RESET if kind is ReplyKind.RESTART else kind, orders)
 
     def goodbye_request(self) -> bytes:
         """Return the last request; its reply is ``halt``."""
-        self.phase, self.in_flight = Phase.OVER, True
+        self.phase, self.in_flight = SessionPhase.OVER, True
         return encode_request(
             (
                 Field("__target__", Kind.TEXT, "envcontrol"),
@@ -256,7 +256,7 @@ class AI4UDialogue:
             )
         )
 
-    def _state(self, state: State, *, done: bool) -> bytes:
+    def _state(self, state: SentState, *, done: bool) -> bytes:
         return joined(
             [
                 *state.sensors,
@@ -277,5 +277,5 @@ def _encoded_bools(name: str) -> dict[bool, bytes]:
 
 _DONE, _TRUNCATED = _encoded_bools("done"), _encoded_bools("truncated")
 _PAUSED, _STOPPED = _encoded_bools("__ctrl_paused__"), _encoded_bools("__ctrl_stopped__")
-_STATE_PHASES = (Phase.PLAYING, Phase.STARTED)
+_STATE_PHASES = (SessionPhase.PLAYING, SessionPhase.STARTED)
 _KINDS = {kind.value: kind for kind in ReplyKind if kind is not ReplyKind.ACTION}

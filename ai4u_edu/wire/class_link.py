@@ -62,7 +62,7 @@ Outcome = Literal["goal", "won", "lost", "fell", "time", "over"]
 # -- from the room ---------------------------------------------------------------------------------
 
 
-class Hello(TaggedMessage, frozen=True):
+class LinkHello(TaggedMessage, frozen=True, tag="hello"):
     """A room, or a notebook without a world, begins its link."""
 
     version: Int
@@ -71,7 +71,7 @@ class Hello(TaggedMessage, frozen=True):
     kind: Literal["room", "notebook"]
 
 
-class Shape(Record, frozen=True):
+class DrawnShape(Record, frozen=True):
     """A filled disc or polygon of a drawing, in metres."""
 
     colour: _Colour
@@ -86,7 +86,7 @@ class BodyDrawing(Record, frozen=True):
 
     name: Text
     is_agent: bool
-    shapes: Annotated[tuple[Shape, ...], LIST]
+    shapes: Annotated[tuple[DrawnShape, ...], LIST]
 
 
 class Drawing(TaggedMessage, frozen=True):
@@ -96,7 +96,7 @@ class Drawing(TaggedMessage, frozen=True):
     """Counted by the room, from 1."""
     bounds: tuple[Finite, Finite, Finite, Finite]
     """Left, bottom, right, top (m)."""
-    ground: Annotated[tuple[Shape, ...], LIST]
+    ground: Annotated[tuple[DrawnShape, ...], LIST]
     """Floors and areas, in the world's frame, in the order in which they are drawn."""
     bodies: Annotated[tuple[BodyDrawing, ...], LIST]
 
@@ -167,7 +167,7 @@ class ExerciseResult(TaggedMessage, frozen=True):
     """Id of the mistake that was found, such as ``04.2/narrow``."""
 
 
-class Network(TaggedMessage, frozen=True):
+class HandedInNetwork(TaggedMessage, frozen=True, tag="network"):
     """A trained network that the seat hands in for tournaments; the latest one counts."""
 
     key: Key
@@ -192,7 +192,7 @@ class Applied(TaggedMessage, frozen=True):
 # -- from the class --------------------------------------------------------------------------------
 
 
-class Welcome(TaggedMessage, frozen=True):
+class LinkWelcome(TaggedMessage, frozen=True, tag="welcome"):
     """The class accepts the link."""
 
     version: Int
@@ -286,7 +286,7 @@ class RaceRow(Record, frozen=True):
     room: Text
 
 
-class Race(TaggedMessage, frozen=True):
+class CurrentRace(TaggedMessage, frozen=True, tag="race"):
     """The present race.
 
     A room resets to the seed, stands still until ``starts_in_s`` is over, and then sends the result
@@ -313,7 +313,7 @@ def race_assignment(race: str) -> str:
     return f"race-{race}"
 
 
-class Problem(TaggedMessage, frozen=True):
+class LinkProblem(TaggedMessage, frozen=True, tag="problem"):
     """An error: the text says what was wrong, and how to mend it."""
 
     code: Literal["version", "secret", "message", "over"]
@@ -322,11 +322,21 @@ class Problem(TaggedMessage, frozen=True):
 
 
 FromRoom = (
-    Hello | Drawing | Poses | State | Work | EpisodeResult | ExerciseResult | Network | Applied
+    LinkHello
+    | Drawing
+    | Poses
+    | State
+    | Work
+    | EpisodeResult
+    | ExerciseResult
+    | HandedInNetwork
+    | Applied
 )
-FromClass = Welcome | Ack | HandedIn | People | Assignment | Attention | Race | Problem
+FromClass = (
+    LinkWelcome | Ack | HandedIn | People | Assignment | Attention | CurrentRace | LinkProblem
+)
 Result = EpisodeResult | ExerciseResult
-Delivery = Result | Network
+Delivery = Result | HandedInNetwork
 """Messages that a room sends again until they are acknowledged."""
 
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)
@@ -353,8 +363,8 @@ def decode_from_room(frame: bytes) -> FromRoom:
 
 def encode_from_class(message: FromClass) -> bytes:
     """Return a class's message as a frame; a sentence that is too long is cut."""
-    if isinstance(message, Problem):
-        message = Problem(message.code, shorten(message.text, MAX_TEXT_CHARS))
+    if isinstance(message, LinkProblem):
+        message = LinkProblem(message.code, shorten(message.text, MAX_TEXT_CHARS))
     return _class_codec.encode(message)
 
 

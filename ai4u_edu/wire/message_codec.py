@@ -17,7 +17,7 @@ class Record(Struct, frozen=True, array_like=True, forbid_unknown_fields=True):
 
 
 class TaggedMessage(Record, frozen=True, tag=str.lower):
-    """Base of messages, which begin with the name of their class in lower case."""
+    """Base of messages, which begin with their tag: by default the class's name in lower case."""
 
 
 M = TypeVar("M", bound=TaggedMessage)
@@ -37,7 +37,7 @@ class MessageCodec(Generic[M]):
         for kind in get_args(union):
             info = msgspec.inspect.type_info(kind)
             assert isinstance(info, msgspec.inspect.StructType)  # noqa: S101
-            self._fields[kind.__name__.lower()] = info.fields
+            self._fields[str(info.tag)] = info.fields
 
     def encode(self, message: M) -> bytes:
         """Return a message as a frame, without trailing fields that have their default."""
@@ -91,7 +91,7 @@ def _without_defaults(message: TaggedMessage) -> tuple[Any, ...]:
         if fields[-1] != default:
             break
         fields = fields[:-1]
-    return (kind.__name__.lower(), *fields)
+    return (kind.__struct_config__.tag, *fields)
 
 
 def _without_surrogates(value: Any) -> Any:

@@ -8,8 +8,8 @@ from typing import Any
 import msgspec
 from msgspec import inspect
 
-from ai4u_edu.explain_page import messages as explain_messages
-from ai4u_edu.page.messages import Command
+from ai4u_edu.explain.page import messages as explain_messages
+from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.page.server import run_commands
 from tests.attacks.test_odd_input_messages import ODD
@@ -21,7 +21,7 @@ OWN_COMMANDS, EXPLAIN_COMMANDS = (
         kind
         for module in modules
         for kind in vars(module).values()
-        if isinstance(kind, type) and issubclass(kind, Command) and kind is not Command
+        if isinstance(kind, type) and issubclass(kind, PageCommand) and kind is not PageCommand
     ]
     for modules in ((run_commands, blocks, past, run, scenes, view, world), (explain_messages,))
 )
@@ -130,7 +130,7 @@ def arguments(name: str, known: Known, rng: random.Random) -> Message:
     """Return likely arguments of a command."""
     fields = inspect.type_info(NAMES[name])
     assert isinstance(fields, inspect.StructType)
-    shared = {each.name for each in msgspec.structs.fields(Command)}
+    shared = {each.name for each in msgspec.structs.fields(PageCommand)}
     found = {
         field.encode_name: _value(name, field, known, rng)
         for field in fields.fields

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from ai4u_edu.explain_page import page_option
+from ai4u_edu.explain.page import page_option
 from ai4u_edu.page.messages import MAX_NAME_CHARS
 from ai4u_edu.page.panel import socket
 from ai4u_edu.page.panel.socket import MAX_PENDING_COMMANDS as MAX_PENDING

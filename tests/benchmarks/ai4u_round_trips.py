@@ -33,7 +33,7 @@ from ai4u_edu.blocks.brains.links.ai4u import AI4UCodec
 from ai4u_edu.blocks.brains.links.link import Observation, describe_agent
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, Phase
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, SessionPhase
 from ai4u_edu.world import BodyView, WorldView
 from tests.remote.test_ai4u_package import free_port, run_script
 
@@ -146,7 +146,7 @@ def respond(port: int, ended: threading.Event) -> None:
         udp.settimeout(0.5)
         same = b""
         while not ended.is_set():
-            if dialogue.phase is Phase.PLAYING:
+            if dialogue.phase is SessionPhase.PLAYING:
                 same = same or dialogue.request(state)
             else:
                 time.sleep(0.05)

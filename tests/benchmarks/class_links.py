@@ -31,10 +31,10 @@ from ai4u_edu.wire.class_link import (
     Ack,
     BodyDrawing,
     Drawing,
+    DrawnShape,
     ExerciseResult,
-    Hello,
+    LinkHello,
     Poses,
-    Shape,
     State,
     decode_from_class,
     encode_from_room,
@@ -118,7 +118,7 @@ class _Links:
         async with connect(
             path, subprotocols=[Subprotocol(SUBPROTOCOL)], max_size=None, proxy=None
         ) as link:
-            await link.send(encode_from_room(Hello(VERSION, secret, "room")))
+            await link.send(encode_from_room(LinkHello(VERSION, secret, "room")))
             await link.send(encode_from_room(_drawing()))
             await asyncio.gather(
                 self._poses(link, number),
@@ -163,8 +163,10 @@ class _Links:
 
 def _drawing() -> Drawing:
     square = (-4.0, -4.0, 4.0, -4.0, 4.0, 4.0, -4.0, 4.0)
-    body = BodyDrawing("body", False, (Shape("#0072b2", 0.4, (0.0, 0.0)),))
-    return Drawing(1, (-4.0, -4.0, 4.0, 4.0), (Shape("#e4e8ec", 0.0, square),), (body,) * BODIES)
+    body = BodyDrawing("body", False, (DrawnShape("#0072b2", 0.4, (0.0, 0.0)),))
+    return Drawing(
+        1, (-4.0, -4.0, 4.0, 4.0), (DrawnShape("#e4e8ec", 0.0, square),), (body,) * BODIES
+    )
 
 
 if __name__ == "__main__":

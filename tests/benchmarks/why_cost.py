@@ -16,7 +16,7 @@ import numpy as np
 from ai4u_edu import Scene, trained_brain
 from ai4u_edu.explain.live import INTEREST_S
 from ai4u_edu.explain.live_maps import MapChoice
-from ai4u_edu.explain_page import page_option
+from ai4u_edu.explain.page import page_option
 from ai4u_edu.runtime.process_tuning import tuned_process
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner

@@ -19,8 +19,8 @@ from ai4u_edu.blocks.brains.links.link import (
     Observation,
     describe_agent,
 )
-from ai4u_edu.wire.ai4u import Order, decode_request
-from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, Phase
+from ai4u_edu.wire.ai4u import ReplyCommand, decode_request
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, SessionPhase
 from tests.builders import small_sim
 
 
@@ -61,7 +61,7 @@ def test_pictures_go_out_as_one_png_a_channel_and_numbers_flat() -> None:
     grid = inputs["local_grid"]
     assert (grid["type"], grid["rangeMin"], grid["rangeMax"]) == (7, 0.0, 255.0)
     dialogue = AI4UDialogue("0", metadata=codec.metadata)
-    dialogue.phase = Phase.PLAYING
+    dialogue.phase = SessionPhase.PLAYING
     fields = {
         field.name: field for field in decode_request(dialogue.request(codec.state(situation)))
     }
@@ -75,7 +75,7 @@ def test_pictures_go_out_as_one_png_a_channel_and_numbers_flat() -> None:
 def test_a_sensor_with_a_standard_name_is_sent_once() -> None:
     codec, situation = codec_of(small_sim([BearingSensor(target="box"), StepSensor()]))
     dialogue = AI4UDialogue("0", metadata=codec.metadata)
-    dialogue.phase = Phase.PLAYING
+    dialogue.phase = SessionPhase.PLAYING
     names = [field.name for field in decode_request(dialogue.request(codec.state(situation)))]
     assert names.count("steps") == 1
 
@@ -84,7 +84,7 @@ def test_one_of_a_few_is_discrete() -> None:
     sim = small_sim([BearingSensor(target="box")], actuators=[DiscreteActuator()])
     codec, _ = codec_of(sim)
     assert '"isContinuous": false, "shape": [5]' in codec.metadata
-    action = codec.action([Order("move", ("3",)), Order("note", ("hello",))])
+    action = codec.action([ReplyCommand("move", ("3",)), ReplyCommand("note", ("hello",))])
     assert action == {"move": ("3",)}
     assert sim.agents[0].actuators[0].accept(action["move"]) == (3.0,)
 
@@ -96,7 +96,7 @@ def test_of_several_actuators_the_first_is_the_policys() -> None:
     metadata = json.loads(codec.metadata)
     assert metadata["inputs"] == []
     assert [each["name"] for each in metadata["outputs"]] == ["move"]
-    orders = [Order("move", ("1",)), Order("pick", ("3",))]
+    orders = [ReplyCommand("move", ("1",)), ReplyCommand("pick", ("3",))]
     assert codec.action(orders) == {"move": ("1",), "pick": ("3",)}
 
 
@@ -106,7 +106,7 @@ def test_a_percepts_floats_arrive_as_they_are() -> None:
     sim.agents[0].sense()
     codec, situation = codec_of(sim)
     dialogue = AI4UDialogue("0", metadata=codec.metadata)
-    dialogue.phase = Phase.PLAYING
+    dialogue.phase = SessionPhase.PLAYING
     fields = {
         field.name: field for field in decode_request(dialogue.request(codec.state(situation)))
     }

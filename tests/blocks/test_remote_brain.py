@@ -12,7 +12,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.base.errors import ParameterError, SetupError
 from ai4u_edu.blocks.brains.links.link import (
-    Reset,
+    ResetRequest,
 )
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link
 
@@ -30,7 +30,7 @@ def test_an_action_is_carried_out_and_the_next_situation_is_told() -> None:
 
 def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
     back = {"move": [-1, 0, 0, 0]}
-    link = ScriptedLink(FORWARD, FORWARD, None, Command.STOP, Reset(7), FORWARD)
+    link = ScriptedLink(FORWARD, FORWARD, None, Command.STOP, ResetRequest(7), FORWARD)
     sim, brain = sim_with_link(link)
     sim.tick()
     brain.begin_override(LocalBrain(controller=lambda _: back))
@@ -50,7 +50,7 @@ def test_who_drives_in_its_place_decides_and_its_answers_are_counted() -> None:
 
 
 def test_a_person_who_restarts_asks_for_no_seed_of_the_scripts() -> None:
-    link = ScriptedLink(Reset(7))
+    link = ScriptedLink(ResetRequest(7))
     sim, brain = sim_with_link(link)
     sim.tick()
     assert brain.restart_seed() == 7
@@ -61,7 +61,7 @@ def test_a_person_who_restarts_asks_for_no_seed_of_the_scripts() -> None:
 
 
 def test_a_reset_with_a_seed_is_the_worlds() -> None:
-    link = ScriptedLink(Reset(seed=77), FORWARD)
+    link = ScriptedLink(ResetRequest(seed=77), FORWARD)
     sim, _ = sim_with_link(link)
     sim.tick()
     assert (sim.world.seeds.seed, sim.episode) == (77, 2)
@@ -78,7 +78,7 @@ def test_somebody_elses_reset_is_told_as_a_cut() -> None:
     sim.tick()
     last = link.told[-1]
     assert (last.done, last.truncated, last.reward, last.steps) == (True, True, 0.0, 1)
-    link.answers.append(Reset())
+    link.answers.append(ResetRequest())
     sim.tick()
     sim.tick()
     assert (link.told[-1].done, link.told[-1].steps) == (False, 0)
@@ -123,7 +123,7 @@ def test_numbers_out_of_range_are_cut_and_counted_once() -> None:
 
 
 def test_stop_is_a_matter_of_the_brain_so_that_a_reset_is_still_heard() -> None:
-    link = ScriptedLink(Command.STOP, FORWARD, Reset(), FORWARD)
+    link = ScriptedLink(Command.STOP, FORWARD, ResetRequest(), FORWARD)
     sim, _ = sim_with_link(link)
     for _ in range(2):
         sim.tick()

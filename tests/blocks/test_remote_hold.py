@@ -10,7 +10,7 @@ from ai4u_edu import (
     LocalBrain,
 )
 from ai4u_edu.blocks.brains.links.link import (
-    Reset,
+    ResetRequest,
 )
 from ai4u_edu.runtime.runner import Runner
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link, two_agents
@@ -55,7 +55,7 @@ def test_a_call_ticks_nothing_and_a_world_that_was_called_is_not_asked_again_in_
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("ai4u_edu.runtime.pending_answers.ANSWER_POLL_S", LIMIT_S)
-    link = ScriptedLink(Reset(7))
+    link = ScriptedLink(ResetRequest(7))
     sim, _ = sim_with_link(link)
     runner = Runner(sim, time_scale=math.inf)
     runner.advance()

@@ -7,7 +7,7 @@ import pytest
 from ai4u_edu.blocks.brains.links.link import (
     LinkState,
     Reply,
-    Reset,
+    ResetRequest,
 )
 from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S, YIELDING_WAIT_S
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link, two_agents
@@ -142,7 +142,7 @@ def test_a_script_that_was_given_up_is_waited_for_again_once_it_speaks(speaks: s
         case "now":
             link.answers.append(FORWARD)
         case "resets":
-            link.answers.append(Reset())
+            link.answers.append(ResetRequest())
         case "asks for time":
             link.clock.advance(MOMENT_S)
             link.ask_for_time()

@@ -7,7 +7,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
-from ai4u_edu.wire.class_link import Ack, Network
+from ai4u_edu.wire.class_link import Ack, HandedInNetwork
 from tests.browser.served_viser import PLAIN, connected
 from tests.chromium import new_page
 from tests.classroom.link_client import RawLink, key
@@ -36,7 +36,7 @@ def test_two_students_hand_in_and_the_projector_shows_who_won(
         hand_in_by_page(ada, bad, good)
         ben = school.joined(name="Blue Otter")
         with RawLink(school, ben) as link:  # as a notebook does
-            link.send(Network(key(), "sumo", "", "ben.onnx", good.read_bytes()))
+            link.send(HandedInNetwork(key(), "sumo", "", "ben.onnx", good.read_bytes()))
             link.next(Ack)
         board = teacher.get_by_role("tabpanel", name="Tournament")
         for student in (name, "Blue Otter"):

@@ -18,8 +18,8 @@ from ai4u_edu.wire.class_link import (
     FromClass,
     FromRoom,
     HandedIn,
-    Hello,
-    Problem,
+    LinkHello,
+    LinkProblem,
     State,
     decode_from_class,
     encode_from_room,
@@ -51,7 +51,7 @@ class RawLink:
             max_size=MAX_FRAME_BYTES,
         )
         self.received: list[FromClass] = []
-        self.send(hello or Hello(VERSION, secret, "room"))
+        self.send(hello or LinkHello(VERSION, secret, "room"))
 
     def __enter__(self) -> Self:
         return self
@@ -71,12 +71,12 @@ class RawLink:
             if isinstance(message, kind) and fits(message):
                 return message
 
-    def end(self) -> tuple[int, Problem | None]:
+    def end(self) -> tuple[int, LinkProblem | None]:
         """Wait for the end; return the close's code, and the last problem."""
         with pytest.raises(ConnectionClosed) as closed:
             self.receive_all()
         assert closed.value.rcvd is not None
-        problems = [each for each in self.received if isinstance(each, Problem)]
+        problems = [each for each in self.received if isinstance(each, LinkProblem)]
         return closed.value.rcvd.code, problems[-1] if problems else None
 
     def receive_all(self) -> None:

@@ -9,12 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from ai4u_edu import Scene, zoo
+from ai4u_edu import Scene
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.lessons.progress_file import read_entries
 from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.episode import decode
-from ai4u_edu.wire.class_link import Ack, Race, Work
+from ai4u_edu.wire.class_link import Ack, CurrentRace, Work
 from tests.classroom.link_client import RawLink, TeacherSocket, check, state, wait_for_verdicts
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.classroom.test_race import SEED, driven, result
@@ -40,7 +41,7 @@ def work(served: ServedClass, ada: Student) -> None:
         link.next(Ack)
         answer = served.command("race", scene={"room": "seat-1"}, seed=SEED, countdown=0)
         assert answer.status_code == 200, answer.text
-        race = link.next(Race, lambda message: message.id != "")
+        race = link.next(CurrentRace, lambda message: message.id != "")
         link.send(result(race.id, driven(1.0)))
         link.next(Ack)
         wall.next("class", lambda e: e["race"] and e["race"]["board"])

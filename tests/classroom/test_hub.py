@@ -7,12 +7,12 @@ from urllib.parse import parse_qs, urlsplit
 import httpx
 import pytest
 
-from ai4u_edu import zoo
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.classroom.hub import HubEnvironment
 from ai4u_edu.classroom.hub.sign_in import COOKIE, STATE_COOKIE
 from ai4u_edu.member import NotJoinedError, UnreachableError, join_at_hub
-from ai4u_edu.wire.class_link import Ack, HandedIn, Network, Problem, Welcome
+from ai4u_edu.wire.class_link import Ack, HandedIn, HandedInNetwork, LinkProblem, LinkWelcome
 from tests.classroom.fake_hub import (
     ACCESS,
     NAME,
@@ -134,7 +134,7 @@ def test_a_notebook_finds_the_class_and_its_seat_without_arguments(school: HubCl
     other = join_at_hub(variables=school.variables(GRACE, "grace"))
     assert other.name != seat.name
     with RawLink(school, seat.token) as link:
-        assert link.next(Welcome).name == seat.name
+        assert link.next(LinkWelcome).name == seat.name
         link.send(check("right"))
         numbers = {each["name"]: each["number"] for each in school.state(ALAN)["seats"]}
         own = str(numbers[seat.name])
@@ -183,7 +183,7 @@ def test_look_in_leads_to_the_students_own_server_only(school: HubClass) -> None
     def looked_in(page: str) -> httpx.Response:
         until(lambda: not can_look_in())  # the page of the link before is forgotten
         with RawLink(school, ADA) as link, school.client(ALAN) as teacher:
-            link.next(Welcome)
+            link.next(LinkWelcome)
             link.send(state(page=page))
             until(can_look_in)
             return teacher.get(f"teacher/look/{room}")
@@ -209,7 +209,7 @@ def test_nothing_that_the_class_shows_or_stores_names_a_user(
     token = hub.add("veryuniqueusername", "ai4u-teachers")
     assert school.seat(token).status_code == 200
     with RawLink(school, token) as link, school.client(token) as teacher:
-        link.next(Welcome)
+        link.next(LinkWelcome)
         link.send(state(page="user/veryuniqueusername/proxy/4000/?token=secret-of-page"))
         until(lambda: any(each["look_in"] for each in school.state(token)["rooms"]))
         told = teacher.get("teacher/state").content
@@ -225,7 +225,7 @@ def test_a_hub_that_is_away_ends_no_link(hub: FakeHub, school: HubClass) -> None
     own, late = hub.add("emmy"), hub.add("sonja")
     name = school.seat(own).json()["name"]
     with RawLink(school, own) as link:
-        link.next(Welcome)
+        link.next(LinkWelcome)
         hub.is_down = True
         try:
             assert school.seat(late).status_code == 503
@@ -251,9 +251,9 @@ def test_who_is_sent_out_may_sign_in_again_and_who_is_banned_may_not(
             assert answer.status_code == 200, answer.text
 
     with RawLink(school, token) as link:
-        link.next(Welcome)
+        link.next(LinkWelcome)
         command("kick")
-        assert link.next(Problem).code == "over"
+        assert link.next(LinkProblem).code == "over"
     with RawLink(school, token) as link:
         assert link.end()[0] == 1008  # a program does not come back by itself
     assert school.seat(token).json()["name"] == name
@@ -283,7 +283,7 @@ def test_a_network_comes_over_the_link_and_plays(hub: FakeHub, tmp_path: Path) -
         name = school.seat(ADA).json()["name"]
         with RawLink(school, ADA) as link:
             data = zoo.network_of("box_chase").read_bytes()
-            link.send(Network("key-of-a-network", "box_chase", "", "mine.onnx", data))
+            link.send(HandedInNetwork("key-of-a-network", "box_chase", "", "mine.onnx", data))
             link.next(Ack)
             told = link.next(HandedIn, lambda each: each.networks[:1] != ())
             while told.networks[0].verdict == "open":

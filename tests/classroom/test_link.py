@@ -14,12 +14,12 @@ from ai4u_edu.wire.class_link import (
     Assignment,
     Attention,
     Drawing,
-    Hello,
+    DrawnShape,
+    LinkHello,
+    LinkProblem,
+    LinkWelcome,
     People,
     Poses,
-    Problem,
-    Shape,
-    Welcome,
     encode_from_room,
 )
 from tests.classroom.link_client import RawLink, TeacherSocket, check, state
@@ -43,12 +43,12 @@ def number_of(served: ServedClass) -> int:
 def test_a_seat_gets_a_link_and_the_present_state(served: ServedClass) -> None:
     ada = served.joined(name="Wise Owl")
     with RawLink(served, ada) as link:
-        welcome = link.next(Welcome)
+        welcome = link.next(LinkWelcome)
         assert (welcome.version, welcome.name) == (VERSION, "Wise Owl")
         people = link.next(People, lambda message: message.people[0].is_here)
         assert [each.name for each in people.people] == ["Wise Owl"]
         kinds = {type(each) for each in link.received}
-        assert {Welcome, Assignment, Attention, People} <= kinds
+        assert {LinkWelcome, Assignment, Attention, People} <= kinds
 
 
 def test_the_wall_shows_what_a_link_tells(served: ServedClass) -> None:
@@ -81,7 +81,7 @@ def test_a_wrong_secret_gets_no_link(served: ServedClass) -> None:
 
 
 def test_another_version_is_told(served: ServedClass) -> None:
-    with RawLink(served, "", hello=Hello(VERSION + 1, "x", "room")) as link:
+    with RawLink(served, "", hello=LinkHello(VERSION + 1, "x", "room")) as link:
         _, problem = link.end()
         assert problem is not None
         assert problem.code == "version"
@@ -97,22 +97,22 @@ def test_link_ends_if_the_first_message_is_not_hello(served: ServedClass) -> Non
 def test_malformed_messages_are_told_and_too_many_end_the_link(served: ServedClass) -> None:
     ada = served.joined()
     with RawLink(served, ada) as link:
-        link.next(Welcome)
+        link.next(LinkWelcome)
         forged: list[bytes | str] = [b"\xc1", b"\x93\xa4work", "text", b"\x91\xa7welcome"]
         for each in forged:
             link.socket.send(each)
-            assert "expected" in link.next(Problem).text
+            assert "expected" in link.next(LinkProblem).text
         link.send(check("right"))
         link.next(Ack)  # the link lives, and the count begins again
         for _ in range(5):
-            link.send(Hello(VERSION, "x", "room"))
+            link.send(LinkHello(VERSION, "x", "room"))
         assert link.end()[0] == 1008
 
 
 def test_a_message_that_is_too_large_ends_the_link(served: ServedClass) -> None:
     ada = served.joined()
     with RawLink(served, ada) as link:
-        link.next(Welcome)
+        link.next(LinkWelcome)
         with suppress(ConnectionClosed):  # it may be closed while that is sent
             link.socket.send(b"\xc4" * (MAX_FRAME_BYTES + 1))
         with pytest.raises(ConnectionClosed):
@@ -120,10 +120,10 @@ def test_a_message_that_is_too_large_ends_the_link(served: ServedClass) -> None:
 
 
 def test_a_drawing_that_is_too_large_for_the_wall_is_refused(served: ServedClass) -> None:
-    shape = Shape("#ffffff", 0.0, (0.5,) * 1000)
+    shape = DrawnShape("#ffffff", 0.0, (0.5,) * 1000)
     with RawLink(served, served.joined()) as link:
         link.send(Drawing(1, (0, 0, 1, 1), (shape,) * 40, ()))
-        assert "bytes" in link.next(Problem).text
+        assert "bytes" in link.next(LinkProblem).text
         link.send(check("right"))
         link.next(Ack)
 
@@ -134,7 +134,7 @@ def test_a_result_is_acknowledged_each_time_and_counts_once(served: ServedClass)
     wrong = check("wrong", "04.2/narrow")
     for _ in range(2):
         with RawLink(served, ada) as link:
-            link.next(Welcome)
+            link.next(LinkWelcome)
             link.send(wrong)
             link.send(wrong)
             assert link.next(Ack).key == link.next(Ack).key == wrong.key
@@ -146,7 +146,7 @@ def test_an_exercise_that_does_not_exist_is_refused_for_good(served: ServedClass
     with RawLink(served, served.joined()) as link:
         forged = check("right", exercise="<b>99</b>")
         link.send(forged)
-        assert "no exercise" in link.next(Problem).text
+        assert "no exercise" in link.next(LinkProblem).text
         assert link.next(Ack).key == forged.key
     assert "<b>" not in str(served.state()["progress"])
 
@@ -163,12 +163,12 @@ def test_the_second_link_of_a_seat_takes_the_place_of_the_first(served: ServedCl
 def test_whoever_is_sent_out_loses_the_link_at_once(served: ServedClass) -> None:
     ada = served.joined()
     with RawLink(served, ada) as link:
-        link.next(Welcome)
+        link.next(LinkWelcome)
         assert served.command("kick", seat=number_of(served)).status_code == 200
         code, problem = link.end()
         assert (code, problem and problem.code) == (1008, "over")
     with RawLink(served, ada) as link:
-        assert link.end()[1] == Problem(
+        assert link.end()[1] == LinkProblem(
             "secret", "This place in the class is not yours any more. Join again."
         )
 

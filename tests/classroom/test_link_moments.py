@@ -6,7 +6,7 @@ from typing import Any
 from ai4u_edu.classroom.link_endpoint import LinkEndpoint
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
-from ai4u_edu.wire.class_link import VERSION, Hello, encode_from_room
+from ai4u_edu.wire.class_link import VERSION, LinkHello, encode_from_room
 from tests.waiting import until_async
 
 SCOPE: dict[str, Any] = {"type": "websocket", "subprotocols": [], "headers": [], "path": "/"}
@@ -39,7 +39,7 @@ def test_a_cancellation_that_comes_with_the_hello_ends_the_link() -> None:
         endpoint = LinkEndpoint(nothing, limit, limit, find_room)
         task = asyncio.create_task(endpoint(SCOPE, receive, send))
         await is_asked.wait()
-        frame = encode_from_room(Hello(VERSION, "secret", "room"))
+        frame = encode_from_room(LinkHello(VERSION, "secret", "room"))
         hello.set_result({"type": "websocket.receive", "bytes": frame})
         await asyncio.sleep(0)  # the frame is there, and nobody has seen it
         task.cancel()

@@ -129,7 +129,7 @@ def test_a_notebook_hands_in_a_network_and_hears_the_verdict(
     there: ServedClass, tmp_path: Path
 ) -> None:
     with kernel(tmp_path / "lessons") as notebook:
-        notebook.run("from ai4u_edu import zoo; from ai4u_edu.lessons import submit")
+        notebook.run("from ai4u_edu.blocks.brains import zoo; from ai4u_edu.lessons import submit")
         assert "You are in no class." in notebook.run('submit("maze", zoo.network_of("maze"))')
         notebook.run(f"join_class({there.url!r}, {CODE!r})")
         told = notebook.run('submit("maze", zoo.network_of("maze"))')

@@ -15,7 +15,7 @@ from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck, find_fault
 from ai4u_edu.classroom.teacher import MAX_COUNTDOWN_S
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.episode import decode, encode
-from ai4u_edu.wire.class_link import Ack, Assignment, EpisodeResult, Race, race_assignment
+from ai4u_edu.wire.class_link import Ack, Assignment, CurrentRace, EpisodeResult, race_assignment
 from tests.classroom.link_client import RawLink, TeacherSocket, key
 from tests.classroom.served_class import ServedClass, served_class
 from tests.waiting import LIMIT_S
@@ -163,13 +163,13 @@ def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Epis
     with RawLink(served, ada) as one, RawLink(served, ben) as two, TeacherSocket(served) as wall:
         body = {"scene": "box_chase", "seed": SEED}
         assert served.command("race", **body, countdown=MAX_COUNTDOWN_S).status_code == 200
-        first = one.next(Race, lambda message: message.id != "")
+        first = one.next(CurrentRace, lambda message: message.id != "")
         assert (first.phase, first.scene, first.seed) == ("countdown", "box_chase", SEED)
         assert 0 < first.starts_in_s <= MAX_COUNTDOWN_S
         # another one, whose countdown may be over before a link is told of it
         assert served.command("race", **body, countdown=0.2).status_code == 200
-        race = one.next(Race, lambda message: message.phase == "running")
-        assert race.id == two.next(Race, lambda m: m.phase == "running").id != first.id
+        race = one.next(CurrentRace, lambda message: message.phase == "running")
+        assert race.id == two.next(CurrentRace, lambda m: m.phase == "running").id != first.id
 
         sent = result(race.id, slow)
         one.send(sent)
@@ -183,7 +183,7 @@ def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Epis
         assert [each["outcome"] for each in board] == ["goal", "goal", "refused"]
         assert "0.50 s" in board[2]["why"]
 
-        news = one.next(Race, lambda message: len(message.ghosts) == 2)
+        news = one.next(CurrentRace, lambda message: len(message.ghosts) == 2)
         assert [each.name for each in news.board] == ["Blue Otter", "Red Fox"]
         assert news.board[0].seconds == pytest.approx(fast.seconds)
         assert decode(Episode, news.ghosts[0], "ghost").seconds == fast.seconds
@@ -192,14 +192,14 @@ def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Epis
         with RawLink(served, served.joined(name="Calm Owl")) as late_one:
             assigned = late_one.next(Assignment, lambda message: message.id != "")
             assert (assigned.id, assigned.scene) == (race_assignment(race.id), "box_chase")
-            assert late_one.next(Race, lambda message: message.id == race.id).own_best == 0
+            assert late_one.next(CurrentRace, lambda message: message.id == race.id).own_best == 0
             end = fell(race.id)
             late_one.send(end)
             late_one.next(Ack, lambda message: message.key == end.key)
         with RawLink(served, ada) as one:  # as after a restart
-            again = one.next(Race, lambda message: message.id == race.id)
+            again = one.next(CurrentRace, lambda message: message.id == race.id)
             assert again.own_best == pytest.approx(slow.seconds)
-            one.next(Race, lambda message: len(message.board) == 3)
+            one.next(CurrentRace, lambda message: len(message.board) == 3)
             with zipfile.ZipFile(io.BytesIO(served.export())) as archive:
                 page = archive.read("results.html").decode()
             assert "<td>3</td><td>Calm Owl</td>" not in page
@@ -207,13 +207,13 @@ def test_a_race_from_start_to_end(served: ServedClass, fast: Episode, slow: Epis
 
         one = RawLink(served, ada)
         assert served.command("board", hide=True).status_code == 200
-        assert one.next(Race, lambda message: message.board == ()).phase == "running"
+        assert one.next(CurrentRace, lambda message: message.board == ()).phase == "running"
         with TeacherSocket(served, "projector") as projector:
             assert projector.next("class")["race"]["board"] == []
         assert served.command("end race").status_code == 200
-        assert one.next(Race, lambda message: message.phase == "over").id == race.id
+        assert one.next(CurrentRace, lambda message: message.phase == "over").id == race.id
         assert served.command("end race").status_code == 200
-        assert one.next(Race, lambda message: message.id == "").phase == "over"
+        assert one.next(CurrentRace, lambda message: message.id == "").phase == "over"
         late = result(race.id, fast)
         two.send(late)
         two.next(Ack, lambda message: message.key == late.key)

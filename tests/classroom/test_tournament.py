@@ -12,7 +12,7 @@ import onnx
 import psutil
 import pytest
 
-from ai4u_edu import zoo
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.errors import CommandError
 from ai4u_edu.classroom.tournament.event import networks_event
@@ -22,7 +22,7 @@ from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
 from ai4u_edu.games.jobs import engine
 from ai4u_edu.games.tournament.verify import verify
 from ai4u_edu.member.my_work import open_my_work
-from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, Network, Problem
+from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES, Ack, HandedIn, HandedInNetwork, LinkProblem
 from tests.classroom.link_client import RawLink, TeacherSocket, key, wait_for_verdicts
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import found_in, zip_of
@@ -80,13 +80,13 @@ def test_networks_are_handed_in_checked_played_exported_and_forgotten(
         eve = served.joined(name="Calm Owl")
         assert hand_in(ada, good, file="../<b>ada.onnx").status_code == 200
         with RawLink(served, ben) as link:  # as a notebook does
-            mine = Network(key(), "sumo", "", "ben.onnx", good)
+            mine = HandedInNetwork(key(), "sumo", "", "ben.onnx", good)
             link.send(mine)
             link.next(Ack, lambda ack: ack.key == mine.key)
             told = link.next(HandedIn, checked)
             assert (told.networks[0].key, told.networks[0].verdict) == (mine.key, "right")
-            link.send(Network(key(), "chess", "", "ben.onnx", good))
-            assert "scene: expected one of" in link.next(Problem).text
+            link.send(HandedInNetwork(key(), "chess", "", "ben.onnx", good))
+            assert "scene: expected one of" in link.next(LinkProblem).text
             link.next(Ack)
         the_gateway_refuses_what_it_need_not_open(served, eve, good)
         assert hand_in(eve, bad.read_bytes(), file="bad.onnx").status_code == 200

@@ -142,7 +142,7 @@ def test_an_import_error_of_our_own_is_not_hidden(tmp_path: Path) -> None:
 
 
 def message(root: Path) -> str:
-    with pytest.raises(bootstrap.SetupError) as caught:
+    with pytest.raises(bootstrap.InstallError) as caught:
         bootstrap.ensure(root)
     return str(caught.value)
 

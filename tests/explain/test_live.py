@@ -11,7 +11,7 @@ from ai4u_edu import ControlRequestor, LocalBrain, Scene, trained_brain
 from ai4u_edu.blocks import Percept
 from ai4u_edu.explain import groups_of_agent, mean_of, middle_of, occlusion
 from ai4u_edu.explain import live as live_explainer
-from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, Driver, LiveExplainer, Why
+from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, BrainExplainer, LiveExplainer, Why
 from ai4u_edu.explain.occlusion import changed_percept
 from ai4u_edu.snapshot import AgentState, capture_snapshot, capture_static_scene
 from tests.explain.test_sentence import turns_for_ray
@@ -24,7 +24,7 @@ def state_of(sim: ControlRequestor) -> AgentState:
 
 
 def why_of(sim: ControlRequestor) -> Why:
-    return Driver(sim.agents[0].brain, state_of(sim)).why(state_of(sim))
+    return BrainExplainer(sim.agents[0].brain, state_of(sim)).why(state_of(sim))
 
 
 def test_it_says_the_same_as_in_python() -> None:
@@ -54,7 +54,7 @@ def test_the_planted_ray_is_the_one_that_is_coloured() -> None:
 
 def test_after_a_while_the_baseline_is_the_mean_of_what_was_sensed() -> None:
     sim = robot_and_box(lambda percept: {"move": [0.3, percept["bearing"][0], 0, 0]})
-    driver, seen = Driver(sim.agents[0].brain, state_of(sim)), []
+    driver, seen = BrainExplainer(sim.agents[0].brain, state_of(sim)), []
     for _ in range(50):
         state = state_of(sim)
         seen.append(state.percept)
@@ -71,7 +71,7 @@ def test_after_a_while_the_baseline_is_the_mean_of_what_was_sensed() -> None:
 def test_a_robot_that_stands_still_is_compared_with_the_middle_and_says_so() -> None:
     sim = robot_and_box(lambda percept: {"move": [0.3, percept["bearing"][1], 0, 0]})
     state = state_of(sim)
-    driver = Driver(sim.agents[0].brain, state)
+    driver = BrainExplainer(sim.agents[0].brain, state)
     found = driver.why(state)
     assert found.also == ""  # there is no mean yet
     for _ in range(MIN_MEAN_PERCEPTS):
@@ -135,7 +135,7 @@ def test_its_thread_ends_when_nobody_asks(monkeypatch: pytest.MonkeyPatch) -> No
 def test_another_brain_is_another_explanation() -> None:
     sim = robot_and_box(turns_for_ray(3))
     agent = sim.agents[0]
-    driver = Driver(agent.brain, state_of(sim))
+    driver = BrainExplainer(agent.brain, state_of(sim))
     assert driver.drives(agent.brain, state_of(sim))
     agent.use_brain(LocalBrain(controller=turns_for_ray(4)))
     assert not driver.drives(agent.brain, state_of(sim))

@@ -14,7 +14,7 @@ from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import (
     Field,
     Kind,
-    Order,
+    ReplyCommand,
     decode_reply,
     decode_request,
     encode_reply,
@@ -119,11 +119,11 @@ REQUESTS = tuple(
 REPLIES = tuple(
     encode_reply(orders)
     for orders in (
-        (Order("move", ("1.0", "0.5", "0", "0")), Order("speed", ("2",))),
-        (Order("__reset__", ("0",)),),
-        (Order("max_steps", ("1000",)), Order("id", ("0",))),
-        (Order("halt"),),
-        (Order("jump"),),
+        (ReplyCommand("move", ("1.0", "0.5", "0", "0")), ReplyCommand("speed", ("2",))),
+        (ReplyCommand("__reset__", ("0",)),),
+        (ReplyCommand("max_steps", ("1000",)), ReplyCommand("id", ("0",))),
+        (ReplyCommand("halt"),),
+        (ReplyCommand("jump"),),
     )
 )
 TEXT = (

@@ -11,12 +11,18 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
 from ai4u_edu.blocks.brains.links.link import Observation, Reply
-from ai4u_edu.blocks.brains.links.link import Reset as ResetAnswer
+from ai4u_edu.blocks.brains.links.link import ResetRequest as ResetAnswer
 from ai4u_edu.page.server.scripts.outbox import Outbox
 from ai4u_edu.page.server.scripts.session import Session
 from ai4u_edu.wire import native
 from ai4u_edu.wire.ai4u import decode_request
-from ai4u_edu.wire.ai4u_dialogue import VALID_KINDS, AI4UDialogue, Phase, ReplyKind, State
+from ai4u_edu.wire.ai4u_dialogue import (
+    VALID_KINDS,
+    AI4UDialogue,
+    ReplyKind,
+    SentState,
+    SessionPhase,
+)
 from ai4u_edu.wire.validation import WireError
 
 SAYABLE = {
@@ -29,18 +35,20 @@ SAYABLE = {
 }
 SAYABLE[ReplyKind.HALT] = b"halt"
 NEXT = {
-    (Phase.HANDSHAKE, ReplyKind.CONFIGURED): Phase.POLLING,
-    **{(phase, ReplyKind.HALT): Phase.OVER for phase in Phase if phase is not Phase.CONNECTING},
-    **{(phase, word): Phase.PLAYING for phase in (Phase.POLLING, Phase.STARTED, Phase.PLAYING)
+    (SessionPhase.HANDSHAKE, ReplyKind.CONFIGURED): SessionPhase.POLLING,
+    **{(phase, ReplyKind.HALT): SessionPhase.OVER
+       for phase in SessionPhase if phase is not SessionPhase.CONNECTING},
+    **{(phase, word): SessionPhase.PLAYING
+       for phase in (SessionPhase.POLLING, SessionPhase.STARTED, SessionPhase.PLAYING)
        for word in (ReplyKind.RESET, ReplyKind.RESTART)},
-    (Phase.POLLING, ReplyKind.START): Phase.STARTED,
-    (Phase.STARTED, ReplyKind.CONTROL): Phase.POLLING,
-    (Phase.PLAYING, ReplyKind.CONTROL): Phase.POLLING,
+    (SessionPhase.POLLING, ReplyKind.START): SessionPhase.STARTED,
+    (SessionPhase.STARTED, ReplyKind.CONTROL): SessionPhase.POLLING,
+    (SessionPhase.PLAYING, ReplyKind.CONTROL): SessionPhase.POLLING,
 }  # fmt: skip
 MEANT = {
-    ReplyKind.START: Phase.STARTED,
-    ReplyKind.RESET: Phase.PLAYING,
-    ReplyKind.RESTART: Phase.PLAYING,
+    ReplyKind.START: SessionPhase.STARTED,
+    ReplyKind.RESET: SessionPhase.PLAYING,
+    ReplyKind.RESTART: SessionPhase.PLAYING,
 }
 """Phase that a reply to the first contact leads to after the handshake."""
 
@@ -51,15 +59,15 @@ class AI4USession(RuleBasedStateMachine):
     def __init__(self) -> None:
         super().__init__()
         self.dialogue = AI4UDialogue("0", metadata="{}")
-        self.phase = Phase.CONNECTING
-        self.meant: Phase | None = None
+        self.phase = SessionPhase.CONNECTING
+        self.meant: SessionPhase | None = None
 
     @rule(done=st.booleans(), reward=st.floats(allow_nan=False, allow_infinity=False))
     def ask(self, done: bool, reward: float) -> None:
-        state = State(sensors=[], reward=reward, steps=3, done=done, truncated=False)
+        state = SentState(sensors=[], reward=reward, steps=3, done=done, truncated=False)
         names = [field.name for field in decode_request(self.dialogue.request(state))]
         assert "id" in names
-        assert ("reward" in names) == (self.phase in (Phase.STARTED, Phase.PLAYING))
+        assert ("reward" in names) == (self.phase in (SessionPhase.STARTED, SessionPhase.PLAYING))
         assert self.dialogue.in_flight
 
     @rule(word=st.sampled_from(ReplyKind))
@@ -69,8 +77,8 @@ class AI4USession(RuleBasedStateMachine):
                 self.dialogue.parse_reply(SAYABLE[word])
             return
         self.dialogue.parse_reply(SAYABLE[word])
-        if self.phase is Phase.CONNECTING:
-            self.phase, self.meant = Phase.HANDSHAKE, MEANT.get(word)
+        if self.phase is SessionPhase.CONNECTING:
+            self.phase, self.meant = SessionPhase.HANDSHAKE, MEANT.get(word)
         elif word is ReplyKind.CONFIGURED and self.meant is not None:
             self.phase = self.meant
         else:
@@ -88,7 +96,7 @@ class AI4USession(RuleBasedStateMachine):
     @rule()
     def begin(self) -> None:
         self.dialogue.begin()
-        self.phase = Phase.CONNECTING
+        self.phase = SessionPhase.CONNECTING
 
     @invariant()
     def phase_is_the_pictures(self) -> None:

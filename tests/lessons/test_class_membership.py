@@ -18,10 +18,10 @@ from ai4u_edu.wire.class_link import (
     Drawing,
     ExerciseResult,
     FromClass,
+    LinkProblem,
+    LinkWelcome,
     Poses,
-    Problem,
     State,
-    Welcome,
     Work,
 )
 from tests.lessons.class_with_a_seat import class_with_a_seat, connected
@@ -128,7 +128,7 @@ def test_the_notebook_that_checks_gets_the_seat_back_from_another_one(there: Tin
     there.start()
     join_class(there.url, "BCDFG")
     connection = connected()
-    there.send(Problem("over", "Another program has taken this place."))
+    there.send(LinkProblem("over", "Another program has taken this place."))
     until(lambda: connection.client.is_over)
     check("00.1", go)
     until(lambda: there.results)
@@ -186,7 +186,7 @@ def test_a_world_uses_the_link_while_it_is_shown(there: TinyClass) -> None:
     world.send(drawing(1))  # not started
     world.start()
     assert world.is_connected
-    assert [type(each) for each in heard] == [Welcome, Attention]
+    assert [type(each) for each in heard] == [LinkWelcome, Attention]
     world.send(drawing(2))
     until(lambda: there.of(Drawing))
     there.send(Assignment("a1", "Maze", "maze", None))  # as after a reconnect

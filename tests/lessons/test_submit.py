@@ -16,8 +16,8 @@ from ai4u_edu.wire.class_link import (
     Ack,
     CheckedNetwork,
     HandedIn,
-    Network,
-    Problem,
+    HandedInNetwork,
+    LinkProblem,
 )
 from tests.lessons.class_with_a_seat import class_with_a_seat, connected
 from tests.member.tiny_class import TinyClass
@@ -48,14 +48,14 @@ def joined(there: TinyClass) -> ClassConnection:
     return connected()
 
 
-def network_in(there: TinyClass, number: int = 0) -> Network:
-    until(lambda: len(there.of(Network)) > number)
-    network = there.of(Network)[number]
-    assert isinstance(network, Network)
+def network_in(there: TinyClass, number: int = 0) -> HandedInNetwork:
+    until(lambda: len(there.of(HandedInNetwork)) > number)
+    network = there.of(HandedInNetwork)[number]
+    assert isinstance(network, HandedInNetwork)
     return network
 
 
-def checked(network: Network, reason: str = "") -> HandedIn:
+def checked(network: HandedInNetwork, reason: str = "") -> HandedIn:
     verdict = "refused" if reason else "right"
     facts = (network.scene, network.part, network.file)
     return HandedIn((CheckedNetwork(network.key, *facts, verdict, reason),))  # type: ignore[arg-type]
@@ -111,7 +111,7 @@ def test_what_the_class_does_not_take_is_told(
 
     def refuse() -> None:
         network = network_in(there)
-        there.send(Problem("message", "part: Sumo has these parts: none."))
+        there.send(LinkProblem("message", "part: Sumo has these parts: none."))
         there.send(Ack(network.key))
 
     thread = Thread(target=refuse)
@@ -142,7 +142,11 @@ def test_a_check_that_takes_long_goes_on_without_the_notebook(
         """Tell a time that stands still until the class has the network, and then flies."""
         nonlocal now
         connection = current_connection()
-        if connection is not None and tiny_class.of(Network) and not len(connection.client.outbox):
+        if (
+            connection is not None
+            and tiny_class.of(HandedInNetwork)
+            and not len(connection.client.outbox)
+        ):
             now += module.CHECK_TIMEOUT_S
         return now
 

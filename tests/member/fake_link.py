@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from ai4u_edu.member import ClassMember, Receive
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_store import SceneStore
-from ai4u_edu.recording import recorder_into
+from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.class_link import (
@@ -131,7 +131,7 @@ def joined(
     """Run a scene as a member of a class."""
     described = Scene.load(scene)
     sim = described.build()
-    recorder = recorder_into(None, sim, described, 10)
+    recorder = Recorder.into(None, sim, described, 10)
     runner = Runner(
         sim, seed=1, recorder=recorder, wait_for_key=wait_for_key, time_scale=time_scale
     )

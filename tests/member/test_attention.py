@@ -2,7 +2,7 @@
 
 from ai4u_edu import Scene
 from ai4u_edu.member.member import MAX_UNLINKED_HOLD_S, REST_AFTER_S
-from ai4u_edu.wire.class_link import Attention, People, Person, Problem, Welcome
+from ai4u_edu.wire.class_link import Attention, LinkProblem, LinkWelcome, People, Person
 from tests.member.fake_link import Joined, joined
 from tests.waiting import LIMIT_S, until
 
@@ -104,7 +104,7 @@ def test_the_end_of_the_class_ends_it() -> None:
     with joined() as room:
         room.tell(Attention("pause", "", 0.0))
         until(lambda: is_held(room))
-        room.tell(Problem("over", "you were sent out"))
+        room.tell(LinkProblem("over", "you were sent out"))
         until(lambda: not is_held(room))
 
 
@@ -120,7 +120,7 @@ def test_pages_are_told_who_they_are_and_who_else_is_there() -> None:
     with joined() as room:
         view = room.member.view
         assert (view.version, view.event("student", 3)) == (0, None)
-        room.tell(Welcome(1, "", ""), People((ADA, BEN)))
+        room.tell(LinkWelcome(1, "", ""), People((ADA, BEN)))
         assert view.version == 2
         event = view.event("student", 4)
         assert event is not None
@@ -129,7 +129,7 @@ def test_pages_are_told_who_they_are_and_who_else_is_there() -> None:
         teacher = view.event("teacher", 0)
         assert teacher is not None
         assert (teacher["name"], teacher["role"]) == ("", "teacher")
-        room.tell(Welcome(1, "Red Fox", "#d55e00"))  # on a student's own machine
+        room.tell(LinkWelcome(1, "Red Fox", "#d55e00"))  # on a student's own machine
         own = view.event("student", 0)
         assert own is not None
         assert own["name"] == "Red Fox"

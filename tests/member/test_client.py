@@ -12,7 +12,7 @@ import pytest
 
 from ai4u_edu.member import LinkClient, ResultOutbox
 from ai4u_edu.member import client as client_module
-from ai4u_edu.wire.class_link import Attention, FromClass, Problem, State, Welcome
+from ai4u_edu.wire.class_link import Attention, FromClass, LinkProblem, LinkWelcome, State
 from tests.member.messages import drawing, poses, result, state
 from tests.member.tiny_class import PATIENT, SECRET, TinyClass
 from tests.waiting import LIMIT_S, until
@@ -61,7 +61,7 @@ def test_states_and_results_arrive_and_messages_are_received(there: TinyClass) -
         until(lambda: len(heard) == 2)
         assert client.is_connected
         assert client.problem == ""
-    assert isinstance(heard[0], Welcome)
+    assert isinstance(heard[0], LinkWelcome)
     assert heard[1] == Attention("pause", "Look here", 0.0)
     assert (there.hellos[0].secret, there.hellos[0].kind) == (SECRET, "room")
     assert not client.is_connected
@@ -148,7 +148,7 @@ def test_a_wrong_secret_is_not_tried_again(there: TinyClass) -> None:
         until(lambda: client.is_over)
         assert client.problem == "This seat is not known. Join again."
     assert len(there.hellos) == 1
-    assert isinstance(heard[0], Problem)
+    assert isinstance(heard[0], LinkProblem)
 
 
 def test_a_class_that_closes_for_good_is_not_asked_again(there: TinyClass) -> None:

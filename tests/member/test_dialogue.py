@@ -20,17 +20,17 @@ from ai4u_edu.wire.class_link import (
     ExerciseResult,
     FromClass,
     FromRoom,
-    Hello,
-    Problem,
-    Welcome,
+    LinkHello,
+    LinkProblem,
+    LinkWelcome,
     decode_from_room,
     encode_from_class,
 )
 from tests.member.messages import drawing, poses, result, state
 
-HELLO = Hello(VERSION, "secret", "room")
+HELLO = LinkHello(VERSION, "secret", "room")
 TIMEOUTS = LinkTimeouts(welcome=7.0, ack=9.0)
-WELCOME = Welcome(VERSION, "Red Fox", "#d55e00")
+WELCOME = LinkWelcome(VERSION, "Red Fox", "#d55e00")
 
 
 class Talk:
@@ -200,7 +200,7 @@ def test_every_result_arrives_once_whatever_is_lost(seed: int) -> None:
 @pytest.mark.parametrize("code", ["version", "secret", "over"])
 def test_a_permanent_problem_ends_the_link(code: str) -> None:
     talk = Talk().link()
-    problem = Problem(code, "This seat is not known. Join again.")  # type: ignore[arg-type]
+    problem = LinkProblem(code, "This seat is not known. Join again.")  # type: ignore[arg-type]
     assert talk.hear(problem) == problem
     talk.lose()
     assert talk.dialogue.phase is LinkPhase.OVER
@@ -223,7 +223,7 @@ def test_a_close_for_good_ends_the_link_with_its_reason() -> None:
 
 def test_a_refused_message_and_a_frame_that_is_none_leave_the_link() -> None:
     talk = Talk().link()
-    assert talk.hear(Problem("message", "scene: too long")) is not None
+    assert talk.hear(LinkProblem("message", "scene: too long")) is not None
     assert (talk.dialogue.phase, talk.dialogue.problem) == (LinkPhase.LINKED, "scene: too long")
     assert talk.dialogue.receive(b"\x93\x01") is None
     assert "can't read" in talk.dialogue.problem

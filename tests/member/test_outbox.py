@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu.member import ResultOutbox
 from ai4u_edu.member import outbox as outbox_module
-from ai4u_edu.wire.class_link import Network
+from ai4u_edu.wire.class_link import HandedInNetwork
 from tests.member.messages import result
 
 
@@ -68,7 +68,7 @@ def test_a_folder_that_can_not_be_written_to_is_told_and_results_stay_in_memory(
 def test_a_network_takes_the_place_of_one_before_for_the_same_scene(tmp_path: Path) -> None:
     outbox = ResultOutbox(tmp_path)
     for number, scene in enumerate(("sumo", "tag", "sumo")):
-        outbox.add(Network(f"network-{number}", scene, "", "a.onnx", b"a"))
+        outbox.add(HandedInNetwork(f"network-{number}", scene, "", "a.onnx", b"a"))
         outbox.add(result(number))
     kept = ["result-0000", "network-1", "result-0001", "network-2", "result-0002"]
     assert outbox.keys() == kept

@@ -8,15 +8,15 @@ from ai4u_edu import Scene
 from ai4u_edu.member.member import MIN_RESULT_INTERVAL_S
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode, encode
-from ai4u_edu.wire.class_link import Applied, EpisodeResult, Race, RaceRow, State
+from ai4u_edu.wire.class_link import Applied, CurrentRace, EpisodeResult, RaceRow, State
 from tests.member.fake_link import Joined, joined
 from tests.waiting import LIMIT_S, until
 
 Phase = Literal["countdown", "running", "over"]
 
 
-def race(phase: Phase, starts_in: float = 0.0, name: str = "r1", **more: object) -> Race:
-    return Race(name, phase, starts_in, "box_chase", 11, more.pop("board", ()), **more)  # type: ignore[arg-type]
+def race(phase: Phase, starts_in: float = 0.0, name: str = "r1", **more: object) -> CurrentRace:
+    return CurrentRace(name, phase, starts_in, "box_chase", 11, more.pop("board", ()), **more)  # type: ignore[arg-type]
 
 
 def started(room: Joined) -> None:
@@ -92,7 +92,7 @@ def test_a_race_from_the_countdown_to_the_end(tmp_path: Path) -> None:
         until(lambda: not room.runner.latest.is_seed_locked)
         until(lambda: not room.ghosts[-1])
         assert own_best(room) == round(min(result.seconds, room.episode_result(1).seconds), 2)
-        room.tell(Race("", "over", 0.0, "", 0, ()))
+        room.tell(CurrentRace("", "over", 0.0, "", 0, ()))
         until(lambda: (room.member.view.event("student", 0) or {})["race"] is None)
 
 
@@ -167,7 +167,7 @@ def test_after_a_restart_nobodys_clock_runs_and_nothing_is_forgotten(tmp_path: P
 
 def test_a_race_that_can_not_be_opened_is_answered() -> None:
     with joined() as room:
-        room.tell(Race("r9", "countdown", 60.0, "no_such_scene", 1, ()))
+        room.tell(CurrentRace("r9", "countdown", 60.0, "no_such_scene", 1, ()))
         assert "no scene" in room.next(Applied).problem
         until(lambda: room.runner.latest.waiting != "teacher")
         assert not room.runner.latest.is_seed_locked
@@ -177,6 +177,6 @@ def test_a_ghost_that_can_not_be_read_stops_nothing() -> None:
     with joined() as room:
         room.tell(race("running", ghosts=(b"no episode",)))
         until(lambda: room.runner.latest.seed == 11 and room.runner.latest.is_seed_locked)
-        room.tell(Race("", "over", 0.0, "", 0, ()))
+        room.tell(CurrentRace("", "over", 0.0, "", 0, ()))
         until(lambda: not room.runner.latest.is_seed_locked)
         assert not any(room.ghosts)

@@ -20,11 +20,11 @@ from ai4u_edu.wire.class_link import (
     ExerciseResult,
     FromClass,
     FromRoom,
-    Hello,
-    Network,
-    Problem,
+    HandedInNetwork,
+    LinkHello,
+    LinkProblem,
+    LinkWelcome,
     State,
-    Welcome,
     decode_from_room,
     encode_from_class,
 )
@@ -41,7 +41,7 @@ class TinyClass:
     def __init__(self) -> None:
         self.got: list[FromRoom] = []
         """All messages except hellos, of all connections."""
-        self.hellos: list[Hello] = []
+        self.hellos: list[LinkHello] = []
         self.is_acknowledging = True
         self.is_welcoming = True
         self.refusal = ""
@@ -117,22 +117,22 @@ class TinyClass:
 
         try:
             hello = decode_from_room(connection.recv(decode=False))
-            assert isinstance(hello, Hello)
+            assert isinstance(hello, LinkHello)
             self.hellos.append(hello)
             if self.refusal:
                 connection.close(1008, self.refusal)
                 return
             if hello.secret != SECRET:
-                send(Problem("secret", "This seat is not known. Join again."))
+                send(LinkProblem("secret", "This seat is not known. Join again."))
                 return
             self._connections.append(connection)  # first: who is welcome may be sent more at once
             if self.is_welcoming:
-                send(Welcome(VERSION, "Red Fox", "#d55e00"))
+                send(LinkWelcome(VERSION, "Red Fox", "#d55e00"))
             while True:
                 message = decode_from_room(connection.recv(decode=False))
                 self.got.append(message)
                 if (
-                    isinstance(message, EpisodeResult | ExerciseResult | Network)
+                    isinstance(message, EpisodeResult | ExerciseResult | HandedInNetwork)
                     and self.is_acknowledging
                 ):
                     send(Ack(message.key))

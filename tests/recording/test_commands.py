@@ -17,7 +17,7 @@ from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.cli import episodes as episode_commands
 from ai4u_edu.cli.main import app
-from ai4u_edu.recording import Episode, Recorder, Replay, recorder_into
+from ai4u_edu.recording import Episode, Recorder, Replay
 from ai4u_edu.runtime.runner import Runner
 from tests.page.server.rooms import NOWHERE
 from tests.playing import played
@@ -183,7 +183,7 @@ def test_two_servers_that_record_into_one_folder_keep_all_episodes(tmp_path: Pat
     def record(_number: int) -> None:
         scene = Scene.load("box_chase")
         sim = scene.build()
-        recorder = recorder_into(tmp_path / "kept", sim, scene)
+        recorder = Recorder.into(tmp_path / "kept", sim, scene)
         started.wait()
         for _ in range(5):
             sim.reset(seed=3)
@@ -202,7 +202,7 @@ def test_an_episode_of_a_scene_with_a_long_name_is_kept(tmp_path: Path) -> None:
     scene = Scene.load("box_chase")
     scene.description = scene.description.model_copy(update={"name": "\u4e00" * 80})
     sim = scene.build()
-    recorder = recorder_into(tmp_path, sim, scene)
+    recorder = Recorder.into(tmp_path, sim, scene)
     sim.reset(seed=3)
     sim.step()
     recorder.finish()

@@ -26,10 +26,9 @@ from ai4u_edu.recording import (
     Recorder,
     RecordingError,
     Replay,
-    folder_recorder,
-    recorder_into,
 )
 from ai4u_edu.recording import episode_builder as builder
+from ai4u_edu.recording import recorder as recorder_module
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
 from tests.builders import small_sim
@@ -184,7 +183,7 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     sim, scene = chase()
-    recorder = recorder_into(tmp_path, sim, scene)
+    recorder = Recorder.into(tmp_path, sim, scene)
     runner = Runner(sim, seed=1, recorder=recorder)
 
     def full(path: Path, *_: Any, **__: Any) -> None:
@@ -196,7 +195,7 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
         runner.advance()
         asked.result(0)
 
-    monkeypatch.setattr(folder_recorder, "write_atomically", full)
+    monkeypatch.setattr(recorder_module, "write_atomically", full)
     for seed in (2, 3, 4):
         drive_and_reset(seed)
         assert "No space left on device" in recorder.save_problem
@@ -214,7 +213,7 @@ def test_a_full_disk_stops_no_world_and_refuses_no_reset(
 
 def test_a_folder_that_was_removed_is_made_anew(tmp_path: Path) -> None:
     sim, scene = chase()
-    recorder = recorder_into(tmp_path / "kept", sim, scene)
+    recorder = Recorder.into(tmp_path / "kept", sim, scene)
     (tmp_path / "kept").rmdir()
     sim.reset(1)
     sim.step()
@@ -226,7 +225,7 @@ def test_a_folder_that_can_not_be_made_is_told(tmp_path: Path) -> None:
     sim, scene = chase()
     (tmp_path / "file").touch()
     with pytest.raises(SetupError, match="expected a folder for recorded episodes"):
-        recorder_into(tmp_path / "file" / "kept", sim, scene)
+        Recorder.into(tmp_path / "file" / "kept", sim, scene)
 
 
 # -- changed by hand ---------------------------------------------------------------------------

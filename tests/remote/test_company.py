@@ -90,13 +90,13 @@ def test_blocks_run_in_the_worlds_own_thread_wherever_answers_are_heard(time_sca
 
 def test_answers_take_the_short_way_and_find_another_one(monkeypatch: pytest.MonkeyPatch) -> None:
     taken = []
-    hear = sockets._Connection.hear_answer
+    hear = sockets._ScriptConnection.hear_answer
 
-    def count(self: sockets._Connection, frame: bytes) -> bool:
+    def count(self: sockets._ScriptConnection, frame: bytes) -> bool:
         taken.append(hear(self, frame))
         return taken[-1]
 
-    monkeypatch.setattr(sockets._Connection, "hear_answer", count)
+    monkeypatch.setattr(sockets._ScriptConnection, "hear_answer", count)
     for extension, short in ((frames.EXTENSION, True), ("there is none", False)):
         monkeypatch.setattr(sockets, "EXTENSION", extension)
         taken.clear()

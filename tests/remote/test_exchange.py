@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link import Observation, Reply, ResetRequest
 from ai4u_edu.page.server.scripts.exchange import Exchange, Turn
 
 NOTHING: Any = None
@@ -79,7 +79,7 @@ def test_a_late_action_counts_if_there_is_no_newer_one() -> None:
 
 def test_while_a_reset_waits_no_percept_is_sent() -> None:
     exchange = asked()
-    reset = Reply(Reset(), FIRST)
+    reset = Reply(ResetRequest(), FIRST)
     exchange.answer(reset)
     assert turn(exchange) is Turn.RESETTING
     assert not exchange.ask(SECOND, b"second")

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import pytest
 
-from ai4u_edu.agent.script_lines import script_lines
+from ai4u_edu.page.panel.parts.agent import script_lines
 from tests.builders import small_sim
 from tests.playing import Played, played
 from tests.waiting import LIMIT_MS, LIMIT_S, until

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BasicAgent
-from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link import Observation, Reply, ResetRequest
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.remote import Robot
 from ai4u_edu.wire import native
@@ -173,7 +173,7 @@ def test_an_ai4u_script_is_not_told_of_the_episode_that_it_has_ended() -> None:
     def talk(situation: Observation | None, until: float) -> Reply | None:
         told.put(situation)
         asks_for_reset.wait(LIMIT_S)
-        return Reply(Reset(), situation)
+        return Reply(ResetRequest(), situation)
 
     before, after, anew = map(situation_of, (1, 2, 3))
     desk = LinkThread(talk, "a script's desk")
@@ -181,7 +181,7 @@ def test_an_ai4u_script_is_not_told_of_the_episode_that_it_has_ended() -> None:
     assert told.get(timeout=LIMIT_S) is before
     desk.put(after)  # the end of the decision in which it asks
     asks_for_reset.set()
-    assert desk.exchange(after, LIMIT_S) == Reply(Reset(), before)
+    assert desk.exchange(after, LIMIT_S) == Reply(ResetRequest(), before)
     assert not desk._has_work()  # there is nothing to tell it until the episode has begun
     desk.put(anew)
     assert told.get(timeout=LIMIT_S) is anew

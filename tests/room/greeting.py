@@ -6,7 +6,7 @@ from pathlib import Path
 import msgspec
 
 from ai4u_edu.base.options import OptionTab
-from ai4u_edu.page.messages import Command, Name
+from ai4u_edu.page.messages import Name, PageCommand
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
@@ -23,7 +23,7 @@ made: "list[Greeting]" = []
 """Options that were made, the latest last."""
 
 
-class Greet(Command, tag="greet"):
+class Greet(PageCommand, tag="greet"):
     """Greet somebody."""
 
     who: Name
@@ -54,7 +54,7 @@ class Greeting:
     tab = OptionTab(KEY, "Greeting", Path(__file__).with_suffix(".js"))
 
     def __init__(self, runner: Runner, player: ReplayPlayer) -> None:
-        self.commands: Mapping[type[Command], Handler] = {Greet: self._greet}
+        self.commands: Mapping[type[PageCommand], Handler] = {Greet: self._greet}
         self.label: GreetingLabel | None = None
         self.is_stopped = False
 

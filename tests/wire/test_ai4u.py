@@ -14,7 +14,7 @@ from ai4u_edu.wire.ai4u import (
     MAX_DATAGRAM_BYTES,
     Field,
     Kind,
-    Order,
+    ReplyCommand,
     decode_reply,
     decode_request,
     encode_reply,
@@ -22,7 +22,7 @@ from ai4u_edu.wire.ai4u import (
     floats,
     number,
 )
-from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, Phase, ReplyKind, State
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, ReplyKind, SentState, SessionPhase
 from ai4u_edu.wire.png import grey_png
 from ai4u_edu.wire.validation import WireError
 
@@ -122,15 +122,18 @@ def test_what_is_no_request(data: bytes, says: str) -> None:
 @pytest.mark.parametrize(
     ("data", "orders"),
     [
-        (b"halt", [Order("halt")]),
-        (b"__noop__;1;0", [Order("__noop__", ("0",))]),
-        (b"__noop__;0;", [Order("__noop__")]),
-        (b"__noop__;0", [Order("__noop__")]),
-        (b"max_steps;1;0@id;1;0\n", [Order("max_steps", ("0",)), Order("id", ("0",))]),
-        (b"move;2;1.0;-1e-05", [Order("move", ("1.0", "-1e-05"))]),
+        (b"halt", [ReplyCommand("halt")]),
+        (b"__noop__;1;0", [ReplyCommand("__noop__", ("0",))]),
+        (b"__noop__;0;", [ReplyCommand("__noop__")]),
+        (b"__noop__;0", [ReplyCommand("__noop__")]),
+        (
+            b"max_steps;1;0@id;1;0\n",
+            [ReplyCommand("max_steps", ("0",)), ReplyCommand("id", ("0",))],
+        ),
+        (b"move;2;1.0;-1e-05", [ReplyCommand("move", ("1.0", "-1e-05"))]),
     ],
 )
-def test_replies(data: bytes, orders: list[Order]) -> None:
+def test_replies(data: bytes, orders: list[ReplyCommand]) -> None:
     assert decode_reply(data) == orders
 
 
@@ -155,9 +158,9 @@ def test_what_is_no_reply(data: bytes, says: str) -> None:
 
 
 def test_a_reply_comes_back() -> None:
-    orders = [Order("move", ("1.0", "0")), Order("speed", ())]
+    orders = [ReplyCommand("move", ("1.0", "0")), ReplyCommand("speed", ())]
     assert decode_reply(encode_reply(orders)) == orders
-    assert encode_reply([Order("halt")]) == b"halt"
+    assert encode_reply([ReplyCommand("halt")]) == b"halt"
 
 
 @given(st.binary(max_size=200))
@@ -198,10 +201,10 @@ def test_a_picture_can_be_read_by_others() -> None:
 
 # -- the dialogue ----------------------------------------------------------------------------------
 
-STATE = State(sensors=[], reward=0.5, steps=3, done=False, truncated=False)
+STATE = SentState(sensors=[], reward=0.5, steps=3, done=False, truncated=False)
 
 
-def asked(dialogue: AI4UDialogue, state: State | None = None) -> dict[str, Any]:
+def asked(dialogue: AI4UDialogue, state: SentState | None = None) -> dict[str, Any]:
     return {field.name: field.value for field in decode_request(dialogue.request(state))}
 
 
@@ -255,7 +258,7 @@ def test_a_session_from_its_beginning() -> None:
         "__ctrl_envMode__": False,
     }
     heard = dialogue.parse_reply(b"move;1;0.5@note;1;hello")
-    assert (heard.kind, heard.orders[1]) == (ReplyKind.ACTION, Order("note", ("hello",)))
+    assert (heard.kind, heard.orders[1]) == (ReplyKind.ACTION, ReplyCommand("note", ("hello",)))
     dialogue.request(STATE)
     assert dialogue.parse_reply(b"__envcontrol__;1;0").kind is ReplyKind.CONTROL
     assert dialogue.phase.value == "polling"
@@ -284,12 +287,12 @@ def test_what_can_not_be_told_is_not_told_as_something_else() -> None:
 @pytest.mark.parametrize(
     ("first", "phase", "word"),
     [
-        (b"__start_agent__;1;0", Phase.STARTED, ReplyKind.START),
-        (b"__reset__;1;0", Phase.PLAYING, ReplyKind.RESET),
+        (b"__start_agent__;1;0", SessionPhase.STARTED, ReplyKind.START),
+        (b"__reset__;1;0", SessionPhase.PLAYING, ReplyKind.RESET),
     ],
 )
 def test_what_a_script_says_to_a_knock_it_means(
-    first: bytes, phase: Phase, word: ReplyKind
+    first: bytes, phase: SessionPhase, word: ReplyKind
 ) -> None:
     dialogue = AI4UDialogue("0", metadata="{}")
     dialogue.request(None)

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu import zoo
 from ai4u_edu.base.errors import BlockError, suggest
+from ai4u_edu.blocks.brains import zoo
 
 MAX_NETWORK_BYTES = 64 * 2**20
 """Largest file of a network."""

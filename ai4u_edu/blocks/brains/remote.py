@@ -15,7 +15,7 @@ from ai4u_edu.blocks.brains.links.link import (
     LinkState,
     Observation,
     Reply,
-    Reset,
+    ResetRequest,
     describe_agent,
 )
 from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
@@ -284,7 +284,7 @@ class RemoteBrain(Brain):
     def _is_outdated(self, reply: Reply, observation: Observation) -> bool:
         """Return True for a late reply; it must not take effect in another episode."""
         asked = reply.observation
-        if asked is None or isinstance(reply.answer, Reset):
+        if asked is None or isinstance(reply.answer, ResetRequest):
             return False
         if self.mode == "lockstep":
             return asked.number != observation.number
@@ -293,7 +293,7 @@ class RemoteBrain(Brain):
     def _carry_out(self, link: Link, reply: Reply, observation: Observation) -> Answer:
         """Return a reply as the decision cycle takes it."""
         answer, agent = reply.answer, self._agent
-        if isinstance(answer, Reset):
+        if isinstance(answer, ResetRequest):
             self._warn(reply.warning)
             self._is_resetting, self._must_truncate = True, False
             self._seed = answer.seed
@@ -345,7 +345,7 @@ class RemoteBrain(Brain):
         reply = self._ask(link, observation, 0.0)
         self._current, self._seed, self._status.is_late = None, None, False
         if reply is not None:
-            if isinstance(reply.answer, Reset):
+            if isinstance(reply.answer, ResetRequest):
                 return self._carry_out(link, reply, observation)
             self._status.dropped += 1
         return brain.decide(observation.percept)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ai4u_edu import zoo
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.blocks.brains.network import find_network
 from ai4u_edu.games.tournament.drivers import scripted_agents
 from ai4u_edu.games.tournament.entry import Driver, Entry, file_driver

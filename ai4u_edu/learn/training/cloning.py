@@ -4,7 +4,7 @@ import hashlib
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -254,7 +254,7 @@ def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path
     """Write a network as ONNX, with metadata on its origin and its agent."""
     inputs = inputs_of(agent)
     (output,) = outputs_of(agent)
-    graph = graph_of(cast(Any, network.eval()), inputs, output)
+    graph = graph_of(network.eval(), inputs, output)
     graph.producer_name, graph.producer_version = "ai4u-edu", __version__
     told = about | {
         "version": __version__,

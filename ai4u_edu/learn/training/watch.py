@@ -2,7 +2,7 @@
 
 The training writes its model into a file once, and its weights and progress into others at
 intervals, which takes a millisecond. The page's process is
-:mod:`ai4u_edu.learn.training.watch_page`.
+:mod:`ai4u_edu.cli.training_page`.
 """
 
 import subprocess
@@ -81,7 +81,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
         """Return the command that runs the page."""
         blocks = [str(file.absolute()) for file in own_files()]
         folder = str(self._training.folder)
-        module = "ai4u_edu.learn.training.watch_page"
+        module = "ai4u_edu.cli.training_page"
         return [sys.executable, "-m", module, folder, *self._options, *blocks]
 
     def wait(self) -> None:

@@ -11,8 +11,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu import zoo
 from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.learn.training.algorithms import load_model
 from ai4u_edu.learn.training.evaluating import Evaluation, evaluate
 from ai4u_edu.learn.training.exporting import export

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from ai4u_edu.base.errors import shown, suggest
-from ai4u_edu.base.parameters import MAX_COUNT, Problem, format_path
+from ai4u_edu.base.parameters import MAX_COUNT, ParameterProblem, format_path
 from ai4u_edu.blocks import (
     Actuator,
     Block,
@@ -49,7 +49,7 @@ def kind_at(path: BlockPath) -> type[Block]:
     names = [part for part in path if isinstance(part, str)]
     if not names or names[-1] not in KINDS:
         raise ChangeError(
-            [Problem((), f"{format_path(path)!r} is no place of blocks; {_places()}")]
+            [ParameterProblem((), f"{format_path(path)!r} is no place of blocks; {_places()}")]
         )
     return KINDS[names[-1]]
 
@@ -77,10 +77,10 @@ def block_at(agent: Plain, path: BlockPath) -> Plain:
             here = here[part]
         except (KeyError, IndexError, TypeError):
             raise ChangeError(
-                [Problem((), f"there is no block at {format_path(path)!r}")]
+                [ParameterProblem((), f"there is no block at {format_path(path)!r}")]
             ) from None
     if not isinstance(here, Mapping) or "type" not in here:
-        raise ChangeError([Problem((), f"there is no block at {format_path(path)!r}")])
+        raise ChangeError([ParameterProblem((), f"there is no block at {format_path(path)!r}")])
     return here
 
 
@@ -93,7 +93,9 @@ def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
     before = block_at(agent, path)
     check_plain(values)
     if not isinstance(values, Mapping):
-        raise ChangeError([Problem((), f"expected parameters by name, got {shown(values)}")])
+        raise ChangeError(
+            [ParameterProblem((), f"expected parameters by name, got {shown(values)}")]
+        )
     block = dict(before) | dict(values)
     cls = Block.types.get(str(block["type"]))
     declared = cls.parameters() if cls else {}
@@ -137,7 +139,9 @@ def removed(agent: Plain, path: BlockPath) -> Plain:
     block_at(agent, path)
     *above, index = path
     if not isinstance(index, int):
-        raise ChangeError([Problem((), f"{format_path(path)} can be changed, but not left out")])
+        raise ChangeError(
+            [ParameterProblem((), f"{format_path(path)} can be changed, but not left out")]
+        )
     return _replace(agent, tuple(above), lambda blocks: [*blocks[:index], *blocks[index + 1 :]])
 
 
@@ -147,7 +151,7 @@ def moved(agent: Plain, path: BlockPath, by: int) -> Plain:
     check_number(by, "by", MAX_COUNT)
     *above, index = path
     if not isinstance(index, int):
-        raise ChangeError([Problem((), f"{format_path(path)} stands alone")])
+        raise ChangeError([ParameterProblem((), f"{format_path(path)} stands alone")])
 
     def move(blocks: list[Plain]) -> list[Plain]:
         others = [*blocks[:index], *blocks[index + 1 :]]
@@ -161,14 +165,16 @@ def with_enabled(agent: Plain, path: BlockPath, on: bool) -> Plain:
     """Enable or disable a block; exactly one brain is enabled."""
     block_at(agent, path)
     if not isinstance(on, bool):
-        raise ChangeError([Problem((), f"expected true or false, got {shown(on)}")])
+        raise ChangeError([ParameterProblem((), f"expected true or false, got {shown(on)}")])
     if path[0] == "brains" and len(path) > 2:
-        raise ChangeError([Problem((), f"{format_path(path)} is on whenever its brain is")])
+        raise ChangeError(
+            [ParameterProblem((), f"{format_path(path)} is on whenever its brain is")]
+        )
     if path[0] != "brains":
         return changed(agent, path, {"is_active": on})
     if not on:
         text = "an agent has exactly one brain that is on; switch another one on in its place"
-        raise ChangeError([Problem(("enabled",), text)])
+        raise ChangeError([ParameterProblem(("enabled",), text)])
     brains = [
         {**{k: v for k, v in brain.items() if k != "enabled"}}
         | ({} if index == path[1] else {"enabled": False})
@@ -195,9 +201,11 @@ def _replace(here: Any, path: BlockPath, change: Callable[[Any], Any]) -> Plain:
 
 def _check_path(path: object) -> None:
     if not isinstance(path, tuple | list) or len(path) > MAX_DEPTH:
-        raise ChangeError([Problem((), f"expected a block's path, got {shown(path)}")])
+        raise ChangeError([ParameterProblem((), f"expected a block's path, got {shown(path)}")])
     if not all(type(part) in (str, int) for part in path):
-        raise ChangeError([Problem((), f"expected names and numbers as path, got {shown(path)}")])
+        raise ChangeError(
+            [ParameterProblem((), f"expected names and numbers as path, got {shown(path)}")]
+        )
     for part in path:
         if isinstance(part, str):
             check_name(part, "a path of names")

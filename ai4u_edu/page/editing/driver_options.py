@@ -4,18 +4,18 @@ from collections.abc import Mapping
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX, files_in
+from ai4u_edu.blocks.brains.zoo import names as in_the_zoo
 from ai4u_edu.page.editing.blocks import types_of, with_enabled
 from ai4u_edu.page.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import Plain
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.scenes.serialization import to_plain
-from ai4u_edu.zoo import names as in_the_zoo
 
 KEYS, OWN_BRAIN = "keys:", "brain:"
 
@@ -50,7 +50,9 @@ def with_driver(state: EditState, agent_id: str, name: str, drivers: DriverRegis
     if name.startswith(OWN_BRAIN) and name.removeprefix(OWN_BRAIN).isdecimal():
         index = int(name.removeprefix(OWN_BRAIN))
         if index >= len(brains):
-            raise ChangeError([Problem((), f"agent {agent_id!r} has {len(brains)} brains")])
+            raise ChangeError(
+                [ParameterProblem((), f"agent {agent_id!r} has {len(brains)} brains")]
+            )
         return _with_enabled_brain(state.driven(agent_id, ""), agent_id, brains, index)
     wanted = _plain_brain(state, name, _rhythm(brains))
     same = [{**each, "enabled": None} == {**wanted, "enabled": None} for each in brains]
@@ -119,14 +121,16 @@ def _plain_brain(state: EditState, name: str, rhythm: dict[str, Any]) -> Plain:
     if name.startswith(NETWORK):
         path = name.removeprefix(NETWORK)
         if not path.startswith(ZOO_PREFIX) and path not in _networks_in_folder(state):
-            raise ChangeError([Problem((), f"no network {path!r} is offered here; {TO_OFFER}")])
+            raise ChangeError(
+                [ParameterProblem((), f"no network {path!r} is offered here; {TO_OFFER}")]
+            )
         with files_in(state.folder):
             network = NeuralNetController(model_path=path)
         return _plain(LocalBrain(controller=network, **{**rhythm, **network.network.rhythm}))
     known = {cls.__name__: cls for cls in types_of("controller")}
     cls = known.get(name.removeprefix(KEYS))
     if not name.startswith(KEYS) or cls is None:
-        raise ChangeError([Problem((), f"nobody is called {name!r}; {KINDS}")])
+        raise ChangeError([ParameterProblem((), f"nobody is called {name!r}; {KINDS}")])
     return {"type": "LocalBrain", "controller": {"type": cls.__name__}} | {
         name: value for name, value in rhythm.items() if value != _default(name)
     }

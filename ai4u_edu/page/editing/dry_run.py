@@ -4,7 +4,7 @@ from typing import Any
 
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError, WorldError
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.page.editing.errors import ChangeError
@@ -52,23 +52,23 @@ def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> Contr
     except PlainDataError as error:
         raise ChangeError([relative_to(path, each) for each in error.problems]) from None
     except WorldError as error:
-        problem = Problem(description.where_is(error.thing), f"where all begin, {error}")
+        problem = ParameterProblem(description.where_is(error.thing), f"where all begin, {error}")
         raise ChangeError([relative_to(path, problem)]) from None
     except AI4UError as error:
         changed = _at(description.agents, path[1:]) if path else None
         field = field_named_in(str(error), changed)
-        raise ChangeError([Problem(field, str(error))]) from None
+        raise ChangeError([ParameterProblem(field, str(error))]) from None
     except (ArithmeticError, MemoryError) as error:
         text = f"it can't be set up: {type(error).__name__}: {error}"
-        raise ChangeError([Problem((), text)]) from error
+        raise ChangeError([ParameterProblem((), text)]) from error
     return sim
 
 
-def relative_to(path: BlockPath, problem: Problem) -> Problem:
+def relative_to(path: BlockPath, problem: ParameterProblem) -> ParameterProblem:
     """Return a problem with a relative path; one that lies elsewhere has its path in its text."""
     if problem.path[: len(path)] == path:
-        return Problem(problem.path[len(path) :], problem.text)
-    return Problem((), str(problem))
+        return ParameterProblem(problem.path[len(path) :], problem.text)
+    return ParameterProblem((), str(problem))
 
 
 def _at(data: Any, path: BlockPath) -> Any:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.base.parameters import Problem, format_problems
+from ai4u_edu.base.parameters import ParameterProblem, format_problems
 
 
 class ChangeError(SetupError):
@@ -14,6 +14,6 @@ class ChangeError(SetupError):
             that was to be changed; () for the block or body itself.
     """
 
-    def __init__(self, problems: Sequence[Problem]) -> None:
+    def __init__(self, problems: Sequence[ParameterProblem]) -> None:
         super().__init__(format_problems(problems))
         self.problems = tuple(problems)

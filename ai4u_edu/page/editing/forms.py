@@ -8,7 +8,7 @@ from inspect import get_annotations
 from typing import Any, Literal, get_args
 
 from ai4u_edu.base.errors import SceneError, suggest
-from ai4u_edu.base.parameters import Problem, is_open
+from ai4u_edu.base.parameters import ParameterProblem, is_open
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.page.editing.blocks import KINDS
 from ai4u_edu.page.editing.errors import ChangeError
@@ -24,7 +24,7 @@ NONE_LABEL = "(none)"
 
 
 @dataclass(frozen=True)
-class Field:
+class ParameterField:
     """A form field for one parameter."""
 
     name: str
@@ -76,7 +76,7 @@ class Field:
         return _data(self.name, str(entered)) if self.kind == "data" else str(entered)
 
 
-def read_values(fields: Iterable[Field], entered: Mapping[str, Any]) -> dict[str, Any]:
+def read_values(fields: Iterable[ParameterField], entered: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of a form that differ from the fields', as plain data.
 
     Args:
@@ -88,11 +88,11 @@ def read_values(fields: Iterable[Field], entered: Mapping[str, Any]) -> dict[str
     """
     known = {field.name: field for field in fields}
     values: dict[str, Any] = {}
-    problems: list[Problem] = []
+    problems: list[ParameterProblem] = []
     for name, value in entered.items():
         field = known.get(name)
         if field is None:
-            problems.append(Problem((name,), f"expected a field, {suggest(name, known)}"))
+            problems.append(ParameterProblem((name,), f"expected a field, {suggest(name, known)}"))
             continue
         try:
             read = field.read(value) if isinstance(value, str | bool) else value
@@ -106,7 +106,7 @@ def read_values(fields: Iterable[Field], entered: Mapping[str, Any]) -> dict[str
     return values
 
 
-def block_form(block: Plain, names: SceneNames) -> list[Field]:
+def block_form(block: Plain, names: SceneNames) -> list[ParameterField]:
     """Return the fields of a block; its own parameters come before those of all of its kind.
 
     Args:
@@ -129,7 +129,7 @@ def block_form(block: Plain, names: SceneNames) -> list[Field]:
     ]
     needed = schema.get("required", ())
 
-    def sort_key(field: Field) -> tuple[bool, bool, int]:
+    def sort_key(field: ParameterField) -> tuple[bool, bool, int]:
         return field.is_common, field.name not in needed, _distance(cls, field.name)
 
     return sorted(fields, key=sort_key)
@@ -148,7 +148,7 @@ def field_of(
     *,
     known: Iterable[str] | None = None,
     is_common: bool = False,
-) -> Field:
+) -> ParameterField:
     """Make the field of a parameter.
 
     Args:
@@ -182,7 +182,7 @@ def field_of(
     if kind == "choice" and (can_be_none or value is None):
         choices = (NONE_LABEL, *(each for each in choices if each != ""))
     low, high = (_bound(what, end) if is_number else None for end in ("inimum", "aximum"))
-    return Field(
+    return ParameterField(
         name,
         label,
         kind,
@@ -263,4 +263,4 @@ def _data(name: str, entered: str) -> Any:
     except SceneError as error:
         told = str(error).partition("\n")[0].split(": ", 1)[-1]
         example = "[1, 2] for a list, {name: 1} for a mapping"
-        raise ChangeError([Problem((name,), f"{told}; write {example}")]) from None
+        raise ChangeError([ParameterProblem((name,), f"{told}; write {example}")]) from None

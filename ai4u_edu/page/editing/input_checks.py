@@ -12,7 +12,7 @@ from weakref import WeakKeyDictionary
 from pydantic import BaseModel
 
 from ai4u_edu.base.errors import MAX_SHOWN_CHARS, shown
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.page.editing.errors import ChangeError
@@ -50,17 +50,17 @@ def check_number(value: Any, what: str, largest: float) -> None:
     """
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and isinstance(value, float) and not math.isfinite(value):
-        raise ChangeError([Problem((what,), f"expected finite numbers, got {value}")])
+        raise ChangeError([ParameterProblem((what,), f"expected finite numbers, got {value}")])
     if not is_number or abs(value) > largest:
         text = f"expected a number from {-largest:g} to {largest:g}, got {shown(value)}"
-        raise ChangeError([Problem((what,), text)])
+        raise ChangeError([ParameterProblem((what,), text)])
 
 
 def check_name(value: Any, what: str) -> None:
     """Raise a ChangeError unless a value is a text short enough for a name."""
     if not isinstance(value, str) or len(value) > MAX_NAME_CHARS:
         text = f"expected {what} of at most {MAX_NAME_CHARS} characters, got {shown(value)}"
-        raise ChangeError([Problem((), text)])
+        raise ChangeError([ParameterProblem((), text)])
 
 
 def check_typed(values: Any, schema: Mapping[str, Any]) -> None:
@@ -111,7 +111,7 @@ def schema_of(cls: type[Parameterized]) -> dict[str, Any]:
     return found
 
 
-def _not_plain(values: Any) -> Iterator[Problem]:
+def _not_plain(values: Any) -> Iterator[ParameterProblem]:
     """Yield values that are no plain data; iterative, since nesting could exceed the stack."""
     waiting: list[tuple[BlockPath, Any]] = [((), values)]
     count = 0
@@ -119,30 +119,32 @@ def _not_plain(values: Any) -> Iterator[Problem]:
         path, value = waiting.pop()
         count += 1
         if len(path) > MAX_DEPTH or count > MAX_VALUES:
-            yield Problem(path[:1], "expected less: it is nested too deep, or has too many values")
+            yield ParameterProblem(
+                path[:1], "expected less: it is nested too deep, or has too many values"
+            )
             return
         if isinstance(value, str):
             if len(value) > MAX_TEXT_CHARS:
-                yield Problem(path, f"expected at most {MAX_TEXT_CHARS} characters")
+                yield ParameterProblem(path, f"expected at most {MAX_TEXT_CHARS} characters")
             elif not value.isprintable() and any("\ud800" <= char <= "\udfff" for char in value):
-                yield Problem(path, f"expected text, got {shown(value)}")
+                yield ParameterProblem(path, f"expected text, got {shown(value)}")
         elif isinstance(value, int) and value.bit_length() > 64:
-            yield Problem(path, "expected a number of at most 64 bits, got a larger one")
+            yield ParameterProblem(path, "expected a number of at most 64 bits, got a larger one")
         elif isinstance(value, Mapping):
             for key, each in value.items():
                 if not isinstance(key, str | int):
-                    yield Problem(path, f"expected names as keys, got {shown(key)}")
+                    yield ParameterProblem(path, f"expected names as keys, got {shown(key)}")
                 waiting.append(((*path, str(key)[:MAX_SHOWN_CHARS]), each))
         elif isinstance(value, list | tuple):
             waiting += [((*path, index), each) for index, each in enumerate(value)]
         elif not (value is None or isinstance(value, bool | int | float | BaseModel)):
             text = f"expected plain data (numbers, text, lists, mappings), got {shown(value)}"
-            yield Problem(path, text)
+            yield ParameterProblem(path, text)
 
 
 def _type_problems(
     value: Any, schema: Any, known: Mapping[str, Any], path: BlockPath
-) -> Iterator[Problem]:
+) -> Iterator[ParameterProblem]:
     schemas = _alternatives(schema, known)
     types = {str(each.get("type", "")) for each in schemas}
     if isinstance(value, bool | str):
@@ -150,7 +152,7 @@ def _type_problems(
         numbers = {"number": "a number", "integer": "a whole number"}
         wanted = [words for name, words in numbers.items() if name in types]
         if wanted and not is_other:
-            yield Problem(path, f"expected {wanted[0]}, got {shown(value)}")
+            yield ParameterProblem(path, f"expected {wanted[0]}, got {shown(value)}")
     elif isinstance(value, Mapping):
         if value.get("type") in Block.types:  # the enclosing schema has the base class only
             schema = schema_of(Block.types[value["type"]])

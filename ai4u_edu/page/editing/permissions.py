@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import PurePath
 from typing import Any
 
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
@@ -30,7 +30,7 @@ class Permissions:
     def check(self, agents: Any, path: BlockPath = ("agents",)) -> None:
         """Raise a ChangeError if agents name a host or a file that they may not."""
         problems = [
-            Problem(at, text)
+            ParameterProblem(at, text)
             for at, name, value in external_references(agents, path)
             if (name, value) not in self._known and (text := _fault(name, value))
         ]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.page.editing import blocks, settings, things
 from ai4u_edu.page.editing.driver_options import with_driver
 from ai4u_edu.page.editing.drivers import DriverRegistry
@@ -168,6 +168,6 @@ def _without_agent(state: EditState, agent_id: str) -> EditState:
     agents = state.description.agents
     others = (*agents[:index], *agents[index + 1 :])
     if not others:
-        raise ChangeError([Problem((), "it is the only agent; a scene needs one")])
+        raise ChangeError([ParameterProblem((), "it is the only agent; a scene needs one")])
     without = state.driven(agent_id, "").describing(agents=others)
     return things.without_thing(without, str(agents[index]["body"]))

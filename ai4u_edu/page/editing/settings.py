@@ -8,11 +8,11 @@ from pydantic import TypeAdapter, ValidationError
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import ParameterError
-from ai4u_edu.base.parameters import Problem, explain
+from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.blocks import Block
 from ai4u_edu.page.editing import blocks
 from ai4u_edu.page.editing.errors import ChangeError
-from ai4u_edu.page.editing.forms import Field, field_of
+from ai4u_edu.page.editing.forms import ParameterField, field_of
 from ai4u_edu.page.editing.input_checks import check_typed, schema_of
 from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.scenes import SceneDescription
@@ -35,7 +35,7 @@ SCHEDULING = ("spread_decisions",)
 """Parameters of a scene about all its agents."""
 
 
-def agent_form(agent: Plain) -> list[Field]:
+def agent_form(agent: Plain) -> list[ParameterField]:
     """Return the form of an agent: its parameters, and those of its enabled brain's rhythm."""
     brain = blocks.block_at(agent, brain_of(agent))
     schema = BasicAgent.json_schema()
@@ -46,13 +46,13 @@ def agent_form(agent: Plain) -> list[Field]:
     ]
 
 
-def problems_in_agent_form(problems: Iterable[Problem]) -> Iterator[Problem]:
+def problems_in_agent_form(problems: Iterable[ParameterProblem]) -> Iterator[ParameterProblem]:
     """Move problems of a brain's parameters to the agent's form, which shows them as its own."""
     for path, text in problems:
-        yield Problem(path[-1:] if path[:1] == ("brains",) else path, text)
+        yield ParameterProblem(path[-1:] if path[:1] == ("brains",) else path, text)
 
 
-def scene_form(scene: SceneDescription) -> list[Field]:
+def scene_form(scene: SceneDescription) -> list[ParameterField]:
     """Return the form of a scene: its texts, its agents' scheduling, its world's settings."""
     schema = TypeAdapter(SceneDescription).json_schema()
     world = WorldSettings.model_json_schema()
@@ -93,14 +93,16 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     own = {name: values[name] for name in _ADAPTERS if name in values}
     settings = scene.world.model_dump(exclude_defaults=True)
     settings |= {name: value for name, value in values.items() if name not in own}
-    problems: list[Problem] = []
+    problems: list[ParameterProblem] = []
     fields: dict[str, Any] = {}
     for name, value in own.items():
         default = SceneDescription.model_fields[name].default
         try:
             fields[name] = _ADAPTERS[name].validate_python(default if value is None else value)
         except ValidationError as error:
-            problems += [Problem((name,), each.text) for each in explain(error.errors(), ())]
+            problems += [
+                ParameterProblem((name,), each.text) for each in explain(error.errors(), ())
+            ]
     try:
         fields["world"] = WorldSettings(
             **{name: value for name, value in settings.items() if value is not None}
@@ -115,14 +117,16 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     return scene.model_copy(update=fields)
 
 
-def _fields(schema: Mapping[str, Any], names: tuple[str, ...], values: Plain) -> list[Field]:
+def _fields(
+    schema: Mapping[str, Any], names: tuple[str, ...], values: Plain
+) -> list[ParameterField]:
     about = schema["properties"]
     return [
         field_of(name, about[name], values.get(name, about[name].get("default"))) for name in names
     ]
 
 
-def _applying_later(fields: list[Field]) -> list[Field]:
+def _applying_later(fields: list[ParameterField]) -> list[ParameterField]:
     """Say in the hints that the fields apply at the next reset."""
     later = "applies at the next reset"
     return [replace(each, hint="; ".join(filter(None, (each.hint, later)))) for each in fields]

@@ -3,10 +3,10 @@
 from typing import Any
 
 from ai4u_edu.blocks import Actuator, Block, Brain, RewardFunc, Sensor
+from ai4u_edu.blocks.brains.zoo import names as in_the_zoo
 from ai4u_edu.page.editing.plain import Plain
 from ai4u_edu.page.editing.scene_names import SceneNames, name_of
 from ai4u_edu.page.editing.state import EditState
-from ai4u_edu.zoo import names as in_the_zoo
 
 NAMED = {
     Sensor: ("sensors", "perception_key"),

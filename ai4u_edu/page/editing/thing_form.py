@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from ai4u_edu.base.colors import PALETTE
-from ai4u_edu.base.parameters import DataPath, Problem
+from ai4u_edu.base.parameters import DataPath, ParameterProblem
 from ai4u_edu.page.editing.errors import ChangeError
-from ai4u_edu.page.editing.forms import NONE_LABEL, Field
+from ai4u_edu.page.editing.forms import NONE_LABEL, ParameterField
 from ai4u_edu.page.editing.things import Thing
 from ai4u_edu.world import (
     BodyDescription,
@@ -28,7 +28,7 @@ KINDS = {
 POSE_FIELDS = ("x", "y", "heading_deg")
 
 
-def thing_form(thing: Thing) -> list[Field]:
+def thing_form(thing: Thing) -> list[ParameterField]:
     """Return the fields of a thing's form, with their current values.
 
     Properties that are not among them are changed in the scene file.
@@ -43,8 +43,8 @@ def thing_form(thing: Thing) -> list[Field]:
         _number("heading_deg", "heading", "deg", thing.heading_deg),
         *(_number(name, name, "m", value) for name, value in _lengths(thing).items()),
         *_own_fields(thing),
-        Field("colour", "colour", "choice", thing.colour, "", colours),
-        Field("label", "label", "text", thing.label, ""),
+        ParameterField("colour", "colour", "choice", thing.colour, "", colours),
+        ParameterField("label", "label", "text", thing.label, ""),
     ]
 
 
@@ -68,7 +68,7 @@ def pose_and_changes(
     values: dict[str, Any] = {}
     for name, value in entered.items():
         if name not in known:
-            raise ChangeError([Problem((name,), f"expected one of {', '.join(known)}")])
+            raise ChangeError([ParameterProblem((name,), f"expected one of {', '.join(known)}")])
         read = _read(known[name], value)
         if read != _read(known[name], known[name].value):
             values[name] = read
@@ -92,25 +92,25 @@ def field_of_problem(thing: Thing, path: DataPath) -> str:
     return name
 
 
-def _number(name: str, label: str, unit: str, value: float) -> Field:
-    return Field(name, f"{label} ({unit})", "number", value, "", unit=unit)
+def _number(name: str, label: str, unit: str, value: float) -> ParameterField:
+    return ParameterField(name, f"{label} ({unit})", "number", value, "", unit=unit)
 
 
-def _own_fields(thing: Thing) -> list[Field]:
+def _own_fields(thing: Thing) -> list[ParameterField]:
     """Return the fields that only things of this kind have."""
     if isinstance(thing, BodyDescription):
         kinds = tuple(KINDS.values())
         return [
             _number("height", "height", "m", thing.height),
-            Field("kind", "kind", "choice", KINDS[thing.kind], "", kinds),
+            ParameterField("kind", "kind", "choice", KINDS[thing.kind], "", kinds),
         ]
     if isinstance(thing, FloorDescription):
         return [_number("top", "top", "m", thing.top)]
     hint = "paint: drawn in its full colour, for line sensors to follow"
-    return [Field("paint", "paint", "switch", thing.paint, hint)]
+    return [ParameterField("paint", "paint", "switch", thing.paint, hint)]
 
 
-def _read(field: Field, entered: Any) -> Any:
+def _read(field: ParameterField, entered: Any) -> Any:
     """Return an entered value as plain data."""
     if field.name == "kind":
         return next((kind for kind, words in KINDS.items() if words == entered), entered)
@@ -118,9 +118,11 @@ def _read(field: Field, entered: Any) -> Any:
     if field.name in POSE_FIELDS and (
         isinstance(value, bool) or not isinstance(value, int | float)
     ):
-        raise ChangeError([Problem((field.name,), f"expected a number, got {entered!r}")])
+        raise ChangeError([ParameterProblem((field.name,), f"expected a number, got {entered!r}")])
     if field.name in POSE_FIELDS and not math.isfinite(value):
-        raise ChangeError([Problem((field.name,), f"expected a finite number, got {entered!r}")])
+        raise ChangeError(
+            [ParameterProblem((field.name,), f"expected a finite number, got {entered!r}")]
+        )
     return value
 
 

@@ -7,7 +7,7 @@ from typing import Any, Literal
 from pydantic import ValidationError
 
 from ai4u_edu.base.errors import NameNotFoundError, shown, suggest
-from ai4u_edu.base.parameters import MAX_NUMBER, Problem, explain
+from ai4u_edu.base.parameters import MAX_NUMBER, ParameterProblem, explain
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.input_checks import (
     check_name,
@@ -66,7 +66,9 @@ def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bod
         return given
     check_typed(given, _SCHEMAS[kind])
     if not isinstance(given, Mapping):
-        raise ChangeError([Problem((), f"expected parameters by name, got {shown(given)}")])
+        raise ChangeError(
+            [ParameterProblem((), f"expected parameters by name, got {shown(given)}")]
+        )
     try:
         return cls.model_validate(dict(given))
     except ValidationError as error:
@@ -77,7 +79,7 @@ def with_thing(state: EditState, thing: Thing) -> EditState:
     """Add a thing, as the last one of its kind."""
     if any(other.name == thing.name for other in state.description.things):
         text = f"something is named {thing.name!r} already; expected another name, such as "
-        raise ChangeError([Problem(("name",), text + repr(free_name(state, thing.name)))])
+        raise ChangeError([ParameterProblem(("name",), text + repr(free_name(state, thing.name)))])
     kind = kind_of(thing)
     return state.describing(**{kind: (*getattr(state.description, kind), thing)})
 
@@ -88,7 +90,7 @@ def without_thing(state: EditState, name: str) -> EditState:
     for agent in state.description.agents:
         if agent.get("body") == name:
             text = f"it is the body of agent {agent.get('id', '0')!r}; an agent needs its body"
-            raise ChangeError([Problem((), text)])
+            raise ChangeError([ParameterProblem((), text)])
     others = tuple(each for each in getattr(state.description, kind) if each.name != name)
     return state.describing(**{kind: others})
 
@@ -105,7 +107,9 @@ def with_changed_thing(state: EditState, name: str, values: Mapping[str, Any]) -
     named = {key: value for key, value in given.items() if value is not None}
     other = check_typed_and(values, _SCHEMAS[kind], lambda: checked_description(named, kind))
     if other.name != name and any(each.name == other.name for each in state.description.things):
-        raise ChangeError([Problem(("name",), f"something is named {other.name!r} already")])
+        raise ChangeError(
+            [ParameterProblem(("name",), f"something is named {other.name!r} already")]
+        )
     things = getattr(state.description, kind)
     return state.describing(**{kind: tuple(other if each is thing else each for each in things)})
 

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, replace
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.page.editing import things
 from ai4u_edu.page.editing.change_result import ChangeResult, When
 from ai4u_edu.page.editing.drivers import DriverRegistry
@@ -158,7 +158,7 @@ class Transactions:
         self._adopt_other_world()
         step = self._history.last
         if step is None:
-            raise ChangeError([Problem((), "there is nothing to undo")])
+            raise ChangeError([ParameterProblem((), "there is nothing to undo")])
         when = self._apply(
             step.before, step.poses_before, step.replaces_world, self._seed(step.opens)
         )
@@ -173,7 +173,7 @@ class Transactions:
         self._adopt_other_world()
         step = self._history.next
         if step is None:
-            raise ChangeError([Problem((), "there is nothing to do again")])
+            raise ChangeError([ParameterProblem((), "there is nothing to do again")])
         when = self._apply(
             step.after, step.poses_after, step.replaces_world, self._seed(step.opens)
         )
@@ -292,7 +292,7 @@ def _checked(propose: Callable[[], Proposal]) -> Proposal:
         raise
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         text = f"expected values that can be used for it: {type(error).__name__}: {error}"
-        raise ChangeError([Problem((), text)]) from error
+        raise ChangeError([ParameterProblem((), text)]) from error
 
 
 def _warnings(step: _Step) -> str:

@@ -2,7 +2,7 @@
 
 import re
 
-from ai4u_edu.page.editing.forms import Field
+from ai4u_edu.page.editing.forms import ParameterField
 from ai4u_edu.page.panel.block_words import BLOCK_WORDS
 
 FIELD_HINTS = {
@@ -82,14 +82,14 @@ _REPLACED = (
 )
 
 
-def plain_hint(field: Field, block: str = "") -> str:
+def plain_hint(field: ParameterField, block: str = "") -> str:
     """Return a field's hint without names of classes and parameters.
 
     Args:
         field: the field.
         block: class name of its block; empty if it is no block's.
 
-    >>> plain_hint(Field("ball", "ball", "text", "", "Perception key of a PositionSensor"))
+    >>> plain_hint(ParameterField("ball", "ball", "text", "", "Perception key of a PositionSensor"))
     'Name of the reading of a "Position".'
     """
     known = FIELD_HINTS.get(f"{block}.{field.name}") or FIELD_HINTS.get(field.name)
@@ -103,7 +103,7 @@ def plain_hint(field: Field, block: str = "") -> str:
     return text and text[:1].upper() + text[1:].rstrip(".") + "."
 
 
-def detail(field: Field) -> str:
+def detail(field: ParameterField) -> str:
     """Return a field's name, description and range, as its class has them."""
     return ". ".join(filter(None, (field.name, field.hint, field.limits)))
 

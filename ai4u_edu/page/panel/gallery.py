@@ -12,10 +12,9 @@ from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.docs import summary
 from ai4u_edu.page.editing.blocks import types_of
 from ai4u_edu.page.editing.drivers import Driver
-from ai4u_edu.page.editing.forms import Field
+from ai4u_edu.page.editing.forms import ParameterField
 from ai4u_edu.page.editing.reasons import reason_against_block
 from ai4u_edu.page.editing.state import EditState
-from ai4u_edu.page.panel.block_hints import BLOCK_HINTS
 from ai4u_edu.page.panel.block_words import BLOCK_WORDS, OWN_BLOCKS, BlockWords
 
 MAX_FIRST_FIELDS = 3
@@ -88,7 +87,7 @@ def driver_title(driver: Driver) -> str:
     return driver.title
 
 
-def first_fields(type_name: str, fields: Sequence[Field]) -> list[str]:
+def first_fields(type_name: str, fields: Sequence[ParameterField]) -> list[str]:
     """Return the names of the three fields of a block's form that matter most."""
     chosen = words_of(type_name).first_fields
     own = [field.name for field in fields if not field.is_common]
@@ -102,7 +101,7 @@ def hint_of(type_name: str) -> str:
     'A reward for touching the target.'
     """
     cls = Block.types.get(type_name)
-    return BLOCK_HINTS.get(type_name) or ("" if cls is None else first_sentence(cls))
+    return words_of(type_name).hint or ("" if cls is None else first_sentence(cls))
 
 
 def first_sentence(cls: type[Block]) -> str:

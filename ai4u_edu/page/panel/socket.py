@@ -13,7 +13,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.page.editing import ChangeResult
-from ai4u_edu.page.messages import Command, MessageReader, id_in
+from ai4u_edu.page.messages import MessageReader, PageCommand, id_in
 from ai4u_edu.page.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
 from ai4u_edu.page.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.page.panel.commands.handler import Handler
@@ -36,7 +36,7 @@ MAX_PENDING_COMMANDS = 16
 MIN_SEND_S = 0.03
 """Shortest time (s) between two looks for changed parts, after commands."""
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     **run.HANDLERS,
     **view.HANDLERS,
     **blocks.HANDLERS,
@@ -53,7 +53,7 @@ class PanelOption(Protocol):
     """Parts and commands that an option adds to all panels; the server's event loop calls it."""
 
     @property
-    def commands(self) -> Mapping[type[Command], Handler]:
+    def commands(self) -> Mapping[type[PageCommand], Handler]:
         """Handlers of its commands by the type of their message."""
 
     @property
@@ -88,10 +88,10 @@ class PanelSockets:
             if PAGE_ID_PARAM in socket.query_params and not page_id(scope):
                 await socket.close(1008, "expected a page id of 8 to 64 letters, digits and -")
                 return
-            await _Connection(socket, self, page_id(scope)).serve()
+            await _PanelConnection(socket, self, page_id(scope)).serve()
 
 
-class _Connection:
+class _PanelConnection:
     """One page's connection.
 
     The server's event loop calls everything but :meth:`on_selected`, :meth:`on_dropped` and
@@ -174,7 +174,7 @@ class _Connection:
             else:
                 self._spawn(self._carry_out(message))
 
-    def _read(self, data: str | bytes) -> bytes | Show | Command:
+    def _read(self, data: str | bytes) -> bytes | Show | PageCommand:
         """Return the message in a text, or a part of a file, which is binary."""
         return data if isinstance(data, bytes) else self._panel.reader.read(data)
 
@@ -191,7 +191,7 @@ class _Connection:
         self._view.look_at(show)
         self._changed.set()
 
-    async def _carry_out(self, command: Command) -> None:
+    async def _carry_out(self, command: PageCommand) -> None:
         try:
             answer: Answer = await self._panel.handlers[type(command)](self._page, command)
         except asyncio.CancelledError:

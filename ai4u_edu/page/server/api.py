@@ -36,7 +36,7 @@ class _View(BaseModel):
     model_config = ConfigDict(extra="forbid")  # the schema then allows no other fields
 
 
-class BodyView(_View):
+class BodyStateView(_View):
     """Pose and motion of a body."""
 
     name: str
@@ -46,7 +46,7 @@ class BodyView(_View):
     fallen: bool
 
     @classmethod
-    def of(cls, body: BodyState) -> "BodyView":
+    def of(cls, body: BodyState) -> "BodyStateView":
         """Return the view of a body's state."""
         return cls(name=body.name, fallen=body.fallen, **_motion(body))
 
@@ -81,7 +81,7 @@ class ScriptView(_View):
         return cls(**asdict(remote))
 
 
-class AgentView(_View):
+class AgentStateView(_View):
     """An agent's last percept, action and reward, and its present pose."""
 
     id: str
@@ -106,7 +106,7 @@ class AgentView(_View):
     script: ScriptView | None = Field(description="null where no remote script drives")
 
     @classmethod
-    def of(cls, agent: AgentState, body: BodyState) -> "AgentView":
+    def of(cls, agent: AgentState, body: BodyState) -> "AgentStateView":
         """Return the view of an agent's state."""
         return cls(
             id=agent.id,
@@ -165,8 +165,8 @@ class SnapshotView(_View):
         description="the slowest tick of the last 5 s, if one took more than 0.05 s"
     )
     past: str = Field(description="moment of a replay that is shown; empty for the present")
-    agents: list[AgentView]
-    bodies: list[BodyView]
+    agents: list[AgentStateView]
+    bodies: list[BodyStateView]
 
     @classmethod
     def of(cls, picture: Snapshot) -> "SnapshotView":
@@ -187,8 +187,8 @@ class SnapshotView(_View):
             error=picture.error,
             slow_tick=SlowTickView(seconds=slow.seconds, contacts=slow.contacts) if slow else None,
             past=picture.past,
-            agents=[AgentView.of(agent, bodies[agent.body]) for agent in picture.agents],
-            bodies=[BodyView.of(body) for body in picture.bodies],
+            agents=[AgentStateView.of(agent, bodies[agent.body]) for agent in picture.agents],
+            bodies=[BodyStateView.of(body) for body in picture.bodies],
         )
 
 

@@ -18,12 +18,12 @@ from ai4u_edu.page.server.input import Inputs
 from ai4u_edu.page.server.library_pictures import PICTURE_PATH, library_picture_route
 from ai4u_edu.page.server.limits.attempts import Attempts, LimitScripts
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
-from ai4u_edu.page.server.page import Page
+from ai4u_edu.page.server.page import PageRoutes
 from ai4u_edu.page.server.past import Past
 from ai4u_edu.page.server.proxy import ViserProxy
 from ai4u_edu.page.server.scene_routes import SceneRoutes
-from ai4u_edu.page.server.scripts import RemoteSockets, Report, Rules
-from ai4u_edu.page.server.start_page import Lesson, StartPage
+from ai4u_edu.page.server.scripts import RemoteSockets, Rules, ScriptLog
+from ai4u_edu.page.server.start_page import ListedLesson, StartPage
 from ai4u_edu.page.server.state_routes import StateRoutes
 from ai4u_edu.page.server.token_auth import TokenAuth
 from ai4u_edu.page.server.token_page import PUBLIC_FILES, TokenPage
@@ -46,9 +46,9 @@ def room_app(
     panel: ASGIApp | None = None,
     tab_scripts: Mapping[str, Path] | None = None,
     editor: SceneEditor | None = None,
-    lessons: Callable[[], Sequence[Lesson]] = list,
+    lessons: Callable[[], Sequence[ListedLesson]] = list,
     class_feed: ClassFeed | None = None,
-    script_report: Report | None = None,
+    script_report: ScriptLog | None = None,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,
 ) -> Starlette:
     """Return the ASGI app of one room; mount it under a path with :class:`RoomMount`.
@@ -73,7 +73,7 @@ def room_app(
     """
     rules = rules or Rules()
     current_title = title if callable(title) else partial(str, title)
-    page = Page(current_title, has_panel=panel is not None)
+    page = PageRoutes(current_title, has_panel=panel is not None)
     attempts = Attempts()
     auth = [Middleware(TokenAuth, token=rules.token, attempts=attempts)]
     page_auth = [
@@ -137,7 +137,7 @@ def _script_routes(scripts: Mapping[str, Path], auth: list[Middleware]) -> list[
     ]
 
 
-def _file_routes(page: Page, auth: list[Middleware]) -> list[Route]:
+def _file_routes(page: PageRoutes, auth: list[Middleware]) -> list[Route]:
     files = {
         "/all_styles.css": page.styles,
         "/vendor/{file:path}": VendorFiles().file,

@@ -29,7 +29,7 @@ class BusyError(AI4UError):
     """Too many files are in the queue, or too many requests wait."""
 
 
-class StoppedError(Exception):
+class ExportStoppedError(Exception):
     """Raised to stop making a file that nobody waits for any more."""
 
 
@@ -116,7 +116,7 @@ class Exports:
                 job = self._queue.popleft()
             try:
                 data = self._make(job.episode, job.ending, job.check)
-            except StoppedError:
+            except ExportStoppedError:
                 continue
             except BaseException as error:  # else all later requests would wait for ever
                 self._finish(job, storable(error))
@@ -158,4 +158,4 @@ class _Job:
 
     def check(self) -> None:
         if self.is_stopped:
-            raise StoppedError
+            raise ExportStoppedError

@@ -19,7 +19,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
 from ai4u_edu.base.errors import NameNotFoundError
 from ai4u_edu.blocks.keyboard import CENTERED, Stick
-from ai4u_edu.page.messages import Command, Message
+from ai4u_edu.page.messages import Message, PageCommand
 from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.page.server.control_lock import ControlLock
@@ -168,7 +168,7 @@ class _Page:
             if self._runner.sim is self._sim:  # else the other task closes the connection soon
                 self._handle(message)
 
-    def _handle(self, message: Message | Command) -> None:
+    def _handle(self, message: Message | PageCommand) -> None:
         match message:
             case Keys(held=held, stick=stick):
                 self._hold(frozenset(held), Stick(stick.forward, stick.turn))
@@ -178,7 +178,7 @@ class _Page:
                 self._await(self._lock.acquire(self._number))
             case Release():
                 self._await(self._lock.release(self._number))
-            case Command():
+            case PageCommand():
                 command = RUN_COMMANDS[type(message)]
                 self._command(lambda: command.submit(self._runner, message))
 

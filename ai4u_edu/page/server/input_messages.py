@@ -22,7 +22,6 @@ from ai4u_edu.page.server.control_lock import ControlLock
 from ai4u_edu.page.server.human_override import HumanOverride
 from ai4u_edu.page.server.run_commands import RUN_COMMANDS
 from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.snapshot.outcome import outcome
 
 CODE = r"^[A-Za-z0-9]{1,24}$"
 Code = Annotated[str, Meta(pattern=CODE)]
@@ -215,7 +214,7 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> StateEvent
     if agent is None:
         return None
     body = next(body for body in picture.bodies if body.name == agent.body)
-    end = outcome(agent, picture.agents, picture.static_scene.success)
+    end = agent.outcome(picture.agents, picture.static_scene.success)
     return StateEvent(
         paused=picture.paused,
         waiting=picture.waiting,

@@ -54,7 +54,7 @@ FRAME_ANCESTORS = "frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
 """Policy for pages that notebooks show in a frame."""
 
 
-class Page:
+class PageRoutes:
     """Routes of the page and its files.
 
     Args:

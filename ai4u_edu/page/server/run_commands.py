@@ -4,43 +4,43 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import Any, NamedTuple
 
-from ai4u_edu.page.messages import Command, Seed
+from ai4u_edu.page.messages import PageCommand, Seed
 from ai4u_edu.runtime.runner import Runner
 
 
-class Pause(Command, tag="pause"):
+class Pause(PageCommand, tag="pause"):
     """Pause the world."""
 
 
-class Resume(Command, tag="resume"):
+class Resume(PageCommand, tag="resume"):
     """Let the world run."""
 
 
-class Reset(Command, tag="reset"):
+class Reset(PageCommand, tag="reset"):
     """Begin an episode with the locked seed, or else with a new one."""
 
 
-class TryAgain(Command, tag="try_again"):
+class TryAgain(PageCommand, tag="try_again"):
     """Begin an episode with the same start."""
 
 
-class NewStart(Command, tag="new_start"):
+class NewStart(PageCommand, tag="new_start"):
     """Begin an episode with a new start, also if the seed is locked."""
 
 
-class SetSeed(Command, tag="seed"):
+class SetSeed(PageCommand, tag="seed"):
     """Begin an episode with a seed."""
 
     seed: Seed
 
 
-class LockSeed(Command, tag="lock_seed"):
+class LockSeed(PageCommand, tag="lock_seed"):
     """Begin each episode with the same seed from now on, or with new ones."""
 
     on: bool
 
 
-def _nothing(_command: Command) -> str:
+def _nothing(_command: PageCommand) -> str:
     return ""
 
 
@@ -53,7 +53,7 @@ class RunCommand(NamedTuple):
     """Returns a sentence for the page's panel; empty if there is nothing to say."""
 
 
-RUN_COMMANDS: Mapping[type[Command], RunCommand] = {
+RUN_COMMANDS: Mapping[type[PageCommand], RunCommand] = {
     Pause: RunCommand(lambda runner, _: runner.pause()),
     Resume: RunCommand(lambda runner, _: runner.resume()),
     Reset: RunCommand(lambda runner, _: runner.reset()),

@@ -41,7 +41,7 @@ class ScenesView(BaseModel):
     saved: list[LibrarySceneView]
 
 
-class Lesson(Protocol):
+class ListedLesson(Protocol):
     """A lesson of the course, as the start page lists it."""
 
     @property
@@ -85,7 +85,7 @@ class StartPage:
         editor: has the store of saved scenes, if there is one.
     """
 
-    def __init__(self, lessons: Callable[[], Sequence[Lesson]], editor: SceneEditor) -> None:
+    def __init__(self, lessons: Callable[[], Sequence[ListedLesson]], editor: SceneEditor) -> None:
         self._lessons, self._editor = lessons, editor
         self._drawing = asyncio.Lock()
 
@@ -126,7 +126,7 @@ def _saved_view(card: Card) -> LibrarySceneView:
     return LibrarySceneView.model_validate(about | {"picture": card.picture_url})
 
 
-def _lesson_view(lesson: Lesson) -> LessonView:
+def _lesson_view(lesson: ListedLesson) -> LessonView:
     title = lesson.title.removeprefix(lesson.number).strip()
     return LessonView(number=lesson.number, title=title, duration=lesson.duration)
 

@@ -17,7 +17,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.page.server.host_origin import is_loopback
-from ai4u_edu.page.server.limits.attempts import TOO_MANY, Attempts, Verdict, client_address
+from ai4u_edu.page.server.limits.attempts import TOO_MANY, AttemptResult, Attempts, client_address
 from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
 from ai4u_edu.page.server.token_page import TokenPage, wants_page
 
@@ -115,11 +115,11 @@ class TokenAuth:
             await self._app(scope, receive, send)
             return
         given = HTTPConnection(scope)
-        verdict = Verdict.WRONG
+        verdict = AttemptResult.WRONG
         if self._has_credentials(given):
             address = client_address(scope)
             verdict = await self._attempts.check(address, lambda: self._is_known(given))
-        if verdict is not Verdict.RIGHT:
+        if verdict is not AttemptResult.RIGHT:
             await self._refuse(given, verdict, scope, receive, send)
         elif self._token_page and scope["type"] == "http" and self._is_in_address(given):
             await self._redirect(given)(scope, receive, send)
@@ -160,12 +160,12 @@ class TokenAuth:
     async def _refuse(
         self,
         given: HTTPConnection,
-        verdict: Verdict,
+        verdict: AttemptResult,
         scope: Scope,
         receive: Receive,
         send: Send,
     ) -> None:
-        is_limited = verdict is Verdict.TOO_MANY
+        is_limited = verdict is AttemptResult.TOO_MANY
         seconds = self._attempts.retry_after(client_address(scope)) or 1
         why = REASON_401.format(got="another one" if _has_token(given) else "none")
         if is_limited:

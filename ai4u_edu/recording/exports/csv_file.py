@@ -9,7 +9,7 @@ import numpy as np
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.csv_table import csv_table
-from ai4u_edu.recording.replay import Moment, Replay
+from ai4u_edu.recording.replay import Replay, ReplayMoment
 
 Row = dict[str, Any]
 
@@ -37,7 +37,7 @@ def _rows(replay: Replay, agent: str) -> Iterator[Row]:
         yield _row(agent, moment)
 
 
-def _row(agent: str, moment: Moment) -> Row:
+def _row(agent: str, moment: ReplayMoment) -> Row:
     decision, picture = moment.decision, moment.snapshot
     (body,) = {state.body for state in picture.agents if state.id == agent}
     (pose,) = [state for state in picture.bodies if state.name == body]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.blocks import Percept
 from ai4u_edu.recording.replay import Replay
 from ai4u_edu.snapshot import Snapshot, StaticScene, theme
@@ -59,8 +60,8 @@ def _data(replay: Replay) -> dict[str, Any]:
         "why": verdict.why,
         "dt": 1 / scene.world.ticks_per_second,
         "bounds": static_scene.bounds,
-        "void": _css(theme.VOID),
-        "ground": None if static_scene.floors else _css(theme.FLOOR),
+        "void": hex_colour(theme.VOID),
+        "ground": None if static_scene.floors else hex_colour(theme.FLOOR),
         "regions": _regions(static_scene),
         "bodies": [
             _body(body, static_scene, frames[0])
@@ -91,8 +92,8 @@ def _region(region: RegionDescription, fill: theme.Rgb, edge: theme.Rgb) -> dict
         "points": _points(region.shape.outline()),
         "hole": _points(hole),
         "pose": [_short(x), _short(y), 0, _short(math.radians(region.heading_deg))],
-        "fill": _css(fill),
-        "edge": _css(edge),
+        "fill": hex_colour(fill),
+        "edge": hex_colour(edge),
         "label": region.label,
     }
 
@@ -106,8 +107,8 @@ def _body(body: BodyDescription, static_scene: StaticScene, first: Snapshot) -> 
         "name": body.name,
         "label": body.label,
         "points": _points(shape.outline()),
-        "fill": _css(colour),
-        "edge": _css(theme.mix_colours(colour, (0, 0, 0), 0.45)),
+        "fill": hex_colour(colour),
+        "edge": hex_colour(theme.mix_colours(colour, (0, 0, 0), 0.45)),
         "front": _short(reach) if body.name in static_scene.agent_of else 0,
         "agent": static_scene.agent_of.get(body.name, ""),
         "pose": None
@@ -177,7 +178,3 @@ def _short(value: float) -> float:
 
 def _digits(value: float) -> float:
     return float(f"{value:.4g}")
-
-
-def _css(colour: theme.Rgb) -> str:
-    return "#{:02x}{:02x}{:02x}".format(*colour)

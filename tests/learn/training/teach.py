@@ -10,7 +10,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from ai4u_edu import Scene, zoo
+from ai4u_edu import Scene
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.learn.training.dagger import imitate
 from ai4u_edu.learn.training.evaluating import evaluate
 from ai4u_edu.learn.training.policies import entrant

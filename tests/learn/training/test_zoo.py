@@ -2,7 +2,8 @@
 
 import pytest
 
-from ai4u_edu import Scene, zoo
+from ai4u_edu import Scene
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.learn.training.evaluating import evaluate
 from ai4u_edu.learn.training.policies import entrant

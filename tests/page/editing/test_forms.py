@@ -8,7 +8,7 @@ from ai4u_edu import Scene
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.page.editing import ChangeError
 from ai4u_edu.page.editing.blocks import types_of
-from ai4u_edu.page.editing.forms import NONE_LABEL, Field, block_form
+from ai4u_edu.page.editing.forms import NONE_LABEL, ParameterField, block_form
 from ai4u_edu.page.editing.scene_names import SceneNames
 from ai4u_edu.page.editing.suggestion import suggest_block
 from tests.page.editing.harness import TEXT, EditorHarness
@@ -31,7 +31,7 @@ ALL = [
 ]
 
 
-def fields(harness: EditorHarness, block: dict[str, Any]) -> dict[str, Field]:
+def fields(harness: EditorHarness, block: dict[str, Any]) -> dict[str, ParameterField]:
     return {each.name: each for each in block_form(block, SceneNames(harness.editor.state, "0"))}
 
 
@@ -91,7 +91,7 @@ def test_form_field_has_label_limits_and_order() -> None:
     ],
 )
 def test_form_field_parses_typed_text(kind: Any, said: Any, read: Any) -> None:
-    got = Field("x", "x", kind, None, "").read(said)
+    got = ParameterField("x", "x", kind, None, "").read(said)
     assert got == read
     assert type(got) is type(read)
 
@@ -99,7 +99,7 @@ def test_form_field_parses_typed_text(kind: Any, said: Any, read: Any) -> None:
 @pytest.mark.parametrize("said", ["{a: ", "[1, 2", "!!python/object:os.system 1", "&a [*a]"])
 def test_unparsable_field_text_is_explained(said: str) -> None:
     with pytest.raises(ChangeError) as error:
-        Field("poses", "poses", "data", None, "").read(said)
+        ParameterField("poses", "poses", "data", None, "").read(said)
     (problem,) = error.value.problems
     assert problem.path == ("poses",)
     assert "write [1, 2] for a list" in problem.text

@@ -9,7 +9,6 @@ from ai4u_edu.page.editing.goals import KINDS, with_goal_values
 from ai4u_edu.page.editing.scene_pictures import EMPTY_SCENE, TEMPLATES
 from ai4u_edu.page.editing.suggestion import suggest_block
 from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.snapshot.outcome import outcome
 from tests.page.editing.harness import EditorHarness
 
 TARGET = {
@@ -58,7 +57,7 @@ def test_the_first_goal_pays_ends_the_episode_and_is_a_success(harness: EditorHa
     while not harness.agent.done:
         harness.tick()
     agents = capture_snapshot(harness.runner.sim).agents
-    assert outcome(agents[0], agents, harness.runner.sim.success) == "goal"
+    assert agents[0].outcome(agents, harness.runner.sim.success) == "goal"
     assert agents[0].episode_reward == 10
 
 

@@ -11,8 +11,8 @@ from ai4u_edu.page.server.limits import attempts
 from ai4u_edu.page.server.limits.attempts import (
     MAX_WAITING,
     MAX_WRONG,
+    AttemptResult,
     Attempts,
-    Verdict,
 )
 from ai4u_edu.page.server.limits.rate_limit import MAX_KEYS
 from ai4u_edu.wire import native
@@ -47,36 +47,36 @@ def tries(time: Time) -> Attempts:
     return Attempts(time.clock, time.sleep)
 
 
-def look(tries: Attempts, address: str, token: str) -> Verdict:
+def look(tries: Attempts, address: str, token: str) -> AttemptResult:
     return asyncio.run(tries.check(address, lambda: token == TOKEN))
 
 
-def flood(tries: Attempts, address: str, count: int = MAX_WRONG) -> list[Verdict]:
-    async def guess() -> list[Verdict]:
+def flood(tries: Attempts, address: str, count: int = MAX_WRONG) -> list[AttemptResult]:
+    async def guess() -> list[AttemptResult]:
         return [await tries.check(address, lambda: False) for _ in range(count)]
 
     return asyncio.run(guess())
 
 
 def test_too_many_wrong_ones_wait_and_the_right_one_gets_in(tries: Attempts, time: Time) -> None:
-    assert set(flood(tries, "a")) == {Verdict.WRONG}
+    assert set(flood(tries, "a")) == {AttemptResult.WRONG}
     assert time.slept == []
-    assert look(tries, "a", "guess") is Verdict.TOO_MANY
+    assert look(tries, "a", "guess") is AttemptResult.TOO_MANY
     assert tries.retry_after("a") == 2
     assert time.slept == [attempts.DELAY_S]
-    assert look(tries, "b", TOKEN) is Verdict.RIGHT
-    assert look(tries, "a", TOKEN) is Verdict.RIGHT  # after the same while as a wrong one
+    assert look(tries, "b", TOKEN) is AttemptResult.RIGHT
+    assert look(tries, "a", TOKEN) is AttemptResult.RIGHT  # after the same while as a wrong one
     assert len(time.slept) == 2
-    assert look(tries, "a", TOKEN) is Verdict.RIGHT
+    assert look(tries, "a", TOKEN) is AttemptResult.RIGHT
     assert len(time.slept) == 2, "its address is known now"
-    assert look(tries, "a", "guess") is Verdict.TOO_MANY
+    assert look(tries, "a", "guess") is AttemptResult.TOO_MANY
 
 
 def test_wrong_ones_are_forgotten(tries: Attempts, time: Time) -> None:
     flood(tries, "a", 1000)
     time.now += 11
     assert tries.retry_after("a") == 0
-    assert look(tries, "a", "guess") is Verdict.WRONG
+    assert look(tries, "a", "guess") is AttemptResult.WRONG
 
 
 def test_of_many_at_once_most_are_not_even_looked_at(tries: Attempts) -> None:
@@ -88,10 +88,10 @@ def test_of_many_at_once_most_are_not_even_looked_at(tries: Attempts) -> None:
         looked += 1
         return False
 
-    async def all_at_once() -> list[Verdict]:
+    async def all_at_once() -> list[AttemptResult]:
         return await asyncio.gather(*[tries.check("a", is_right) for _ in range(500)])
 
-    assert set(asyncio.run(all_at_once())) == {Verdict.TOO_MANY}
+    assert set(asyncio.run(all_at_once())) == {AttemptResult.TOO_MANY}
     assert looked == MAX_WAITING
 
 

@@ -10,7 +10,6 @@ from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.page.server.input_messages import key_labels, usable_keys
 from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot
-from ai4u_edu.snapshot.outcome import outcome
 from tests.builders import small_sim
 
 
@@ -28,7 +27,7 @@ def picture(scene: str, changes: dict[str, dict[str, Any]]) -> Snapshot:
 
 
 def end_of(whole: Snapshot, agent: AgentState) -> str:
-    return outcome(agent, whole.agents, whole.static_scene.success)
+    return agent.outcome(whole.agents, whole.static_scene.success)
 
 
 def outcomes(scene: str, **changes: dict[str, Any]) -> dict[str, str]:

@@ -9,7 +9,7 @@ import pytest
 
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.viewer import Viewer
-from ai4u_edu.page.viewer.scene.drags import Action, Drag, Goal
+from ai4u_edu.page.viewer.scene.drags import Drag, DragAction, Goal
 from ai4u_edu.page.viewer.scene.handles import Handles
 from ai4u_edu.world import AreaDescription, BodyDescription, BoxShape, CapsuleShape
 from tests.page.editing.harness import EditorHarness
@@ -165,20 +165,20 @@ def test_a_place_where_it_can_not_stand_is_refused(
 def test_goals() -> None:
     body = BodyDescription(name="wall", shape=BoxShape(size=(2, 1)), heading_deg=90)
     area = AreaDescription(name="area", shape=CapsuleShape(length=2, radius=0.5))
-    move = Drag(body, Action.MOVE, 0.5, 0.0)
+    move = Drag(body, DragAction.MOVE, 0.5, 0.0)
     assert move.is_live
     assert move.goal(1.26, 2.1, 0.5) == Goal(2.0, 2.0, None)
     assert move.goal(1.2609, 2.1, 0.5, is_free=True) == Goal(1.761, 2.1, None)
     assert move.goal(math.nan, 0) is None
     assert move.goal(1e7, 0) is None
-    turn = Drag(area, Action.TURN, 1.0, 1.0)
+    turn = Drag(area, DragAction.TURN, 1.0, 1.0)
     assert not turn.is_live
     assert turn.goal(1.0, 5.0) == Goal(1.0, 1.0, 90.0)
     assert turn.goal(2.0, 1.07, is_free=True) == Goal(1.0, 1.0, 4.0)
-    size = Drag(body, Action.RESIZE, 0.0, 0.0, math.pi / 2)
+    size = Drag(body, DragAction.RESIZE, 0.0, 0.0, math.pi / 2)
     resized = size.goal(-0.2, 3.0)
     assert resized is not None
     assert resized.shape == BoxShape(size=(6, 0.4))
-    stick = Drag(area, Action.RESIZE, 0.0, 0.0).goal(3.0, 1.0)
+    stick = Drag(area, DragAction.RESIZE, 0.0, 0.0).goal(3.0, 1.0)
     assert stick is not None
     assert stick.shape == CapsuleShape(length=4, radius=1)

@@ -16,7 +16,7 @@ from ai4u_edu import (
     Sensor,
     World,
 )
-from ai4u_edu.agent.script_lines import script_lines
+from ai4u_edu.page.panel.parts.agent import script_lines
 from tests.builders import still
 
 EVIL = "</td><img src=x onerror=alert(1)>{alert(2)}\n```\n<script>alert(3)</script>"

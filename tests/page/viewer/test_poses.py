@@ -4,13 +4,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ai4u_edu.page.viewer.scene.bodies import SHADOW_OFFSET_M, Poses, compute_poses
+from ai4u_edu.page.viewer.scene.bodies import SHADOW_OFFSET_M, DrawnPoses, compute_poses
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.worlds import busy_sim, picture
 
 
-def robot_at(**changes: Any) -> tuple[Poses, Layers]:
+def robot_at(**changes: Any) -> tuple[DrawnPoses, Layers]:
     """Return the drawn poses with the robot (the first body) changed."""
     sim = busy_sim()
     sim.reset(seed=1)
@@ -21,7 +21,7 @@ def robot_at(**changes: Any) -> tuple[Poses, Layers]:
     return compute_poses(snapshot, layers), layers
 
 
-def reach(where: Poses) -> float:
+def reach(where: DrawnPoses) -> float:
     """Return the distance from the robot to its shadow, seen from above."""
     return float(np.linalg.norm(where.shadow_positions[0, :2] - where.positions[0, :2]))
 

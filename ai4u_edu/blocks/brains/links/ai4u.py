@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.brain import Command
-from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, ResetRequest
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.blocks.brains.links.udp import UdpSocket
 from ai4u_edu.wire.agent_codec import AgentCodec
-from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, Phase, ReplyKind, State
+from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, ReplyKind, SentState, SessionPhase
 from ai4u_edu.wire.validation import WireError, shown
 
 CONNECT_INTERVAL_S = 0.25
@@ -83,7 +83,7 @@ class AI4ULink:
     @property
     def expects_reply(self) -> bool:
         """True while the script owes an answer."""
-        return self._socket is not None and self._dialogue.phase is Phase.PLAYING
+        return self._socket is not None and self._dialogue.phase is SessionPhase.PLAYING
 
     @property
     def will_notify(self) -> bool:
@@ -108,7 +108,7 @@ class AI4ULink:
         """Replies in a row by which the script asked for time."""
         self._asked: Observation | None = None
         """The observation that waits for an answer."""
-        self._state: tuple[Observation, State] | None = None
+        self._state: tuple[Observation, SentState] | None = None
         """The last observation that was converted, and its state."""
         self._early_reply: Reply | None = None
         """A reply that came while the world stood still."""
@@ -185,7 +185,7 @@ class AI4ULink:
                 time.sleep(deadline - now)
             if due > deadline:
                 return False
-        if self._dialogue.phase in (Phase.STARTED, Phase.PLAYING):
+        if self._dialogue.phase in (SessionPhase.STARTED, SessionPhase.PLAYING):
             if observation is None:
                 return False
             self._asked = observation
@@ -207,21 +207,21 @@ class AI4ULink:
 
     def _wait_until(self, deadline: float) -> float:
         """Return the deadline, or NEVER if the world must not wait since no session has begun."""
-        may_wait = self._is_threaded or self._dialogue.phase is Phase.PLAYING
+        may_wait = self._is_threaded or self._dialogue.phase is SessionPhase.PLAYING
         return deadline if may_wait else NEVER
 
     def _interval(self) -> float:
         """Return the seconds that have to pass from one request to the next."""
         match self._dialogue.phase:
-            case Phase.PLAYING if self._time_requests <= IMMEDIATE_REPEATS:
+            case SessionPhase.PLAYING if self._time_requests <= IMMEDIATE_REPEATS:
                 return 0.0
-            case Phase.CONNECTING:
+            case SessionPhase.CONNECTING:
                 return CONNECT_INTERVAL_S
-            case Phase.HANDSHAKE:
+            case SessionPhase.HANDSHAKE:
                 return SETTLE_S
-            case Phase.STARTED if not self._time_requests:
+            case SessionPhase.STARTED if not self._time_requests:
                 return SETTLE_S
-            case Phase.STARTED | Phase.POLLING:
+            case SessionPhase.STARTED | SessionPhase.POLLING:
                 return POLL_INTERVAL_S
         excess = max(0, self._time_requests - IMMEDIATE_REPEATS)
         return min(MAX_REPEAT_INTERVAL_S, excess * REPEAT_BACKOFF_S)
@@ -254,7 +254,10 @@ class AI4ULink:
         """Return what a reply means for the agent; None if it means nothing."""
         kind, observation = received.kind, self._asked
         self._time_requests = self._time_requests + 1 if kind is ReplyKind.WAIT else 0
-        if self.state is not LinkState.CONNECTED and self._dialogue.phase is not Phase.HANDSHAKE:
+        if (
+            self.state is not LinkState.CONNECTED
+            and self._dialogue.phase is not SessionPhase.HANDSHAKE
+        ):
             self.state, self.reason = LinkState.CONNECTED, ""
         match kind:
             case ReplyKind.CONFIGURED:
@@ -263,7 +266,7 @@ class AI4ULink:
             case ReplyKind.WAIT:
                 self.time_asked_at = self._clock()
             case ReplyKind.RESET:
-                return Reply(Reset(), observation, self._warning(received))
+                return Reply(ResetRequest(), observation, self._warning(received))
             case ReplyKind.HALT:
                 self._end_session(LinkState.WAITING, f"the script at {self.where} has ended")
             case ReplyKind.ACTION if self.expects_reply:
@@ -288,7 +291,7 @@ class AI4ULink:
     def _check_timeout(self, looked_at: float) -> None:
         """End a session whose script had not answered when the socket was looked at."""
         silence = looked_at - self._sent_at
-        if self._dialogue.phase is Phase.CONNECTING:
+        if self._dialogue.phase is SessionPhase.CONNECTING:
             self._dialogue.in_flight = silence < CONNECT_INTERVAL_S
         elif silence > self._timeout:
             self._end_session(
@@ -300,7 +303,7 @@ class AI4ULink:
             )
 
     def _handle_unreachable(self, error: OSError) -> None:
-        if self._dialogue.phase is Phase.CONNECTING:
+        if self._dialogue.phase is SessionPhase.CONNECTING:
             self._dialogue.in_flight = False
             if not isinstance(error, ConnectionError):
                 self.reason = f"{self.where} can't be reached: {error.strerror or error}"
@@ -371,7 +374,7 @@ class AI4UCodec(AgentCodec):
         """Forget what was sent: another session begins."""
         self._last = None
 
-    def state(self, observation: Observation) -> State:
+    def state(self, observation: Observation) -> SentState:
         """Return what the script is sent; its reward is that of all decisions since the last."""
         last, self._last = self._last, observation
         reward = observation.reward
@@ -382,7 +385,7 @@ class AI4UCodec(AgentCodec):
         elif observation.steps > 1:
             # the first state in this episode, which began before the script came
             reward = observation.episode_reward
-        return State(
+        return SentState(
             sensors=self.sensors(observation.percept),
             reward=reward,
             steps=observation.steps,

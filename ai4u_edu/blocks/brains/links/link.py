@@ -91,7 +91,7 @@ class Observation(NamedTuple):
     """Reward of all decisions of this episode; a script may miss some of them."""
 
 
-class Reset(NamedTuple):
+class ResetRequest(NamedTuple):
     """An answer that asks for a new episode: of the world, or of one of several agents."""
 
     seed: int | None = None
@@ -101,9 +101,9 @@ class Reset(NamedTuple):
 class Reply(NamedTuple):
     """A script's answer, and the observation that it answers."""
 
-    answer: Answer | Reset
+    answer: Answer | ResetRequest
     """An action, unchecked; PAUSE, RESUME or STOP; WAIT for "no action; ask me again at the next
-    tick"; or a :class:`Reset`."""
+    tick"; or a :class:`ResetRequest`."""
     observation: Observation | None
     """None if it answers no observation, such as a reset by a script that has just connected."""
     warning: str = ""

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link import Observation, Reply, ResetRequest
 
 POLL_S = 0.05
 """Interval at which the thread looks for a newer observation, and for its end."""
@@ -61,7 +61,7 @@ class LinkThread:
             if self._error is not None:
                 raise self._error
             reply, self._reply = self._reply, None
-            if reply is not None and isinstance(reply.answer, Reset):
+            if reply is not None and isinstance(reply.answer, ResetRequest):
                 self._latest = None  # of the episode that ends: the script waits for another one
         return reply
 

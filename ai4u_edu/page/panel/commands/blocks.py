@@ -8,7 +8,7 @@ import msgspec
 from msgspec import Meta
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.page.editing import ChangeError, SceneEditor
 from ai4u_edu.page.editing.blocks import block_at, types_of
 from ai4u_edu.page.editing.drivers import Driver
@@ -18,7 +18,7 @@ from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.page.editing.scene_names import SceneNames
 from ai4u_edu.page.editing.settings import agent_form, problems_in_agent_form
 from ai4u_edu.page.editing.suggestion import copy_of_block, suggest_block
-from ai4u_edu.page.messages import Command, Kind, Name, Path, Values
+from ai4u_edu.page.messages import Kind, Name, PageCommand, Path, Values
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.gallery import driver_title, gallery_items, words_of
@@ -26,7 +26,7 @@ from ai4u_edu.page.panel.labels import change_label, driven_by
 from ai4u_edu.page.panel.page import Page
 
 
-class ListDrivers(Command, tag="drivers"):
+class ListDrivers(PageCommand, tag="drivers"):
     """List the drivers that the agent can have."""
 
 
@@ -49,7 +49,7 @@ async def _drivers(page: Page, _command: ListDrivers) -> Answer:
     return Answer(more={"items": await page.in_thread(listed)})
 
 
-class SetDriver(Command, tag="driver"):
+class SetDriver(PageCommand, tag="driver"):
     """Choose the agent's driver."""
 
     name: Name
@@ -67,7 +67,7 @@ async def _driver(page: Page, command: SetDriver) -> Answer:
     return Answer(f"{agent.body_name} is now driven by {words}.", {"when": result.when})
 
 
-class ListBlocks(Command, tag="gallery"):
+class ListBlocks(PageCommand, tag="gallery"):
     """List the blocks that can be added."""
 
     kind: Kind
@@ -93,7 +93,7 @@ async def _gallery(page: Page, command: ListBlocks) -> Answer:
     )
 
 
-class AddBlock(Command, tag="add_block"):
+class AddBlock(PageCommand, tag="add_block"):
     """Add a block to the agent, or to one of its blocks."""
 
     type_name: Name = msgspec.field(name="class")
@@ -114,7 +114,7 @@ async def _add(page: Page, command: AddBlock) -> Answer:
     return await _add_to(page, block, parent, command.index, "added")
 
 
-class DuplicateBlock(Command, tag="duplicate_block"):
+class DuplicateBlock(PageCommand, tag="duplicate_block"):
     """Add a copy of a block of the agent."""
 
     path: Path
@@ -124,7 +124,7 @@ async def _duplicate(page: Page, command: DuplicateBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     *parent, index = command.path
     if not isinstance(index, int):
-        raise ChangeError([Problem((), "it stands alone; expected a block in a list")])
+        raise ChangeError([ParameterProblem((), "it stands alone; expected a block in a list")])
     block = _block_of(editor, agent_id, tuple(command.path))
     copy = copy_of_block(editor.state, agent_id, block)
     return await _add_to(page, copy, tuple(parent), index + 1, "duplicated")
@@ -143,7 +143,7 @@ async def _add_to(
     return change_answer(f"{_title(block)} {done}.", result, path=[*parent, index])
 
 
-class RemoveBlock(Command, tag="remove_block"):
+class RemoveBlock(PageCommand, tag="remove_block"):
     """Remove a block of the agent."""
 
     path: Path
@@ -157,7 +157,7 @@ async def _remove(page: Page, command: RemoveBlock) -> Answer:
     return change_answer(f"{title} deleted.", result)
 
 
-class MoveBlock(Command, tag="move_block"):
+class MoveBlock(PageCommand, tag="move_block"):
     """Move a block of the agent up (-1) or down (1)."""
 
     path: Path
@@ -174,7 +174,7 @@ async def _move(page: Page, command: MoveBlock) -> Answer:
     return change_answer(f"{title} moved {word}.", result, path=[*above, where])
 
 
-class SwitchBlock(Command, tag="switch_block"):
+class SwitchBlock(PageCommand, tag="switch_block"):
     """Switch a block of the agent on or off."""
 
     path: Path
@@ -189,7 +189,7 @@ async def _switch(page: Page, command: SwitchBlock) -> Answer:
     return change_answer(f"{title} turned {'on' if command.on else 'off'}.", result)
 
 
-class ChangeBlock(Command, tag="change_block"):
+class ChangeBlock(PageCommand, tag="change_block"):
     """Change parameters of a block of the agent."""
 
     path: Path
@@ -206,7 +206,7 @@ async def _change(page: Page, command: ChangeBlock) -> Answer:
     return change_answer(f"{_title(block)} changed.", result)
 
 
-class ChangeAgent(Command, tag="change_agent"):
+class ChangeAgent(PageCommand, tag="change_agent"):
     """Change parameters of the agent itself."""
 
     values: Values
@@ -223,7 +223,7 @@ async def _change_agent(page: Page, command: ChangeAgent) -> Answer:
     return change_answer(f"Settings of {name} changed.", result)
 
 
-class Undo(Command, tag="undo"):
+class Undo(PageCommand, tag="undo"):
     """Take back the last change."""
 
 
@@ -232,7 +232,7 @@ async def _undo(page: Page, _command: Undo) -> Answer:
     return Answer(f"Undone: {change_label(result.label.removeprefix('undo: '))}.")
 
 
-class Redo(Command, tag="redo"):
+class Redo(PageCommand, tag="redo"):
     """Make the change again that was undone last."""
 
 
@@ -249,7 +249,7 @@ def _title(block: Plain) -> str:
     return words_of(str(block["type"])).title
 
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     ListDrivers: _drivers,
     SetDriver: _driver,
     ListBlocks: _gallery,

@@ -6,7 +6,7 @@ from typing import Annotated
 from msgspec import Meta
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.page.messages import Command, Name, Number
+from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
@@ -16,7 +16,7 @@ from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
 
 
-class OpenEpisode(Command, tag="episode"):
+class OpenEpisode(PageCommand, tag="episode"):
     """Choose a recorded episode; 0 is the one that runs."""
 
     number: Number
@@ -31,7 +31,7 @@ async def _episode(page: Page, command: OpenEpisode) -> Answer:
     return Answer()
 
 
-class GoToStep(Command, tag="step"):
+class GoToStep(PageCommand, tag="step"):
     """Show a decision of the chosen episode, counted from 0."""
 
     step: Number
@@ -43,7 +43,7 @@ async def _step(page: Page, command: GoToStep) -> Answer:
     return Answer()
 
 
-class Play(Command, tag="play"):
+class Play(PageCommand, tag="play"):
     """Play the chosen episode."""
 
 
@@ -53,7 +53,7 @@ async def _play(page: Page, _command: Play) -> Answer:
     return Answer()
 
 
-class Stop(Command, tag="stop"):
+class Stop(PageCommand, tag="stop"):
     """Stop playing."""
 
 
@@ -62,7 +62,7 @@ async def _stop(page: Page, _command: Stop) -> Answer:
     return Answer()
 
 
-class SetPlaySpeed(Command, tag="play_speed"):
+class SetPlaySpeed(PageCommand, tag="play_speed"):
     """Set the speed of playing; 1 is the recorded speed."""
 
     speed: Annotated[float, Meta(ge=0.1, le=16)]
@@ -73,7 +73,7 @@ async def _play_speed(page: Page, command: SetPlaySpeed) -> Answer:
     return Answer()
 
 
-class BackToLive(Command, tag="back_to_live"):
+class BackToLive(PageCommand, tag="back_to_live"):
     """Show the present again."""
 
 
@@ -82,7 +82,7 @@ async def _back_to_live(page: Page, _command: BackToLive) -> Answer:
     return Answer()
 
 
-class ContinueHere(Command, tag="continue"):
+class ContinueHere(PageCommand, tag="continue"):
     """Let the world run on from the shown decision."""
 
 
@@ -93,7 +93,7 @@ async def _continue(page: Page, _command: ContinueHere) -> Answer:
     return Answer("The world runs on from here.")
 
 
-class Race(Command, tag="race"):
+class Race(PageCommand, tag="race"):
     """Begin an episode with the same start, against a ghost of the chosen one."""
 
 
@@ -108,7 +108,7 @@ async def _race(page: Page, _command: Race) -> Answer:
     return Answer(f"Race against episode {number}: it starts as you do.")
 
 
-class RemoveGhost(Command, tag="remove_ghost"):
+class RemoveGhost(PageCommand, tag="remove_ghost"):
     """Remove the ghost."""
 
 
@@ -117,7 +117,7 @@ async def _remove_ghost(page: Page, _command: RemoveGhost) -> Answer:
     return Answer("The ghost is gone.")
 
 
-class Pin(Command, tag="pin"):
+class Pin(PageCommand, tag="pin"):
     """Keep an episode however many others come, or no longer."""
 
     number: Number
@@ -130,7 +130,7 @@ async def _pin(page: Page, command: Pin) -> Answer:
     return Answer(f"Episode {command.number} {kept}.")
 
 
-class OpenRecording(Command, tag="open_recording"):
+class OpenRecording(PageCommand, tag="open_recording"):
     """Open the recording that was sent in binary messages before."""
 
     name: Name
@@ -165,7 +165,7 @@ def chosen_episode(page: Page) -> FrameCache:
     return frame_cache
 
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     OpenEpisode: _episode,
     GoToStep: _step,
     Play: _play,

@@ -6,21 +6,21 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from ai4u_edu.page.messages import Command
+from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.server.run_commands import RUN_COMMANDS
 
 
-async def _run(page: Page, command: Command) -> Answer:
+async def _run(page: Page, command: PageCommand) -> Answer:
     """Carry out a command that pages without a panel may send, too."""
     run = RUN_COMMANDS[type(command)]
     await page.result(run.submit(page.context.runner, command))
     return Answer(run.answer(command))
 
 
-class Tick(Command, tag="tick"):
+class Tick(PageCommand, tag="tick"):
     """Pause, and tick once."""
 
 
@@ -31,7 +31,7 @@ async def _tick(page: Page, _command: Tick) -> Answer:
     return Answer()
 
 
-class Decision(Command, tag="decision"):
+class Decision(PageCommand, tag="decision"):
     """Pause, and run until the agent's decision is over."""
 
 
@@ -42,7 +42,7 @@ async def _decision(page: Page, _command: Decision) -> Answer:
     return Answer()
 
 
-class SetSpeed(Command, tag="speed"):
+class SetSpeed(PageCommand, tag="speed"):
     """Set the time scale; 1 is real time."""
 
     speed: Annotated[float, Meta(gt=0, le=1000)] | Literal["max"]
@@ -54,7 +54,7 @@ async def _speed(page: Page, command: SetSpeed) -> Answer:
     return Answer()
 
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     **dict.fromkeys(RUN_COMMANDS, _run),
     Tick: _tick,
     Decision: _decision,

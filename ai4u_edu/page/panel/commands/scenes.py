@@ -8,7 +8,7 @@ from typing import Any
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.page.editing.scene_cards import Card, stored_cards
 from ai4u_edu.page.editing.scene_pictures import LibraryScene, library_scenes
-from ai4u_edu.page.messages import Command, Name, Number
+from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
@@ -21,7 +21,7 @@ MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS
 """Size of a scene's file; no character takes more bytes."""
 
 
-class ListScenes(Command, tag="scenes"):
+class ListScenes(PageCommand, tag="scenes"):
     """List the scenes that can be opened."""
 
 
@@ -38,7 +38,7 @@ async def _scenes(page: Page, _command: ListScenes) -> Answer:
     return Answer(more={"items": await page.in_thread(listed)})
 
 
-class OpenScene(Command, tag="open_scene"):
+class OpenScene(PageCommand, tag="open_scene"):
     """Open a scene of the library, or a saved one."""
 
     name: Name
@@ -59,7 +59,7 @@ async def _open(page: Page, command: OpenScene) -> Answer:
     return Answer(f"Opened {editor.title}.")
 
 
-class SaveScene(Command, tag="save_scene"):
+class SaveScene(PageCommand, tag="save_scene"):
     """Save the scene under a name."""
 
     name: Name
@@ -77,7 +77,7 @@ async def _save(page: Page, command: SaveScene) -> Answer:
     return Answer(f"Saved as “{name}”. Find it under Choose a scene.", {"saved_as": name})
 
 
-class Download(Command, tag="download"):
+class Download(PageCommand, tag="download"):
     """Return the scene's file."""
 
 
@@ -90,7 +90,7 @@ async def _download(page: Page, _command: Download) -> Answer:
     return Answer("The scene's file is in your downloads.", more)
 
 
-class LoadText(Command, tag="load_text"):
+class LoadText(PageCommand, tag="load_text"):
     """Open the scene file that was sent in binary messages before."""
 
     name: Name
@@ -110,7 +110,7 @@ async def _load(page: Page, command: LoadText) -> Answer:
     return Answer(f"Opened {editor.title}.")
 
 
-class Restore(Command, tag="restore"):
+class Restore(PageCommand, tag="restore"):
     """Open the unsaved scene."""
 
 
@@ -120,7 +120,7 @@ async def _restore(page: Page, _command: Restore) -> Answer:
     return Answer(f"Restored {editor.title}.")
 
 
-class Discard(Command, tag="discard"):
+class Discard(PageCommand, tag="discard"):
     """Delete the unsaved scene."""
 
 
@@ -148,7 +148,7 @@ def _card(card: Card | LibraryScene, picture: str, *, is_saved: bool = False) ->
     }
 
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     ListScenes: _scenes,
     OpenScene: _open,
     SaveScene: _save,

@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 
-from ai4u_edu.page.messages import Command, Name
+from ai4u_edu.page.messages import Name, PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.panel.page_view import CameraMode
 
 
-class ShowAgent(Command, tag="agent"):
+class ShowAgent(PageCommand, tag="agent"):
     """Show another agent."""
 
     agent: Name
@@ -21,7 +21,7 @@ async def _agent(page: Page, command: ShowAgent) -> Answer:
     return Answer()
 
 
-class Camera(Command, tag="camera"):
+class Camera(PageCommand, tag="camera"):
     """Put the camera somewhere."""
 
     mode: CameraMode
@@ -32,7 +32,7 @@ async def _camera(page: Page, command: Camera) -> Answer:
     return Answer()
 
 
-class ShowSensor(Command, tag="sensor"):
+class ShowSensor(PageCommand, tag="sensor"):
     """Draw a sensor in the picture, or hide it."""
 
     key: Name
@@ -44,7 +44,7 @@ async def _sensor(page: Page, command: ShowSensor) -> Answer:
     return Answer()
 
 
-class ShowTrail(Command, tag="trail"):
+class ShowTrail(PageCommand, tag="trail"):
     """Draw the agent's trail, or hide it."""
 
     on: bool
@@ -55,7 +55,7 @@ async def _trail(page: Page, command: ShowTrail) -> Answer:
     return Answer()
 
 
-class Dark(Command, tag="dark"):
+class Dark(PageCommand, tag="dark"):
     """Draw the picture in dark colours, or light ones."""
 
     on: bool
@@ -66,7 +66,7 @@ async def _dark(page: Page, command: Dark) -> Answer:
     return Answer()
 
 
-class ReduceMotion(Command, tag="reduce_motion"):
+class ReduceMotion(PageCommand, tag="reduce_motion"):
     """Leave out motion that nothing in the world makes, or not."""
 
     on: bool
@@ -77,7 +77,7 @@ async def _reduce_motion(page: Page, command: ReduceMotion) -> Answer:
     return Answer()
 
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     ShowAgent: _agent,
     Camera: _camera,
     ShowSensor: _sensor,

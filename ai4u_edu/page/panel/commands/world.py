@@ -8,13 +8,13 @@ from typing import Annotated, Any
 from msgspec import Meta
 
 from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
-from ai4u_edu.base.parameters import Problem
+from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.page.editing import ChangeError, ChangeResult, SceneEditor
 from ai4u_edu.page.editing.forms import read_values
 from ai4u_edu.page.editing.settings import scene_form
 from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
 from ai4u_edu.page.editing.things import Thing, kind_of, thing_named
-from ai4u_edu.page.messages import Command, Degrees, Metres, Name, Values
+from ai4u_edu.page.messages import Degrees, Metres, Name, PageCommand, Values
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.new_things import TEMPLATES, Template, free_position
@@ -26,7 +26,7 @@ COPY_OFFSET_M = 0.5
 """Distance (m) of a copied floor or area from the original, to the right and down."""
 
 
-class MoveMode(Command, tag="move_mode"):
+class MoveMode(PageCommand, tag="move_mode"):
     """Let the user move things with the mouse, or not."""
 
     on: bool
@@ -38,7 +38,7 @@ async def _move_mode(page: Page, command: MoveMode) -> Answer:
     return Answer()
 
 
-class Snap(Command, tag="snap"):
+class Snap(PageCommand, tag="snap"):
     """Set the grid (m) to which moved things snap; 0 for none."""
 
     distance: Annotated[float, Meta(ge=0, le=100)]
@@ -49,7 +49,7 @@ async def _snap(page: Page, command: Snap) -> Answer:
     return Answer()
 
 
-class SelectBody(Command, tag="select"):
+class SelectBody(PageCommand, tag="select"):
     """Select a thing."""
 
     body: Name | None
@@ -60,7 +60,7 @@ async def _select(page: Page, command: SelectBody) -> Answer:
     return Answer()
 
 
-class AddBody(Command, tag="add_body"):
+class AddBody(PageCommand, tag="add_body"):
     """Add a thing, by default where there is room in the picture (m)."""
 
     template: Name
@@ -104,7 +104,7 @@ async def _add_thing(
     return change_answer(f"{done} {name}.", result, body=name)
 
 
-class DuplicateBody(Command, tag="duplicate_body"):
+class DuplicateBody(PageCommand, tag="duplicate_body"):
     """Add a copy of a thing."""
 
     name: Name
@@ -123,7 +123,7 @@ async def _duplicate(page: Page, command: DuplicateBody) -> Answer:
     return await _add_thing(page, Template("", "", kind, {}), described, at, "Copied it as")
 
 
-class ChangeBody(Command, tag="change_body"):
+class ChangeBody(PageCommand, tag="change_body"):
     """Change properties of a thing."""
 
     name: Name
@@ -148,7 +148,7 @@ async def _change(page: Page, command: ChangeBody) -> Answer:
     return change_answer(f"{'Changed' if values else 'Moved'} {thing.name}.", result)
 
 
-class MoveBody(Command, tag="move_body"):
+class MoveBody(PageCommand, tag="move_body"):
     """Put a thing somewhere (m, degrees)."""
 
     name: Name
@@ -164,7 +164,7 @@ async def _move(page: Page, command: MoveBody) -> Answer:
     return change_answer(f"Moved {command.name}.", await page.result(future))
 
 
-class Nudge(Command, tag="nudge"):
+class Nudge(PageCommand, tag="nudge"):
     """Move a thing a bit (m, degrees)."""
 
     name: Name
@@ -189,7 +189,7 @@ async def _nudge(page: Page, command: Nudge) -> Answer:
     return change_answer(f"Moved {command.name}.", result)
 
 
-class RemoveBody(Command, tag="remove_body"):
+class RemoveBody(PageCommand, tag="remove_body"):
     """Delete a thing; the body of an agent goes with its agent."""
 
     name: Name
@@ -202,7 +202,7 @@ async def _remove(page: Page, command: RemoveBody) -> Answer:
     return change_answer(f"Deleted {command.name}.", await page.result(future))
 
 
-class ChangeSettings(Command, tag="change_settings"):
+class ChangeSettings(PageCommand, tag="change_settings"):
     """Change texts or settings of the scene."""
 
     values: Values
@@ -263,15 +263,17 @@ def _agent_of(editor: SceneEditor, body: str) -> str | None:
     return None
 
 
-def _named(thing: Thing, error: ChangeError) -> list[Problem]:
+def _named(thing: Thing, error: ChangeError) -> list[ParameterProblem]:
     """Return problems with the names of the form's fields as paths."""
     return [
-        Problem((name,), text) if (name := field_of_problem(thing, path)) else Problem(path, text)
+        ParameterProblem((name,), text)
+        if (name := field_of_problem(thing, path))
+        else ParameterProblem(path, text)
         for path, text in error.problems
     ]
 
 
-HANDLERS: Mapping[type[Command], Handler] = {
+HANDLERS: Mapping[type[PageCommand], Handler] = {
     MoveMode: _move_mode,
     Snap: _snap,
     SelectBody: _select,

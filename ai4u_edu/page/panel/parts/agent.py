@@ -3,17 +3,17 @@
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from itertools import islice
+from keyword import iskeyword
 from typing import Literal
 
 from msgspec import UNSET, Struct, UnsetType, field
 
-from ai4u_edu.agent.ledger import Entry
-from ai4u_edu.agent.script_lines import script_lines
+from ai4u_edu.agent import BasicAgent, LedgerEntry
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
-from ai4u_edu.page.panel.parts.colours import hex_colour
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.sensor_slots import ProgramSensor, program_sensor
 from ai4u_edu.page.panel.parts.sensors import SensorReading, sensor_reading
@@ -277,7 +277,7 @@ def _readings(snapshot: Snapshot, agent: AgentState, shown: Collection[str]) -> 
     ]
 
 
-def _paid_entries(agent: AgentState) -> Iterator[Entry]:
+def _paid_entries(agent: AgentState) -> Iterator[LedgerEntry]:
     """Yield the decisions with a reward, the latest first."""
     return (entry for entry in reversed(agent.history) if any(entry.terms.values()))
 
@@ -296,6 +296,34 @@ def python_part(context: PanelContext, agent: AgentState, address: str) -> Pytho
         lines="" if driven is None else script_lines(address or DEFAULT_ADDRESS, driven),
         actuators=[_actuator(info) for info in agent.actuator_infos if info.components],
         sensors=[program_sensor(info, agent.percept[info.key]) for info in agent.sensor_infos],
+    )
+
+
+def script_lines(address: str, agent: BasicAgent) -> str:
+    """Return the code of a script that drives an agent.
+
+    Names are inserted by ``repr``, so a hostile name can't inject code.
+
+    Args:
+        address: the world's address, as of its page.
+        agent: the agent.
+    """
+    example = {
+        name: [1] + [0] * (len(actuator.limits()[0]) - 1)
+        for name, actuator in agent.bound_blocks.actuators.items()
+        if actuator.is_output
+    }
+    if all(name.isidentifier() and not iskeyword(name) for name in example):
+        numbers = ", ".join(f"{name}={values}" for name, values in example.items())
+    else:
+        numbers = repr(example)
+    return (
+        "from ai4u_edu.remote import connect\n\n"
+        f"robot = connect({address!r}, agent={agent.id!r})\n"
+        "robot.reset()\n"
+        "for percept in robot:\n"
+        f"    robot.act({numbers})\n"
+        "robot.close()\n"
     )
 
 

@@ -2,21 +2,32 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
+from typing import Literal
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel.context import PanelContext
-from ai4u_edu.page.panel.page_view import PageView
+from ai4u_edu.page.panel.page_view import CameraMode, PageView
 from ai4u_edu.page.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
 from ai4u_edu.page.panel.parts.blocks import blocks_part
+from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.past import past_part
 from ai4u_edu.page.panel.parts.run import run_part
 from ai4u_edu.page.panel.parts.scene import scene_part
 from ai4u_edu.page.panel.parts.training import training_part
-from ai4u_edu.page.panel.parts.view import ViewPart
 from ai4u_edu.page.panel.parts.world import world_part
 
 Parts = Iterator[tuple[str, bytes]]
+
+
+class ViewPart(PanelPart, frozen=True, kw_only=True):
+    """The choices for the page's picture."""
+
+    name: Literal["view"] = "view"
+    camera: CameraMode
+    """Position of the camera."""
+    has_trail: bool
+    """True if the trail of the agent that is shown is drawn."""
 
 
 def due_parts(context: PanelContext, view: PageView) -> Parts:

@@ -5,7 +5,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from ai4u_edu.page.editing.forms import Field, Kind
+from ai4u_edu.page.editing.forms import Kind, ParameterField
 from ai4u_edu.page.panel.field_hints import detail, plain_hint
 
 
@@ -39,7 +39,7 @@ class FormField(Struct, frozen=True):
     """Upper bound of a number; null if it has none."""
 
 
-def form_field(field: Field, first: Collection[str] = (), block: str = "") -> FormField:
+def form_field(field: ParameterField, first: Collection[str] = (), block: str = "") -> FormField:
     """Return a field for the page.
 
     Args:

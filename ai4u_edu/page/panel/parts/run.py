@@ -10,7 +10,6 @@ from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.agent_words import ending
-from ai4u_edu.snapshot.outcome import outcome
 
 MAX_STAGES = 12
 """Most stages that are listed one by one."""
@@ -93,7 +92,7 @@ def run_part(context: PanelContext, snapshot: Snapshot, agent_id: str) -> RunPar
         score=agent.episode_reward,
         stages=[stage for stages in agent.stages for stage in _stages(stages)],
         seconds_left=agent.seconds_left,
-        result=outcome(agent, snapshot.agents, snapshot.static_scene.success),
+        result=agent.outcome(snapshot.agents, snapshot.static_scene.success),
         result_text=_result_text(agent),
         status=_status(snapshot),
         slow=slow_warning(snapshot),

@@ -6,9 +6,9 @@ from msgspec import UNSET, Struct, UnsetType
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.driving_keys import keys_of
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
-from ai4u_edu.page.panel.parts.colours import hex_colour
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals

@@ -10,9 +10,9 @@ import numpy.typing as npt
 from msgspec import UNSET, Struct, UnsetType, field
 from PIL import Image
 
+from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
 from ai4u_edu.page.panel.gallery import hint_of, words_of
-from ai4u_edu.page.panel.parts.colours import hex_colour
 from ai4u_edu.snapshot.block_info import SensorInfo
 from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.snapshot.reading_cells import GREYS, Cells, shaded, split_stack

@@ -31,7 +31,7 @@ MAX_CODE_WAIT_S = 60.0
 TOO_MANY = "too many wrong tokens from this address; try again in {seconds} s"
 
 
-class Verdict(Enum):
+class AttemptResult(Enum):
     """Result of checking a token."""
 
     RIGHT = auto()
@@ -61,7 +61,7 @@ class Attempts:
         self._known: OrderedDict[str, None] = OrderedDict()
         self._waiting: dict[str, int] = {}
 
-    async def check(self, address: str, is_right: Callable[[], bool]) -> Verdict:
+    async def check(self, address: str, is_right: Callable[[], bool]) -> AttemptResult:
         """Check a token, after a delay if its address has sent too many wrong ones.
 
         Args:
@@ -70,19 +70,19 @@ class Attempts:
         """
         if address in self._known:
             if is_right():
-                return Verdict.RIGHT
+                return AttemptResult.RIGHT
         elif not await self.wait(address):
-            return Verdict.TOO_MANY
+            return AttemptResult.TOO_MANY
         elif is_right():
             self._known[address] = None
             if len(self._known) > MAX_KEYS:
                 self._known.popitem(last=False)
-            return Verdict.RIGHT
+            return AttemptResult.RIGHT
         was_over = self.retry_after(address) > 0
         self.add_wrong(address)
         if was_over and address in self._known:
             await self.wait(address)
-        return Verdict.TOO_MANY if was_over else Verdict.WRONG
+        return AttemptResult.TOO_MANY if was_over else AttemptResult.WRONG
 
     async def wait(self, address: str) -> bool:
         """Wait if an address has sent too many wrong tokens; False if too many wait already."""

@@ -10,7 +10,7 @@ from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.page.server.loop_queue import LoopQueue
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.report import Report
+from ai4u_edu.page.server.scripts.report import ScriptLog
 from ai4u_edu.page.server.scripts.session import Session
 from ai4u_edu.page.server.scripts.settings import Rules
 from ai4u_edu.page.server.scripts.welcome import ObservationSubset, output_of
@@ -57,7 +57,7 @@ class AgentLease:
         hello: native.Hello,
         rules: Rules,
         queue: LoopQueue,
-        report: Report,
+        report: ScriptLog,
         on_released: Callable[["AgentLease"], None],
     ) -> None:
         self.agent = agent

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from enum import Enum, auto
 from threading import Lock
 
-from ai4u_edu.blocks.brains.links.link import Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link import Observation, Reply, ResetRequest
 
 
 class Turn(Enum):
@@ -114,7 +114,7 @@ class Exchange:
         with self._lock:
             if self.turn is not Turn.ASKED or reply.observation is not self.observation:
                 return False
-            is_reset = isinstance(reply.answer, Reset)
+            is_reset = isinstance(reply.answer, ResetRequest)
             self._change_to(Turn.RESETTING if is_reset else Turn.ANSWERED)
             self._replies.append(reply)
             return True

@@ -7,7 +7,7 @@ from ai4u_edu.base.errors import suggest
 from ai4u_edu.page.server.loop_queue import LoopQueue, queue_here
 from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.report import Report
+from ai4u_edu.page.server.scripts.report import ScriptLog
 from ai4u_edu.page.server.scripts.settings import Rules
 from ai4u_edu.page.server.token_auth import is_same_secret
 from ai4u_edu.runtime.runner import Runner
@@ -27,7 +27,7 @@ class LeaseRegistry:
     """
 
     def __init__(
-        self, runner: Runner, title: Callable[[], str], rules: Rules, report: Report
+        self, runner: Runner, title: Callable[[], str], rules: Rules, report: ScriptLog
     ) -> None:
         self._report = report
         self._runner = runner

@@ -25,8 +25,8 @@ STOP_TIMEOUT_S = 1.0
 """Time that the last lines may take to be written."""
 
 
-class Report(Protocol):
-    """Callback for what happens with scripts; thread-safe, and never blocks."""
+class ScriptLog(Protocol):
+    """A log of what happens with scripts; thread-safe, and never blocks."""
 
     def note_event(self, text: str) -> None:
         """Report that a script joined, was lost, came back or left."""

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ai4u_edu.blocks import Answer, Command
-from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, Reset
+from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, ResetRequest
 from ai4u_edu.page.server.loop_queue import LoopQueue
 from ai4u_edu.page.server.scripts.exchange import Exchange, Turn
 from ai4u_edu.page.server.scripts.outbox import Outbox
@@ -91,7 +91,7 @@ class Session:
                 self._runner.expect_answer()
             return None
         is_late = reply.observation is not observation
-        if is_late and not self.expects_reply and not isinstance(reply.answer, Reset):
+        if is_late and not self.expects_reply and not isinstance(reply.answer, ResetRequest):
             self._send_percept(observation)  # the late answer counts now; the observation is new
         return reply
 
@@ -279,12 +279,12 @@ def is_request_for_time(message: native.Answer) -> bool:
     return isinstance(message, native.Order) and message.word == "wait"
 
 
-def _to_brain_answer(message: native.Answer) -> Answer | Reset:
+def _to_brain_answer(message: native.Answer) -> Answer | ResetRequest:
     """Convert a message to what a brain gets from its link."""
     match message:
         case native.Action(values=values):
             return values
         case native.Reset(seed=seed):
-            return Reset(seed)
+            return ResetRequest(seed)
         case native.Order(word=word):
             return Command(word)

@@ -13,7 +13,7 @@ from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
 from ai4u_edu.page.server.scripts.lease_registry import LeaseRegistry, wrong_version
 from ai4u_edu.page.server.scripts.outbox import Outbox
-from ai4u_edu.page.server.scripts.report import NoReport, Report
+from ai4u_edu.page.server.scripts.report import NoReport, ScriptLog
 from ai4u_edu.page.server.scripts.session import Session, is_request_for_time
 from ai4u_edu.page.server.scripts.settings import Rules
 from ai4u_edu.page.server.token_auth import PageCookie, is_same_secret
@@ -48,7 +48,7 @@ class RemoteSockets:
         runner: Runner,
         title: Callable[[], str],
         rules: Rules | None = None,
-        report: Report | None = None,
+        report: ScriptLog | None = None,
     ) -> None:
         self._rules = rules = rules or Rules()
         self._report = NoReport() if report is None else report
@@ -70,7 +70,7 @@ class RemoteSockets:
             frames = scope.get("extensions", {}).get(EXTENSION)
         outbox = Outbox(send, frames.write if frames else None, form)
         sending = asyncio.create_task(outbox.run())
-        connection = _Connection(
+        connection = _ScriptConnection(
             receive,
             outbox,
             self._leases,
@@ -110,7 +110,7 @@ class RemoteSockets:
         )
 
 
-class _Connection:
+class _ScriptConnection:
     """One script's frames, and its lease once it has one."""
 
     def __init__(
@@ -118,7 +118,7 @@ class _Connection:
         receive: Receive,
         outbox: Outbox,
         leases: LeaseRegistry,
-        report: Report,
+        report: ScriptLog,
         *,
         form: JsonForm | None,
         hello_timeout: float,

@@ -109,7 +109,7 @@ _MIN_FALLING_SCALE = 0.35
 """Scale of a body at the height at which it leaves the world."""
 
 
-class Poses(NamedTuple):
+class DrawnPoses(NamedTuple):
     """The drawn poses of all bodies, one row for each."""
 
     positions: Array
@@ -126,7 +126,7 @@ class Poses(NamedTuple):
     """(n,) 0 where there is no ground for the shadow."""
 
 
-def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
+def compute_poses(snapshot: Snapshot, layers: Layers) -> DrawnPoses:
     """Return the drawn poses of all bodies of a snapshot.
 
     It runs in every frame, usually for few bodies: so it makes few calls of numpy.
@@ -155,7 +155,7 @@ def compute_poses(snapshot: Snapshot, layers: Layers) -> Poses:
     shadow_positions[:, 2] = ground_heights + layers.shadow
     shadow_scales = np.ones(len(bodies))
     shadow_scales[is_void | is_gone] = 0.0
-    return Poses(positions, wxyzs, scales, depths, shadow_positions, shadow_scales)
+    return DrawnPoses(positions, wxyzs, scales, depths, shadow_positions, shadow_scales)
 
 
 def _ground(snapshot: Snapshot, body: BodyState) -> float | None:
@@ -301,7 +301,7 @@ class _BodyGroup:
 
         self._body.on_click(report_errors(on_click))
 
-    def move(self, poses: Poses) -> None:
+    def move(self, poses: DrawnPoses) -> None:
         """Move the members to their current poses."""
         members = self._members
         self._place(poses.positions[members], poses.shadow_positions[members], poses.wxyzs[members])

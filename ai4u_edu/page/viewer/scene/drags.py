@@ -4,8 +4,14 @@ import math
 from enum import Enum
 from typing import NamedTuple
 
-from ai4u_edu.page.viewer.scene.resize import resized
-from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world import (
+    AreaDescription,
+    BodyDescription,
+    BoxShape,
+    CapsuleShape,
+    CircleShape,
+    FloorDescription,
+)
 from ai4u_edu.world.shapes import Shape
 
 Thing = BodyDescription | FloorDescription | AreaDescription
@@ -14,9 +20,13 @@ ROTATION_STEP_DEG, FREE_ROTATION_STEP_DEG = 5.0, 1.0
 """Things rotate in steps of this size, because most walls are meant to be straight."""
 MAX_DRAG_M = 1e6
 """Largest distance (m) from the origin to which a thing can be dragged."""
+MIN_SIZE_M = 0.1
+"""Smallest length (m) that a person can pull a shape to."""
+FREE_STEP_M = 0.01
+"""Lengths are multiples of it if they don't snap to a grid."""
 
 
-class Action(Enum):
+class DragAction(Enum):
     """The part of a thing that is changed."""
 
     MOVE = "move"
@@ -37,7 +47,7 @@ class Drag(NamedTuple):
     """A thing that is being dragged, rotated or resized."""
 
     thing: Thing
-    action: Action
+    action: DragAction
     x: float
     y: float
     """Offset from the pointer to the centre; for a rotation or another size, the centre."""
@@ -52,7 +62,7 @@ class Drag(NamedTuple):
     @property
     def is_live(self) -> bool:
         """True if the world follows during the drag; else the page shows an outline only."""
-        return self.action is not Action.RESIZE and isinstance(self.thing, BodyDescription)
+        return self.action is not DragAction.RESIZE and isinstance(self.thing, BodyDescription)
 
     def goal(
         self, x: float, y: float, snap_m: float = 0.0, *, is_free: bool = False
@@ -66,20 +76,71 @@ class Drag(NamedTuple):
             is_free: True for any place, size and nearly any heading.
         """
         snap_m = 0.0 if is_free else snap_m
-        moves = self.action is Action.MOVE
+        moves = self.action is DragAction.MOVE
         dx, dy = (x + self.x, y + self.y) if moves else (x - self.x, y - self.y)
         if not math.hypot(dx, dy) <= MAX_DRAG_M:  # also true for NaN
             return None
         if moves:
             return Goal(_on_grid(dx, snap_m), _on_grid(dy, snap_m), None)
-        if self.action is Action.TURN:
+        if self.action is DragAction.TURN:
             step = FREE_ROTATION_STEP_DEG if is_free else ROTATION_STEP_DEG
             degrees = math.degrees(math.atan2(dy, dx))
             return Goal(self.x, self.y, step * round(degrees / step))
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         local = cos * dx + sin * dy, cos * dy - sin * dx
         shape: Shape = self.thing.shape
-        return Goal(self.x, self.y, None, resized(shape, *local, snap_m))
+        return Goal(self.x, self.y, None, _resized(shape, *local, snap_m))
+
+
+def corner_of(shape: Shape) -> tuple[float, float]:
+    """Return the place of the resize knob in the shape's own frame.
+
+    >>> corner_of(BoxShape(size=(2, 1)))
+    (1.0, 0.5)
+    """
+    if isinstance(shape, CircleShape):
+        return shape.radius * math.sqrt(0.5), shape.radius * math.sqrt(0.5)
+    outline = outline_of(shape)
+    return max(x for x, _ in outline), max(y for _, y in outline)
+
+
+def outline_of(shape: Shape) -> list[tuple[float, float]]:
+    """Return a shape's outline; every kind of shape has one."""
+    outline: list[tuple[float, float]] = shape.outline()  # type: ignore[attr-defined]
+    return outline
+
+
+def _resized(shape: Shape, x: float, y: float, snap_m: float = 0.0) -> Shape:
+    """Return a shape of the size at which its corner lies at a place.
+
+    Args:
+        shape: the shape before.
+        x: place of the pointer in the shape's own frame (m).
+        y: likewise.
+        snap_m: lengths are multiples of it; 0 for free ones.
+
+    >>> _resized(BoxShape(size=(2, 1)), 1.6, 0.52, 0.5).size
+    (3.0, 1.0)
+    >>> _resized(CircleShape(radius=1), 0.3, 0.4).radius
+    0.5
+    """
+    if isinstance(shape, BoxShape):
+        return shape.model_copy(
+            update={"size": (_length(2 * abs(x), snap_m), _length(2 * abs(y), snap_m))}
+        )
+    if isinstance(shape, CircleShape):
+        return shape.model_copy(update={"radius": _length(2 * math.hypot(x, y), snap_m) / 2})
+    if isinstance(shape, CapsuleShape):
+        radius = _length(2 * abs(y), snap_m) / 2
+        length = _length(2 * max(abs(x) - radius, 0.0), snap_m)
+        return shape.model_copy(update={"radius": radius, "length": length})
+    reach = math.hypot(*corner_of(shape))
+    return shape.scaled(max(math.hypot(x, y), MIN_SIZE_M) / max(reach, MIN_SIZE_M))
+
+
+def _length(wanted: float, snap_m: float) -> float:
+    step = snap_m or FREE_STEP_M
+    return max(round(round(wanted / step) * step, 6), step, MIN_SIZE_M)
 
 
 def _on_grid(value: float, snap_m: float) -> float:

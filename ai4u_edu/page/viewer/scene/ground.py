@@ -48,7 +48,7 @@ PAINT_OVERLAP_M = 0.01
 BLACK: Rgb = (0, 0, 0)
 
 
-class Ground:
+class DrawnGround:
     """Floors and areas; drawn again only when they change."""
 
     def __init__(self, server: LocalServer) -> None:

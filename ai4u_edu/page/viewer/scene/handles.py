@@ -22,7 +22,14 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.page.editing import ChangeResult, SceneEditor
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.arena import arena_size
-from ai4u_edu.page.viewer.scene.drags import Action, Drag, Goal, Thing
+from ai4u_edu.page.viewer.scene.drags import (
+    Drag,
+    DragAction,
+    Goal,
+    Thing,
+    corner_of,
+    outline_of,
+)
 from ai4u_edu.page.viewer.scene.geometry import (
     Array,
     cap,
@@ -35,7 +42,6 @@ from ai4u_edu.page.viewer.scene.geometry import (
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
-from ai4u_edu.page.viewer.scene.resize import corner_of, outline_of
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
@@ -275,7 +281,7 @@ class Handles:
         thing = next((each for each in things if each.name == chosen), None)
         is_rebuilt = (bodies, regions) != (self._bodies, self._regions)
         drag = self.drag
-        is_by_mark = drag is not None and not (drag.is_live and drag.action is Action.MOVE)
+        is_by_mark = drag is not None and not (drag.is_live and drag.action is DragAction.MOVE)
         if is_rebuilt or (is_by_mark and thing != self._mark.thing):
             self._end_drag_before_rebuild((*static_scene.bodies, *all_regions))
         with self._viewer_client.client.atomic():
@@ -333,9 +339,9 @@ class Handles:
             depth = _plate_z(thing, static_scene) + above_others - self._mark_z(thing, static_scene)
         self._mark.build(thing, static_scene, depth)
         for handle, action in (
-            (self._mark.turn_knob, Action.TURN),
-            (self._mark.size_knob, Action.RESIZE),
-            (self._mark.plate, Action.MOVE),
+            (self._mark.turn_knob, DragAction.TURN),
+            (self._mark.size_knob, DragAction.RESIZE),
+            (self._mark.plate, DragAction.MOVE),
         ):
             if handle is not None:
                 _listen_to_drags(handle, self._mark_dragged(action))
@@ -396,11 +402,11 @@ class Handles:
             state = self.states.get(name)
             if state is not None and body is not None:
                 x, y, _ = event.start_position
-                self._start_drag(Drag(body, Action.MOVE, state.x - x, state.y - y))
+                self._start_drag(Drag(body, DragAction.MOVE, state.x - x, state.y - y))
                 self._on_choose(name)
         self._update_drag(event)
 
-    def _mark_dragged(self, action: Action) -> Callable[[SceneNodeDragEvent[Any]], Any]:
+    def _mark_dragged(self, action: DragAction) -> Callable[[SceneNodeDragEvent[Any]], Any]:
         async def on_drag(event: SceneNodeDragEvent[Any]) -> None:
             if event.phase == "start" and self._mark.thing is not None:
                 self._start_mark_drag(self._mark.thing, action, event)
@@ -409,7 +415,7 @@ class Handles:
         return on_drag
 
     def _start_mark_drag(
-        self, thing: Thing, action: Action, event: SceneNodeDragEvent[Any]
+        self, thing: Thing, action: DragAction, event: SceneNodeDragEvent[Any]
     ) -> None:
         state = self.states.get(thing.name)
         if state is not None:
@@ -418,7 +424,7 @@ class Handles:
             return
         else:
             (x, y), heading = thing.position, math.radians(thing.heading_deg)
-        if action is Action.MOVE:
+        if action is DragAction.MOVE:
             x, y = x - event.start_position[0], y - event.start_position[1]
         self._start_drag(Drag(thing, action, x, y, heading))
 
@@ -441,7 +447,7 @@ class Handles:
             drag, goal, self.drag = self.drag, self._goal, None
             if drag is not None and goal is not None and drag.is_live:
                 self._editor.cancel_drag(drag.name)
-        if drag is not None and drag.action is Action.RESIZE:
+        if drag is not None and drag.action is DragAction.RESIZE:
             self._mark.show_shape(drag.thing.shape)
         return drag is not None
 

@@ -321,7 +321,7 @@ class SenseOverlay:
     ) -> None:
         self._viewer_clients, self._rate = viewer_clients, rate
         self._options = options
-        self._pages: dict[int, _Page] = {}
+        self._pages: dict[int, _PageOverlay] = {}
 
     def build(self, static_scene: StaticScene) -> None:
         """Read the agents' sizes and the colours of groups from a static scene."""
@@ -341,7 +341,7 @@ class SenseOverlay:
         for number in self._turns.due(self._viewer_clients.keys()):
             viewer_client = self._viewer_clients[number]
             if number not in self._pages:
-                self._pages[number] = _Page(viewer_client, self._style)
+                self._pages[number] = _PageOverlay(viewer_client, self._style)
             agent = agents.get(viewer_client.agent)
             if agent is not None:
                 weights = self._weights(viewer_client)
@@ -353,7 +353,7 @@ class SenseOverlay:
         return next((weights for weights in found if weights is not None), None)
 
 
-class _Page:
+class _PageOverlay:
     """The overlay of one page."""
 
     def __init__(self, viewer_client: ViewerClient, style: RayStyle) -> None:

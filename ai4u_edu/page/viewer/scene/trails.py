@@ -38,7 +38,7 @@ class Trails:
 
     def __init__(self, viewer_clients: ViewerClients) -> None:
         self._viewer_clients = viewer_clients
-        self.pages: dict[int, _Page] = {}
+        self.pages: dict[int, _PageTrails] = {}
         self._trails: dict[str, Trail] = {}
         self._turns = PageTurns(TRAILS_PER_S)
 
@@ -58,7 +58,7 @@ class Trails:
             del self.pages[gone]
         for number in self._turns.due(self._viewer_clients.keys()):
             if number not in self.pages:
-                self.pages[number] = _Page(self._viewer_clients[number], self._style)
+                self.pages[number] = _PageTrails(self._viewer_clients[number], self._style)
             self.pages[number].draw(snapshot, self._trails)
 
 
@@ -102,7 +102,7 @@ class _Style:
         self.z = Layers.of(static_scene).trail
 
 
-class _Page:
+class _PageTrails:
     """The trails on one page: one batch of dots."""
 
     def __init__(self, viewer_client: ViewerClient, style: _Style) -> None:

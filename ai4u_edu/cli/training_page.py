@@ -1,4 +1,4 @@
-"""Process of the page of a training: ``python -m ai4u_edu.learn.training.watch_page``.
+"""Process of the page of a training: ``python -m ai4u_edu.cli.training_page``.
 
 It has a world of its own, drives in it with the latest weights, and runs at low priority. It ends
 with the training's process.

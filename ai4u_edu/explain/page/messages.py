@@ -4,16 +4,16 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from ai4u_edu.page.messages import Command, Degrees, Metres, Name, Number
+from ai4u_edu.page.messages import Degrees, Metres, Name, Number, PageCommand
 
 
-class ShowWhy(Command, tag="why"):
+class ShowWhy(PageCommand, tag="why"):
     """Show why the agent acts as it does, or no longer."""
 
     on: bool
 
 
-class ShowMaps(Command, tag="maps"):
+class ShowMaps(PageCommand, tag="maps"):
     """Show maps over the floor: what the agent would do at each place, and what it is worth."""
 
     field: bool
@@ -29,13 +29,13 @@ class Change(Struct, forbid_unknown_fields=True):
     value: Annotated[float, Meta(ge=-1e9, le=1e9)]
 
 
-class AskWhatIf(Command, tag="what_if"):
+class AskWhatIf(PageCommand, tag="what_if"):
     """Return the action on the agent's percept, and on a changed one."""
 
     changes: Annotated[list[Change], Meta(max_length=128)]
 
 
-class AskElsewhere(Command, tag="elsewhere"):
+class AskElsewhere(PageCommand, tag="elsewhere"):
     """Return the action at another pose, and show it; by default where the agent stands now."""
 
     x: Metres | None = None
@@ -43,19 +43,19 @@ class AskElsewhere(Command, tag="elsewhere"):
     heading_deg: Degrees | None = None
 
 
-class HideElsewhere(Command, tag="hide_elsewhere"):
+class HideElsewhere(PageCommand, tag="hide_elsewhere"):
     """Show no other pose any more."""
 
 
-class AskPaid(Command, tag="paid"):
+class AskPaid(PageCommand, tag="paid"):
     """Return the reward terms of the chosen episode over time, and the decisions that paid most."""
 
 
-class ListRivals(Command, tag="rivals"):
+class ListRivals(PageCommand, tag="rivals"):
     """Return the drivers that the present one can be compared with."""
 
 
-class CompareDrivers(Command, tag="compare"):
+class CompareDrivers(PageCommand, tag="compare"):
     """Return where two drivers first disagree in the chosen episode; empty for the present one."""
 
     first: Name

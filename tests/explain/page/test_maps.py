@@ -7,7 +7,7 @@ import pytest
 
 from ai4u_edu import trained_brain
 from ai4u_edu.explain import map_maker
-from ai4u_edu.explain_page.choice import choice_of
+from ai4u_edu.explain.page.choice import choice_of
 from tests.page.panel.rooms import PanelRoom, panel_room, picture
 from tests.waiting import LIMIT_S, until
 

@@ -12,11 +12,11 @@ from ai4u_edu.explain import RewardTerms, reward_terms
 from ai4u_edu.explain.elsewhere import Elsewhere, Pose, PoseTrial
 from ai4u_edu.explain.live import LiveExplainer
 from ai4u_edu.explain.live_maps import MapChoice
+from ai4u_edu.explain.page import messages as m
+from ai4u_edu.explain.page.choice import OPTION, choice_of
 from ai4u_edu.explain.sentence import Axis
 from ai4u_edu.explain.what_if import WhatIf
-from ai4u_edu.explain_page import messages as m
-from ai4u_edu.explain_page.choice import OPTION, choice_of
-from ai4u_edu.page.messages import Command
+from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.commands.past import chosen_episode
@@ -33,7 +33,7 @@ class WhyCommands:
 
     def __init__(self, explainer: LiveExplainer, pose_trial: PoseTrial) -> None:
         self._explainer, self._pose_trial = explainer, pose_trial
-        self.handlers: Mapping[type[Command], Handler] = {
+        self.handlers: Mapping[type[PageCommand], Handler] = {
             m.ShowWhy: self._why,
             m.ShowMaps: self._maps,
             m.AskWhatIf: self._what_if,

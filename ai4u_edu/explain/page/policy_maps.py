@@ -7,8 +7,8 @@ from ai4u_edu.base.colors import rgb
 from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap
-from ai4u_edu.explain_page.choice import choice_of
-from ai4u_edu.explain_page.field_arrows import FieldArrows
+from ai4u_edu.explain.page.choice import choice_of
+from ai4u_edu.explain.page.field_arrows import FieldArrows
 from ai4u_edu.page.viewer.scene.geometry import Array, cap
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours

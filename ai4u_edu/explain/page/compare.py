@@ -13,12 +13,12 @@ from ai4u_edu.blocks import Block, Controller, LocalBrain, NeuralNetController
 from ai4u_edu.explain.comparison import Comparison, compare
 from ai4u_edu.explain.errors import NotExplainableError
 from ai4u_edu.explain.live import LiveExplainer
+from ai4u_edu.explain.page import messages as m
+from ai4u_edu.explain.page.commands import plain_action
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.statefulness import dependence_of
-from ai4u_edu.explain_page import messages as m
-from ai4u_edu.explain_page.commands import plain_action
 from ai4u_edu.page.editing import SceneEditor
-from ai4u_edu.page.messages import Command
+from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.commands.past import chosen_episode
@@ -45,7 +45,7 @@ class CompareCommands:
 
     def __init__(self, explainer: LiveExplainer) -> None:
         self._policy = explainer.policy
-        self.handlers: Mapping[type[Command], Handler] = {
+        self.handlers: Mapping[type[PageCommand], Handler] = {
             m.ListRivals: self._rivals,
             m.CompareDrivers: self._compare,
         }

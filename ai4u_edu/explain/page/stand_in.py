@@ -11,11 +11,11 @@ from viser import BatchedMeshHandle, FrameHandle, SceneNodeDragEvent
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.explain.elsewhere import Elsewhere, Pose
 from ai4u_edu.explain.map_maker import LiveMap, MapRequest
-from ai4u_edu.explain_page.choice import OPTION, choice_of
-from ai4u_edu.explain_page.field_arrows import FieldArrows
+from ai4u_edu.explain.page.choice import OPTION, choice_of
+from ai4u_edu.explain.page.field_arrows import FieldArrows
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.arena import arena_size
-from ai4u_edu.page.viewer.scene.drags import Action, Drag
+from ai4u_edu.page.viewer.scene.drags import Drag, DragAction
 from ai4u_edu.page.viewer.scene.geometry import circle, grow, heading_wxyz, prism, segments
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours
@@ -148,19 +148,19 @@ class StandIn:
             radius = KNOB_RADIUS * unit
             self.knob = drawer.batch("knob", prism(circle(radius, corners=24), radius, 0.0), [INK])
             self.knob.batched_positions = np.array([(far, 0.0, body.height)], np.float32)
-            for handle, action in ((self.body, Action.MOVE), (self.knob, Action.TURN)):
+            for handle, action in ((self.body, DragAction.MOVE), (self.knob, DragAction.TURN)):
                 handle.batched_scales = np.ones(1, np.float32)
                 on_drag = report_errors(self._on_drag(action))
                 handle.on_drag(on_drag)
                 handle.on_drag("left", modifier=FREE_MODIFIER)(on_drag)
         self._built = body, static_scene
 
-    def _on_drag(self, action: Action) -> Callable[[SceneNodeDragEvent[Any]], Any]:
+    def _on_drag(self, action: DragAction) -> Callable[[SceneNodeDragEvent[Any]], Any]:
         async def on_drag(event: SceneNodeDragEvent[Any]) -> None:
             pose, built = self.pose, self._built
             if event.phase == "start" and pose is not None and built is not None:
                 x, y, _ = event.start_position
-                moves = action is Action.MOVE
+                moves = action is DragAction.MOVE
                 dx, dy = (pose.x - x, pose.y - y) if moves else (pose.x, pose.y)
                 self._drag = Drag(built[0], action, dx, dy)
             self._follow(event)

@@ -21,12 +21,12 @@ from ai4u_edu.explain.live import (
 from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.explain.map_colours import CIVIDIS, value_range
 from ai4u_edu.explain.map_maker import LiveMap
+from ai4u_edu.explain.page.choice import choice_of
+from ai4u_edu.explain.page.commands import WhyCommands
+from ai4u_edu.explain.page.compare import CompareCommands
+from ai4u_edu.explain.page.policy_maps import PolicyMaps
+from ai4u_edu.explain.page.stand_in import StandIns
 from ai4u_edu.explain.sentence import MIN_SHARE
-from ai4u_edu.explain_page.choice import choice_of
-from ai4u_edu.explain_page.commands import WhyCommands
-from ai4u_edu.explain_page.compare import CompareCommands
-from ai4u_edu.explain_page.policy_maps import PolicyMaps
-from ai4u_edu.explain_page.stand_in import StandIns
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.viewer.backend.part import Part

@@ -1,6 +1,6 @@
 """Explanations in the page: why an agent acts as it does, what if, and maps over the floor."""
 
-from ai4u_edu.explain_page.option import ExplainOption
+from ai4u_edu.explain.page.option import ExplainOption
 
 __all__ = ["ExplainOption", "page_option"]
 

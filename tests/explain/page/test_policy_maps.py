@@ -12,11 +12,11 @@ from ai4u_edu.explain.elsewhere import Pose
 from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap, MapRequest
-from ai4u_edu.explain_page import ExplainOption, page_option
-from ai4u_edu.explain_page.choice import OPTION, ExplainChoice
-from ai4u_edu.explain_page.field_arrows import LEFT, RIGHT, STRAIGHT, arrow_colours, arrow_shapes
-from ai4u_edu.explain_page.policy_maps import PageMaps, PolicyMaps
-from ai4u_edu.explain_page.stand_in import StandIn, StandIns
+from ai4u_edu.explain.page import ExplainOption, page_option
+from ai4u_edu.explain.page.choice import OPTION, ExplainChoice
+from ai4u_edu.explain.page.field_arrows import LEFT, RIGHT, STRAIGHT, arrow_colours, arrow_shapes
+from ai4u_edu.explain.page.policy_maps import PageMaps, PolicyMaps
+from ai4u_edu.explain.page.stand_in import StandIn, StandIns
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
