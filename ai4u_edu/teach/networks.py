@@ -56,7 +56,8 @@ class NetworkFolder:
                 "need, then learn again"
             )
         path = self._networks.next_file(scene)
-        kept = replace(about, number=number_of(path))
+        number = number_of(path)
+        kept = replace(about, number=number, title=about.title or f"Network {number}")
         write_atomically(path, network, over=False, mode=0o600)
         self._write(scene, kept)
         return kept

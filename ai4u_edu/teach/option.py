@@ -221,16 +221,18 @@ class TeachOption:
     # -- in the world's thread ---------------------------------------------------------------------
 
     def _on_done(self, episode: Episode) -> None:
-        if not episode.restarts and any(len(each) and drove_by_keys(each) for each in episode.agents):
+        if not episode.restarts and any(
+            len(each) and drove_by_keys(each) for each in episode.agents
+        ):
             self._tasks.put(partial(self._keep, episode))
 
-    def _offered(self) -> Mapping[str, Path]:
-        """Return the networks of this scene that may drive, by title; any thread calls it."""
-        files = {}
+    def _offered(self) -> Mapping[Path, str]:
+        """Return titles of this scene's networks, by their files; any thread calls it."""
+        titles = {}
         for each in self._work.networks:
             with suppress(SetupError):
-                files[each.title] = self._networks.file(self._scene, each.number)
-        return files
+                titles[self._networks.file(self._scene, each.number)] = each.title
+        return titles
 
     # -- in the option's thread --------------------------------------------------------------------
 
@@ -291,7 +293,7 @@ class TeachOption:
         drives = f"{learning.drives} drive{'s' if learning.drives != 1 else ''}"
         about = KeptNetwork(
             number=0,
-            title=f"Clone of {drives}",
+            title="",
             agent=learning.agent,
             how=f"learned from {drives} with {note.decisions} decisions",
             alike=note.alike,

@@ -82,9 +82,7 @@ class Greeting:
         self.is_stopped = True
 
 
-def page_option(
-    runner: Runner, player: ReplayPlayer, _editor: SceneEditor | None
-) -> Greeting:
+def page_option(runner: Runner, player: ReplayPlayer, _editor: SceneEditor | None) -> Greeting:
     """Return the option for a world."""
     made.append(Greeting(runner, player))
     return made[-1]

@@ -54,7 +54,7 @@ export class Drives {
       label: `Delete drive ${number}`,
       kind: "quiet",
     });
-    const words = element("span", {}, element("strong"), element("span"));
+    const words = element("span", {}, element("strong"), " ", element("span"));
     return element("div", { className: "ai4u-teach-drive" }, element("label", {}, box, words), remove);
   }
 

@@ -57,8 +57,8 @@ class DriverRegistry:
         self._places = [_checked(Path(each)) for each in given if str(each) not in remote]
         self._remotes = {each: brain_at(each) for each in remote}
         self._kept_episodes: dict[str, tuple[Episode, str]] = {}
-        self.own_networks: Callable[[], Mapping[str, Path]] = dict
-        """Returns networks that were made here for the present scene, by title."""
+        self.own_networks: Callable[[], Mapping[Path, str]] = dict
+        """Returns titles of networks that were made here for the present scene, by their files."""
 
     def offered(self) -> list[Driver]:
         """Return all drivers, those in files that were added since the start too."""
@@ -77,7 +77,7 @@ class DriverRegistry:
         ]
         networks = [
             Driver(f"{NETWORK}{path.name}", f"Network {title}")
-            for title, path in self._networks().items()
+            for path, title in self._networks().items()
         ]
         remotes = [
             Driver(name, f"AI4U script at {brain.host}:{brain.port}")
@@ -89,7 +89,7 @@ class DriverRegistry:
         """Return True if a name is one of this registry's, whether or not the file exists."""
         if name.startswith((SCRIPT, RECORDING)):
             return True  # `brain` raises if it does not exist
-        networks = [f"{NETWORK}{path.name}" for path in self._networks().values()]
+        networks = [f"{NETWORK}{path.name}" for path in self._networks()]
         return name in networks or name in self._remotes
 
     def keep(self, episode: Episode, name: str, agent: str = "") -> str:
@@ -134,12 +134,12 @@ class DriverRegistry:
         controller = driver() if isinstance(driver, type) else driver
         return LocalBrain(controller=controller, **rhythm)
 
-    def _networks(self) -> dict[str, Path]:
-        """Return the networks by title; of those that were named, that is the file's name."""
-        return {path.name: path for path in self._files(".onnx")} | dict(self.own_networks())
+    def _networks(self) -> dict[Path, str]:
+        """Return titles of networks by their files; of those that were named, the file's name."""
+        return {path: path.name for path in self._files(".onnx")} | dict(self.own_networks())
 
     def _network(self, name: str) -> Path:
-        own = next((each for each in self.own_networks().values() if each.name == name), None)
+        own = next((each for each in self.own_networks() if each.name == name), None)
         return self._file(name, ".onnx") if own is None else own
 
     def _files(self, ending: str) -> list[Path]:

@@ -143,11 +143,11 @@ class SceneEditor:
         """
         return reason_against_driver(self.state, agent_id, name, self._drivers)
 
-    def offer(self, networks: Callable[[], Mapping[str, Path]]) -> None:
+    def offer(self, networks: Callable[[], Mapping[Path, str]]) -> None:
         """Let pages choose from networks that are made here.
 
         Args:
-            networks: returns the files of the present scene's networks, by title; in any thread.
+            networks: returns titles of the present scene's networks, by their files; in any thread.
         """
         self._drivers.own_networks = networks
 
