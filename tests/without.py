@@ -15,6 +15,7 @@ OPTIONS = {
     "learn": ["ai4u_edu.learn"],
     "lessons": ["ai4u_edu.lessons"],
     "program": ["ai4u_edu.program"],
+    "teach": ["ai4u_edu.teach"],
 }
 """Packages of each option."""
 STEPS = """

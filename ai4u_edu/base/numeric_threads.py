@@ -49,7 +49,5 @@ def restart_with_one_thread() -> None:
     command, environment = [sys.executable, *sys.orig_argv[1:]], {**os.environ, **ONE_THREAD}
     if os.name == "posix":  # the same process, so that every signal reaches it
         os.execve(command[0], command, environment)  # noqa: S606 - the words of this process
-    signal.signal(
-        signal.SIGINT, signal.SIG_IGN
-    )  # it reaches the other process too
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # it reaches the other process too
     sys.exit(subprocess.call(command, env=environment))  # noqa: S603 - the same

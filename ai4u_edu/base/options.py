@@ -11,7 +11,7 @@ from typing import NamedTuple, Protocol
 
 from ai4u_edu.base.errors import SetupError
 
-PAGE_OPTIONS = ("ai4u_edu.explain.page",)
+PAGE_OPTIONS = ("ai4u_edu.explain.page", "ai4u_edu.teach")
 """Add to the page of a world: each has a function ``page_option``; see
 :class:`ai4u_edu.room.served_world.Option`."""
 ENV_PAGE = "ai4u_edu.room.env_page"

@@ -74,6 +74,7 @@ def play(
         restore=restore,
         unsaved=unsaved_folder() if autosave or restore else None,
         autosave=autosave,
+        work=unsaved_folder().parent if autosave else None,
     )
     if brain:
         build = load_option(DRIVERS, "--brain").with_drivers

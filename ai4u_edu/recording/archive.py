@@ -41,8 +41,7 @@ class ArchiveEntry:
     @cached_property
     def is_person(self) -> bool:
         """True if a person took most decisions of the agent that acts first, by keys."""
-        names = re.findall(r"\w+", self.first.driver.partition(", ")[0])
-        return any(name in Block.types and listens_to_keys(Block.types[name]) for name in names)
+        return drove_by_keys(self.first)
 
     @property
     def first(self) -> AgentRecord:
@@ -155,6 +154,12 @@ class Archive(Sequence[Episode]):
 
     def __iter__(self) -> Iterator[Episode]:
         return (entry.episode for entry in self.entries)
+
+
+def drove_by_keys(record: AgentRecord) -> bool:
+    """Return True if a person took most decisions of an agent, by keys."""
+    names = re.findall(r"\w+", record.driver.partition(", ")[0])
+    return any(name in Block.types and listens_to_keys(Block.types[name]) for name in names)
 
 
 def _rank(entry: ArchiveEntry) -> tuple[bool, float]:

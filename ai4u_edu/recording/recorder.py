@@ -2,7 +2,7 @@
 
 import logging
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, Self, TypeVar
@@ -39,8 +39,7 @@ class Recorder:
         scene: the scene of the world; its name, title and goal go into the episodes.
         keep: number of episodes to keep.
         episodes: archive for the episodes; by default a new one for ``keep`` of them.
-        on_episode: called with each episode when it is over, in the thread that runs the world. Its
-            exceptions are logged and available as :attr:`save_problem`.
+        on_episode: first one of the :attr:`listeners`.
 
     >>> from ai4u_edu import Scene
     >>> scene = Scene.load("box_chase")
@@ -71,8 +70,13 @@ class Recorder:
         self.problem = ""
         """Sentence about why the present episode can't be recorded; empty if it can."""
         self.save_problem = ""
-        """Sentence about why ``on_episode`` failed with the last episode; empty if it did not."""
-        self.on_episode = on_episode
+        """Sentence about why a listener failed with the last episode; empty if none did."""
+        self.listeners = [] if on_episode is None else [on_episode]
+        """Called with each episode when it is over, in the thread that runs the world. Their
+        exceptions are logged, and in :attr:`save_problem`."""
+        self.done_listeners: list[Callable[[Episode], object]] = []
+        """Called in the same way with the episode so far when all its agents are done; it is over
+        when the next one begins, and some of them may restart before."""
         self._builder: EpisodeBuilder | None = None
         self.world_episode = sim.episode
         """Number by which the world counts the present episode."""
@@ -143,8 +147,10 @@ class Recorder:
         if not any(map(len, episode.agents)):
             return
         self.episodes.append(episode, world_episode=self.world_episode)
-        if self.on_episode is not None:
-            self._save(episode, self.on_episode)
+        before, self.save_problem = self.save_problem, ""
+        self._tell(episode, self.listeners)
+        if self.save_problem and not before:  # warn once, not with every episode
+            logger.warning("%s; it is kept in memory", self.save_problem)
 
     def guard(self, command: Callable[[], T]) -> T:
         """Run a command, and record the tick if it edited the world.
@@ -162,15 +168,13 @@ class Recorder:
             if same and self.sim.world.ticks == ticks and self._editable_state() != before:
                 builder.changed = ticks
 
-    def _save(self, episode: Episode, on_episode: Callable[[Episode], object]) -> None:
-        """Call ``on_episode``; an error there, such as a full disk, must not stop the world."""
-        before, self.save_problem = self.save_problem, ""
-        try:
-            on_episode(episode)
-        except Exception as error:
-            self.save_problem = f"the last episode could not be saved: {message_of(error)}"
-            if not before:  # warn once, not with every episode
-                logger.warning("%s; it is kept in memory", self.save_problem)
+    def _tell(self, episode: Episode, listeners: Sequence[Callable[[Episode], object]]) -> None:
+        """Call listeners; an error there, such as a full disk, must not stop the world."""
+        for listener in listeners:
+            try:
+                listener(episode)
+            except Exception as error:
+                self.save_problem = f"the last episode could not be saved: {message_of(error)}"
 
     def _start(self) -> None:
         """Start recording; an episode that has just begun is recorded from its beginning."""
@@ -196,8 +200,11 @@ class Recorder:
             self._builder.begin_decision(agent)
 
     def _on_percept(self, agent: BasicAgent) -> None:
-        if self._builder is not None:
-            self._builder.end_decision(agent)
+        if self._builder is None:
+            return
+        self._builder.end_decision(agent)
+        if self.done_listeners and agent.done and all(each.done for each in self.sim.agents):
+            self._tell(self._builder.episode(), self.done_listeners)
 
     def _begin(self) -> None:
         self.world_episode = self.sim.episode

@@ -83,7 +83,7 @@ class Replay:
         except AI4UError as error:
             problem = str(error)
         again = recorder.current_episode()
-        recorder.on_episode = None
+        recorder.listeners.clear()
         recorder.set_enabled(False)
         if again is None:
             return Verdict(False, 0, f"it can't be compared: {recorder.problem}")

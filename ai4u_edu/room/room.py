@@ -61,6 +61,7 @@ class Room:
             self._autosave = Autosave(settings.unsaved, scene.description.name, warn)
         self.editor = SceneEditor(self.runner, scene, offers=[*settings.offers])
         self.editor.recovery.autosave = self._autosave
+        self.editor.work_folder = settings.work
         if settings.saved_scenes is not None:
             self.editor.scene_store = SceneStore(settings.saved_scenes)
         if restored is not None:

@@ -86,8 +86,8 @@ def serve_world(
         class_feed: of the class that the world belongs to; pages show it.
         script_report: of what happens with scripts.
         options: modules that add to the page, each with a function ``page_option``, which takes the
-            runner and the player and returns an :class:`Option`; those that can't be imported are
-            left out.
+            runner, the player and the editor and returns an :class:`Option`; those that can't be
+            imported are left out.
         timeouts: time limits of connections and answers.
 
     Raises:
@@ -104,7 +104,7 @@ def serve_world(
     >>> runner.stop()
     """
     player, ghosts = ReplayPlayer(runner), ghosts or Ghosts()
-    added = _load(options, runner, player)
+    added = _load(options, runner, player, editor)
     title = title or (DEFAULT_TITLE if editor is None else editor.title)
     viewer = Viewer(runner, title=title, editor=editor, ghosts=ghosts, options=added)
     lock_viser_port(viewer.server, viser_secret)
@@ -216,15 +216,17 @@ class _TabList(PanelOption):
         yield "tabs", self._json
 
 
-def _load(modules: Sequence[str], runner: Runner, player: ReplayPlayer) -> list[Option]:
+def _load(
+    modules: Sequence[str], runner: Runner, player: ReplayPlayer, editor: SceneEditor | None
+) -> list[Option]:
     """Return the options of a world's page; one that can't be imported is left out."""
     options: list[Option] = []
     for name in modules:
         try:
-            make: Callable[[Runner, ReplayPlayer], Option]
+            make: Callable[[Runner, ReplayPlayer, SceneEditor | None], Option]
             make = load_option(name, "the whole page").page_option
         except MissingOptionError as error:
             _logger.info("%s", error)
         else:
-            options.append(make(runner, player))
+            options.append(make(runner, player, editor))
     return options

@@ -54,6 +54,8 @@ class RoomSettings:
     """Folder of scenes that were changed and not saved; None neither writes nor offers them."""
     autosave: bool = True
     """False only offers unsaved scenes, and writes none."""
+    work: Path | None = None
+    """Folder for a person's drives and networks; None keeps none."""
     class_link: ClassLinkSettings | None = None
     """Link to the class that the room belongs to; None for none."""
     class_folder: Path | None = None

@@ -6,6 +6,7 @@ from pathlib import Path
 import msgspec
 
 from ai4u_edu.base.options import OptionTab
+from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.messages import Name, PageCommand
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.answers import Answer
@@ -81,7 +82,7 @@ class Greeting:
         self.is_stopped = True
 
 
-def page_option(runner: Runner, player: ReplayPlayer) -> Greeting:
+def page_option(runner: Runner, player: ReplayPlayer, _editor: SceneEditor | None) -> Greeting:
     """Return the option for a world."""
     made.append(Greeting(runner, player))
     return made[-1]

@@ -588,6 +588,71 @@ export interface ScenePart {
   waits_for_reset?: boolean;
 }
 
+/** A person's finished drive of the agent. */
+export interface TaughtDrive {
+  /** Number among those of its scene. */
+  number: number;
+  /** True if an agent reached the goal; null for a scene without a goal. */
+  result: boolean | null;
+  /** Duration (s) in world time. */
+  seconds: number;
+  /** Decisions of the agent. */
+  decisions: number;
+  /** Why the agent can't learn from it, in a few words; empty if it can. */
+  reason: string;
+}
+
+/** State of the latest learning of the agent. */
+export interface LearningState {
+  /** True once it is done, has failed or was stopped. */
+  is_over: boolean;
+  /** Why it brought nothing, as a sentence; empty if it is under way or done. */
+  problem: string;
+  /** Errors on held-out moments, every so many gradient steps. */
+  errors: number[];
+  /** Drives that it learns from. */
+  drives: number;
+  /** Decisions that it learned from; 0 until it is done. */
+  decisions: number;
+  /** Share of held-out moments in which the network acts like the person. */
+  alike: number;
+  /** The same share for always doing what was done most often. */
+  commonest: number;
+  /** Sentences about what is wrong with the drives. */
+  remarks: string[];
+}
+
+/** A network that learned in this scene. */
+export interface TaughtNetwork {
+  /** Number among those of its scene. */
+  number: number;
+  title: string;
+  /** How it learned, as a sentence. */
+  how: string;
+  /** True if it drives the agent now. */
+  is_driving: boolean;
+}
+
+/** What an agent can learn from, and its networks. */
+export interface TeachPart {
+  type: "part";
+  name: "teach";
+  /** Id of the agent that the page shows. */
+  agent: string;
+  /** Why the agent can't be taught, as a sentence; empty if it can. */
+  problem: string;
+  /** A person's finished drives of the agent, the latest first. */
+  drives: TaughtDrive[];
+  /** The latest learning of the agent; null if there was none since the start. */
+  learning: LearningState | null;
+  /** Networks of this scene, the latest first. */
+  networks: TaughtNetwork[];
+  /** Networks that are kept for a scene. */
+  max_networks: number;
+  /** Why a drive could not be kept, as a sentence; empty if all could. */
+  warning: string;
+}
+
 /** The progress of a training, and its learning curve. */
 export interface TrainingPart {
   type: "part";
@@ -704,6 +769,7 @@ export interface PanelParts {
   python: PythonPart;
   run: RunPart;
   scene: ScenePart;
+  teach: TeachPart;
   training: TrainingPart;
   view: ViewPart;
   world: WorldPart;
@@ -920,12 +986,27 @@ export interface Dark {
 export interface Decision {
 }
 
+/** Delete a network. */
+export interface DeleteNetwork {
+  network: number;
+}
+
 /** Delete the unsaved scene. */
 export interface Discard {
 }
 
 /** Return the scene's file. */
 export interface Download {
+}
+
+/** Return a network's file: its `name`, and its bytes in base64 as `data`. */
+export interface DownloadNetwork {
+  network: number;
+}
+
+/** Let a network drive the agent that the page shows. */
+export interface DriveNetwork {
+  network: number;
 }
 
 /** Add a copy of a block of the agent. */
@@ -938,6 +1019,11 @@ export interface DuplicateBody {
   name: string;
 }
 
+/** Delete a drive. */
+export interface ForgetDrive {
+  drive: number;
+}
+
 /** Show a decision of the chosen episode, counted from 0. */
 export interface GoToStep {
   step: number;
@@ -945,6 +1031,12 @@ export interface GoToStep {
 
 /** Show no other pose any more. */
 export interface HideElsewhere {
+}
+
+/** Have a network learn from drives of the agent that the page shows, and let it drive then. */
+export interface LearnFromDrives {
+  /** Numbers of the drives. */
+  drives: number[];
 }
 
 /** List the blocks that can be added. */
@@ -1064,6 +1156,12 @@ export interface RemoveBody {
 export interface RemoveGhost {
 }
 
+/** Give a network another title. */
+export interface RenameNetwork {
+  network: number;
+  title: string;
+}
+
 /** Begin an episode with the locked seed, or else with a new one. */
 export interface Reset {
 }
@@ -1145,6 +1243,10 @@ export interface Snap {
 export interface Stop {
 }
 
+/** End the learning without a result. */
+export interface StopLearning {
+}
+
 /** Switch a block of the agent on or off. */
 export interface SwitchBlock {
   path: (string | number)[];
@@ -1223,6 +1325,13 @@ export interface Commands {
   step: GoToStep;
   stop: Stop;
   switch_block: SwitchBlock;
+  teach_delete: DeleteNetwork;
+  teach_download: DownloadNetwork;
+  teach_drive: DriveNetwork;
+  teach_forget_drive: ForgetDrive;
+  teach_learn: LearnFromDrives;
+  teach_rename: RenameNetwork;
+  teach_stop: StopLearning;
   tick: Tick;
   trail: ShowTrail;
   try_again: TryAgain;

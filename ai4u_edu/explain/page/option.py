@@ -27,6 +27,7 @@ from ai4u_edu.explain.page.compare import CompareCommands
 from ai4u_edu.explain.page.policy_maps import PolicyMaps
 from ai4u_edu.explain.page.stand_in import StandIns
 from ai4u_edu.explain.sentence import MIN_SHARE
+from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.viewer.backend.part import Part
@@ -146,12 +147,18 @@ class ExplainOption:
     Args:
         runner: runs the world.
         player: plays the recorded episodes that its pages look at.
+        editor: of the scene; it is not needed.
     """
 
     agent_parts = frozenset({"why", "maps"})
     tab = None
 
-    def __init__(self, runner: Runner, player: ReplayPlayer) -> None:
+    def __init__(
+        self,
+        runner: Runner,
+        player: ReplayPlayer,
+        editor: SceneEditor | None = None,  # noqa: ARG002 - it changes nothing
+    ) -> None:
         def latest() -> Snapshot:
             return runner.latest
 

@@ -52,8 +52,8 @@ MIN_DRIVES_TO_HOLD_OUT = 5
 DEFAULT_BLOCK = 24
 """Decisions of a block that is held out: two seconds at twelve decisions a second."""
 THIRDS = 3
-"""Parts into which the range of a number is cut, to say whether two actions are alike: backwards,
-about still and forwards, or left, straight and right."""
+"""Parts into which the range that was used of a number is cut, to say if two actions are alike:
+backwards, about still and forwards, or left, straight and right."""
 SMALL_ERROR = 0.1
 """Error, in units of a number's range, up to which its square counts; beyond it, its size."""
 DISCOUNT = 0.98
@@ -111,7 +111,8 @@ class CloningResult:
     network: ActorCritic
     alike: float
     """Share of held-out moments, 0 to 1, in which a network that never saw them acts like the
-    driver: each number of the action in the same third of its range, or the same choice."""
+    driver: each number of the action in the same third of the range that the driver used of it,
+    or the same choice."""
     commonest: float
     """The same share for always doing what was done most often."""
     held_out: int
@@ -167,7 +168,8 @@ def clone_drives(
     is_held_out = _held_out(drives, block, generator)
     seen, unseen = np.flatnonzero(~is_held_out), np.flatnonzero(is_held_out)
 
-    kinds = _kinds(first, wanted)
+    spans = _spans(wanted)
+    kinds = _kinds(first, wanted, spans)
     errors: list[tuple[int, float]] = []
     alike: list[float] = []
 
@@ -176,7 +178,7 @@ def clone_drives(
         error, _ = _loss(first, outputs, wanted[unseen])
         errors.append((update, float(error)))
         done = outputs.argmax(axis=1) if first.chooses else outputs
-        alike.append(_share_alike(_kinds(first, done), kinds[unseen]))
+        alike.append(_share_alike(_kinds(first, done, spans), kinds[unseen]))
         if on_error is not None:
             on_error(*errors[-1])
 
@@ -313,18 +315,28 @@ def _held_out(
     return np.repeat(chosen, blocks)
 
 
-def _kinds(network: ActorCritic, targets: Array) -> Array:
+def _spans(wanted: Array) -> tuple[Array, Array]:
+    """Return the ends of the range that the driver used of each number, with 0 in it.
+
+    A key may move a number by 0.4 alone, of a range of -1 to 1: thirds of that range would put a
+    standing robot and a driving one side by side.
+    """
+    return np.minimum(wanted.min(axis=0), 0.0), np.maximum(wanted.max(axis=0), 0.0)
+
+
+def _kinds(network: ActorCritic, targets: Array, spans: tuple[Array, Array]) -> Array:
     """Return the third of its range that each number lies in, (n, numbers), or the choice, (n, 1).
 
     Args:
-        network: for the ranges.
+        network: says whether it chooses.
         targets: as :func:`_as_targets` gives them; beyond the range counts as at its end.
+        spans: as :func:`_spans` gives them.
     """
     if network.chooses:
         return targets[:, None]
-    low, high = network.low, network.high
+    low, high = spans
     width = np.where(high > low, high - low, 1.0)
-    share = (np.clip(targets * network.unit, low, high) - low) / width
+    share = (np.clip(targets, low, high) - low) / width
     kinds: Array = np.minimum((THIRDS * share).astype(np.int64), THIRDS - 1)
     return kinds
 
@@ -344,7 +356,10 @@ def _remarks(
             remarks.append(ONE_CHOICE)
     elif np.mean(np.abs(wanted).max(axis=1) < 1e-3) >= STILL_SHARE:
         remarks.append(STOOD_STILL)
-    if _contradiction(network.scaled(readings), _kinds(network, wanted)) > CONTRADICTION_SHARE:
+    if (
+        _contradiction(network.scaled(readings), _kinds(network, wanted, _spans(wanted)))
+        > CONTRADICTION_SHARE
+    ):
         remarks.append(CONTRADICTION)
     return remarks
 

@@ -3,7 +3,7 @@
 import ast
 import runpy
 import traceback
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -57,6 +57,8 @@ class DriverRegistry:
         self._places = [_checked(Path(each)) for each in given if str(each) not in remote]
         self._remotes = {each: brain_at(each) for each in remote}
         self._kept_episodes: dict[str, tuple[Episode, str]] = {}
+        self.own_networks: Callable[[], Mapping[Path, str]] = dict
+        """Returns titles of networks that were made here for the present scene, by their files."""
 
     def offered(self) -> list[Driver]:
         """Return all drivers, those in files that were added since the start too."""
@@ -74,7 +76,8 @@ class DriverRegistry:
             for name in self._kept_episodes
         ]
         networks = [
-            Driver(f"{NETWORK}{path.name}", f"Network {path.name}") for path in self._files(".onnx")
+            Driver(f"{NETWORK}{path.name}", f"Network {title}")
+            for path, title in self._networks().items()
         ]
         remotes = [
             Driver(name, f"AI4U script at {brain.host}:{brain.port}")
@@ -86,7 +89,7 @@ class DriverRegistry:
         """Return True if a name is one of this registry's, whether or not the file exists."""
         if name.startswith((SCRIPT, RECORDING)):
             return True  # `brain` raises if it does not exist
-        networks = [f"{NETWORK}{path.name}" for path in self._files(".onnx")]
+        networks = [f"{NETWORK}{path.name}" for path in self._networks()]
         return name in networks or name in self._remotes
 
     def keep(self, episode: Episode, name: str, agent: str = "") -> str:
@@ -118,7 +121,7 @@ class DriverRegistry:
         if name in self._remotes:
             return brain_at(name, **rhythm)
         if name.startswith(NETWORK):
-            path = self._file(name.removeprefix(NETWORK), ".onnx")
+            path = self._network(name.removeprefix(NETWORK))
             network = NeuralNetController(model_path=str(path.absolute()))
             return LocalBrain(controller=network, **(rhythm | network.network.rhythm))
         file, _, function = name.removeprefix(SCRIPT).rpartition(":")
@@ -130,6 +133,14 @@ class DriverRegistry:
         driver = _run(path)[function]
         controller = driver() if isinstance(driver, type) else driver
         return LocalBrain(controller=controller, **rhythm)
+
+    def _networks(self) -> dict[Path, str]:
+        """Return titles of networks by their files; of those that were named, the file's name."""
+        return {path: path.name for path in self._files(".onnx")} | dict(self.own_networks())
+
+    def _network(self, name: str) -> Path:
+        own = next((each for each in self.own_networks() if each.name == name), None)
+        return self._file(name, ".onnx") if own is None else own
 
     def _files(self, ending: str) -> list[Path]:
         found: dict[str, Path] = {}

@@ -60,6 +60,8 @@ class SceneEditor:
         self.recovery = Recovery(self)
         self.scene_store: SceneStore | None = None
         """Keeps scenes by name for pages; without it a page can only download them."""
+        self.work_folder: Path | None = None
+        """Folder for what a person makes here beside scenes; without it, that is not kept."""
         self.listeners = self._transactions.listeners
         """Functions called with the state after each change, in the runner's thread."""
         self.listeners.append(self._on_change)
@@ -140,6 +142,14 @@ class SceneEditor:
         It takes a decision in a copy of the world, which takes a few milliseconds.
         """
         return reason_against_driver(self.state, agent_id, name, self._drivers)
+
+    def offer(self, networks: Callable[[], Mapping[Path, str]]) -> None:
+        """Let pages choose from networks that are made here.
+
+        Args:
+            networks: returns titles of the present scene's networks, by their files; in any thread.
+        """
+        self._drivers.own_networks = networks
 
     def driver_brain(self, agent_id: str, name: str) -> Brain:
         """Return the brain of a driver for an agent, without letting it drive.

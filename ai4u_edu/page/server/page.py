@@ -43,6 +43,7 @@ STYLES = (
     "styles/stars.css",
     "styles/panel/why.css",
     "styles/panel/maps.css",
+    "styles/panel/teach.css",
     "styles/question.css",
     "styles/classroom/bar.css",
 )

@@ -30,6 +30,7 @@ FOLDERS = (
     "scenes",
     "shared",
     "styles",
+    "teach",
 )
 """Folders with the files. What else lies in ``web/`` is for development, or a library's."""
 _STATIC_IMPORT = re.compile(r'^(?:import|\} from) (?:.*from )?"(\.[\w./]+\.js)";', re.MULTILINE)

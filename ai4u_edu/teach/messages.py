@@ -1,0 +1,120 @@
+"""Commands of the tab in which an agent is taught, and what the tab shows."""
+
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from ai4u_edu.page.messages import Number, PageCommand
+from ai4u_edu.page.panel.parts.part import PanelPart
+from ai4u_edu.teach.drives import MAX_DRIVES
+from ai4u_edu.teach.networks import MAX_TITLE_CHARS
+
+
+class LearnFromDrives(PageCommand, tag="teach_learn"):
+    """Have a network learn from drives of the agent that the page shows, and let it drive then."""
+
+    drives: Annotated[list[Number], Meta(min_length=1, max_length=MAX_DRIVES)]
+    """Numbers of the drives."""
+
+
+class StopLearning(PageCommand, tag="teach_stop"):
+    """End the learning without a result."""
+
+
+class ForgetDrive(PageCommand, tag="teach_forget_drive"):
+    """Delete a drive."""
+
+    drive: Number
+
+
+class DriveNetwork(PageCommand, tag="teach_drive"):
+    """Let a network drive the agent that the page shows."""
+
+    network: Number
+
+
+class RenameNetwork(PageCommand, tag="teach_rename"):
+    """Give a network another title."""
+
+    network: Number
+    title: Annotated[str, Meta(max_length=MAX_TITLE_CHARS)]
+
+
+class DeleteNetwork(PageCommand, tag="teach_delete"):
+    """Delete a network."""
+
+    network: Number
+
+
+class DownloadNetwork(PageCommand, tag="teach_download"):
+    """Return a network's file: its `name`, and its bytes in base64 as `data`."""
+
+    network: Number
+
+
+class TaughtDrive(Struct, frozen=True):
+    """A person's finished drive of the agent."""
+
+    number: int
+    """Number among those of its scene."""
+    result: bool | None
+    """True if an agent reached the goal; null for a scene without a goal."""
+    seconds: float
+    """Duration (s) in world time."""
+    decisions: int
+    """Decisions of the agent."""
+    reason: str
+    """Why the agent can't learn from it, in a few words; empty if it can."""
+
+
+class LearningState(Struct, frozen=True):
+    """State of the latest learning of the agent."""
+
+    is_over: bool
+    """True once it is done, has failed or was stopped."""
+    problem: str
+    """Why it brought nothing, as a sentence; empty if it is under way or done."""
+    errors: list[float]
+    """Errors on held-out moments, every so many gradient steps."""
+    drives: int
+    """Drives that it learns from."""
+    decisions: int
+    """Decisions that it learned from; 0 until it is done."""
+    alike: float
+    """Share of held-out moments in which the network acts like the person."""
+    commonest: float
+    """The same share for always doing what was done most often."""
+    remarks: list[str]
+    """Sentences about what is wrong with the drives."""
+
+
+class TaughtNetwork(Struct, frozen=True):
+    """A network that learned in this scene."""
+
+    number: int
+    """Number among those of its scene."""
+    title: str
+    how: str
+    """How it learned, as a sentence."""
+    is_driving: bool
+    """True if it drives the agent now."""
+
+
+class TeachPart(PanelPart, frozen=True, kw_only=True):
+    """What an agent can learn from, and its networks."""
+
+    name: Literal["teach"] = "teach"
+    agent: str
+    """Id of the agent that the page shows."""
+    problem: str
+    """Why the agent can't be taught, as a sentence; empty if it can."""
+    drives: list[TaughtDrive]
+    """A person's finished drives of the agent, the latest first."""
+    learning: LearningState | None
+    """The latest learning of the agent; null if there was none since the start."""
+    networks: list[TaughtNetwork]
+    """Networks of this scene, the latest first."""
+    max_networks: int
+    """Networks that are kept for a scene."""
+    warning: str
+    """Why a drive could not be kept, as a sentence; empty if all could."""

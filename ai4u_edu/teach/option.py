@@ -1,0 +1,348 @@
+"""Teaching in the page of a running world: drives, learning, networks; and the tab's commands."""
+
+import base64
+import logging
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from queue import SimpleQueue
+from typing import TypeVar
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.block_errors import message_of
+from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.base.options import OptionTab
+from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.drivers import NETWORK
+from ai4u_edu.page.messages import PageCommand
+from ai4u_edu.page.panel import PanelContext
+from ai4u_edu.page.panel.answers import Answer, change_answer
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.page import Page
+from ai4u_edu.page.panel.page_view import PageView
+from ai4u_edu.page.server.loop_queue import result_of
+from ai4u_edu.page.server.web_files import web_folder
+from ai4u_edu.page.viewer.backend.part import Part
+from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
+from ai4u_edu.recording import Episode
+from ai4u_edu.recording.archive import drove_by_keys
+from ai4u_edu.recording.scene_export import export_scene
+from ai4u_edu.runtime.replay_player import ReplayPlayer
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.teach import messages as m
+from ai4u_edu.teach.drives import Drive, DriveFolder
+from ai4u_edu.teach.learning import Learning
+from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
+from ai4u_edu.teach.teachable import reason_against_teaching
+
+T = TypeVar("T")
+
+_logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class _SceneWork:
+    """What is known of one scene's drives and networks; replaced with every change."""
+
+    version: int = 0
+    problems: Mapping[str, str] = field(default_factory=dict)
+    """Why an agent can't be taught, by its id; empty if it can."""
+    drives: Mapping[str, tuple[m.TaughtDrive, ...]] = field(default_factory=dict)
+    """Drives by the agent, the latest first."""
+    networks: tuple[KeptNetwork, ...] = ()
+    """The latest first."""
+    warning: str = ""
+
+
+class TeachOption:
+    """Teaching of a running world's agents: the tab "Teach", its part and its commands.
+
+    Drives and networks lie in the editor's work folder. A thread of its own reads and writes them,
+    and another process learns, so that the world's thread does neither.
+
+    Args:
+        runner: runs the world.
+        player: of recorded episodes; it is not needed.
+        editor: has the scene; without one, or without a work folder, there is nothing to teach.
+    """
+
+    agent_parts = frozenset({"teach"})
+
+    def __init__(
+        self,
+        runner: Runner,
+        player: ReplayPlayer,  # noqa: ARG002 - other options need it
+        editor: SceneEditor | None = None,
+    ) -> None:
+        self._runner, self._editor = runner, editor
+        self.tab: OptionTab | None = None
+        self.commands: Mapping[type[PageCommand], Handler] = {}
+        self._work = _SceneWork()
+        self._learning: Learning | None = None
+        self._tasks = SimpleQueue[Callable[[], object] | None]()
+        folder = None if editor is None else editor.work_folder
+        if editor is None or folder is None:
+            return
+        self.tab = OptionTab("teach", "Teach", web_folder() / "teach" / "tab.js")
+        self.commands = {
+            m.LearnFromDrives: self._learn,
+            m.StopLearning: self._stop_learning,
+            m.ForgetDrive: self._forget_drive,
+            m.DriveNetwork: self._drive_network,
+            m.RenameNetwork: self._rename_network,
+            m.DeleteNetwork: self._delete_network,
+            m.DownloadNetwork: self._download_network,
+        }
+        self._drives = DriveFolder(folder / "drives")
+        self._networks = NetworkFolder(folder / "networks")
+        editor.offer(self._offered)
+        editor.listeners.append(lambda _: self._tasks.put(self._look))
+        if runner.recorder is not None:
+            runner.recorder.done_listeners.append(self._on_done)
+        self._tasks.put(self._look)
+        threading.Thread(target=self._run, name="teach", daemon=True).start()
+
+    def panel_parts(self, context: PanelContext, view: PageView) -> Iterator[tuple[str, bytes]]:
+        """Yield what the page's agent can learn from, and its networks."""
+        if self.tab is None or self._editor is None:
+            return
+        work, learning, agent = self._work, self._learning, view.agent
+        with suppress(AI4UError):  # the world has other agents already
+            driver = self._editor.driver_of(agent)
+            progress = None if learning is None else (len(learning.errors), learning.is_over)
+            key = "teach", work.version, agent, driver, learning, progress
+            yield (
+                "teach",
+                context.cache.by_key(key, lambda: self._part(work, learning, agent, driver)),
+            )
+
+    def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002
+        """Return nothing: it draws nothing."""
+        return []
+
+    def ray_weights(self, page: ViewerClient) -> None:
+        """Leave the rays as they are."""
+
+    def stop(self) -> None:
+        """End the learning and the thread."""
+        if self._learning is not None:
+            self._learning.stop()
+        self._tasks.put(None)
+
+    # -- in the server's event loop ----------------------------------------------------------------
+
+    async def _learn(self, page: Page, command: m.LearnFromDrives) -> Answer:
+        await self._done(lambda: self._begin_learning(page.view.agent, command.drives))
+        return Answer("It learns.")
+
+    async def _stop_learning(self, _page: Page, _command: m.StopLearning) -> Answer:
+        learning = self._learning
+        if learning is None or learning.is_over:
+            return Answer("Nothing learns now.")
+        learning.stop()
+        return Answer("The learning is stopped.")
+
+    async def _forget_drive(self, _page: Page, command: m.ForgetDrive) -> Answer:
+        await self._changed(lambda scene: self._drives.remove(scene, command.drive))
+        return Answer(f"Drive {command.drive} is deleted.")
+
+    async def _drive_network(self, page: Page, command: m.DriveNetwork) -> Answer:
+        editor, scene = self._required_editor(), self._scene
+        file = self._networks.file(scene, command.network)
+        result = await page.result(editor.set_driver(page.view.agent, f"{NETWORK}{file.name}"))
+        return change_answer("The network drives.", result)
+
+    async def _rename_network(self, _page: Page, command: m.RenameNetwork) -> Answer:
+        number, title = command.network, command.title
+        await self._changed(lambda scene: self._networks.rename(scene, number, title))
+        return Answer("The name is changed.")
+
+    async def _delete_network(self, _page: Page, command: m.DeleteNetwork) -> Answer:
+        file, editor = self._networks.file(self._scene, command.network), self._required_editor()
+        drivers = {editor.driver_of(agent.id) for agent in self._runner.latest.agents}
+        if f"{NETWORK}{file.name}" in drivers:
+            raise SetupError("this network drives an agent; choose another driver first")
+        await self._changed(lambda scene: self._networks.remove(scene, command.network))
+        return Answer("The network is deleted.")
+
+    async def _download_network(self, page: Page, command: m.DownloadNetwork) -> Answer:
+        file = self._networks.file(self._scene, command.network)
+        data = base64.b64encode(await page.in_thread(file.read_bytes)).decode()
+        return Answer(more={"name": file.name, "data": data})
+
+    async def _changed(self, change: Callable[[str], object]) -> None:
+        """Have the thread change something of the present scene, and look again."""
+
+        def task() -> None:
+            change(self._scene)
+            self._look()
+
+        await self._done(task)
+
+    async def _done(self, task: Callable[[], T]) -> T:
+        """Have the thread do something, and return its result."""
+        future: Future[T] = Future()
+
+        def run() -> None:
+            try:
+                future.set_result(task())
+            except Exception as error:
+                future.set_exception(error)
+
+        self._tasks.put(run)
+        return await result_of(future)
+
+    def _part(
+        self, work: _SceneWork, learning: Learning | None, agent: str, driver: str
+    ) -> m.TeachPart:
+        def is_driving(network: KeptNetwork) -> bool:
+            with suppress(SetupError):
+                return driver == f"{NETWORK}{self._networks.file(self._scene, network.number).name}"
+            return False
+
+        return m.TeachPart(
+            agent=agent,
+            problem=work.problems.get(agent, ""),
+            drives=list(work.drives.get(agent, ())),
+            learning=None if learning is None or learning.agent != agent else _state_of(learning),
+            networks=[
+                m.TaughtNetwork(each.number, each.title, each.how, is_driving(each))
+                for each in work.networks
+            ],
+            max_networks=MAX_NETWORKS,
+            warning=work.warning,
+        )
+
+    # -- in the world's thread ---------------------------------------------------------------------
+
+    def _on_done(self, episode: Episode) -> None:
+        if not episode.restarts and any(
+            len(each) and drove_by_keys(each) for each in episode.agents
+        ):
+            self._tasks.put(partial(self._keep, episode))
+
+    def _offered(self) -> Mapping[Path, str]:
+        """Return titles of this scene's networks, by their files; any thread calls it."""
+        titles = {}
+        for each in self._work.networks:
+            with suppress(SetupError):
+                titles[self._networks.file(self._scene, each.number)] = each.title
+        return titles
+
+    # -- in the option's thread --------------------------------------------------------------------
+
+    def _run(self) -> None:
+        while (task := self._tasks.get()) is not None:
+            try:
+                task()
+            except Exception as error:  # a block of a student's may raise anything
+                _logger.warning("teaching: %s", message_of(error))
+
+    def _keep(self, episode: Episode) -> None:
+        warning = ""
+        try:
+            self._drives.add(episode)
+        except OSError as error:
+            warning = f"The last drive could not be kept: {error.strerror}."
+        self._work = replace(self._work, warning=warning)
+        self._look()
+
+    def _look(self) -> None:
+        """Look at the drives and networks of the present scene again."""
+        editor = self._required_editor()
+        scene = editor.scene
+        sim = scene.build()
+        sim.reset(0)
+        described = export_scene(sim, scene.description)
+        drives = list(reversed(self._drives.drives(scene.description.name)))
+        self._work = _SceneWork(
+            version=self._work.version + 1,
+            problems={agent.id: reason_against_teaching(agent) for agent in sim.agents},
+            drives={agent.id: tuple(_shown(drives, agent, described)) for agent in sim.agents},
+            networks=tuple(reversed(self._networks.networks(scene.description.name))),
+            warning=self._work.warning,
+        )
+
+    def _begin_learning(self, agent: str, numbers: list[int]) -> None:
+        if self._learning is not None and not self._learning.is_over:
+            raise SetupError("the robot learns already; wait until it is done, or stop it")
+        if problem := self._work.problems.get(agent, ""):
+            raise SetupError(problem)
+        good = {each.number for each in self._work.drives.get(agent, ()) if not each.reason}
+        if missing := sorted(set(numbers) - good):
+            raise SetupError(f"expected drives that this robot can learn from, got {missing}")
+        scene = self._scene
+        files = [self._drives.file(scene, number) for number in sorted(set(numbers))]
+        self._learning = Learning(
+            files,
+            agent,
+            seed=0,
+            on_note=lambda _: None,
+            on_done=lambda learning, out: self._on_learned(scene, learning, out),
+        )
+
+    # -- in the thread of the learning -------------------------------------------------------------
+
+    def _on_learned(self, scene: str, learning: Learning, out: Path) -> None:
+        note, editor = learning.note, self._required_editor()
+        drives = f"{learning.drives} drive{'s' if learning.drives != 1 else ''}"
+        about = KeptNetwork(
+            number=0,
+            title="",
+            agent=learning.agent,
+            how=f"learned from {drives} with {note.decisions} decisions",
+            alike=note.alike,
+        )
+        network = out.read_bytes()
+
+        def keep() -> None:
+            kept = self._networks.add(scene, network, about)
+            self._look()
+            if self._scene == scene:
+                file = self._networks.file(scene, kept.number)
+                editor.set_driver(learning.agent, f"{NETWORK}{file.name}")
+
+        self._tasks.put(keep)
+
+    @property
+    def _scene(self) -> str:
+        """Name of the present scene."""
+        return self._required_editor().state.description.name
+
+    def _required_editor(self) -> SceneEditor:
+        assert self._editor is not None  # noqa: S101 - without one there are no commands
+        return self._editor
+
+
+def _shown(
+    drives: list[Drive], agent: BasicAgent, scene: SceneDescription
+) -> Iterator[m.TaughtDrive]:
+    for drive in drives:
+        record = drive.record(agent.id)
+        if record is not None:
+            yield m.TaughtDrive(
+                number=drive.number,
+                result=drive.episode.success,
+                seconds=round(drive.episode.seconds, 1),
+                decisions=len(record),
+                reason=drive.reason_against(agent, scene),
+            )
+
+
+def _state_of(learning: Learning) -> m.LearningState:
+    note = learning.note
+    return m.LearningState(
+        is_over=learning.is_over,
+        problem=note.problem,
+        errors=[round(error, 4) for _, error in learning.errors],
+        drives=learning.drives,
+        decisions=note.decisions,
+        alike=round(note.alike, 3),
+        commonest=round(note.commonest, 3),
+        remarks=list(note.remarks),
+    )

@@ -1,0 +1,55 @@
+"""The tab "Teach" in a real page: drives, a button, and a network that drives."""
+
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from ai4u_edu.teach.drives import DriveFolder
+from tests.browser.plain_page import WITHOUT_VISER
+from tests.chromium import new_page
+from tests.teach.driving import SEEDS, drive, teaching_room
+
+pytestmark = pytest.mark.browser
+
+
+def test_a_robot_learns_from_the_chosen_drives_and_drives(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    folder = DriveFolder(tmp_path / "drives")
+    for seed in SEEDS:
+        folder.add(drive(seed))
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    with teaching_room(tmp_path) as room:
+        WITHOUT_VISER.serve(page, room.url)
+        page.goto(room.url)
+        page.get_by_role("tab", name="Teach").click()
+        tab = page.get_by_role("tabpanel", name="Teach")
+        drives = tab.get_by_role("group", name="Drives to learn from")
+        expect(drives.get_by_role("checkbox", checked=True)).to_have_count(len(SEEDS))
+        drives.get_by_role("checkbox", name=re.compile("^Drive 1 ")).uncheck()
+        tab.get_by_role("button", name=f"Learn from {len(SEEDS) - 1} drives").click()
+        result = tab.get_by_role("status").filter(has_text="It acts like you in")
+        expect(result).to_contain_text("drives now")
+        card = tab.get_by_role("article")
+        expect(card).to_contain_text(f"learned from {len(SEEDS) - 1} drives")
+        expect(card.get_by_text("drives", exact=True)).to_be_visible()
+        expect(tab.get_by_role("img", name="The error")).to_be_visible()
+
+        card.get_by_role("button", name="Network 1").click()
+        tab.get_by_role("button", name="Rename").click()
+        page.get_by_role("textbox", name="Name").fill("Racer")
+        page.get_by_role("dialog").get_by_role("button", name="Rename").click()
+        expect(card.get_by_role("button", name="Racer")).to_be_visible()
+        with page.expect_download() as download:
+            tab.get_by_role("button", name="Download").click()
+        assert download.value.suggested_filename == "box_chase-1.onnx"
+        network = tmp_path / "networks" / "box_chase-1.onnx"
+        assert Path(download.value.path()).read_bytes() == network.read_bytes()
+
+        drives.get_by_role("button", name="Delete drive 2", exact=True).click()
+        expect(drives.get_by_role("checkbox")).to_have_count(len(SEEDS) - 1)
+        page.context.close()
+    assert problems == []

@@ -1,0 +1,1 @@
+"""Tests of :mod:`ai4u_edu.teach`."""

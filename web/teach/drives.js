@@ -1,0 +1,85 @@
+/** The drives that an agent can learn from, each with a box to choose it. */
+
+/**
+ * @import { TaughtDrive, TeachPart } from "../generated/messages.js"
+ * @import { Panel } from "../panel/panel.js"
+ */
+import { button, element, keyed, setText } from "../shared/dom.js";
+import { seconds } from "../shared/numbers.js";
+
+export class Drives {
+  #panel;
+  #onChoice;
+  /** What the person has chosen otherwise than we did, by the drive's number. */
+  #choices = /** @type {Map<number, boolean>} */ (new Map());
+  /** @type {TaughtDrive[]} */
+  #drives = [];
+  element = element("div", { className: "ai4u-teach-drives", role: "group", ariaLabel: "Drives to learn from" });
+
+  /**
+   * @param {Panel} panel
+   * @param {() => void} onChoice called when the person has chosen others
+   */
+  constructor(panel, onChoice) {
+    this.#panel = panel;
+    this.#onChoice = onChoice;
+  }
+
+  /** Numbers of the drives that are chosen. */
+  get chosen() {
+    return this.#drives.filter((drive) => this.#isChosen(drive)).map(({ number }) => number);
+  }
+
+  /** @param {TeachPart} part */
+  update({ drives }) {
+    this.#drives = drives;
+    keyed(
+      this.element,
+      drives,
+      ({ number }) => number,
+      (drive) => this.#row(drive),
+      (row, drive) => this.#draw(row, drive),
+    );
+  }
+
+  /** @param {TaughtDrive} drive */
+  #row({ number }) {
+    const box = element("input", { type: "checkbox" });
+    box.addEventListener("change", () => {
+      this.#choices.set(number, box.checked);
+      this.#onChoice();
+    });
+    const remove = button("", () => this.#panel.send("teach_forget_drive", { drive: number }), {
+      icon: "trash",
+      label: `Delete drive ${number}`,
+      kind: "quiet",
+    });
+    const words = element("span", {}, element("strong"), " ", element("span"));
+    return element("div", { className: "ai4u-teach-drive" }, element("label", {}, box, words), remove);
+  }
+
+  /**
+   * @param {HTMLElement} row
+   * @param {TaughtDrive} drive
+   */
+  #draw(row, drive) {
+    const box = row.querySelector("input");
+    const [title, about] = row.querySelectorAll("label strong, label strong + span");
+    box.disabled = Boolean(drive.reason);
+    if (box.checked !== this.#isChosen(drive)) box.checked = this.#isChosen(drive);
+    row.toggleAttribute("data-off", Boolean(drive.reason));
+    setText(title, `Drive ${drive.number}`);
+    setText(about, drive.reason || [outcome(drive), seconds(drive.seconds)].filter(Boolean).join(", "));
+  }
+
+  /** Good drives are chosen, until the person says otherwise. @param {TaughtDrive} drive */
+  #isChosen({ number, result, reason }) {
+    if (reason) return false;
+    return this.#choices.get(number) ?? (result ?? true);
+  }
+}
+
+/** @param {TaughtDrive} drive */
+function outcome({ result }) {
+  return result === null ? "" : result ? "goal reached" : "goal missed";
+}

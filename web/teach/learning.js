@@ -1,0 +1,42 @@
+/** How a learning goes, and how well it went. */
+
+/** @import { LearningState } from "../generated/messages.js" */
+import { element, keyed, setText } from "../shared/dom.js";
+import { Curve } from "../panel/widgets/curve.js";
+
+export class LearningView {
+  #curve = new Curve("The error, which falls while it learns");
+  #result = element("p", { role: "status" });
+  #remarks = element("ul", { className: "ai4u-teach-remarks" });
+  element = element("div", { className: "ai4u-teach-learning" }, this.#curve.element, this.#result, this.#remarks);
+
+  /** @param {LearningState | null} learning */
+  update(learning) {
+    this.element.hidden = learning === null;
+    if (learning === null) return;
+    this.#curve.update(learning.errors);
+    setText(this.#result, sentenceOf(learning));
+    this.#result.toggleAttribute("data-problem", Boolean(learning.problem));
+    keyed(
+      this.#remarks,
+      learning.remarks,
+      (remark) => remark,
+      (textContent) => element("li", { textContent }),
+    );
+    this.#remarks.hidden = learning.remarks.length === 0;
+  }
+}
+
+/** @param {LearningState} learning */
+function sentenceOf({ is_over: isOver, problem, drives, alike, commonest }) {
+  const from = `${drives} drive${drives === 1 ? "" : "s"}`;
+  if (problem === "stopped") return "The learning was stopped.";
+  if (problem) return `It could not learn: ${problem}.`;
+  if (!isOver) return `It learns from ${from}…`;
+  return `It acts like you in ${percent(alike)} of moments that it had not seen, and drives now. Always doing the same would be alike in ${percent(commonest)}.`;
+}
+
+/** @param {number} share */
+function percent(share) {
+  return `${Math.round(100 * share)}%`;
+}

@@ -1,0 +1,77 @@
+/** The tab "Teach": a network learns from a person's drives, and then it drives. */
+
+/**
+ * @import { TeachPart } from "../generated/messages.js"
+ * @import { Panel } from "../panel/panel.js"
+ */
+import { button, element, setText } from "../shared/dom.js";
+import { section } from "../panel/widgets/parts.js";
+import { Drives } from "../teach/drives.js";
+import { LearningView } from "../teach/learning.js";
+import { Networks } from "../teach/networks.js";
+
+const FIRST = "Drive to the goal a few times, from other starts each time. Every drive that ends is kept here, and the robot can learn from it.";
+
+export class Tab {
+  #panel;
+  #problem = element("p", { className: "ai4u-problem", role: "status" });
+  #first = element("p", { className: "ai4u-hint-text", textContent: FIRST });
+  #drives;
+  #learning = new LearningView();
+  #networks;
+  #warning = element("p", { className: "ai4u-problem", role: "status" });
+  #learn = button("Learn", () => void this.#begin(), { icon: "network", kind: "main" });
+  #stop = button("Stop", () => this.#panel.send("teach_stop"), { icon: "stop" });
+  #sections;
+  /** @type {TeachPart | null} */
+  #part = null;
+
+  /**
+   * @param {HTMLElement} root
+   * @param {Panel} panel
+   */
+  constructor(root, panel) {
+    this.#panel = panel;
+    this.#drives = new Drives(panel, () => this.#draw());
+    this.#networks = new Networks(panel);
+    const tools = element("div", { className: "ai4u-tools" }, this.#learn, this.#stop);
+    const content = [this.#first, this.#warning, this.#drives.element, tools, this.#learning.element];
+    this.#sections = {
+      drives: section("teach-drives", "From your drives", {}, ...content),
+      networks: section("teach-networks", "Your networks", {}, this.#networks.element),
+    };
+    root.append(this.#problem, this.#sections.drives, this.#sections.networks);
+  }
+
+  /** @param {TeachPart} part */
+  update(part) {
+    this.#part = part;
+    this.#draw();
+  }
+
+  #draw() {
+    const part = this.#part;
+    if (part === null) return;
+    const { drives, learning, networks, problem, warning } = part;
+    setText(this.#problem, problem);
+    this.#problem.hidden = !problem;
+    this.#sections.drives.hidden = Boolean(problem);
+    this.#first.hidden = drives.length > 0;
+    setText(this.#warning, warning);
+    this.#warning.hidden = !warning;
+    this.#drives.update(part);
+    const isLearning = learning !== null && !learning.is_over;
+    const count = this.#drives.chosen.length;
+    setText(this.#learn.querySelector("span"), `Learn from ${count} drive${count === 1 ? "" : "s"}`);
+    this.#learn.disabled = isLearning || count === 0;
+    this.#learn.hidden = drives.length === 0;
+    this.#stop.hidden = !isLearning;
+    this.#learning.update(learning);
+    this.#sections.networks.hidden = networks.length === 0;
+    this.#networks.update(part);
+  }
+
+  async #begin() {
+    await this.#panel.send("teach_learn", { drives: this.#drives.chosen }, { quiet: true });
+  }
+}
