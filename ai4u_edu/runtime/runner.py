@@ -333,6 +333,8 @@ class Runner:
 
         def command() -> None:
             if not replay.fits(self.sim):
+                if self.recorder is not None:
+                    self.recorder.scene = replay.episode.scene
                 self.replace_sim_now(replay.build(), seed=replay.episode.seed)
             replay.continue_from(step, agent=agent, sim=self.sim)
             self.error, self._publisher.past, self.paused = "", None, False

@@ -275,8 +275,10 @@ class Transactions:
         """Follow the runner if it runs another world, such as one continued from a recording."""
         if self._running.is_current:
             return
-        before = self.state
-        description = export_scene(self._runner.sim, before.description)
+        before, recorder, sim = self.state, self._runner.recorder, self._runner.sim
+        scene = before.description if recorder is None else recorder.scene or before.description
+        goal = {"goal": sim.goal, "success": sim.success or None}
+        description = export_scene(sim, scene.model_copy(update=goal))
         state = EditState(description, before.folder, source=before.source)
         self._running = RunningScene(self._runner, state, self._drivers)
         self._dragged = {}

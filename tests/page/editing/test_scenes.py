@@ -5,6 +5,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.page.editing import ChangeError
+from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from tests.page.editing.harness import TEXT, EditorHarness, trace
 
@@ -152,3 +153,24 @@ def test_editor_adopts_a_replaced_world() -> None:
     harness.done(harness.editor.undo())
     harness.done(harness.editor.undo())
     assert "ball" in harness.world.bodies
+
+
+@pytest.mark.parametrize("record", [True, False])
+def test_a_scene_that_goes_on_in_a_recording_of_another_one_can_be_opened(record: bool) -> None:
+    sumo = Scene.load("sumo")
+    sim = sumo.build()
+    recorder = Recorder(sim, scene=sumo.description)
+    sim.reset(1)
+    for _ in range(9):
+        sim.step()
+    recorder.finish()
+    harness = EditorHarness(Scene.load("box_chase"), record=record)
+    harness.done(harness.runner.continue_from(Replay(recorder.episodes[-1]), 2))
+    harness.done(harness.editor.add_body({"name": "ball", "position": [0, 3]}))
+    scene = Scene.loads(harness.editor.text())
+    assert scene.description.success == "win"
+    assert scene.description.goal == sumo.description.goal
+    assert scene.description.name == ("sumo" if record else "box_chase")
+    harness.done(harness.editor.undo())
+    harness.done(harness.editor.undo())
+    assert harness.editor.scene.description.success == "touch"
