@@ -24,6 +24,8 @@ for hours (0.3 MB an episode), and closed connections of a class likewise (30 MB
 collection takes 2 ms here, since most objects are frozen."""
 RELEASE_EVERY_S = 60.0
 """Period at which a server of many connections gives free memory back."""
+M_ARENA_MAX = -8
+"""glibc's number of the setting for how many heaps the threads of a process share."""
 
 
 @contextmanager
@@ -54,10 +56,14 @@ def released_memory() -> Iterator[None]:
     """Collect garbage and give free memory back to the system, every minute.
 
     asyncio receives into 256 KiB at a time. Between blocks of other sizes fewer and fewer gaps are
-    large enough for that, so that a class's memory would grow by 30 MB an hour.
+    large enough for that, so that a class's memory would grow by 30 MB an hour. glibc gives most
+    threads a heap of their own; each of them keeps gaps that the others can't use, so that a room
+    in which somebody edits would grow to twice its size. Python's threads run one at a time, and
+    hardly ever wait for each other at a common heap.
     """
     stopping = threading.Event()
-    trim = _malloc_trim()
+    _glibc("mallopt")(M_ARENA_MAX, 1)
+    trim = _glibc("malloc_trim")
 
     def run() -> None:
         while not stopping.wait(RELEASE_EVERY_S):
@@ -73,7 +79,7 @@ def released_memory() -> Iterator[None]:
         thread.join()
 
 
-def _malloc_trim() -> Callable[[int], object]:
-    """Return glibc's function that does it; elsewhere one that does nothing."""
-    found = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
-    return found or (lambda _: None)
+def _glibc(name: str) -> Callable[..., object]:
+    """Return a function of glibc; elsewhere one that does nothing."""
+    found = getattr(ctypes.CDLL(None), name, None) if sys.platform == "linux" else None
+    return found or (lambda *_: None)
