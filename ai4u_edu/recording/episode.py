@@ -37,8 +37,8 @@ MAX_TICK = 2_000_000
 _MAX_SKIP_FRAME = 10_000
 """The largest skip_frame that a brain may have."""
 
-REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED = 1, 2, 4, 8, 16
-"""Bits of a decision's flags."""
+REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED, PERSON = 1, 2, 4, 8, 16, 32
+"""Bits of a decision's flags. Files of earlier versions have no PERSON."""
 
 NO_ROWS = Table.of([])
 MAX_DRIVER_CHARS = 200
@@ -79,7 +79,8 @@ class AgentRecord:
     skip: npt.NDArray[np.uint16]
     """(n,) ``skip_frame`` of the brain."""
     flags: npt.NDArray[np.uint8]
-    """(n,) REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED (before it was taken)."""
+    """(n,) REPEAT, ENDED, TERMINATED, TRUNCATED, DONE_REQUESTED (before it was taken), PERSON (a
+    brain that listens to keys decided)."""
     actions: Table
     terms: Table
     rewards: npt.NDArray[np.float64]

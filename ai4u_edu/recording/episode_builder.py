@@ -8,6 +8,7 @@ import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.driving_keys import active_brain, has_driving_keys
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import Brain
 from ai4u_edu.recording.checksum import percept_checksum, world_checksum
@@ -17,6 +18,7 @@ from ai4u_edu.recording.episode import (
     MAX_DRIVER_CHARS,
     MAX_TICK,
     NO_ROWS,
+    PERSON,
     REPEAT,
     TERMINATED,
     TRUNCATED,
@@ -53,6 +55,10 @@ class _AgentColumns:
         self.brain: Brain | None = None
         self.driver = ""
         """Title of that brain."""
+        self.decider: Brain | None = None
+        """That brain, or one by which a person overrides it."""
+        self.is_person = False
+        """True if the decider listens to keys."""
         self.drivers: Counter[str] = Counter()
         """Number of decisions by the title of the brain that took them."""
         self.open_step = -1
@@ -144,7 +150,14 @@ class EpisodeBuilder:
         column.begin.append(world.ticks)
         column.end.append(world.ticks)
         column.skip.append(brain.skip_frame)
-        column.flags.append(REPEAT * brain.repeat_action | DONE_REQUESTED * agent.is_done_requested)
+        decider = active_brain(brain)
+        if decider is not column.decider:
+            column.decider, column.is_person = decider, has_driving_keys(agent)
+        column.flags.append(
+            REPEAT * brain.repeat_action
+            | DONE_REQUESTED * agent.is_done_requested
+            | PERSON * column.is_person
+        )
         column.carried.append(agent.ledger.brought)
         column.actions.append(agent.last_action)
         column.terms.append({})

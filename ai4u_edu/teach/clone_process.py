@@ -44,7 +44,10 @@ def main() -> None:
 def _learn(request: CloneRequest) -> CloneNote:
     episodes = [Episode.load(path) for path in request.drives]
     shown = demonstrations(episodes, agent=request.agent)
-    drives = [DriveData(each.observations, each.actions, each.rewards) for each in shown.episodes]
+    drives = [
+        DriveData(each.observations, each.actions, each.rewards, each.by_person)
+        for each in shown.episodes
+    ]
     player = Player(episodes[-1])
     agent = player.sim.agent(request.agent)
     decision_s = player.sim.world.dt * (shown.skip_frame + 1)
@@ -60,12 +63,12 @@ def _learn(request: CloneRequest) -> CloneNote:
         "scene": shown.scene.name,
         "algorithm": "clone",
         "seed": request.seed,
-        "steps": shown.decisions,
+        "steps": sum(map(len, drives)),
     }
     write_network(result.network, agent, about, Path(request.out))
     return CloneNote(
         is_done=True,
-        decisions=shown.decisions,
+        decisions=sum(map(len, drives)),
         alike=result.alike,
         commonest=result.commonest,
         held_out=result.held_out,

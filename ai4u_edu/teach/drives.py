@@ -8,8 +8,7 @@ from pathlib import Path
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError
-from ai4u_edu.recording.archive import drove_by_keys
-from ai4u_edu.recording.episode import encode
+from ai4u_edu.recording.episode import PERSON, encode
 from ai4u_edu.recording.scene_export import without_brains
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach.scene_folder import SceneFolder, number_of
@@ -25,7 +24,6 @@ TOO_SHORT = "too short"
 CHANGED = "the scene was changed during it"
 OTHER_ROBOT = "the robot had other sensors or actuators"
 OTHER_SCENE = "the scene was another one"
-NO_PERSON = "a person drove only a part of it"
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +35,9 @@ class Drive:
     episode: Episode
 
     def record(self, agent: str) -> AgentRecord | None:
-        """Return what an agent did in it, if a person drove the agent; else None."""
+        """Return what an agent did in it, if a person decided there at least once; else None."""
         record = next((each for each in self.episode.agents if each.id == agent), None)
-        return record if record is not None and drove_by_keys(record) else None
+        return record if record is not None and persons_decisions(record) else None
 
     def reason_against(self, agent: BasicAgent, scene: SceneDescription) -> str:
         """Return why an agent can't learn from the drive, in a few words; empty if it can.
@@ -50,9 +48,7 @@ class Drive:
                 describes it.
         """
         record, episode = self.record(agent.id), self.episode
-        if record is None or ", " in record.driver:
-            return NO_PERSON
-        if len(record) < MIN_DECISIONS:
+        if record is None or persons_decisions(record) < MIN_DECISIONS:
             return TOO_SHORT
         if episode.changed is not None:
             return CHANGED
@@ -108,6 +104,11 @@ class DriveFolder:
         path = self.file(scene, number)
         path.unlink(missing_ok=True)
         self._loaded.pop(path, None)
+
+
+def persons_decisions(record: AgentRecord) -> int:
+    """Return how many decisions of an agent a person took, by keys."""
+    return int(((record.flags & PERSON) > 0).sum())
 
 
 def _blocks_of(scene: SceneDescription, agent: str) -> object:

@@ -62,7 +62,9 @@ class TaughtDrive(Struct, frozen=True):
     seconds: float
     """Duration (s) in world time."""
     decisions: int
-    """Decisions of the agent."""
+    """Decisions that the person took."""
+    share: float
+    """Share of the agent's decisions that the person took, above 0, up to 1."""
     reason: str
     """Why the agent can't learn from it, in a few words; empty if it can."""
 

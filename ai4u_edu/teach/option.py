@@ -29,13 +29,12 @@ from ai4u_edu.page.server.web_files import web_folder
 from ai4u_edu.page.viewer.backend.part import Part
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.archive import drove_by_keys
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach import messages as m
-from ai4u_edu.teach.drives import Drive, DriveFolder
+from ai4u_edu.teach.drives import Drive, DriveFolder, persons_decisions
 from ai4u_edu.teach.learning import Learning
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
 from ai4u_edu.teach.teachable import reason_against_teaching
@@ -221,9 +220,7 @@ class TeachOption:
     # -- in the world's thread ---------------------------------------------------------------------
 
     def _on_done(self, episode: Episode) -> None:
-        if not episode.restarts and any(
-            len(each) and drove_by_keys(each) for each in episode.agents
-        ):
+        if not episode.restarts and any(map(persons_decisions, episode.agents)):
             self._tasks.put(partial(self._keep, episode))
 
     def _offered(self) -> Mapping[Path, str]:
@@ -329,7 +326,8 @@ def _shown(
                 number=drive.number,
                 result=drive.episode.success,
                 seconds=round(drive.episode.seconds, 1),
-                decisions=len(record),
+                decisions=persons_decisions(record),
+                share=round(persons_decisions(record) / len(record), 3),
                 reason=drive.reason_against(agent, scene),
             )
 

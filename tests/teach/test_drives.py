@@ -3,11 +3,13 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.recording import Episode
+from ai4u_edu.recording.episode import PERSON
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach import drives
@@ -55,9 +57,10 @@ def test_each_other_drive_has_its_reason(driven: Episode) -> None:
     assert reason(driven, moved) == drives.OTHER_SCENE
     blind = changed("box_chase", "rows: 3", "rows: 2")
     assert reason(driven, blind) == drives.OTHER_ROBOT
-    record = replace(driven.agents[0], driver=f"{driven.agents[0].driver}, LocalBrain(Other)")
-    mixed = replace(driven, agents=(record,))
-    assert reason(mixed, scene) == drives.NO_PERSON
+    few = driven.agents[0].flags & ~np.uint8(PERSON)
+    few[:4] |= PERSON
+    mixed = replace(driven, agents=(replace(driven.agents[0], flags=few),))
+    assert reason(mixed, scene) == drives.TOO_SHORT
 
 
 def test_a_drive_is_there_after_a_restart(driven: Episode, tmp_path: Path) -> None:

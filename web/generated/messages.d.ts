@@ -596,8 +596,10 @@ export interface TaughtDrive {
   result: boolean | null;
   /** Duration (s) in world time. */
   seconds: number;
-  /** Decisions of the agent. */
+  /** Decisions that the person took. */
   decisions: number;
+  /** Share of the agent's decisions that the person took, above 0, up to 1. */
+  share: number;
   /** Why the agent can't learn from it, in a few words; empty if it can. */
   reason: string;
 }

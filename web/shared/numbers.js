@@ -24,6 +24,14 @@ export function seconds(value) {
 }
 
 /**
+ * Return a share as "35%".
+ * @param {number} share 0 to 1
+ */
+export function percent(share) {
+  return `${Math.round(100 * share)}%`;
+}
+
+/**
  * Return the time (s) that is left, or has passed, as a clock shows it: "1:05". It rounds up, and never runs below zero.
  * @param {number} seconds
  */

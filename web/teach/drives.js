@@ -5,7 +5,7 @@
  * @import { Panel } from "../panel/panel.js"
  */
 import { button, element, keyed, setText } from "../shared/dom.js";
-import { seconds } from "../shared/numbers.js";
+import { percent, seconds } from "../shared/numbers.js";
 
 export class Drives {
   #panel;
@@ -69,7 +69,8 @@ export class Drives {
     if (box.checked !== this.#isChosen(drive)) box.checked = this.#isChosen(drive);
     row.toggleAttribute("data-off", Boolean(drive.reason));
     setText(title, `Drive ${drive.number}`);
-    setText(about, drive.reason || [outcome(drive), seconds(drive.seconds)].filter(Boolean).join(", "));
+    const facts = [outcome(drive), seconds(drive.seconds), drive.share < 1 && `you drove ${percent(drive.share)}`];
+    setText(about, drive.reason || facts.filter(Boolean).join(", "));
   }
 
   /** Good drives are chosen, until the person says otherwise. @param {TaughtDrive} drive */

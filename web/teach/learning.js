@@ -2,6 +2,7 @@
 
 /** @import { LearningState } from "../generated/messages.js" */
 import { element, keyed, setText } from "../shared/dom.js";
+import { percent } from "../shared/numbers.js";
 import { Curve } from "../panel/widgets/curve.js";
 
 export class LearningView {
@@ -34,9 +35,4 @@ function sentenceOf({ is_over: isOver, problem, drives, alike, commonest }) {
   if (problem) return `It could not learn: ${problem}.`;
   if (!isOver) return `It learns from ${from}…`;
   return `It acts like you in ${percent(alike)} of moments that it had not seen, and drives now. Always doing the same would be alike in ${percent(commonest)}.`;
-}
-
-/** @param {number} share */
-function percent(share) {
-  return `${Math.round(100 * share)}%`;
 }

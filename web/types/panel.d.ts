@@ -122,6 +122,7 @@ export interface AnswerFields {
   paid: { terms: PaidCurve[]; moments: PaidMoment[] };
   rivals: { rivals: Rival[] };
   scenes: { items: SceneCard[] };
+  teach_download: { name: string; data: string };
   what_if: { dials: Dial[]; action: ChangedNumber[] };
 }
 

@@ -99,9 +99,16 @@ class DriveData:
     """(n, numbers) within the action space; (n,) for choices."""
     rewards: Array | None = None
     """(n,) of each decision; with them, the critic learns what this driver's way is worth."""
+    is_shown: Array | None = None
+    """(n,) True for the moments to learn from; None for all. In the others somebody else drove."""
 
     def __len__(self) -> int:
-        return len(self.actions)
+        return len(self.actions) if self.is_shown is None else int(self.is_shown.sum())
+
+    def shown(self, rows: Array) -> Array:
+        """Return the rows of the moments to learn from, of (n, ...) or (n + 1, ...)."""
+        rows = rows[: len(self.actions)]
+        return rows if self.is_shown is None else rows[self.is_shown]
 
 
 @dataclass(frozen=True)
@@ -161,10 +168,10 @@ def clone_drives(
     if moments < 2:
         raise SetupError(f"expected drives of at least 2 decisions, got {moments}")
     generator = np.random.default_rng(checked_seed(seed))
-    readings = np.concatenate([drive.observations[: len(drive)] for drive in drives])
+    readings = np.concatenate([drive.shown(drive.observations) for drive in drives])
     readings = readings.astype(np.float32)
     first = ActorCritic(observation_space, action_space, layers)
-    wanted = _as_targets(first, np.concatenate([drive.actions for drive in drives]))
+    wanted = _as_targets(first, np.concatenate([drive.shown(drive.actions) for drive in drives]))
     is_held_out = _held_out(drives, block, generator)
     seen, unseen = np.flatnonzero(~is_held_out), np.flatnonzero(is_held_out)
 
@@ -285,14 +292,14 @@ def _judge(
 
 
 def _worth(drive: DriveData) -> Floats:
-    """Return the discounted reward from each moment of a drive on, (n,)."""
+    """Return the discounted reward from each moment on that is learned from."""
     assert drive.rewards is not None  # noqa: S101 - the caller has looked
-    worth = np.zeros(len(drive), np.float32)
+    worth = np.zeros(len(drive.actions), np.float32)
     later = 0.0
-    for moment in reversed(range(len(drive))):
+    for moment in reversed(range(len(worth))):
         later = float(drive.rewards[moment]) + DISCOUNT * later
         worth[moment] = later
-    return worth
+    return drive.shown(worth)
 
 
 def _held_out(

@@ -18,6 +18,7 @@ from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks import Actuator
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError, Replay
+from ai4u_edu.recording.episode import PERSON
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes import Scene, SceneDescription
 
@@ -40,6 +41,8 @@ class Demonstration:
     rewards: npt.NDArray[np.float64]
     terminations: npt.NDArray[np.bool_]
     truncations: npt.NDArray[np.bool_]
+    by_person: npt.NDArray[np.bool_]
+    """(n,) True where a person decided, by keys; False also in older files, which don't say."""
 
     def __len__(self) -> int:
         return len(self.rewards)
@@ -233,7 +236,8 @@ def _own_episodes(
     ends = [*record.starts.tolist()[1:], len(record)]
     found = []
     for start, end, seen in zip(record.starts.tolist(), ends, percepts, strict=True):
-        decisions = [record[step] for step in range(start, end) if record[step].ended]
+        steps = [step for step in range(start, end) if record[step].ended]
+        decisions = [record[step] for step in steps]
         if not decisions:
             continue
         # a percept more than there are decisions: what came of the last one
@@ -247,6 +251,7 @@ def _own_episodes(
                 rewards=np.array([each.reward for each in decisions], np.float64),
                 terminations=np.array([each.terminated for each in decisions], np.bool_),
                 truncations=np.array([each.truncated for each in decisions], np.bool_),
+                by_person=(record.flags[steps] & PERSON) > 0,
             )
         )
     return found
