@@ -20,7 +20,7 @@ _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM
 
 
 class CloneRequest(Struct, frozen=True):
-    """What to learn from."""
+    """Drives to learn from, and the place for the network."""
 
     drives: list[str]
     """Files of the episodes."""
@@ -34,7 +34,7 @@ class CloneRequest(Struct, frozen=True):
 
 
 class CloneNote(Struct, frozen=True, omit_defaults=True):
-    """How far it is."""
+    """State of a learning."""
 
     update: int = 0
     """Gradient steps so far."""
@@ -43,7 +43,7 @@ class CloneNote(Struct, frozen=True, omit_defaults=True):
     is_done: bool = False
     """True for the last one: the network is in its file."""
     problem: str = ""
-    """Why it can't learn, as a sentence; it is the last one then."""
+    """Sentence about why it can't learn; it is the last one then."""
     decisions: int = 0
     """Decisions that it learned from."""
     alike: float = 0.0

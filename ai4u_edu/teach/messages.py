@@ -1,4 +1,4 @@
-"""Commands of the tab in which an agent is taught, and what the tab shows."""
+"""Commands of the tab in which an agent is taught, and its part."""
 
 from typing import Annotated, Literal
 
@@ -66,7 +66,7 @@ class TaughtDrive(Struct, frozen=True):
     share: float
     """Share of the agent's decisions that the person took, above 0, up to 1."""
     reason: str
-    """Why the agent can't learn from it, in a few words; empty if it can."""
+    """Reason why the agent can't learn from it, in a few words; empty if it can."""
 
 
 class LearningState(Struct, frozen=True):
@@ -75,9 +75,9 @@ class LearningState(Struct, frozen=True):
     is_over: bool
     """True once it is done, has failed or was stopped."""
     problem: str
-    """Why it brought nothing, as a sentence; empty if it is under way or done."""
+    """Sentence about why it brought nothing; empty if it is under way or done."""
     errors: list[float]
-    """Errors on held-out moments, every so many gradient steps."""
+    """Errors on held-out moments, at equal distances of gradient steps."""
     drives: int
     """Drives that it learns from."""
     decisions: int
@@ -97,19 +97,19 @@ class TaughtNetwork(Struct, frozen=True):
     """Number among those of its scene."""
     title: str
     how: str
-    """How it learned, as a sentence."""
+    """Sentence about how it learned."""
     is_driving: bool
     """True if it drives the agent now."""
 
 
 class TeachPart(PanelPart, frozen=True, kw_only=True):
-    """What an agent can learn from, and its networks."""
+    """Drives that an agent can learn from, and its networks."""
 
     name: Literal["teach"] = "teach"
     agent: str
     """Id of the agent that the page shows."""
     problem: str
-    """Why the agent can't be taught, as a sentence; empty if it can."""
+    """Sentence about why the agent can't be taught; empty if it can."""
     drives: list[TaughtDrive]
     """A person's finished drives of the agent, the latest first."""
     learning: LearningState | None
@@ -119,4 +119,4 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     max_networks: int
     """Networks that are kept for a scene."""
     warning: str
-    """Why a drive could not be kept, as a sentence; empty if all could."""
+    """Sentence about why a drive could not be kept; empty if all could."""

@@ -16,7 +16,7 @@ MAX_TITLE_CHARS = 40
 
 @dataclass(frozen=True)
 class KeptNetwork:
-    """What is known of a network beside its file."""
+    """Title and origin of a network."""
 
     number: int
     """Number among those of its scene."""

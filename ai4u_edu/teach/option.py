@@ -46,11 +46,11 @@ _logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class _SceneWork:
-    """What is known of one scene's drives and networks; replaced with every change."""
+    """Drives and networks of one scene; replaced with every change."""
 
     version: int = 0
     problems: Mapping[str, str] = field(default_factory=dict)
-    """Why an agent can't be taught, by its id; empty if it can."""
+    """Sentence about why an agent can't be taught, by its id; empty if it can."""
     drives: Mapping[str, tuple[m.TaughtDrive, ...]] = field(default_factory=dict)
     """Drives by the agent, the latest first."""
     networks: tuple[KeptNetwork, ...] = ()

@@ -1,4 +1,4 @@
-"""Whether an agent can be taught, and what a person can change if it can't."""
+"""Reasons why an agent can't be taught, and the changes that help."""
 
 from gymnasium import spaces
 

@@ -600,7 +600,7 @@ export interface TaughtDrive {
   decisions: number;
   /** Share of the agent's decisions that the person took, above 0, up to 1. */
   share: number;
-  /** Why the agent can't learn from it, in a few words; empty if it can. */
+  /** Reason why the agent can't learn from it, in a few words; empty if it can. */
   reason: string;
 }
 
@@ -608,9 +608,9 @@ export interface TaughtDrive {
 export interface LearningState {
   /** True once it is done, has failed or was stopped. */
   is_over: boolean;
-  /** Why it brought nothing, as a sentence; empty if it is under way or done. */
+  /** Sentence about why it brought nothing; empty if it is under way or done. */
   problem: string;
-  /** Errors on held-out moments, every so many gradient steps. */
+  /** Errors on held-out moments, at equal distances of gradient steps. */
   errors: number[];
   /** Drives that it learns from. */
   drives: number;
@@ -629,19 +629,19 @@ export interface TaughtNetwork {
   /** Number among those of its scene. */
   number: number;
   title: string;
-  /** How it learned, as a sentence. */
+  /** Sentence about how it learned. */
   how: string;
   /** True if it drives the agent now. */
   is_driving: boolean;
 }
 
-/** What an agent can learn from, and its networks. */
+/** Drives that an agent can learn from, and its networks. */
 export interface TeachPart {
   type: "part";
   name: "teach";
   /** Id of the agent that the page shows. */
   agent: string;
-  /** Why the agent can't be taught, as a sentence; empty if it can. */
+  /** Sentence about why the agent can't be taught; empty if it can. */
   problem: string;
   /** A person's finished drives of the agent, the latest first. */
   drives: TaughtDrive[];
@@ -651,7 +651,7 @@ export interface TeachPart {
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
   max_networks: number;
-  /** Why a drive could not be kept, as a sentence; empty if all could. */
+  /** Sentence about why a drive could not be kept; empty if all could. */
   warning: string;
 }
 

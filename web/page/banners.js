@@ -62,7 +62,7 @@ export class Banners {
   #requestError = "";
   #timer = 0;
   /**
-   * What was drawn last; null before the first time.
+   * Arguments of the last drawing; null before the first time.
    * @type {Parameters<Banners["draw"]> | null}
    */
   #lastDraw = null;

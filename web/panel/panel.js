@@ -74,7 +74,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   /** The person drives with it. */
   driving;
   /**
-   * Who drives; null before it is known.
+   * The driver; null before it is known.
    * @type {DriverView | null}
    */
   driver = null;

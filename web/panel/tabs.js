@@ -8,7 +8,7 @@ const SMALL = matchMedia("(max-width: 576px), (max-height: 500px)");
 
 export class Tabs {
   /**
-   * By name.
+   * Tabs by name.
    * @type {Map<string, {tab: HTMLButtonElement, panel: HTMLElement}>}
    */
   #tabs = new Map();

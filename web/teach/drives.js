@@ -10,7 +10,7 @@ import { percent, seconds } from "../shared/numbers.js";
 export class Drives {
   #panel;
   #onChoice;
-  /** What the person has chosen otherwise than we did, by the drive's number. */
+  /** Choices of the person that differ from ours, by the drive's number. */
   #choices = /** @type {Map<number, boolean>} */ (new Map());
   /** @type {TaughtDrive[]} */
   #drives = [];

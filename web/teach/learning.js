@@ -1,4 +1,4 @@
-/** How a learning goes, and how well it went. */
+/** The progress of a learning, and its result. */
 
 /** @import { LearningState } from "../generated/messages.js" */
 import { element, keyed, setText } from "../shared/dom.js";

@@ -31,7 +31,7 @@ export class BuildTab {
   #shownDriver = "";
   #timer = 0;
   /**
-   * By kind of block.
+   * Lists by kind of block.
    * @type {Map<string, {cards: CardList, none: HTMLElement}>}
    */
   #lists = new Map();

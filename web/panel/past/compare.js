@@ -21,7 +21,7 @@ export class Comparison {
   /** @type {Rival[]} */
   #rivals = [];
   /**
-   * Where they first disagree.
+   * Step at which they first disagree.
    * @type {number | null}
    */
   #step = null;

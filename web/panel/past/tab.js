@@ -22,7 +22,7 @@ export class PastTab {
   #comparison;
   #paid;
   /**
-   * By the number of their episode.
+   * Cards by the number of their episode.
    * @type {Map<number, EpisodeCard>}
    */
   #cards = new Map();

@@ -20,7 +20,7 @@ export class WhatIf {
   #dials = [];
   #chosen = "";
   /**
-   * By the id of their dial.
+   * Changes by the id of their dial.
    * @type {Map<string, Change>}
    */
   #changes = new Map();

@@ -14,7 +14,7 @@ const FIRST_COUNT = 3;
 export class Form {
   #onChange;
   /**
-   * By the name of their field.
+   * Rows by the name of their field.
    * @type {Map<string, FieldRow>}
    */
   #rows = new Map();

@@ -18,7 +18,7 @@ const HINT_ON =
 export class WorldTab {
   #panel;
   /**
-   * By the name of their thing.
+   * Cards by the name of their thing.
    * @type {Map<string, BodyCard>}
    */
   #cards = new Map();
