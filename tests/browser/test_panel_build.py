@@ -257,6 +257,18 @@ def test_drivers_are_tried_again_after_a_change_only(tab: TabPage) -> None:
     assert tab.sent() == []
 
 
+def test_drivers_of_another_scene_are_not_offered(tab: TabPage) -> None:
+    options = tab.page.get_by_label("Driven by").locator("option")
+    expect(options).to_have_count(len(DRIVERS))
+    tab.answer("drivers", items=DRIVERS[:1])
+    tab.page.evaluate("panel.give('scene', { scene: 'donut' })")
+    assert options.all_inner_texts() == ["…"]
+    expect(options).to_have_text([DRIVERS[0]["title"]])
+    assert tab.sent() == [{"command": "drivers"}]
+    tab.page.evaluate("panel.give('scene', { scene: 'donut', title: 'Donut' })")
+    assert options.all_inner_texts() == [DRIVERS[0]["title"]]
+
+
 def test_a_driver_is_chosen_and_one_that_can_not_drive_is_grey(tab: TabPage) -> None:
     driver = tab.page.get_by_label("Driven by")
     expect(driver).to_have_value("brain:0")

@@ -28,6 +28,8 @@ export class BuildTab {
   /** @type {DriverChoice[]} */
   #drivers = [];
   #driversKey = "";
+  /** Name of the scene that the drivers are for. */
+  #scene = "";
   #shownDriver = "";
   #timer = 0;
   /**
@@ -57,6 +59,8 @@ export class BuildTab {
       onChange: (values) => panel.send("change_agent", { values }),
     });
     root.append(section("build-settings", "Agent's settings", { isOpen: false }, this.#settings.element));
+    this.#scene = panel.part("scene")?.scene ?? "";
+    panel.addEventListener("part:scene", ({ detail }) => this.#onScene(detail.scene));
   }
 
   /** @param {BlocksPart} part */
@@ -85,9 +89,24 @@ export class BuildTab {
     this.#timer = setTimeout(() => this.#fetchDrivers(), DRIVERS_DELAY_MS);
   }
 
+  /**
+   * Forget the drivers of another scene, which may not fit.
+   * @param {string} scene
+   */
+  #onScene(scene) {
+    if (scene === this.#scene) return;
+    this.#scene = scene;
+    this.#drivers = [];
+    this.#driversKey = ""; // the next part asks for them again, also if it has the same blocks
+    this.#showDrivers(this.#shownDriver);
+    const part = this.#panel.part("blocks");
+    if (part) this.#followDrivers(part);
+  }
+
   async #fetchDrivers() {
+    const scene = this.#scene;
     const answer = await this.#panel.send("drivers", {}, { quiet: true });
-    if (!answer.ok) return;
+    if (!answer.ok || scene !== this.#scene) return;
     this.#drivers = answer.items;
     this.#showDrivers(this.#shownDriver);
   }
