@@ -4,31 +4,28 @@ It reads a :class:`CloneRequest` as JSON from its input, and writes a line of JS
 :class:`CloneNote`: while it learns, and at its end. The network goes into a file.
 """
 
-import os
 import sys
 from pathlib import Path
 
 import msgspec
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.base.process_family import end_with_parent
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.learn.small.behaviour_cloning import DriveData, clone_drives
 from ai4u_edu.learn.small.onnx_file import write_network
 from ai4u_edu.learn.training.demonstrations import demonstrations
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
+from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
 from ai4u_edu.teach.learning import CloneNote, CloneRequest
 
-NICENESS = 19
-MAX_MEMORY_BYTES = 512 * 2**20
 HELD_OUT_S = 2.0
 """Length (s) of the blocks that are held out if there are few drives."""
 
 
 def main() -> None:
     """Learn what the input asks for."""
-    _leave_the_processor_to_others()
+    leave_the_processor_to_others()
     request = msgspec.json.decode(sys.stdin.buffer.read(), type=CloneRequest)
     try:
         for file in request.blocks:
@@ -74,17 +71,6 @@ def _learn(request: CloneRequest) -> CloneNote:
         held_out=result.held_out,
         remarks=list(result.remarks),
     )
-
-
-def _leave_the_processor_to_others() -> None:
-    end_with_parent(os.getppid())
-    if sys.platform == "win32":
-        return
-    import resource
-
-    os.nice(NICENESS)
-    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
-    resource.setrlimit(resource.RLIMIT_DATA, (MAX_MEMORY_BYTES, hard))
 
 
 def _say(note: CloneNote) -> None:

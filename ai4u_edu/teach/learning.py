@@ -12,11 +12,11 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
+from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.blocks.loading import own_files
 
 STOPPED = "stopped"
 DIED = "the program that learns has ended; learn again"
-_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 
 class CloneRequest(Struct, frozen=True):
@@ -92,7 +92,7 @@ class Learning:
             [sys.executable, "-m", "ai4u_edu.teach.clone_process"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            env=os.environ | _ONE_THREAD,
+            env=os.environ | ONE_THREAD,
         )
         threading.Thread(target=self._run, name="teach learning", daemon=True).start()
 

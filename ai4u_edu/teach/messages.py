@@ -4,10 +4,13 @@ from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from ai4u_edu.page.messages import Number, PageCommand
+from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.teach.drives import MAX_DRIVES
 from ai4u_edu.teach.networks import MAX_TITLE_CHARS
+
+MIN_STEPS, MAX_STEPS = 256, 1_000_000
+"""Fewest and most decisions of a practice."""
 
 
 class LearnFromDrives(PageCommand, tag="teach_learn"):
@@ -19,6 +22,21 @@ class LearnFromDrives(PageCommand, tag="teach_learn"):
 
 class StopLearning(PageCommand, tag="teach_stop"):
     """End the learning without a result."""
+
+
+class PractiseForRewards(PageCommand, tag="teach_practise"):
+    """Have a network practise for rewards with the page's agent, and drive it meanwhile."""
+
+    steps: Annotated[int, Meta(ge=MIN_STEPS, le=MAX_STEPS)]
+    """Decisions to learn from."""
+    weights: Annotated[dict[Name, Annotated[float, Meta(ge=-1000, le=1000)]], Meta(max_length=64)]
+    """Factors of reward terms by name; 1 for one that is left out."""
+    begin_with: Number | None = None
+    """Number of a network to begin with; null for a new one."""
+
+
+class StopPractising(PageCommand, tag="teach_stop_practising"):
+    """End the practice; the best network until then is kept."""
 
 
 class ForgetDrive(PageCommand, tag="teach_forget_drive"):
@@ -90,6 +108,22 @@ class LearningState(Struct, frozen=True):
     """Sentences about what is wrong with the drives."""
 
 
+class PracticeState(Struct, frozen=True):
+    """State of the latest practice of the agent."""
+
+    is_over: bool
+    problem: str
+    """Sentence about why it ended early; empty if it did not."""
+    decisions: int
+    """Decisions that it has learned from."""
+    total: int
+    """Decisions after which it ends at the latest."""
+    rewards: list[float]
+    """Mean reward of an episode, by the weights, at each check."""
+    success: float | None
+    """Share of the episodes of the latest check that reached the goal; null if there was none."""
+
+
 class TaughtNetwork(Struct, frozen=True):
     """A network that learned in this scene."""
 
@@ -114,6 +148,10 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """A person's finished drives of the agent, the latest first."""
     learning: LearningState | None
     """The latest learning of the agent; null if there was none since the start."""
+    rewards: list[str]
+    """Names of the agent's reward terms."""
+    practice: PracticeState | None
+    """The latest practice of the agent; null if there was none since the start."""
     networks: list[TaughtNetwork]
     """Networks of this scene, the latest first."""
     max_networks: int

@@ -2,8 +2,9 @@
 
 import base64
 import logging
+import tempfile
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -16,8 +17,10 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.base.options import OptionTab
+from ai4u_edu.blocks import LocalBrain, NeuralNetController
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.drivers import NETWORK
+from ai4u_edu.page.editing.state import reward_names
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.answers import Answer, change_answer
@@ -37,6 +40,7 @@ from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.drives import Drive, DriveFolder, persons_decisions
 from ai4u_edu.teach.learning import Learning
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
+from ai4u_edu.teach.practice import Practice, PracticeRequest
 from ai4u_edu.teach.teachable import reason_against_teaching
 
 T = TypeVar("T")
@@ -53,6 +57,8 @@ class _SceneWork:
     """Sentence about why an agent can't be taught, by its id; empty if it can."""
     drives: Mapping[str, tuple[m.TaughtDrive, ...]] = field(default_factory=dict)
     """Drives by the agent, the latest first."""
+    rewards: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    """Names of an agent's reward terms, by its id."""
     networks: tuple[KeptNetwork, ...] = ()
     """The latest first."""
     warning: str = ""
@@ -83,6 +89,7 @@ class TeachOption:
         self.commands: Mapping[type[PageCommand], Handler] = {}
         self._work = _SceneWork()
         self._learning: Learning | None = None
+        self._practice: Practice | None = None
         self._tasks = SimpleQueue[Callable[[], object] | None]()
         folder = None if editor is None else editor.work_folder
         if editor is None or folder is None:
@@ -91,6 +98,8 @@ class TeachOption:
         self.commands = {
             m.LearnFromDrives: self._learn,
             m.StopLearning: self._stop_learning,
+            m.PractiseForRewards: self._practise,
+            m.StopPractising: self._stop_practising,
             m.ForgetDrive: self._forget_drive,
             m.DriveNetwork: self._drive_network,
             m.RenameNetwork: self._rename_network,
@@ -113,11 +122,13 @@ class TeachOption:
         work, learning, agent = self._work, self._learning, view.agent
         with suppress(AI4UError):  # the world has other agents already
             driver = self._editor.driver_of(agent)
+            practice = self._practice
             progress = None if learning is None else (len(learning.errors), learning.is_over)
-            key = "teach", work.version, agent, driver, learning, progress
+            reached = None if practice is None else (practice.progress, practice.is_over)
+            key = "teach", work.version, agent, driver, learning, progress, practice, reached
             yield (
                 "teach",
-                context.cache.by_key(key, lambda: self._part(work, learning, agent, driver)),
+                context.cache.by_key(key, lambda: self._part(work, agent, driver)),
             )
 
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002
@@ -129,8 +140,9 @@ class TeachOption:
 
     def stop(self) -> None:
         """End the learning and the thread."""
-        if self._learning is not None:
-            self._learning.stop()
+        for process in (self._learning, self._practice):
+            if process is not None:
+                process.stop()
         self._tasks.put(None)
 
     # -- in the server's event loop ----------------------------------------------------------------
@@ -145,6 +157,17 @@ class TeachOption:
             return Answer("Nothing learns now.")
         learning.stop()
         return Answer("The learning is stopped.")
+
+    async def _practise(self, page: Page, command: m.PractiseForRewards) -> Answer:
+        await self._done(lambda: self._begin_practice(page.view.agent, command))
+        return Answer("It practises.")
+
+    async def _stop_practising(self, _page: Page, _command: m.StopPractising) -> Answer:
+        practice = self._practice
+        if practice is None or practice.is_over:
+            return Answer("Nothing practises now.")
+        practice.stop()
+        return Answer("The practice is stopped.")
 
     async def _forget_drive(self, _page: Page, command: m.ForgetDrive) -> Answer:
         await self._changed(lambda scene: self._drives.remove(scene, command.drive))
@@ -196,9 +219,9 @@ class TeachOption:
         self._tasks.put(run)
         return await result_of(future)
 
-    def _part(
-        self, work: _SceneWork, learning: Learning | None, agent: str, driver: str
-    ) -> m.TeachPart:
+    def _part(self, work: _SceneWork, agent: str, driver: str) -> m.TeachPart:
+        learning, practice = self._learning, self._practice
+
         def is_driving(network: KeptNetwork) -> bool:
             with suppress(SetupError):
                 return driver == f"{NETWORK}{self._networks.file(self._scene, network.number).name}"
@@ -209,6 +232,12 @@ class TeachOption:
             problem=work.problems.get(agent, ""),
             drives=list(work.drives.get(agent, ())),
             learning=None if learning is None or learning.agent != agent else _state_of(learning),
+            rewards=list(work.rewards.get(agent, ())),
+            practice=(
+                None
+                if practice is None or practice.request.agent != agent
+                else _practice_state(practice)
+            ),
             networks=[
                 m.TaughtNetwork(each.number, each.title, each.how, is_driving(each))
                 for each in work.networks
@@ -261,15 +290,56 @@ class TeachOption:
             version=self._work.version + 1,
             problems={agent.id: reason_against_teaching(agent) for agent in sim.agents},
             drives={agent.id: tuple(_shown(drives, agent, described)) for agent in sim.agents},
+            rewards={agent.id: reward_names(editor.state.agent(agent.id)) for agent in sim.agents},
             networks=tuple(reversed(self._networks.networks(scene.description.name))),
             warning=self._work.warning,
         )
 
-    def _begin_learning(self, agent: str, numbers: list[int]) -> None:
-        if self._learning is not None and not self._learning.is_over:
+    def _keep_network(self, scene: str, network: bytes, about: KeptNetwork) -> None:
+        """Keep a network that has learned, and let it drive."""
+        kept = self._networks.add(scene, network, about)
+        self._look()
+        if self._scene == scene:
+            file = self._networks.file(scene, kept.number)
+            self._required_editor().set_driver(about.agent, f"{NETWORK}{file.name}")
+
+    def _check_free(self, agent: str) -> None:
+        if any(each is not None and not each.is_over for each in (self._learning, self._practice)):
             raise SetupError("the robot learns already; wait until it is done, or stop it")
         if problem := self._work.problems.get(agent, ""):
             raise SetupError(problem)
+
+    def _begin_practice(self, agent: str, command: m.PractiseForRewards) -> None:
+        self._check_free(agent)
+        editor, begin_with = self._required_editor(), ""
+        names = self._work.rewards.get(agent, ())
+        if not names:
+            raise SetupError("it gets no reward to practise for; add one in Build")
+        if wrong := sorted(set(command.weights) - set(names)):
+            raise SetupError(f"expected reward terms of {', '.join(names)}, got {wrong}")
+        if command.begin_with is not None:
+            begin_with = str(self._networks.file(self._scene, command.begin_with).absolute())
+        self._practice_folder = tempfile.TemporaryDirectory(prefix="ai4u-edu-practice-")
+        scene = editor.scene
+        request = PracticeRequest(
+            scene=scene.dumps(),
+            place=str(scene.folder or ""),
+            agent=agent,
+            folder=str(Path(self._practice_folder.name) / "run"),
+            steps=command.steps,
+            seed=0,
+            weights={name: each for name, each in command.weights.items() if each != 1.0},
+            begin_with=begin_with,
+        )
+        name = scene.description.name
+        self._practice = Practice(
+            request,
+            on_progress=partial(self._on_practised, name),
+            on_end=partial(self._on_practice_end, name),
+        )
+
+    def _begin_learning(self, agent: str, numbers: list[int]) -> None:
+        self._check_free(agent)
         good = {each.number for each in self._work.drives.get(agent, ()) if not each.reason}
         if missing := sorted(set(numbers) - good):
             raise SetupError(f"expected drives that this robot can learn from, got {missing}")
@@ -286,7 +356,7 @@ class TeachOption:
     # -- in the thread of the learning -------------------------------------------------------------
 
     def _on_learned(self, scene: str, learning: Learning, out: Path) -> None:
-        note, editor = learning.note, self._required_editor()
+        note = learning.note
         drives = f"{learning.drives} drive{'s' if learning.drives != 1 else ''}"
         about = KeptNetwork(
             number=0,
@@ -295,16 +365,37 @@ class TeachOption:
             how=f"learned from {drives} with {note.decisions} decisions",
             alike=note.alike,
         )
-        network = out.read_bytes()
+        self._tasks.put(partial(self._keep_network, scene, out.read_bytes(), about))
 
-        def keep() -> None:
-            kept = self._networks.add(scene, network, about)
-            self._look()
+    # -- in the thread of the practice -------------------------------------------------------------
+
+    def _on_practised(self, scene: str, practice: Practice) -> None:
+        """Let the network drive as it is now; whoever has taken over keeps the agent."""
+        if practice.controller is not None:
+            practice.controller.reload()
+            return
+        path = practice.run.watched_network.absolute()
+        practice.controller = controller = NeuralNetController(model_path=str(path))
+        brain = LocalBrain(controller=controller, **controller.network.rhythm)
+
+        def drive() -> None:
             if self._scene == scene:
-                file = self._networks.file(scene, kept.number)
-                editor.set_driver(learning.agent, f"{NETWORK}{file.name}")
+                self._runner.sim.agent(practice.request.agent).use_brain(brain)
 
-        self._tasks.put(keep)
+        self._runner.submit(drive)
+
+    def _on_practice_end(self, scene: str, practice: Practice) -> None:
+        folder, best = self._practice_folder, practice.run.best_network
+        network = best.read_bytes() if best.is_file() and practice.progress.curve else b""
+        folder.cleanup()
+        if not network:
+            return
+        checks = practice.progress.curve
+        share = max((each.success or 0.0 for each in checks), default=0.0)
+        reached = "" if checks[-1].success is None else f", goal reached from {share:.0%} of starts"
+        how = f"practised for {practice.progress.decisions} decisions{reached}"
+        agent = practice.request.agent
+        self._tasks.put(partial(self._keep_network, scene, network, KeptNetwork(0, "", agent, how)))
 
     @property
     def _scene(self) -> str:
@@ -330,6 +421,18 @@ def _shown(
                 share=round(persons_decisions(record) / len(record), 3),
                 reason=drive.reason_against(agent, scene),
             )
+
+
+def _practice_state(practice: Practice) -> m.PracticeState:
+    progress = practice.progress
+    return m.PracticeState(
+        is_over=practice.is_over,
+        problem=practice.problem,
+        decisions=progress.decisions,
+        total=progress.total,
+        rewards=[round(point.reward, 3) for point in progress.curve],
+        success=progress.curve[-1].success if progress.curve else None,
+    )
 
 
 def _state_of(learning: Learning) -> m.LearningState:

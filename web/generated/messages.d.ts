@@ -624,6 +624,21 @@ export interface LearningState {
   remarks: string[];
 }
 
+/** State of the latest practice of the agent. */
+export interface PracticeState {
+  is_over: boolean;
+  /** Sentence about why it ended early; empty if it did not. */
+  problem: string;
+  /** Decisions that it has learned from. */
+  decisions: number;
+  /** Decisions after which it ends at the latest. */
+  total: number;
+  /** Mean reward of an episode, by the weights, at each check. */
+  rewards: number[];
+  /** Share of the episodes of the latest check that reached the goal; null if there was none. */
+  success: number | null;
+}
+
 /** A network that learned in this scene. */
 export interface TaughtNetwork {
   /** Number among those of its scene. */
@@ -647,6 +662,10 @@ export interface TeachPart {
   drives: TaughtDrive[];
   /** The latest learning of the agent; null if there was none since the start. */
   learning: LearningState | null;
+  /** Names of the agent's reward terms. */
+  rewards: string[];
+  /** The latest practice of the agent; null if there was none since the start. */
+  practice: PracticeState | null;
   /** Networks of this scene, the latest first. */
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
@@ -1131,6 +1150,16 @@ export interface Pin {
 export interface Play {
 }
 
+/** Have a network practise for rewards with the page's agent, and drive it meanwhile. */
+export interface PractiseForRewards {
+  /** Decisions to learn from. */
+  steps: number;
+  /** Factors of reward terms by name; 1 for one that is left out. */
+  weights: Record<string, number>;
+  /** Number of a network to begin with; null for a new one. */
+  begin_with?: number | null;
+}
+
 /** Begin an episode with the same start, against a ghost of the chosen one. */
 export interface Race {
 }
@@ -1249,6 +1278,10 @@ export interface Stop {
 export interface StopLearning {
 }
 
+/** End the practice; the best network until then is kept. */
+export interface StopPractising {
+}
+
 /** Switch a block of the agent on or off. */
 export interface SwitchBlock {
   path: (string | number)[];
@@ -1332,8 +1365,10 @@ export interface Commands {
   teach_drive: DriveNetwork;
   teach_forget_drive: ForgetDrive;
   teach_learn: LearnFromDrives;
+  teach_practise: PractiseForRewards;
   teach_rename: RenameNetwork;
   teach_stop: StopLearning;
+  teach_stop_practising: StopPractising;
   tick: Tick;
   trail: ShowTrail;
   try_again: TryAgain;

@@ -9,6 +9,7 @@ import { section } from "../panel/widgets/parts.js";
 import { Drives } from "../teach/drives.js";
 import { LearningView } from "../teach/learning.js";
 import { Networks } from "../teach/networks.js";
+import { PracticeView } from "../teach/practice.js";
 
 const FIRST = "Drive to the goal a few times, from other starts each time. Every drive that ends is kept here, and the robot can learn from it.";
 
@@ -19,6 +20,7 @@ export class Tab {
   #drives;
   #learning = new LearningView();
   #networks;
+  #practice;
   #warning = element("p", { className: "ai4u-problem", role: "status" });
   #learn = button("Learn", () => void this.#begin(), { icon: "network", kind: "main" });
   #stop = button("Stop", () => this.#panel.send("teach_stop"), { icon: "stop" });
@@ -34,13 +36,15 @@ export class Tab {
     this.#panel = panel;
     this.#drives = new Drives(panel, () => this.#draw());
     this.#networks = new Networks(panel);
+    this.#practice = new PracticeView(panel);
     const tools = element("div", { className: "ai4u-tools" }, this.#learn, this.#stop);
     const content = [this.#first, this.#warning, this.#drives.element, tools, this.#learning.element];
     this.#sections = {
       drives: section("teach-drives", "From your drives", {}, ...content),
+      practice: section("teach-practice", "By rewards", {}, this.#practice.element),
       networks: section("teach-networks", "Your networks", {}, this.#networks.element),
     };
-    root.append(this.#problem, this.#sections.drives, this.#sections.networks);
+    root.append(this.#problem, this.#sections.drives, this.#sections.practice, this.#sections.networks);
   }
 
   /** @param {TeachPart} part */
@@ -52,7 +56,7 @@ export class Tab {
   #draw() {
     const part = this.#part;
     if (part === null) return;
-    const { drives, learning, networks, problem, warning } = part;
+    const { drives, learning, networks, practice, problem, rewards, warning } = part;
     setText(this.#problem, problem);
     this.#problem.hidden = !problem;
     this.#sections.drives.hidden = Boolean(problem);
@@ -61,12 +65,15 @@ export class Tab {
     this.#warning.hidden = !warning;
     this.#drives.update(part);
     const isLearning = learning !== null && !learning.is_over;
+    const isPractising = practice !== null && !practice.is_over;
     const count = this.#drives.chosen.length;
     setText(this.#learn.querySelector("span"), `Learn from ${count} drive${count === 1 ? "" : "s"}`);
-    this.#learn.disabled = isLearning || count === 0;
+    this.#learn.disabled = isLearning || isPractising || count === 0;
     this.#learn.hidden = drives.length === 0;
     this.#stop.hidden = !isLearning;
     this.#learning.update(learning);
+    this.#sections.practice.hidden = Boolean(problem) || rewards.length === 0;
+    this.#practice.update(part, isLearning);
     this.#sections.networks.hidden = networks.length === 0;
     this.#networks.update(part);
   }
