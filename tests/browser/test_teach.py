@@ -53,3 +53,29 @@ def test_a_robot_learns_from_the_chosen_drives_and_drives(
         expect(drives.get_by_role("checkbox")).to_have_count(len(SEEDS) - 1)
         page.context.close()
     assert problems == []
+
+
+def test_a_robot_practises_for_rewards_until_it_is_stopped(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    with teaching_room(tmp_path) as room:
+        WITHOUT_VISER.serve(page, room.url)
+        page.goto(room.url)
+        page.get_by_role("tab", name="Teach").click()
+        tab = page.get_by_role("tabpanel", name="Teach")
+        touch = tab.get_by_role("group", name="Worth of each reward").get_by_label("touch")
+        touch.fill("")
+        tab.get_by_role("button", name="Practise").click()
+        expect(page.get_by_text("Each reward needs a number")).to_be_visible()
+        touch.fill("2")
+        tab.get_by_label("Length").select_option("Long")
+        tab.get_by_role("button", name="Practise").click()
+        expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
+        expect(tab.get_by_role("button", name="Practise")).to_be_disabled()
+        tab.get_by_role("button", name="Stop").click()
+        expect(tab.get_by_text("The practice was stopped.")).to_be_visible()
+        expect(tab.get_by_role("button", name="Practise")).to_be_enabled()
+        page.context.close()
+    assert problems == []
