@@ -295,11 +295,20 @@ class TeachOption:
             warning=self._work.warning,
         )
 
-    def _keep_network(self, scene: str, network: bytes, about: KeptNetwork) -> None:
+    def _keep_network(
+        self, scene: str, network: bytes, about: KeptNetwork, *, drives: bool = True
+    ) -> None:
         """Keep a network that has learned, and let it drive."""
-        kept = self._networks.add(scene, network, about)
+        try:
+            kept = self._networks.add(scene, network, about)
+        except (OSError, SetupError) as error:
+            reason = error.strerror if isinstance(error, OSError) else error
+            self._work = replace(self._work, warning=f"The network could not be kept: {reason}.")
+            self._look()
+            return
+        self._work = replace(self._work, warning="")
         self._look()
-        if self._scene == scene:
+        if self._scene == scene and drives:
             file = self._networks.file(scene, kept.number)
             self._required_editor().set_driver(about.agent, f"{NETWORK}{file.name}")
 
@@ -319,13 +328,13 @@ class TeachOption:
             raise SetupError(f"expected reward terms of {', '.join(names)}, got {wrong}")
         if command.begin_with is not None:
             begin_with = str(self._networks.file(self._scene, command.begin_with).absolute())
-        self._practice_folder = tempfile.TemporaryDirectory(prefix="ai4u-edu-practice-")
+        folder = tempfile.TemporaryDirectory(prefix="ai4u-edu-practice-")
         scene = editor.scene
         request = PracticeRequest(
             scene=scene.dumps(),
             place=str(scene.folder or ""),
             agent=agent,
-            folder=str(Path(self._practice_folder.name) / "run"),
+            folder=str(Path(folder.name) / "run"),
             steps=command.steps,
             seed=0,
             weights={name: each for name, each in command.weights.items() if each != 1.0},
@@ -335,7 +344,7 @@ class TeachOption:
         self._practice = Practice(
             request,
             on_progress=partial(self._on_practised, name),
-            on_end=partial(self._on_practice_end, name),
+            on_end=partial(self._on_practice_end, name, folder),
         )
 
     def _begin_learning(self, agent: str, numbers: list[int]) -> None:
@@ -384,8 +393,10 @@ class TeachOption:
 
         self._runner.submit(drive)
 
-    def _on_practice_end(self, scene: str, practice: Practice) -> None:
-        folder, best = self._practice_folder, practice.run.best_network
+    def _on_practice_end(
+        self, scene: str, folder: tempfile.TemporaryDirectory[str], practice: Practice
+    ) -> None:
+        best = practice.run.best_network
         network = best.read_bytes() if best.is_file() and practice.progress.curve else b""
         folder.cleanup()
         if not network:
@@ -394,8 +405,11 @@ class TeachOption:
         share = max((each.success or 0.0 for each in checks), default=0.0)
         reached = "" if checks[-1].success is None else f", goal reached from {share:.0%} of starts"
         how = f"practised for {practice.progress.decisions} decisions{reached}"
-        agent = practice.request.agent
-        self._tasks.put(partial(self._keep_network, scene, network, KeptNetwork(0, "", agent, how)))
+        about = KeptNetwork(0, "", practice.request.agent, how)
+        brains = [agent.brain for agent in self._runner.sim.agents if agent.id == about.agent]
+        # whoever has taken over goes on driving
+        drives = any(getattr(brain, "controller", 0) is practice.controller for brain in brains)
+        self._tasks.put(partial(self._keep_network, scene, network, about, drives=drives))
 
     @property
     def _scene(self) -> str:

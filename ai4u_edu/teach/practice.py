@@ -12,6 +12,7 @@ import msgspec
 from msgspec import Struct
 from pydantic import ValidationError
 
+from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.blocks import NeuralNetController
 from ai4u_edu.blocks.loading import own_files
@@ -93,6 +94,17 @@ class Practice:
         self._process.kill()
 
     def _follow(self) -> None:
+        try:
+            self.problem = self._wait()
+        except AI4UError as error:  # the network can't drive
+            self._process.kill()
+            self.problem = str(error)
+        finally:
+            self.is_over = True
+            self._on_end(self)
+
+    def _wait(self) -> str:
+        """Read the folder until the process ends; return the sentence about why it ended early."""
         process = self._process
         assert process.stdin is not None  # noqa: S101 - asked for above
         assert process.stdout is not None  # noqa: S101
@@ -107,14 +119,11 @@ class Practice:
             last = process.stdout.read()
         self._read()
         if self._is_stopped:
-            self.problem = STOPPED
-        else:
-            try:
-                self.problem = msgspec.json.decode(last, type=PracticeEnd).problem
-            except msgspec.DecodeError:
-                self.problem = DIED
-        self.is_over = True
-        self._on_end(self)
+            return STOPPED
+        try:
+            return msgspec.json.decode(last, type=PracticeEnd).problem
+        except msgspec.DecodeError:
+            return DIED
 
     def _read(self) -> None:
         """Read the folder if there is something new in it."""

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu.blocks import NeuralNetController
 from ai4u_edu.page.editing.drivers import NETWORK
-from ai4u_edu.teach import learning
+from ai4u_edu.teach import learning, networks
 from tests.page.panel.rooms import PanelPage, PanelRoom
 from tests.teach.driving import teaching_room
 from tests.waiting import until
@@ -92,3 +92,20 @@ def test_a_practice_that_can_not_begin_says_why(page: PanelPage) -> None:
         in page.failed("teach_practise", steps=SOON, weights={}, begin_with=7)["text"]
     )
     assert page.done("teach_stop_practising")["text"] == "Nothing practises now."
+
+
+def test_whoever_has_taken_over_goes_on_driving(room: PanelRoom, page: PanelPage) -> None:
+    page.done("teach_practise", steps=4 * SOON, weights={})
+    until(lambda: controller(room) is not None)
+    room.editor.set_driver("0", "brain:0").result()
+    page.part("teach", lambda part: part["networks"])
+    assert room.editor.driver_of("0") == "brain:0"
+
+
+def test_a_network_that_can_not_be_kept_is_spoken_of(
+    room: PanelRoom, page: PanelPage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(networks, "MAX_NETWORKS", 0)
+    page.done("teach_practise", steps=SOON, weights={})
+    part = page.part("teach", lambda part: part["warning"])
+    assert "The network could not be kept: expected at most 0 networks" in part["warning"]
