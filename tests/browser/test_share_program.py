@@ -112,7 +112,7 @@ def test_from_one_page_to_another(
             page.evaluate("localStorage.clear()")
             page.evaluate("hash => (location.hash = hash)", link.partition("#")[2])
             question = page.get_by_role("dialog", name="Open the shared scene “Maze”?")
-            expect(question).to_contain_text("It brings a program along")
+            expect(question).to_contain_text("It contains a program")
             sent: list[str] = []
             page.on("request", lambda request: sent.append(request.post_data or ""))
             question.get_by_role("button", name="Open").click()
