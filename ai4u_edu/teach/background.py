@@ -11,9 +11,9 @@ MAX_MEMORY_BYTES = 512 * 2**20
 
 def leave_the_processor_to_others() -> None:
     """Give this process the lowest priority and little memory, and end it with its parent."""
-    end_with_parent(os.getppid())
     if sys.platform == "win32":
         return
+    end_with_parent(os.getppid())
     import resource
 
     os.nice(NICENESS)
