@@ -7,6 +7,7 @@ import signal
 from collections.abc import Iterator
 from pathlib import Path
 
+import msgspec
 import psutil
 import pytest
 
@@ -15,6 +16,7 @@ from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.recording import Episode
 from ai4u_edu.teach import learning, teachable
 from ai4u_edu.teach.drives import DriveFolder
+from ai4u_edu.teach.messages import TeachPart
 from ai4u_edu.teach.teachable import reason_against_teaching
 from tests.page.panel.rooms import Message, PanelPage, PanelRoom
 from tests.teach.driving import SEEDS, drive, steer, teaching_room
@@ -63,6 +65,7 @@ def test_a_network_learns_from_drives_and_then_drives(room: PanelRoom, page: Pan
     drives = page.parts["teach"]["drives"]
     assert [each["number"] for each in drives] == [*reversed(SEEDS)]
     assert all(each["result"] and not each["reason"] for each in drives)
+    msgspec.convert(page.parts["teach"], TeachPart)
     part = learned(page, *SEEDS)
     state = part["learning"]
     assert state["is_over"]

@@ -12,8 +12,12 @@ from ai4u_edu.page.panel.parts.training import TrainingPart, training_part
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from tests.page.panel.rooms import panel_room
 
-TYPES = {str(kind.__struct_defaults__[0]): kind for kind in PanelPart.__subclasses__()}
-"""Structs by the name of their part."""
+TYPES = {
+    str(kind.__struct_defaults__[0]): kind
+    for kind in PanelPart.__subclasses__()
+    if kind.__module__.startswith(PanelPart.__module__.rpartition(".")[0])
+}
+"""Structs by the name of their part, without those of options."""
 OF_BROWSER_TESTS = Path(__file__).parents[2] / "browser" / "panel_parts.json"
 EDITED = {"blocks", "world"}
 """Parts of a world that can be changed."""
