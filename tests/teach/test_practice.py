@@ -13,6 +13,8 @@ from tests.page.panel.rooms import PanelPage, PanelRoom
 from tests.teach.driving import teaching_room
 from tests.waiting import until
 
+pytestmark = pytest.mark.slow
+
 SOON = 256
 """Decisions of the shortest practice."""
 LATE = 1_000_000

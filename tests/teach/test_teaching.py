@@ -22,6 +22,8 @@ from tests.page.panel.rooms import Message, PanelPage, PanelRoom
 from tests.teach.driving import SEEDS, drive, steer, teaching_room
 from tests.waiting import until
 
+pytestmark = pytest.mark.slow
+
 SENSORS = ("RayCastingSensor", "OrientationSensor", "ActionSensor")
 
 
