@@ -41,8 +41,8 @@ def test_extras_that_others_include_are_followed() -> None:
 
 
 def test_what_is_missing_is_named_with_the_way_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    version = doctor._version
-    monkeypatch.setattr(doctor, "_version", lambda n: "" if n in {"rich", "torch"} else version(n))
+    # all others of the extra are there, also where none of them is
+    monkeypatch.setattr(doctor, "_version", lambda n: "" if n in {"rich", "torch"} else "1.0")
     found = {each.subject: each for each in doctor.examine(0)}
     assert found["packages"].state == "missing: rich"
     assert "torch" in found["[train]"].state
