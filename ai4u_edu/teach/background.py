@@ -1,12 +1,38 @@
 """Processes that learn beside a world that must not wait for them."""
 
 import os
+import subprocess
 import sys
 
+import msgspec
+from msgspec import Struct
+
+from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.base.process_family import end_with_parent
 
 NICENESS = 19
 MAX_MEMORY_BYTES = 512 * 2**20
+
+
+def start_process(module: str) -> "subprocess.Popen[bytes]":
+    """Start a module as a process that waits for its request, and writes to a pipe."""
+    return subprocess.Popen(  # noqa: S603 - a module of ours, named in the code
+        [sys.executable, "-m", module],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=os.environ | ONE_THREAD,
+    )
+
+
+def send_request(process: "subprocess.Popen[bytes]", request: Struct) -> None:
+    """Give a process its request, as JSON.
+
+    Raises:
+        OSError: it has ended already.
+    """
+    assert process.stdin is not None  # noqa: S101 - start_process asks for the pipe
+    process.stdin.write(msgspec.json.encode(request))
+    process.stdin.close()
 
 
 def leave_the_processor_to_others() -> None:

@@ -1,8 +1,5 @@
 """A network that learns from drives, in a process of its own."""
 
-import os
-import subprocess
-import sys
 import tempfile
 import threading
 from collections.abc import Callable, Sequence
@@ -12,8 +9,8 @@ from pathlib import Path
 import msgspec
 from msgspec import Struct
 
-from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.blocks.loading import own_files
+from ai4u_edu.teach.background import send_request, start_process
 
 STOPPED = "stopped"
 DIED = "the program that learns has ended; learn again"
@@ -63,8 +60,7 @@ class Learning:
         drives: files of the drives.
         agent: id of the agent.
         seed: of the network.
-        on_note: called in a thread of its own with each note that changes something.
-        on_done: called in the same thread with the network's file, which is gone afterwards.
+        on_done: called in a thread of its own with the network's file, which is gone afterwards.
     """
 
     def __init__(
@@ -73,7 +69,6 @@ class Learning:
         agent: str,
         *,
         seed: int,
-        on_note: Callable[["Learning"], object],
         on_done: Callable[["Learning", Path], object],
     ) -> None:
         self.agent = agent
@@ -83,17 +78,12 @@ class Learning:
         """Gradient steps, and the error on held-out moments after them."""
         self.note = CloneNote()
         """The latest one; the last one has the result."""
-        self._on_note, self._on_done = on_note, on_done
+        self._on_done = on_done
         self._is_stopped = False
         self._request = CloneRequest(
             [str(drive) for drive in drives], agent, seed, "", [str(file) for file in own_files()]
         )
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "ai4u_edu.teach.clone_process"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=os.environ | ONE_THREAD,
-        )
+        self._process = start_process("ai4u_edu.teach.clone_process")
         threading.Thread(target=self._run, name="teach learning", daemon=True).start()
 
     @property
@@ -112,15 +102,12 @@ class Learning:
             request = msgspec.structs.replace(self._request, out=str(out))
             process = self._process
             with process, suppress(OSError):
-                assert process.stdin is not None  # noqa: S101 - asked for above
-                assert process.stdout is not None  # noqa: S101
-                process.stdin.write(msgspec.json.encode(request))
-                process.stdin.close()
+                send_request(process, request)
+                assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
                 for line in process.stdout:
                     self._hear(msgspec.json.decode(line, type=CloneNote), out)
             if not self.is_over:
                 self.note = CloneNote(problem=STOPPED if self._is_stopped else DIED)
-                self._on_note(self)
 
     def _hear(self, note: CloneNote, out: Path) -> None:
         if note.update:
@@ -128,4 +115,3 @@ class Learning:
         self.note = note
         if note.is_done:
             self._on_done(self, out)
-        self._on_note(self)

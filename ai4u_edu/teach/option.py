@@ -131,7 +131,7 @@ class TeachOption:
                 context.cache.by_key(key, lambda: self._part(work, agent, driver)),
             )
 
-    def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002
+    def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002 - an option without a picture needs none
         """Return nothing: it draws nothing."""
         return []
 
@@ -358,7 +358,6 @@ class TeachOption:
             files,
             agent,
             seed=0,
-            on_note=lambda _: None,
             on_done=lambda learning, out: self._on_learned(scene, learning, out),
         )
 

@@ -1,8 +1,6 @@
 """A network that practises for rewards, in a process of its own, and drives while it learns."""
 
-import os
 import subprocess
-import sys
 import threading
 from collections.abc import Callable
 from contextlib import suppress
@@ -13,11 +11,11 @@ from msgspec import Struct
 from pydantic import ValidationError
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.blocks import NeuralNetController
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.learn.training.run import Run
 from ai4u_edu.runtime.training_progress import TrainingProgress
+from ai4u_edu.teach.background import send_request, start_process
 from ai4u_edu.teach.learning import DIED, STOPPED
 
 POLL_S = 0.5
@@ -80,12 +78,7 @@ class Practice:
         self._on_progress, self._on_end = on_progress, on_end
         self._is_stopped = False
         self._read_at = 0
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "ai4u_edu.teach.practice_process"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=os.environ | ONE_THREAD,
-        )
+        self._process = start_process("ai4u_edu.teach.practice_process")
         threading.Thread(target=self._follow, name="teach practice", daemon=True).start()
 
     def stop(self) -> None:
@@ -106,12 +99,10 @@ class Practice:
     def _wait(self) -> str:
         """Read the folder until the process ends; return the sentence about why it ended early."""
         process = self._process
-        assert process.stdin is not None  # noqa: S101 - asked for above
-        assert process.stdout is not None  # noqa: S101
+        assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
         with process:
             with suppress(OSError):
-                process.stdin.write(msgspec.json.encode(self.request))
-                process.stdin.close()
+                send_request(process, self.request)
             while process.poll() is None:
                 self._read()
                 with suppress(subprocess.TimeoutExpired):

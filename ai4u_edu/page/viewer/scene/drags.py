@@ -106,6 +106,7 @@ def corner_of(shape: Shape) -> tuple[float, float]:
 
 def outline_of(shape: Shape) -> list[tuple[float, float]]:
     """Return a shape's outline; every kind of shape has one."""
+    # each kind of shape has an outline, their base has none
     outline: list[tuple[float, float]] = shape.outline()  # type: ignore[attr-defined]
     return outline
 
