@@ -3,6 +3,7 @@
 import errno
 import logging
 import socket
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -10,36 +11,48 @@ from typing import Any
 from urllib.parse import urlsplit
 
 import pytest
+from starlette.responses import PlainTextResponse
+from starlette.types import Receive, Scope, Send
 
+from ai4u_edu.page.server import ServerThread
 from ai4u_edu.page.server.limits import connections as limits
 from ai4u_edu.page.server.limits.connections import (
     MAX_EVICTING,
     MAX_PER_ADDRESS,
+    MAX_STARTING,
     Connections,
     max_connections,
 )
 from tests.page.server import http_client
-from tests.page.server.rooms import UPGRADE, Page, Room, log_intervals, raw_request, served
+from tests.page.server.rooms import PATIENT, UPGRADE, Page, Room, log_intervals, raw_request, served
 from tests.waiting import LIMIT_S, until
 
 
 class Transport:
     """An asyncio transport, as far as the limits use it."""
 
-    def __init__(self, peer: tuple[str, int]) -> None:
-        self.peer = peer
+    def __init__(self, descriptor: int) -> None:
+        self.descriptor = descriptor
         self.is_aborted = False
 
     def get_extra_info(self, name: str) -> Any:
-        return {"peername": self.peer}[name]
+        return {"socket": self}[name]
+
+    def fileno(self) -> int:
+        return self.descriptor
 
     def abort(self) -> None:
         self.is_aborted = True
 
 
+def admit(connections: Connections, peer: tuple[str, int]) -> str:
+    """Admit a connection whose descriptor is its port."""
+    return connections.admit(peer[1], peer)
+
+
 def connect(connections: Connections, peer: tuple[str, int], *, idle: bool = True) -> Transport:
-    assert connections.admit(peer) == ""
-    transport = Transport(peer)
+    assert admit(connections, peer) == ""
+    transport = Transport(peer[1])
     connections.set_idle(transport, idle)  # type: ignore[arg-type]
     return transport
 
@@ -48,13 +61,13 @@ def test_connection_limit_counts_each_address_by_itself() -> None:
     connections = Connections(limit=500)
     for port in range(MAX_PER_ADDRESS):
         connect(connections, ("10.0.0.7", port), idle=False)
-    assert connections.admit(("10.0.0.7", 5000)) == (
+    assert admit(connections, ("10.0.0.7", 5000)) == (
         "expected at most 120 connections from one address, got another one from 10.0.0.7; close "
         "some pages, or start with --connections N"
     )
-    assert connections.admit(("10.0.0.8", 5000)) == ""
-    connections.leave(("10.0.0.7", 0))
-    assert connections.admit(("10.0.0.7", 5000)) == ""
+    assert admit(connections, ("10.0.0.8", 5000)) == ""
+    connections.leave(0)
+    assert admit(connections, ("10.0.0.7", 5000)) == ""
 
 
 def test_this_machine_may_have_as_many_as_there_are() -> None:
@@ -62,7 +75,7 @@ def test_this_machine_may_have_as_many_as_there_are() -> None:
     for port in range(300):
         connect(connections, ("127.0.0.1", port), idle=False)
     for host in ("127.0.0.1", "10.0.0.8"):
-        assert connections.admit((host, 5000)) == (
+        assert admit(connections, (host, 5000)) == (
             "expected at most 300 connections, got another one; try again later"
         )
 
@@ -74,10 +87,10 @@ def test_the_connection_that_is_idle_for_the_longest_time_makes_room() -> None:
     connections.set_idle(first, True)  # type: ignore[arg-type]
     connect(connections, ("10.0.0.7", 10), idle=False)
     assert (first.is_aborted, busy.is_aborted, later.is_aborted) == (False, False, True)
-    connections.leave(later.peer)
+    connections.leave(later.descriptor)
     connect(connections, ("10.0.0.7", 11), idle=False)
     assert first.is_aborted
-    assert connections.admit(("10.0.0.7", 12)) != ""
+    assert admit(connections, ("10.0.0.7", 12)) != ""
     assert not busy.is_aborted
 
 
@@ -87,12 +100,36 @@ def test_nothing_is_left_of_connections_that_are_closed() -> None:
         connect(connections, ("10.0.0.7", port))
         if connections.evicting == MAX_EVICTING:
             for gone in range(port):
-                connections.leave(("10.0.0.7", gone))
+                connections.leave(gone)
     for port in range(1000):
-        connections.leave(("10.0.0.7", port))
+        connections.leave(port)
     assert len(connections) == connections.evicting == 0
     assert connections._by_address == {}
     assert connections._idle == {}
+
+
+def test_of_those_that_come_at_once_a_few_are_admitted_before_the_loop_has_its_turn() -> None:
+    connections = Connections(limit=MAX_STARTING)
+    first = connect(connections, ("10.0.0.7", 0))
+    for port in range(1, MAX_STARTING):
+        assert not connections.are_waiting()
+        assert admit(connections, ("10.0.0.7", port)) == ""
+    assert admit(connections, ("10.0.0.7", MAX_STARTING)) == ""
+    assert first.is_aborted
+    assert connections.are_waiting()
+    connections.leave(MAX_STARTING)
+    assert not connections.are_waiting()
+
+
+def test_a_connection_from_a_port_that_was_used_before_counts_once() -> None:
+    connections = Connections(limit=100, per_address=2)
+    for descriptor in range(50):  # the former one was reset; its socket is closed a turn later
+        assert connections.admit(descriptor, ("10.0.0.7", 7)) == ""
+        connections.set_idle(Transport(descriptor), True)  # type: ignore[arg-type]
+        if descriptor:
+            connections.leave(descriptor - 1)
+    assert len(connections) == 1
+    assert connections.evicting == 0
 
 
 def test_the_limit_leaves_descriptors_for_everything_else(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -103,8 +140,8 @@ def test_the_limit_leaves_descriptors_for_everything_else(monkeypatch: pytest.Mo
 
 
 @contextmanager
-def crowd(room: Room, count: int) -> Iterator[list[socket.socket]]:
-    parts = urlsplit(room.url)
+def crowd(url: str, count: int) -> Iterator[list[socket.socket]]:
+    parts = urlsplit(url)
     with ExitStack() as stack:
         place = (str(parts.hostname), parts.port or 80)
         yield [
@@ -124,15 +161,34 @@ def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[Room]:
 def test_idle_connections_make_room_for_those_who_ask(small: Room) -> None:
     with small.page() as page:
         page.receive("hello")
-        with crowd(small, 100):
-            # those that come in one turn of the loop find nobody who can be sent away
-            until(lambda: http_client.get(small.url + "healthz").status_code == 200)
+        with crowd(small.url, 100):
             for _ in range(30):
                 assert http_client.get(small.url + "healthz").status_code == 200
             with small.page() as another:
                 another.receive("hello")
             page.hold("KeyW")
             page.receive("state", held=["KeyW"])
+
+
+def test_who_comes_in_the_same_turn_of_the_loop_as_a_crowd_is_answered(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    begun, ended = threading.Event(), threading.Event()
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["path"] == "/wait":
+            begun.set()
+            ended.wait(LIMIT_S)  # and with it the loop, on purpose
+        await PlainTextResponse("here")(scope, receive, send)
+
+    monkeypatch.setattr(limits, "max_connections", lambda: 20)
+    with ServerThread(app, timeouts=PATIENT) as server, ExitStack() as stack:
+        stack.enter_context(raw_request(server.url + "wait", "Host: localhost"))
+        assert begun.wait(LIMIT_S)
+        stack.enter_context(crowd(server.url, 100))
+        asked = stack.enter_context(raw_request(server.url, "Host: localhost"))
+        ended.set()
+        assert asked.recv(1000).startswith(b"HTTP/1.1 200 ")
 
 
 def test_beyond_the_limit_a_connection_is_refused_with_a_sentence(

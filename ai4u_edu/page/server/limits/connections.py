@@ -8,9 +8,8 @@ WebSocket whose app has ended. At a limit, a new connection evicts the one that 
 
 import ipaddress
 import sys
-from asyncio import BaseTransport, Transport
-from collections.abc import Hashable
-from typing import Any, cast
+from asyncio import Transport
+from typing import Any
 
 MAX_PER_ADDRESS = 120
 """Limit for one address. Each page has two connections, and a few more while it loads."""
@@ -24,6 +23,8 @@ WANTED_DESCRIPTORS = 4096
 """File descriptors that a command asks for its process."""
 MAX_EVICTING = 32
 """Evicted connections that are not closed yet; each still has its descriptor."""
+MAX_STARTING = MIN_CONNECTIONS // 2
+"""Admitted connections without a transport yet; no newer one can evict them."""
 THIS_MACHINE = "this machine"
 IPV6_PREFIX = 64
 """Length of an IPv6 network's prefix; one client may use all addresses of its network."""
@@ -45,17 +46,24 @@ class Connections:
         """True once the server shuts down: it accepts nothing, and aborts what it just accepted."""
         self.evicting = 0
         """Number of evicted connections that are not closed yet."""
-        self._connections: dict[Hashable, _Connection] = {}
+        self._connections: dict[int, _Connection] = {}
         self._by_address: dict[str, int] = {}
-        self._idle: dict[Hashable, _Connection] = {}  # the longest idle one first
+        self._starting: set[int] = set()
+        self._idle: dict[int, _Connection] = {}  # the longest idle one first
 
     def __len__(self) -> int:
         return len(self._connections)
 
-    def admit(self, peer: Any) -> str:
+    def are_waiting(self) -> bool:
+        """Return True if no more should be admitted before the event loop has had a turn."""
+        return self.evicting >= MAX_EVICTING or len(self._starting) >= MAX_STARTING
+
+    def admit(self, descriptor: int, peer: Any) -> str:
         """Admit a connection, and evict an idle one if there is no room.
 
         Args:
+            descriptor: the socket's file descriptor. The address of the other end would not do:
+                a port may be used again before the socket of its former connection is closed.
             peer: the socket's address of the other end.
 
         Returns:
@@ -70,40 +78,40 @@ class Connections:
             )
         if len(self._connections) - self.evicting >= self.limit and not self._evict():
             return f"expected at most {self.limit} connections, got another one; try again later"
-        connection = self._connections[peer] = _Connection(address)
-        self._idle[peer] = connection
+        self._connections[descriptor] = _Connection(address)
+        self._starting.add(descriptor)
         self._by_address[address] = self._by_address.get(address, 0) + 1
         return ""
 
-    def leave(self, peer: Any) -> None:
+    def leave(self, descriptor: int) -> None:
         """Remove a connection whose socket is closed."""
-        connection = self._connections.pop(peer, None)
+        connection = self._connections.pop(descriptor, None)
         if connection is None:
             return
-        self._idle.pop(peer, None)
+        self._starting.discard(descriptor)
+        self._idle.pop(descriptor, None)
         if connection.is_evicted:
             self.evicting -= 1
         else:
             self._uncount(connection)
 
-    def set_idle(self, transport: BaseTransport, idle: bool) -> None:
+    def set_idle(self, transport: Transport, idle: bool) -> None:
         """Mark a connection as idle or not; ignore one that was not admitted here."""
-        peer = transport.get_extra_info("peername")
-        connection = self._connections.get(peer)
+        descriptor = transport.get_extra_info("socket").fileno()
+        connection = self._connections.get(descriptor)
         if connection is None or connection.is_evicted:
             return
-        connection.transport = cast(Transport, transport)
-        self._idle.pop(peer, None)
+        connection.transport = transport
+        self._starting.discard(descriptor)
+        self._idle.pop(descriptor, None)
         if idle:
-            self._idle[peer] = connection
+            self._idle[descriptor] = connection
 
     def _evict(self, address: str | None = None) -> bool:
         """Abort the connection that is idle for longest, of an address or of all."""
-        for peer, connection in self._idle.items():
-            if address in (None, connection.address):
-                if connection.transport is None:  # the loop has no transport for it yet
-                    return False
-                del self._idle[peer]
+        for descriptor, connection in self._idle.items():
+            if address in (None, connection.address) and connection.transport is not None:
+                del self._idle[descriptor]
                 connection.is_evicted = True
                 self.evicting += 1
                 self._uncount(connection)

@@ -13,7 +13,7 @@ from contextlib import suppress
 from typing import Any
 
 from ai4u_edu.base.log_limit import log_limited
-from ai4u_edu.page.server.limits.connections import MAX_EVICTING, Connections
+from ai4u_edu.page.server.limits.connections import Connections
 from ai4u_edu.page.server.limits.plain_response import plain_response
 
 RETRY_AFTER_S = 5
@@ -50,8 +50,8 @@ class Listener(socket.socket):
             # Python 3.11 never closes what comes to a server that is closed
             raise BlockingIOError(errno.EAGAIN, "the server ends")
         for _ in range(MAX_REFUSED):
-            if self._connections.evicting >= MAX_EVICTING:
-                break  # those have to close first; the loop calls again at once
+            if self._connections.are_waiting():
+                break  # the loop calls again at once
             accepted = self._accept_or_refuse()
             if accepted is not None:
                 return accepted
@@ -73,9 +73,9 @@ class Listener(socket.socket):
         self._has_failed = False
         if self._spare is None:
             self._spare = _spare_descriptor()
-        reason = self._connections.admit(peer)
+        reason = self._connections.admit(connection.fileno(), peer)
         if not reason:
-            return _Accepted(connection, peer, self._connections), peer
+            return _Accepted(connection, self._connections), peer
         log_limited(_logger, logging.WARNING, "limit", "a connection is refused: %s", reason)
         with connection, suppress(OSError):
             connection.setblocking(False)
@@ -109,13 +109,14 @@ class Listener(socket.socket):
 class _Accepted(socket.socket):
     """Accepted connection, which counts until its socket is closed."""
 
-    def __init__(self, connection: socket.socket, peer: Any, connections: Connections) -> None:
+    def __init__(self, connection: socket.socket, connections: Connections) -> None:
         super().__init__(connection.family, connection.type, connection.proto, connection.detach())
-        self._peer, self._connections = peer, connections
+        self._connections = connections
 
     def close(self) -> None:
+        descriptor = self.fileno()
         super().close()
-        self._connections.leave(self._peer)
+        self._connections.leave(descriptor)
 
 
 def _spare_descriptor() -> int | None:
