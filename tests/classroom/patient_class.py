@@ -8,6 +8,11 @@ Processes of rooms import this module, too, so that it loads nothing before it i
 
 import sys
 from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
 OPTION = "--replace"
 
@@ -31,6 +36,7 @@ def be_patient() -> None:
     import functools
 
     from ai4u_edu.classroom import gateway, local_rooms, room_watch
+    from ai4u_edu.games.jobs import isolated
     from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
     from tests.waiting import LIMIT_S
 
@@ -41,6 +47,7 @@ def be_patient() -> None:
     of_rooms = ("answer_timeout_s", "start_timeout_s", "end_timeout_s")
     patient = functools.partial(room_watch.RoomLimits, **dict.fromkeys(of_rooms, LIMIT_S))
     room_watch.RoomLimits = patient  # type: ignore[assignment, misc]  # it makes them, too
+    isolated.serve_jobs = serve_jobs_with_usual_priority  # type: ignore[attr-defined]
     for module, names in (
         ("ai4u_edu.classroom.hub.api", ["TIMEOUT_S"]),
         ("ai4u_edu.classroom.link_endpoint", ["HELLO_TIMEOUT_S"]),
@@ -50,6 +57,16 @@ def be_patient() -> None:
     ):
         for name in names:
             replace(module, name, LIMIT_S)
+
+
+def serve_jobs_with_usual_priority(
+    pipe: "Connection", *, is_tied: bool, folder: Path | None = None, has_low_priority: bool = False
+) -> None:
+    """Run jobs at the priority of the tests: with a low one they get no time beside other work."""
+    from ai4u_edu.games.jobs.worker import serve_jobs
+
+    assert has_low_priority
+    serve_jobs(pipe, is_tied=is_tied, folder=folder)
 
 
 def replace(module: str, name: str, number: float) -> None:

@@ -10,6 +10,8 @@ from ai4u_edu.classroom import ClassStore
 from ai4u_edu.classroom.tournament import network_check
 from ai4u_edu.classroom.tournament.network_check import NetworkCheck
 from ai4u_edu.classroom.tournament.networks import Networks
+from ai4u_edu.games.jobs import isolated
+from tests.classroom.patient_class import serve_jobs_with_usual_priority
 from tests.classroom.two_seats import two_seats
 from tests.games.tournament.bad_networks import INPUTS, folding
 from tests.learn.training.networks import network
@@ -35,6 +37,11 @@ def networks(store: ClassStore, tmp_path: Path) -> Networks:
         found.add(1, scene, "", "slow.onnx", slow)
     found.add(2, "sumo", "", "good.onnx", good)
     return found
+
+
+@pytest.fixture(autouse=True)
+def usual_priority(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(isolated, "serve_jobs", serve_jobs_with_usual_priority)
 
 
 def verdicts(networks: Networks) -> list[str]:
