@@ -1,6 +1,7 @@
 """Copies of a world in which an agent is put somewhere else, while the world itself stays."""
 
 from collections.abc import Iterable, Mapping
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -12,8 +13,6 @@ from ai4u_edu.blocks import Brain, LocalBrain, Percept
 from ai4u_edu.explain.moment import Moment, Place, places_in
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.description import make_agents
-from ai4u_edu.world import World
 
 DEFAULT_COLUMNS = 12
 """Columns of a grid of poses; rows follow from the shape of the world."""
@@ -47,7 +46,8 @@ class WorldCopy:
             world = Moment.of_sim(world, agent)
         if isinstance(world, Moment):
             seed, places = world.seed, world.places
-            self.sim, self.agent = _built(Scene(world.scene), world.agent)
+            self.sim = Scene(world.scene).build(brains=partial(_brain_in_copy, world.agent))
+            self.agent = self.sim.agent(world.agent)
             rhythm = world.brain
         else:
             self.sim = world.build(seed)
@@ -145,18 +145,12 @@ class WorldCopy:
         return self.sim.step(self.agent)
 
 
-def _built(scene: Scene, agent: str) -> tuple[ControlRequestor, BasicAgent]:
-    """Build a world whose agents need no brains that a file can't hold."""
-    description = scene.description
-    world = World(**dict(description.world))
-    world.add_all(description.things)
-    agents = make_agents(description)
-    for each in agents:
-        is_local = all(isinstance(brain, LocalBrain) for brain in each.brains if brain.enabled)
-        if each.id == agent or not each.brains or not is_local:
-            each.brains = [LocalBrain(controller=_stand_still)]
-    sim = ControlRequestor(world, agents, spread_decisions=description.spread_decisions)
-    return sim, sim.agent(agent)
+def _brain_in_copy(moved: str, agent: BasicAgent) -> Brain | None:
+    """Return the brain of an agent that has none that a file can hold, or that will be moved."""
+    is_local = all(isinstance(brain, LocalBrain) for brain in agent.brains if brain.enabled)
+    if agent.brains and is_local and agent.id != moved:
+        return None
+    return LocalBrain(controller=_stand_still)
 
 
 def _stand_still(_percept: Percept) -> dict[str, float]:

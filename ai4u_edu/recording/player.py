@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, cast
+from typing import cast
 
 from ai4u_edu.agent.block_errors import may_be_kept, sentence_of
 from ai4u_edu.agent.cycle import ControlRequestor
@@ -11,9 +11,8 @@ from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.recording.episode import DONE_REQUESTED, REPEAT, Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
-from ai4u_edu.scenes.description import make_agents
+from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import PlainDataError, from_plain
-from ai4u_edu.world import World
 
 
 class RecordedBrain(Brain):
@@ -199,25 +198,12 @@ class Player:
 
 
 def _new_world(episode: Episode, brains: list[RecordedBrain]) -> ControlRequestor:
-    scene = episode.scene
-    bare: list[dict[str, Any]] = [
-        {name: value for name, value in agent.items() if name != "brains"} for agent in scene.agents
-    ]
+    """Build an episode's world; the scene's brains may be of types that are not defined here."""
+    agents = [{k: v for k, v in each.items() if k != "brains"} for each in episode.scene.agents]
+    scene = Scene(episode.scene.model_copy(update={"agents": tuple(agents)}))
+    by_id = dict(zip(episode.ids, brains, strict=True))
     try:
-        world = World(seed=episode.seed, **dict(scene.world))
-        world.add_all([*scene.floors, *scene.areas, *scene.bodies])
-        agents = make_agents(scene.model_copy(update={"agents": tuple(bare)}))
-        for agent, brain in zip(agents, brains, strict=True):
-            agent.brains = [brain]
-        return ControlRequestor(
-            world,
-            agents,
-            default_time_scale=scene.time_scale,
-            goal=scene.goal,
-            success=scene.success or "",
-            spread_decisions=scene.spread_decisions,
-            wait_for_key=scene.wait_for_key,
-        )
+        return scene.build(episode.seed, brains=lambda agent: by_id[agent.id])
     except AI4UError as error:
         raise RecordingError(f"the episode's scene can't be made: {error}") from None
 

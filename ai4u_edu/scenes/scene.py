@@ -1,15 +1,18 @@
 """Scenes: read from files, built into worlds with agents, written to files."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Self
 
 from pydantic import ValidationError
 from yaml import YAMLError
 
+from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest
 from ai4u_edu.base.parameters import ParameterProblem, explain
+from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.serialization import PlainDataError
@@ -121,8 +124,15 @@ class Scene:
         """Return the names of all scenes in the library."""
         return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
 
-    def build(self, seed: int = 0) -> ControlRequestor:
+    def build(
+        self, seed: int = 0, *, brains: Callable[[BasicAgent], Brain | None] | None = None
+    ) -> ControlRequestor:
         """Make a new world with new agents.
+
+        Args:
+            seed: of the world.
+            brains: returns the brain of an agent in place of those in the scene, or None to keep
+                these; an agent that it gets has its other blocks already.
 
         Raises:
             AI4UError: something in the description is wrong; for its data a PlainDataError.
@@ -133,6 +143,11 @@ class Scene:
         with files_in(self.folder):
             agents = make_agents(description)
         check_success(description.success, agents)
+        if brains is not None:
+            for agent in agents:
+                brain = brains(agent)
+                if brain is not None:
+                    agent.brains = [brain]
         return ControlRequestor(
             world,
             agents,

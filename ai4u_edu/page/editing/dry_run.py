@@ -6,14 +6,12 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError, WorldError
 from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
-from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
 from ai4u_edu.page.editing.state import EditState
-from ai4u_edu.scenes.description import check_success, make_agents
+from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.scenes.setup_errors import field_named_in
-from ai4u_edu.world import World
 
 
 class IdleBrain(Brain):
@@ -39,14 +37,7 @@ def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> Contr
     """
     description = state.description
     try:
-        world = World(**dict(description.world))
-        world.add_all(description.things)
-        with files_in(state.folder):
-            agents = make_agents(description)
-        for agent in agents:
-            agent.brains = [IdleBrain()]
-        check_success(description.success, agents)
-        sim = ControlRequestor(world, agents)
+        sim = Scene(description, state.folder).build(brains=lambda _: IdleBrain())
         for seed in range(resets if any(each.random for each in description.things) else 1):
             sim.reset(seed)
     except PlainDataError as error:

@@ -2,9 +2,7 @@
 
 import re
 
-from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import ActionError, AI4UError
-from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.page.editing.driver_options import KEYS, OWN_BRAIN, with_driver
 from ai4u_edu.page.editing.drivers import NETWORK, DriverRegistry
 from ai4u_edu.page.editing.dry_run import IdleBrain, dry_run
@@ -12,9 +10,8 @@ from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.proposals import add_block
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.page.editing.suggestion import suggest_block
-from ai4u_edu.scenes.description import make_agents
+from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import PlainDataError
-from ai4u_edu.world import World
 
 _ADD_FIRST = "Add one in the World tab first."
 _BY_FIELD = {
@@ -77,17 +74,11 @@ def reason_against_driver(
 
 def _decide_once(state: EditState, agent_id: str) -> None:
     """Build a state's world and let one agent's brain take a decision; the others stay idle."""
-    description = state.description
-    world = World(**dict(description.world))
-    world.add_all(description.things)
-    with files_in(state.folder):
-        agents = make_agents(description)
-        for agent in agents:
-            if agent.id != agent_id or not _is_local(state, agent_id):
-                agent.brains = [IdleBrain()]
-        sim = ControlRequestor(world, agents)
-        sim.reset(0)
-        sim.tick()
+    tried = agent_id if _is_local(state, agent_id) else None
+    scene = Scene(state.description, state.folder)
+    sim = scene.build(brains=lambda agent: None if agent.id == tried else IdleBrain())
+    sim.reset(0)
+    sim.tick()
 
 
 def _is_local(state: EditState, agent_id: str) -> bool:
