@@ -259,7 +259,7 @@ def vary(
     Without --parameter, it lists the numbers of the scene.
     """
     from ai4u_edu.games.jobs import engine
-    from ai4u_edu.learn.training import vary as v
+    from ai4u_edu.learn.training import varying as v
     from ai4u_edu.learn.training.assigned import agent_and_driver
     from ai4u_edu.learn.training.progress_bar import ProgressBar
     from ai4u_edu.scenes import Scene
@@ -297,9 +297,9 @@ def vary(
             f"{loaded.description.name}: {episodes} episodes with each value, the same starts "
             f"(seeds {seed}..{seed + episodes - 1})"
         )
-        Console().print(v.tried_table(varied, rows), highlight=False)
+        Console().print(v.Tried(varied, rows).table(), highlight=False)
     if csv_file is not None:
-        text = v.tried_csv(varied.name, rows)
+        text = v.Tried(varied, rows).csv()
         if str(csv_file) == "-":
             typer.echo(text, nl=False)
         else:

@@ -12,7 +12,7 @@ from ai4u_edu.cli.main import app
 from ai4u_edu.games.jobs import engine
 from ai4u_edu.learn.training.evaluating import evaluate
 from ai4u_edu.learn.training.policies import entrant
-from ai4u_edu.learn.training.vary import (
+from ai4u_edu.learn.training.varying import (
     MAX_VALUES,
     number_parameters,
     parameter_named,

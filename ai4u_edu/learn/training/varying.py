@@ -1,24 +1,29 @@
 """One number of a scene with many values: the same driver from the same starts with each."""
 
+import io
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import lru_cache
+from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
+from rich.console import Console
 from rich.table import Table
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import AI4UError, SetupError, suggest
 from ai4u_edu.base.parameters import DataPath, explain, is_open
-from ai4u_edu.blocks import Block, LocalBrain
+from ai4u_edu.blocks import Block, Controller, LocalBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.games.jobs import Engine
 from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
 from ai4u_edu.learn.training.evaluating import Evaluation
@@ -30,6 +35,8 @@ from ai4u_edu.world import WorldSettings
 
 MAX_VALUES = 50
 """Values of one parameter that are tried at a time."""
+MAX_LINE_CHARS = 120
+"""Length of a line of a table as text."""
 FROM_SCENE = "scene"
 """Name of the driver that the scene itself has."""
 NO_FIT = "does not fit agent"
@@ -105,6 +112,64 @@ class TriedValue(Struct, frozen=True):
         )
 
 
+@dataclass(frozen=True, repr=False)
+class Tried:
+    """Results of all values of a parameter; as text or in a notebook, a table."""
+
+    parameter: NumberParameter
+    rows: Sequence[TriedValue]
+
+    def table(self) -> Table:
+        """Return a table with a row for each value."""
+        table = Table(box=None, pad_edge=False)
+        for heading in self._headings:
+            table.add_column(heading, justify="right", overflow="fold")
+        for row in self.rows:
+            table.add_row(*_cells(row))
+        return table
+
+    def csv(self) -> str:
+        """Return the results as CSV; what a scene without a goal lacks is empty."""
+        ends = ("success", "success_low", "success_high")
+        header = (self.parameter.name, "episodes", "successes", *ends)
+        cells = (
+            (
+                int(row.value) if row.value == int(row.value) else row.value,
+                *(row.episodes, row.successes, row.success, row.low, row.high),
+                *(row.reward, row.seconds, row.decisions),
+            )
+            for row in self.rows
+        )
+        return csv_table((*header, "reward", "seconds", "decisions"), cells)
+
+    def __repr__(self) -> str:
+        """Return the table as text."""
+        console = Console(file=io.StringIO(), width=MAX_LINE_CHARS, color_system=None)
+        with console.capture() as text:
+            console.print(self.table(), highlight=False)
+        return "\n".join(line.rstrip() for line in text.get().splitlines())
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{escape(each)}</th>" for each in self._headings)
+        body = "".join(
+            f"<tr>{''.join(f'<td>{cell}</td>' for cell in _cells(row))}</tr>" for row in self.rows
+        )
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+    @property
+    def _headings(self) -> tuple[str, ...]:
+        name, unit = self.parameter.name, self.parameter.shown_unit
+        first = f"{name} ({unit})" if unit else name
+        return first, "success", "95% between", "reward", "time"
+
+
+def _cells(row: TriedValue) -> tuple[str, ...]:
+    success, between = "-", "-"
+    if row.success is not None and row.low is not None and row.high is not None:
+        success, between = f"{row.success:.0%}", f"{100 * row.low:.1f} and {100 * row.high:.1f}%"
+    return f"{row.value:.10g}", success, between, f"{row.reward:.2f}", f"{row.seconds:.1f} s"
+
+
 def number_parameters(scene: Scene) -> list[NumberParameter]:
     """Return all numbers of a scene, with the enabled brain of each agent as ``brain``."""
     plain = scene.plain()
@@ -113,19 +178,17 @@ def number_parameters(scene: Scene) -> list[NumberParameter]:
     for index, given in enumerate(plain["agents"]):
         path: DataPath = ("agents", index)
         agent = agents[str(given.get("id", "0"))]
-        schema = BasicAgent.json_schema()["properties"]
+        schema = _schema(BasicAgent)
         own = {name: schema[name] for name in AGENT_NUMBERS}
         found += _numbers(agent.id, path, given, own)
         for kind, place, name in _blocks(agent):
             found += _of_block(f"{agent.id}.{name}", (*path, kind, place), given[kind][place])
-    schema = WorldSettings.model_json_schema()["properties"]
-    found += _numbers("world", ("world",), plain.get("world", {}), schema)
+    found += _numbers("world", ("world",), plain.get("world", {}), _schema(WorldSettings))
     for kind in ("floors", "areas", "bodies"):
         for index, thing in enumerate(getattr(scene.description, kind)):
             given, name = plain[kind][index], f"{kind}.{thing.name}"
-            schema = type(thing).model_json_schema()["properties"]
-            shape = type(thing.shape).model_json_schema()["properties"]
-            found += _numbers(name, (kind, index), given, schema)
+            found += _numbers(name, (kind, index), given, _schema(type(thing)))
+            shape = _schema(type(thing.shape))
             found += _numbers(name, (kind, index, "shape"), given["shape"], shape)
     return found
 
@@ -219,21 +282,22 @@ def with_driver(scene: Scene, spec: str, agent: str = "") -> tuple[Scene, str]:
     if spec == "random" or ".py:" in spec:
         return scene, spec
     brain = who.brain(driven)
-    controller = brain.controller if isinstance(brain, LocalBrain) else None
-    if controller is None:
-        raise SetupError(f"{driven.id}: expected a network or a controller, got a {_kind(brain)}")
-    if listens_to_keys(type(controller)):
-        raise SetupError(
-            f"agent {driven.id!r} follows keys ({_kind(controller)}), which nobody presses here; "
-            f"expected another driver, as in --brain zoo for the scene's own network"
-        )
-    if spec == FROM_SCENE:
-        return scene, spec
-    if not is_serializable(type(controller)):
+    if not isinstance(brain, LocalBrain):
+        got = type(brain).__name__
+        raise SetupError(f"agent {driven.id!r}: expected a network or a controller, got a {got}")
+    controller = brain.controller
+    if not isinstance(controller, Controller) or not is_serializable(type(controller)):
         raise SetupError(
             f"{spec}: expected a driver that a scene file can have; export the network first: "
             f"ai4u-edu export {spec} --out policy.onnx"
         )
+    if listens_to_keys(type(controller)):
+        raise SetupError(
+            f"agent {driven.id!r} follows keys ({type(controller).__name__}), which nobody presses "
+            "here; expected another driver, as in --brain zoo for the scene's own network"
+        )
+    if spec == FROM_SCENE:
+        return scene, spec
     return _with_brain(scene, driven.id, to_plain(brain)), FROM_SCENE
 
 
@@ -290,43 +354,6 @@ def parameter_table(parameters: Sequence[NumberParameter]) -> Table:
     return table
 
 
-def tried_table(parameter: NumberParameter, rows: Sequence[TriedValue]) -> Table:
-    """Return a table with a row for each value."""
-    table = Table(box=None, pad_edge=False)
-    unit = parameter.shown_unit
-    first = f"{parameter.name} ({unit})" if unit else parameter.name
-    for heading in (first, "success", "95% between", "reward", "time"):
-        table.add_column(heading, justify="right")
-    for each in rows:
-        success, between = "-", "-"
-        if each.success is not None and each.low is not None and each.high is not None:
-            success = f"{each.success:.0%}"
-            between = f"{100 * each.low:.1f} and {100 * each.high:.1f}%"
-        cells = (f"{each.value:.10g}", success, between, f"{each.reward:.2f}")
-        table.add_row(*cells, f"{each.seconds:.1f} s")
-    return table
-
-
-def tried_csv(name: str, rows: Sequence[TriedValue]) -> str:
-    """Return the results as CSV; what a scene without a goal lacks is empty.
-
-    Args:
-        name: of the parameter.
-        rows: the results.
-    """
-    ends = ("success", "success_low", "success_high")
-    header = (name, "episodes", "successes", *ends, "reward", "seconds", "decisions")
-    cells = (
-        (
-            *(each.value, each.episodes, each.successes),
-            *(each.success, each.low, each.high),
-            *(each.reward, each.seconds, each.decisions),
-        )
-        for each in rows
-    )
-    return csv_table(header, cells)
-
-
 def _with_brain(scene: Scene, agent: str, brain: dict[str, Any]) -> Scene:
     controller = brain.get("controller", {})
     path = str(controller.get("model_path", ""))
@@ -338,10 +365,6 @@ def _with_brain(scene: Scene, agent: str, brain: dict[str, Any]) -> Scene:
     ]
     described = scene.description.model_copy(update={"agents": tuple(agents)})
     return Scene(described, scene.folder)
-
-
-def _kind(block: Block | None) -> str:
-    return type(block).__name__
 
 
 def _blocks(agent: BasicAgent) -> Iterator[tuple[str, int, str]]:
@@ -362,8 +385,7 @@ def _blocks(agent: BasicAgent) -> Iterator[tuple[str, int, str]]:
 
 def _of_block(name: str, path: DataPath, plain: Mapping[str, Any]) -> list[NumberParameter]:
     """Return the numbers of a block, and of those inside it."""
-    schema = Block.types[str(plain["type"])].json_schema()["properties"]
-    found = _numbers(name, path, plain, schema)
+    found = _numbers(name, path, plain, _schema(Block.types[str(plain["type"])]))
     for key, value in plain.items():
         inner = value if isinstance(value, list | tuple) else [value]
         for index, each in enumerate(inner):
@@ -372,6 +394,23 @@ def _of_block(name: str, path: DataPath, plain: Mapping[str, Any]) -> list[Numbe
                 inside = str(each.get("name", index)) if value is inner else key
                 found += _of_block(f"{name}.{inside}", (*path, *place), each)
     return found
+
+
+def _schema(cls: type[BaseModel] | type[Parameterized]) -> Mapping[str, Any]:
+    """Return the JSON Schema of each declared parameter."""
+    plain_type: type = cls  # mypy believes that a class that defines __hash__ has no hash
+    return _cached_schema(plain_type)
+
+
+@lru_cache(maxsize=256)  # a page looks at all numbers after each change of its scene
+def _cached_schema(cls: type) -> Mapping[str, Any]:
+    schema: dict[str, Any] = {"properties": {}}
+    if issubclass(cls, BaseModel):
+        schema = cls.model_json_schema()
+    elif issubclass(cls, Parameterized):
+        schema = cls.json_schema()
+    properties: Mapping[str, Any] = schema["properties"]
+    return properties
 
 
 def _numbers(
