@@ -22,6 +22,7 @@
 import math
 
 from ai4u_edu import *
+from ai4u_edu.learn.training import vary
 from ai4u_edu.lessons import (
     check,
     compare,
@@ -289,6 +290,24 @@ my_few_numbers = [OrientationSensor(target="box")]
 
 # %%
 check("04.5", my_few_numbers)
+
+# %% [markdown]
+# ## Try many: how much noise is too much?
+#
+# One drive proves little: maybe the robot was lucky. `vary` changes one number of a scene, and lets a driver
+# drive from the same 20 starts with each value. Here a trained network looks for the box, and the sensor
+# for its direction gets more and more inexact. With which noise will it begin to miss the box? Guess first.
+
+# %%
+vary("zoo", "box_chase", "orientation.noise", [0, 1, 2, 4])
+
+# %% [markdown]
+# `success` is how often it reached the box. With 20 other starts the share would be a bit different, so the
+# next column says where the true share probably lies. If two of these ranges overlap a lot, you can't tell yet
+# which value is better: take more starts (`episodes=100`).
+#
+# This robot has rays, too. Put `"vision.noise"` in place of `"orientation.noise"`. Which of its two
+# sensors does this driver rely on? (In the page, the tab Teach has such experiments under "Try many".)
 
 # %% [markdown]
 # ## Exit ticket

@@ -21,6 +21,7 @@
 import math
 
 from ai4u_edu import *
+from ai4u_edu.learn.training import vary
 from ai4u_edu.lessons import (
     check,
     compare,
@@ -235,6 +236,29 @@ show(vehicle(love))
 # **uphill analysis and downhill invention**: it is easy to build something that behaves in a surprising
 # way, and hard to guess from the behaviour what is inside. Remember that when you watch animals, or
 # people, or a chatbot.
+
+# %% [markdown]
+# ## Try many: how fast can two wires be?
+#
+# Wires can follow a black line, too. This vehicle has five small eyes close to the ground. One that is above
+# the line reads 1, and brakes the wheel on its own side. Now make the wheels faster. `vary` changes one
+# number of a scene, and lets the vehicle drive from the same 8 starts with each value. With which speed will
+# it lose the line? Guess first.
+
+
+# %%
+def follow(percept):
+    eyes = percept["line"]
+    left_eyes, right_eyes = eyes[0] + eyes[1], eyes[3] + eyes[4]
+    return {"move": [0.5 - 0.4 * left_eyes, 0.5 - 0.4 * right_eyes]}
+
+
+vary(follow, "line_follow", "max_wheel_speed", [4, 8, 12], episodes=8)
+
+# %% [markdown]
+# `success` is how often it drove a whole lap. Eight starts are few, so the next column says where the true
+# share probably lies. A faster vehicle needs less **time** for a lap, until it is too fast for its wires. Can
+# you wire it better, so that it stays on the line with 12 metres a second?
 
 # %% [markdown]
 # ## Exit ticket

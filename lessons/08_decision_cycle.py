@@ -19,6 +19,7 @@
 
 # %% tags=["setup"]
 from ai4u_edu import *
+from ai4u_edu.learn.training import vary
 from ai4u_edu.lessons import (
     check,
     compare,
@@ -268,6 +269,21 @@ def diary(agent):
 
 # %%
 check("08.3", diary)
+
+# %% [markdown]
+# ## Try many: how seldom is too seldom?
+#
+# `vary` changes one number of a scene, and lets a driver drive from the same 20 starts with each value. Here a
+# trained network drives to the box, and decides more and more seldom. Which column will change first, and with
+# which `skip_frame` will it begin to fail? Guess, then run the cell.
+
+# %%
+vary("zoo", "box_chase", "brain.skip_frame", [4, 19, 29, 39])
+
+# %% [markdown]
+# `success` is how often it reached the box, and the next column says where the true share probably lies: with
+# 20 other starts it would be a bit different. A robot that is slower could be as safe with fewer decisions.
+# Is it? Vary `"move_amount"`, its speed, in place of `"brain.skip_frame"`: 1, 2.5, 5, 10.
 
 # %% [markdown]
 # ## Exit ticket

@@ -20,6 +20,7 @@
 
 # %% tags=["setup"]
 from ai4u_edu import *
+from ai4u_edu.learn.training import vary
 from ai4u_edu.lessons import (
     bars,
     cards,
@@ -253,6 +254,20 @@ print(agent.ledger.episode_terms)
 # %% [markdown]
 # A block such as `TouchRewardFunc` is better when you want to keep it: it has parameters, a name, and can be
 # used in a scene file.
+
+# %% [markdown]
+# ## Try many: does it care what you pay?
+#
+# This driver has learned to reach the box, for 100 points. Now pay it less. `vary` changes one number of a
+# scene, and lets the driver drive from the same starts with each value. Which columns of the table will
+# change: `success`, `reward`, `time`? Guess first.
+
+# %%
+vary("zoo", "box_chase", "touch.reward", [1, 10, 100], episodes=10)
+
+# %% [markdown]
+# Only the reward changes. A driver that has learned does what it does; nobody tells it what it is paid. A reward
+# shapes an agent **while it learns**, which is the next lesson.
 
 # %% [markdown]
 # ## Exit ticket

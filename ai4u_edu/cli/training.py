@@ -29,6 +29,7 @@ def add_to(app: typer.Typer) -> None:
     app.command()(train)
     app.command()(sweep)
     app.command()(evaluate)
+    app.command()(vary)
     app.command()(tournament)
     app.command()(export)
 
@@ -234,16 +235,75 @@ def _evaluated_on(
     from ai4u_edu.games.jobs import engine
     from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
     from ai4u_edu.learn.training.progress_bar import ProgressBar
+    from ai4u_edu.scenes.scene_data import scene_data
 
-    files = [str(file.absolute()) for file in own_blocks or ()]
-    done = []
-    with engine(name, address=address) as running:
-        for who in drivers:
-            bar = ProgressBar(len(seeds), f"episodes, {who}", keep=False)
-            with closing(bar):
-                told = evaluate_on(running, who, scene, seeds, own_blocks=files, tell=bar.add)
-            done.append(told)
-    return done
+    data = scene_data(scene, own_blocks or ())
+    bar = ProgressBar(len(seeds) * len(drivers), "episodes", keep=False)
+    with engine(name, address=address) as running, closing(bar):
+        return evaluate_on(running, [(who, data) for who in drivers], seeds, tell=bar.add)
+
+
+def vary(
+    scene: Annotated[str, typer.Argument(help="Scene name or YAML file.")],
+    parameter: o.VariedParameter = "",
+    values: o.VariedValues = "",
+    brain: o.VaryingDriver = "scene",
+    episodes: o.Episodes = 20,
+    seed: o.FirstSeed = 0,
+    csv_file: o.CsvFile = None,
+    workers: o.Workers = 1,
+    own_blocks: OwnBlocks = None,
+) -> None:
+    """Drive from the same starts with each value of one number: of a block, a thing or the world.
+
+    Without --parameter, it lists the numbers of the scene.
+    """
+    from ai4u_edu.games.jobs import engine
+    from ai4u_edu.learn.training import varying as v
+    from ai4u_edu.learn.training.assigned import agent_and_driver
+    from ai4u_edu.learn.training.progress_bar import ProgressBar
+    from ai4u_edu.scenes import Scene
+
+    load_own_blocks(own_blocks)
+    loaded = Scene.load(scene)
+    agent, who = agent_and_driver(brain, [each.id for each in loaded.build().agents])
+    if not parameter:
+        Console().print(v.parameter_table(v.number_parameters(loaded)), highlight=False)
+        return
+    present = v.parameter_named(loaded, parameter)
+    if not values:
+        raise SetupError(
+            f"expected the values of {present.name} to try, as in --values 1,2,4; it is "
+            f"{present.value} now"
+        )
+    numbers, seeds = v.parse_values(values), seeds_from(seed, episodes)
+    driven, who = v.with_driver(loaded, who, agent)
+    varied = v.parameter_named(driven, parameter)
+    bar = ProgressBar(len(numbers) * episodes, "episodes", keep=False)
+    with closing(bar), engine("inline" if workers == 1 else "processes", width=workers) as running:
+        rows = v.try_values(
+            driven,
+            varied,
+            numbers,
+            seeds,
+            running,
+            who=who,
+            agent=agent,
+            own_blocks=own_blocks or (),
+            tell=bar.add,
+        )
+    if csv_file is None or str(csv_file) != "-":
+        typer.echo(
+            f"{loaded.description.name}: {episodes} episodes with each value, the same starts "
+            f"(seeds {seed}..{seed + episodes - 1})"
+        )
+        Console().print(v.Tried(varied, rows).table(), highlight=False)
+    if csv_file is not None:
+        text = v.Tried(varied, rows).csv()
+        if str(csv_file) == "-":
+            typer.echo(text, nl=False)
+        else:
+            write_atomically(csv_file, text)
 
 
 def export(

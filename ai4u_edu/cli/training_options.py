@@ -123,6 +123,36 @@ FormerScene = Annotated[str, typer.Option("--scene", hidden=True)]
 FormerDrivers = Annotated[list[str] | None, typer.Option("--compare", hidden=True)]
 Episodes = Annotated[int, typer.Option(help="Number of episodes.", min=1, max=MAX_EPISODES)]
 FirstSeed = Annotated[int, seed_option("Seed of the first episode; the next ones count up.")]
+VariedParameter = Annotated[
+    str,
+    typer.Option(
+        help="The number to vary, such as vision.columns or bodies.box.mass. "
+        "Default: list all numbers.",
+        show_default=False,
+    ),
+]
+VariedValues = Annotated[str, typer.Option(help="Its values, as in 1,2,4,8.", show_default=False)]
+VaryingDriver = Annotated[
+    str,
+    typer.Option(
+        "--brain",
+        help="The driver: a network (.onnx, zoo:SCENE, or zoo for the scene's own), a controller, "
+        "FILE.py:NAME, random, or scene (the scene's own controller). ID=DRIVER for another agent "
+        "than the first.",
+    ),
+]
+CsvFile = Annotated[
+    Path | None, typer.Option("--csv", help="Write the results to a CSV file; - prints them.")
+]
+Workers = Annotated[
+    int,
+    typer.Option(
+        help="Processes that drive at a time; starting them takes seconds. The numbers are the "
+        "same with any count.",
+        min=1,
+        max=256,
+    ),
+]
 JsonFile = Annotated[
     Path | None, typer.Option("--json", help="Write the results to a JSON file; - prints them.")
 ]

@@ -42,6 +42,7 @@ from ai4u_edu.teach.learning import Learning
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
 from ai4u_edu.teach.practice import Practice, PracticeRequest
 from ai4u_edu.teach.teachable import reason_against_teaching
+from ai4u_edu.teach.tries import TryingPages
 
 T = TypeVar("T")
 
@@ -76,7 +77,7 @@ class TeachOption:
         editor: has the scene; without one, or without a work folder, there is nothing to teach.
     """
 
-    agent_parts = frozenset({"teach"})
+    agent_parts = frozenset({"teach", "tries"})
 
     def __init__(
         self,
@@ -86,7 +87,7 @@ class TeachOption:
     ) -> None:
         self._runner, self._editor = runner, editor
         self.tab: OptionTab | None = None
-        self.commands: Mapping[type[PageCommand], Handler] = {}
+        self.commands: dict[type[PageCommand], Handler] = {}
         self._work = _SceneWork()
         self._learning: Learning | None = None
         self._practice: Practice | None = None
@@ -106,6 +107,8 @@ class TeachOption:
             m.DeleteNetwork: self._delete_network,
             m.DownloadNetwork: self._download_network,
         }
+        self._tries = TryingPages(runner, editor, self._done)
+        self.commands |= self._tries.commands
         self._drives = DriveFolder(folder / "drives")
         self._networks = NetworkFolder(folder / "networks")
         editor.offer(self._offered)
@@ -130,6 +133,7 @@ class TeachOption:
                 "teach",
                 context.cache.by_key(key, lambda: self._part(work, agent, driver)),
             )
+            yield from self._tries.parts(context, agent)
 
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002 - an option without a picture needs none
         """Return nothing: it draws nothing."""
@@ -143,6 +147,8 @@ class TeachOption:
         for process in (self._learning, self._practice):
             if process is not None:
                 process.stop()
+        if self.tab is not None:
+            self._tries.stop()
         self._tasks.put(None)
 
     # -- in the server's event loop ----------------------------------------------------------------
@@ -281,6 +287,7 @@ class TeachOption:
     def _look(self) -> None:
         """Look at the drives and networks of the present scene again."""
         editor = self._required_editor()
+        self._tries.look()
         scene = editor.scene
         sim = scene.build()
         sim.reset(0)

@@ -688,6 +688,65 @@ export interface TrainingPart {
   points: [number, number, number | null][];
 }
 
+/** A number that can be varied. */
+export interface VariableNumber {
+  name: string;
+  /** Block, agent or thing that has it, in words. */
+  owner: string;
+  /** Name of the number in words, with its unit. */
+  label: string;
+  /** Its present value; null if it has none. */
+  value: number | null;
+  /** Its range in words; empty if it has none. */
+  limits: string;
+}
+
+/** Result of the episodes with one value of a parameter. */
+export interface TriedValue {
+  value: number;
+  episodes: number;
+  /** Episodes that reached the goal; None in a scene without a goal. */
+  successes: number | null;
+  /** Lower end of the 95% confidence interval of the share of successes. */
+  low: number | null;
+  high: number | null;
+  /** Mean reward of an episode. */
+  reward: number;
+  /** Mean duration (s) of an episode in world time. */
+  seconds: number;
+  /** Mean number of decisions of an episode. */
+  decisions: number;
+}
+
+/** State of the latest tries of the agent. */
+export interface TriesState {
+  is_over: boolean;
+  /** Sentence about why they ended early; empty if they did not. */
+  problem: string;
+  /** The number in words. */
+  label: string;
+  /** Episodes that were driven. */
+  done: number;
+  /** Episodes with all values. */
+  total: number;
+  /** Results of the values that are done. */
+  rows: TriedValue[];
+}
+
+/** Numbers that can be varied, and what came of it. */
+export interface TriesPart {
+  type: "part";
+  name: "tries";
+  /** Id of the agent that the page shows. */
+  agent: string;
+  /** Sentence about why its driver can't be tried; empty if it can. */
+  problem: string;
+  numbers: VariableNumber[];
+  /** The latest tries of the agent in this scene; null if there were none since the start. */
+  tries: TriesState | null;
+  max_starts: number;
+}
+
 /** The choices for the page's picture. */
 export interface ViewPart {
   type: "part";
@@ -792,6 +851,7 @@ export interface PanelParts {
   scene: ScenePart;
   teach: TeachPart;
   training: TrainingPart;
+  tries: TriesPart;
   view: ViewPart;
   world: WorldPart;
 }
@@ -1023,6 +1083,10 @@ export interface Download {
 /** Return a network's file: its `name`, and its bytes in base64 as `data`. */
 export interface DownloadNetwork {
   network: number;
+}
+
+/** Return the results as CSV: the file's `name`, and its text as `data`. */
+export interface DownloadTried {
 }
 
 /** Let a network drive the agent that the page shows. */
@@ -1282,6 +1346,10 @@ export interface StopLearning {
 export interface StopPractising {
 }
 
+/** End the episodes; what was driven is kept. */
+export interface StopTrying {
+}
+
 /** Switch a block of the agent on or off. */
 export interface SwitchBlock {
   path: (string | number)[];
@@ -1294,6 +1362,16 @@ export interface Tick {
 
 /** Begin an episode with the same start. */
 export interface TryAgain {
+}
+
+/** Let the driver of the page's agent drive from the same starts with each value of a number. */
+export interface TryMany {
+  /** Name of the number. */
+  parameter: string;
+  /** Numbers with commas between. */
+  values: string;
+  /** Episodes with each value. */
+  starts: number;
 }
 
 /** Take back the last change. */
@@ -1362,6 +1440,7 @@ export interface Commands {
   switch_block: SwitchBlock;
   teach_delete: DeleteNetwork;
   teach_download: DownloadNetwork;
+  teach_download_tried: DownloadTried;
   teach_drive: DriveNetwork;
   teach_forget_drive: ForgetDrive;
   teach_learn: LearnFromDrives;
@@ -1369,6 +1448,8 @@ export interface Commands {
   teach_rename: RenameNetwork;
   teach_stop: StopLearning;
   teach_stop_practising: StopPractising;
+  teach_stop_trying: StopTrying;
+  teach_try: TryMany;
   tick: Tick;
   trail: ShowTrail;
   try_again: TryAgain;

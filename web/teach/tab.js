@@ -10,6 +10,7 @@ import { Drives } from "../teach/drives.js";
 import { LearningView } from "../teach/learning.js";
 import { Networks } from "../teach/networks.js";
 import { PracticeView } from "../teach/practice.js";
+import { TriesView } from "../teach/tries.js";
 
 const FIRST = "Drive to the goal a few times, from other starts each time. Every drive that ends is kept here, and the robot can learn from it.";
 
@@ -44,7 +45,8 @@ export class Tab {
       practice: section("teach-practice", "By rewards", {}, this.#practice.element),
       networks: section("teach-networks", "Your networks", {}, this.#networks.element),
     };
-    root.append(this.#problem, this.#sections.drives, this.#sections.practice, this.#sections.networks);
+    const tries = section("teach-tries", "Try many", { isOpen: false }, new TriesView(panel).element);
+    root.append(this.#problem, this.#sections.drives, this.#sections.practice, this.#sections.networks, tries);
   }
 
   /** @param {TeachPart} part */

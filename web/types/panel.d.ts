@@ -123,6 +123,7 @@ export interface AnswerFields {
   rivals: { rivals: Rival[] };
   scenes: { items: SceneCard[] };
   teach_download: { name: string; data: string };
+  teach_download_tried: { name: string; data: string };
   what_if: { dials: Dial[]; action: ChangedNumber[] };
 }
 

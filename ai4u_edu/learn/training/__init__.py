@@ -24,7 +24,7 @@ only your own, and share ONNX files.
 
 from typing import TYPE_CHECKING
 
-from ai4u_edu.learn.training.notebook import clone, demonstrate, evaluate, export, train
+from ai4u_edu.learn.training.notebook import clone, demonstrate, evaluate, export, train, vary
 
 if TYPE_CHECKING:
     from ai4u_edu.learn.training.q_table import QTable, grid_state, q_learning, still
@@ -39,6 +39,7 @@ __all__ = [
     "q_learning",
     "still",
     "train",
+    "vary",
 ]
 
 

@@ -15,6 +15,8 @@ class EpisodeStats(NamedTuple):
     """Decisions."""
     terminated: bool
     """True if it ended by what happened, False if it was truncated."""
+    seconds: float = 0.0
+    """Duration (s) in world time; 0 in a check of a training, which does not measure it."""
 
 
 def wilson(successes: int, trials: int, z: float = 1.959964) -> tuple[float, float]:

@@ -56,6 +56,11 @@ class Evaluation:
         return [each.length for each in self.episodes]
 
     @property
+    def seconds(self) -> list[float]:
+        """Each episode's duration (s) in world time."""
+        return [each.seconds for each in self.episodes]
+
+    @property
     def cells(self) -> dict[str, str]:
         """Return a table's cells by heading."""
         interval = self.interval
@@ -145,16 +150,17 @@ def evaluate(
 
 def _drive(sim: ControlRequestor, agent: BasicAgent, seed: int, goal: str | None) -> EpisodeStats:
     sim.reset(seed)
-    reward, length, episode = 0.0, 0, sim.episode
+    reward, length, seconds, episode = 0.0, 0, 0.0, sim.episode
     while not agent.done and length < DEFAULT_MAX_DECISIONS:
         sim.step(agent)
         if sim.episode != episode or agent.stopped or agent.paused:
-            return EpisodeStats(seed, False, reward, length, False)  # it gave up
+            return EpisodeStats(seed, False, reward, length, False, seconds)  # it gave up
         reward += agent.reward
         length += 1
+        seconds = sim.world.time
     paid = agent.ledger.episode_terms
     won = bool(goal and paid.get(goal, 0.0) > 0)
-    return EpisodeStats(seed, won, reward, length, agent.terminated)
+    return EpisodeStats(seed, won, reward, length, agent.terminated, seconds)
 
 
 def _spread(numbers: Sequence[float]) -> dict[str, float]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ai4u_edu.learn.training.demonstrations import Cloned
     from ai4u_edu.learn.training.evaluating import Evaluation
     from ai4u_edu.learn.training.run import Trained
+    from ai4u_edu.learn.training.varying import Tried
     from ai4u_edu.learn.training.watch import Watch
     from ai4u_edu.recording import Episode
     from ai4u_edu.scenes import Scene
@@ -212,6 +213,61 @@ def evaluate(
         raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
     seeds: Iterable[int] = seeds_from(seed, episodes)
     return evaluated(driver, _scene(where), counted(seeds, driver.name, quiet=quiet))
+
+
+def vary(
+    who: "Who",
+    scene: "SceneLike",
+    parameter: str,
+    values: Sequence[float],
+    *,
+    episodes: int = 20,
+    seed: int = 0,
+    quiet: bool = False,
+) -> "Tried":
+    """Drive from the same starts with each value of one number of a scene.
+
+    Args:
+        who: drives, as for :func:`evaluate`.
+        scene: the scene; it stays as it is.
+        parameter: the number, such as ``"vision.noise"``, ``"bodies.box.mass"`` or
+            ``"world.damping"``; ``ai4u-edu vary SCENE`` lists all.
+        values: of the number.
+        episodes: number of episodes with each value.
+        seed: seed of the first episode; the next ones follow.
+        quiet: True shows no progress.
+
+    Returns:
+        ``rows`` with ``value``, ``success`` (0..1), ``low``, ``high``, ``reward``, ``seconds``; as
+        text or in a notebook, a table.
+
+    >>> from ai4u_edu.learn.training import vary
+    >>> result = vary("zoo", "box_chase", "move_amount", [5, 2.5], episodes=2, quiet=True)
+    >>> [(row.value, row.success) for row in result.rows]
+    [(5, 1.0), (2.5, 1.0)]
+    """
+    from ai4u_edu.learn.training.evaluating import evaluate as evaluated
+    from ai4u_edu.learn.training.policies import entrant_of
+    from ai4u_edu.learn.training.progress_bar import counted
+    from ai4u_edu.learn.training.varying import (
+        Tried,
+        TriedValue,
+        parameter_named,
+        with_driver,
+        with_value,
+    )
+
+    driven = _scene(scene)
+    if isinstance(who, str | Path):  # in the scene, so that its numbers can be varied too
+        driven, who = with_driver(driven, str(who))
+    number, driver = parameter_named(driven, parameter), entrant_of(who)
+    scenes = [with_value(driven, number, value) for value in values]
+    seeds = seeds_from(seed, episodes)
+    rows = [
+        TriedValue.of(value, evaluated(driver, each, counted(seeds, f"{value:g}", quiet=quiet)))
+        for value, each in zip(values, scenes, strict=True)
+    ]
+    return Tried(number, rows)
 
 
 def export(

@@ -14,6 +14,7 @@ from ai4u_edu.games.jobs import Engine, engine
 from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
 from ai4u_edu.learn.training.evaluating import evaluate
 from ai4u_edu.learn.training.policies import entrant
+from ai4u_edu.scenes.scene_data import scene_data
 
 COMMAND = ["evaluate", "box_chase", "--brain", "random", "--brain", "scene", "--episodes", "6"]
 
@@ -30,7 +31,8 @@ def processes() -> Iterator[Engine]:
 def test_it_is_equal_to_that_in_one_process(who: str, processes: Engine) -> None:
     seeds = range(40, 57)
     counts: list[int] = []
-    told = evaluate_on(processes, who, "box_chase", seeds, tell=counts.append)
+    drives = [(who, scene_data("box_chase"))]
+    (told,) = evaluate_on(processes, drives, seeds, tell=counts.append)
     scene = Scene.load("box_chase")
     assert told == evaluate(entrant(who, "box_chase"), scene, seeds)
     assert sum(counts) == 17
@@ -39,7 +41,7 @@ def test_it_is_equal_to_that_in_one_process(who: str, processes: Engine) -> None
 
 def test_a_driver_that_can_t_drive_is_told_with_its_seeds(processes: Engine) -> None:
     with pytest.raises(AI4UError, match="Nobody, seeds 0 to 0: nobody is called 'Nobody'"):
-        evaluate_on(processes, "Nobody", "box_chase", range(1))
+        evaluate_on(processes, [("Nobody", scene_data("box_chase"))], range(1))
 
 
 def test_the_command_gives_the_same_on_each_engine(tmp_path: Path) -> None:

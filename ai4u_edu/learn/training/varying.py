@@ -1,0 +1,442 @@
+"""One number of a scene with many values: the same driver from the same starts with each."""
+
+import io
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import deepcopy
+from dataclasses import dataclass
+from functools import lru_cache
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from msgspec import Struct
+from pydantic import BaseModel, ValidationError
+from rich.console import Console
+from rich.table import Table
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.base.csv_table import csv_table
+from ai4u_edu.base.errors import AI4UError, SetupError, suggest
+from ai4u_edu.base.parameters import DataPath, explain, is_open
+from ai4u_edu.blocks import Block, Controller, LocalBrain
+from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
+from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.blocks.parameterized import Parameterized
+from ai4u_edu.games.jobs import Engine
+from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
+from ai4u_edu.learn.training.evaluating import Evaluation
+from ai4u_edu.learn.training.policies import entrant, expect_here
+from ai4u_edu.scenes import Scene, SceneDescription
+from ai4u_edu.scenes.scene_data import SceneData
+from ai4u_edu.scenes.serialization import PlainDataError, is_serializable, to_plain
+from ai4u_edu.world import WorldSettings
+
+MAX_VALUES = 50
+"""Values of one parameter that are tried at a time."""
+MAX_LINE_CHARS = 120
+"""Length of a line of a table as text."""
+FROM_SCENE = "scene"
+"""Name of the driver that the scene itself has."""
+NO_FIT = "does not fit agent"
+TO_FIT = "; vary another number, or choose a controller: those fit any sensors"
+"""Hint for a network that was trained with other sensors."""
+AGENT_NUMBERS = ("max_steps_per_episode", "reward_scale")
+"""Numbers of an agent itself; its other ones are for AI4U's scripts."""
+NO_QUANTITIES = {"collision_layer", "collision_mask"}
+"""Numbers of a body that are sets of bits."""
+
+
+@dataclass(frozen=True)
+class NumberParameter:
+    """A number in a scene: of a block, an agent, a thing, or the world."""
+
+    name: str
+    """Such as ``0.vision.columns``, ``bodies.box.mass`` and ``world.gravity``."""
+    path: DataPath
+    """Path in the scene's plain data."""
+    value: float | None
+    """Its present value; None if it has none."""
+    unit: str = ""
+    """Empty if it has none."""
+    limits: str = ""
+    """Its range in words; empty if it has none."""
+
+    @property
+    def owner(self) -> str:
+        """Name of the block, the agent or the thing that has it."""
+        return self.name.rpartition(".")[0]
+
+    @property
+    def shown_unit(self) -> str:
+        """The unit, but for plain numbers."""
+        return "" if self.unit == "1" else self.unit
+
+
+class TriedValue(Struct, frozen=True):
+    """Result of the episodes with one value of a parameter."""
+
+    value: float
+    episodes: int
+    successes: int | None
+    """Episodes that reached the goal; None in a scene without a goal."""
+    low: float | None
+    """Lower end of the 95% confidence interval of the share of successes."""
+    high: float | None
+    reward: float
+    """Mean reward of an episode."""
+    seconds: float
+    """Mean duration (s) of an episode in world time."""
+    decisions: float
+    """Mean number of decisions of an episode."""
+
+    @property
+    def success(self) -> float | None:
+        """Share of the episodes that reached the goal; None in a scene without a goal."""
+        return None if self.successes is None else self.successes / self.episodes
+
+    @classmethod
+    def of(cls, value: float, evaluation: Evaluation) -> "TriedValue":
+        """Return the result of an evaluation with a value."""
+        low, high = evaluation.interval or (None, None)
+        return cls(
+            value=value,
+            episodes=len(evaluation.episodes),
+            successes=evaluation.successes if evaluation.has_goal else None,
+            low=low,
+            high=high,
+            reward=float(np.mean(evaluation.rewards)),
+            seconds=float(np.mean(evaluation.seconds)),
+            decisions=float(np.mean(evaluation.lengths)),
+        )
+
+
+@dataclass(frozen=True, repr=False)
+class Tried:
+    """Results of all values of a parameter; as text or in a notebook, a table."""
+
+    parameter: NumberParameter
+    rows: Sequence[TriedValue]
+
+    def table(self) -> Table:
+        """Return a table with a row for each value."""
+        table = Table(box=None, pad_edge=False)
+        for heading in self._headings:
+            table.add_column(heading, justify="right", overflow="fold")
+        for row in self.rows:
+            table.add_row(*_cells(row))
+        return table
+
+    def csv(self) -> str:
+        """Return the results as CSV; what a scene without a goal lacks is empty."""
+        ends = ("success", "success_low", "success_high")
+        header = (self.parameter.name, "episodes", "successes", *ends)
+        cells = (
+            (
+                int(row.value) if row.value == int(row.value) else row.value,
+                *(row.episodes, row.successes, row.success, row.low, row.high),
+                *(row.reward, row.seconds, row.decisions),
+            )
+            for row in self.rows
+        )
+        return csv_table((*header, "reward", "seconds", "decisions"), cells)
+
+    def __repr__(self) -> str:
+        """Return the table as text."""
+        console = Console(file=io.StringIO(), width=MAX_LINE_CHARS, color_system=None)
+        with console.capture() as text:
+            console.print(self.table(), highlight=False)
+        return "\n".join(line.rstrip() for line in text.get().splitlines())
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{escape(each)}</th>" for each in self._headings)
+        body = "".join(
+            f"<tr>{''.join(f'<td>{cell}</td>' for cell in _cells(row))}</tr>" for row in self.rows
+        )
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+    @property
+    def _headings(self) -> tuple[str, ...]:
+        name, unit = self.parameter.name, self.parameter.shown_unit
+        first = f"{name} ({unit})" if unit else name
+        return first, "success", "95% between", "reward", "time"
+
+
+def _cells(row: TriedValue) -> tuple[str, ...]:
+    success, between = "-", "-"
+    if row.success is not None and row.low is not None and row.high is not None:
+        success, between = f"{row.success:.0%}", f"{100 * row.low:.1f} and {100 * row.high:.1f}%"
+    return f"{row.value:.10g}", success, between, f"{row.reward:.2f}", f"{row.seconds:.1f} s"
+
+
+def number_parameters(scene: Scene) -> list[NumberParameter]:
+    """Return all numbers of a scene, with the enabled brain of each agent as ``brain``."""
+    plain = scene.plain()
+    agents = {agent.id: agent for agent in scene.build().agents}
+    found: list[NumberParameter] = []
+    for index, given in enumerate(plain["agents"]):
+        path: DataPath = ("agents", index)
+        agent = agents[str(given.get("id", "0"))]
+        schema = _schema(BasicAgent)
+        own = {name: schema[name] for name in AGENT_NUMBERS}
+        found += _numbers(agent.id, path, given, own)
+        for kind, place, name in _blocks(agent):
+            found += _of_block(f"{agent.id}.{name}", (*path, kind, place), given[kind][place])
+    found += _numbers("world", ("world",), plain.get("world", {}), _schema(WorldSettings))
+    for kind in ("floors", "areas", "bodies"):
+        for index, thing in enumerate(getattr(scene.description, kind)):
+            given, name = plain[kind][index], f"{kind}.{thing.name}"
+            found += _numbers(name, (kind, index), given, _schema(type(thing)))
+            shape = _schema(type(thing.shape))
+            found += _numbers(name, (kind, index, "shape"), given["shape"], shape)
+    return found
+
+
+def parameter_named(scene: Scene, name: str) -> NumberParameter:
+    """Return a scene's number by its name, of which a part at the end suffices.
+
+    Raises:
+        SetupError: there is none of that name, or there are several.
+
+    >>> parameter_named(Scene.load("box_chase"), "vision.columns").name
+    '0.vision.columns'
+    """
+    known = {each.name: each for each in number_parameters(scene)}
+    fitting = [known[name]] if name in known else []
+    fitting = fitting or [each for full, each in known.items() if full.endswith(f".{name}")]
+    if len(fitting) == 1:
+        return fitting[0]
+    if fitting:
+        several = ", ".join(each.name for each in fitting)
+        raise SetupError(f"expected the whole name of one parameter, got {name!r}: {several}")
+    if owned := [full for full in known if full.startswith((f"{name}.", f"0.{name}."))]:
+        raise SetupError(f"expected a parameter, got {name!r}, which has {', '.join(owned)}")
+    raise SetupError(f"no number of this scene is called {name!r}; {suggest(name, known)}")
+
+
+def parse_values(text: str) -> list[float]:
+    """Return the numbers that a text names, without repetitions.
+
+    Raises:
+        SetupError: it names something else, or too many.
+
+    >>> parse_values("1, 2,0.5")
+    [1, 2, 0.5]
+    """
+    values: list[float] = []
+    for part in text.split(","):
+        match = re.fullmatch(r"\s*([+-]?(\d+|\d*\.\d+|\d+\.)([eE][+-]?\d{1,3})?)\s*", part)
+        if match is None or len(match[1]) > 30:
+            raise SetupError(f"expected numbers with commas between, as in 1,2,4, got {text!r}")
+        values.append(int(match[1]) if re.fullmatch(r"[+-]?\d+", match[1]) else float(match[1]))
+    values = [*dict.fromkeys(values)]
+    if len(values) > MAX_VALUES:
+        raise SetupError(f"expected at most {MAX_VALUES} values, got {len(values)}; try fewer")
+    return values
+
+
+def with_value(scene: Scene, parameter: NumberParameter, value: float) -> Scene:
+    """Return a copy of a scene with another value of a parameter.
+
+    Raises:
+        SetupError: the scene can't have that value.
+    """
+    plain = deepcopy(scene.plain())
+    here: Any = plain
+    for part in parameter.path[:-1]:
+        here = here.setdefault(part, {}) if isinstance(here, dict) else here[part]
+    here[parameter.path[-1]] = value
+    try:
+        changed = Scene(SceneDescription.model_validate(plain), scene.folder)
+        changed.build().reset(0)
+    except ValidationError as error:
+        text = "; ".join(each.text for each in explain(error.errors(), SceneDescription))
+    except PlainDataError as error:
+        text = "; ".join(each.text for each in error.problems)
+    except AI4UError as error:
+        text = f"{error}{TO_FIT if NO_FIT in str(error) else ''}"
+    else:
+        return changed
+    raise SetupError(f"{parameter.name} = {value:g}: {text}")
+
+
+def with_driver(scene: Scene, spec: str, agent: str = "") -> tuple[Scene, str]:
+    """Return a scene with a driver in it, so that numbers of the driver can be varied too.
+
+    Args:
+        scene: stays as it is.
+        spec: names the driver, as for :func:`~ai4u_edu.learn.training.policies.entrant`.
+        agent: id of the agent that it drives; default: the first one.
+
+    Returns:
+        The scene, and who drives in it: ``scene``, or the same driver if no scene can have it.
+
+    Raises:
+        AI4UError: there is no such driver, or it can't drive here.
+    """
+    who = expect_here(entrant(spec, scene.description.name))
+    scene = who.fitted(scene)
+    sim = scene.build()
+    driven = sim.agent(agent or who.agent or sim.agents[0].id)
+    if spec == "random" or ".py:" in spec:
+        return scene, spec
+    brain = who.brain(driven)
+    if not isinstance(brain, LocalBrain):
+        got = type(brain).__name__
+        raise SetupError(f"agent {driven.id!r}: expected a network or a controller, got a {got}")
+    controller = brain.controller
+    if not isinstance(controller, Controller) or not is_serializable(type(controller)):
+        raise SetupError(
+            f"{spec}: expected a driver that a scene file can have; export the network first: "
+            f"ai4u-edu export {spec} --out policy.onnx"
+        )
+    if listens_to_keys(type(controller)):
+        raise SetupError(
+            f"agent {driven.id!r} follows keys ({type(controller).__name__}), which nobody presses "
+            "here; expected another driver, as in --brain zoo for the scene's own network"
+        )
+    if spec == FROM_SCENE:
+        return scene, spec
+    return _with_brain(scene, driven.id, to_plain(brain)), FROM_SCENE
+
+
+def try_values(
+    scene: Scene,
+    parameter: NumberParameter,
+    values: Sequence[float],
+    seeds: Sequence[int],
+    engine: Engine,
+    *,
+    who: str = FROM_SCENE,
+    agent: str = "",
+    own_blocks: Sequence[Path] = (),
+    tell: Callable[[int], object] = lambda _episodes: None,
+) -> list[TriedValue]:
+    """Drive from the same starts with each value of a parameter.
+
+    Args:
+        scene: stays as it is.
+        parameter: is changed.
+        values: of the parameter; one at least.
+        seeds: of the episodes with each value; one at least.
+        engine: runs the episodes.
+        who: who drives; see :func:`with_driver`.
+        agent: id of the agent that is driven and measured; default: the driver's.
+        own_blocks: Python files with blocks that the scene has; they are loaded already.
+        tell: called after some episodes with their number.
+
+    Raises:
+        AI4UError: the scene can't have one of the values, or the episodes could not be run.
+    """
+    files = [str(file.absolute()) for file in own_blocks]
+    drives = []
+    for value in values:
+        changed = with_value(scene, parameter, value)
+        data: SceneData = {"name": scene.description.name, "text": changed.dumps()}
+        data["folder"] = str(scene.folder or ".")
+        drives.append((who, data | ({"blocks": files} if files else {})))
+    done = evaluate_on(engine, drives, seeds, agent=agent, tell=tell)
+    return [TriedValue.of(value, each) for value, each in zip(values, done, strict=True)]
+
+
+def parameter_table(parameters: Sequence[NumberParameter]) -> Table:
+    """Return a table with a row for each parameter that could be varied."""
+    table = Table(box=None, pad_edge=False)
+    table.add_column(
+        "parameter", overflow="fold", min_width=max(len(each.name) for each in parameters)
+    )
+    for heading in ("value", "unit", "range"):
+        table.add_column(heading, justify="right" if heading == "value" else "left")
+    for each in parameters:
+        value = "-" if each.value is None else f"{each.value:.10g}"
+        table.add_row(each.name, value, each.shown_unit, each.limits)
+    return table
+
+
+def _with_brain(scene: Scene, agent: str, brain: dict[str, Any]) -> Scene:
+    controller = brain.get("controller", {})
+    path = str(controller.get("model_path", ""))
+    if path and not path.startswith(ZOO_PREFIX):  # the scene's file may lie elsewhere
+        controller["model_path"] = str(Path(path).absolute())
+    agents = [
+        {**each, "brains": [brain]} if str(each.get("id", "0")) == agent else each
+        for each in scene.description.agents
+    ]
+    described = scene.description.model_copy(update={"agents": tuple(agents)})
+    return Scene(described, scene.folder)
+
+
+def _blocks(agent: BasicAgent) -> Iterator[tuple[str, int, str]]:
+    """Yield kind, index and name of an agent's blocks; a name that is taken follows its kind."""
+    names = [
+        ("sensors", [each.perception_key for each in agent.sensors]),
+        ("actuators", [each.action_name for each in agent.actuators]),
+        ("rewards", [each.name for each in agent.rewards]),
+        ("brains", ["brain" if each.enabled else "" for each in agent.brains]),
+    ]
+    taken: set[str] = set()
+    for kind, blocks in names:
+        for index, name in enumerate(blocks):
+            if name:
+                yield kind, index, f"{kind}.{name}" if name in taken else name
+                taken.add(name)
+
+
+def _of_block(name: str, path: DataPath, plain: Mapping[str, Any]) -> list[NumberParameter]:
+    """Return the numbers of a block, and of those inside it."""
+    found = _numbers(name, path, plain, _schema(Block.types[str(plain["type"])]))
+    for key, value in plain.items():
+        inner = value if isinstance(value, list | tuple) else [value]
+        for index, each in enumerate(inner):
+            if isinstance(each, Mapping) and each.get("type") in Block.types:
+                place = (key, index) if value is inner else (key,)
+                inside = str(each.get("name", index)) if value is inner else key
+                found += _of_block(f"{name}.{inside}", (*path, *place), each)
+    return found
+
+
+def _schema(cls: type[BaseModel] | type[Parameterized]) -> Mapping[str, Any]:
+    """Return the JSON Schema of each declared parameter."""
+    plain_type: type = cls  # mypy believes that a class that defines __hash__ has no hash
+    return _cached_schema(plain_type)
+
+
+@lru_cache(maxsize=256)  # a page looks at all numbers after each change of its scene
+def _cached_schema(cls: type) -> Mapping[str, Any]:
+    schema: dict[str, Any] = {"properties": {}}
+    if issubclass(cls, BaseModel):
+        schema = cls.model_json_schema()
+    elif issubclass(cls, Parameterized):
+        schema = cls.json_schema()
+    properties: Mapping[str, Any] = schema["properties"]
+    return properties
+
+
+def _numbers(
+    owner: str, path: DataPath, plain: Mapping[str, Any], schema: Mapping[str, Any]
+) -> list[NumberParameter]:
+    found = []
+    for name, about in schema.items():
+        what = next(
+            (
+                each
+                for each in (about, *about.get("anyOf", ()))
+                if each.get("type") in ("number", "integer")
+            ),
+            None,
+        )
+        if what is None or name in NO_QUANTITIES:
+            continue
+        bounds = (
+            ("at least", what.get("minimum")),
+            ("more than", what.get("exclusiveMinimum")),
+            ("at most", what.get("maximum")),
+            ("less than", what.get("exclusiveMaximum")),
+        )
+        words = [f"{word} {end:g}" for word, end in bounds if end is not None and not is_open(end)]
+        value, unit = plain.get(name, about.get("default")), str(what.get("unit", ""))
+        found.append(
+            NumberParameter(f"{owner}.{name}", (*path, name), value, unit, ", ".join(words))
+        )
+    return found

@@ -1,0 +1,320 @@
+"""Episodes with many values of one number, which the present driver drives in another process."""
+
+import threading
+from collections.abc import Awaitable, Callable, Iterator, Mapping
+from contextlib import suppress
+from typing import Annotated, Literal
+
+import msgspec
+from msgspec import Meta, Struct
+
+from ai4u_edu.base.errors import SetupError
+from ai4u_edu.blocks import Block, NeuralNetController
+from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
+from ai4u_edu.blocks.loading import own_files
+from ai4u_edu.learn.training.varying import (
+    FROM_SCENE,
+    NumberParameter,
+    Tried,
+    TriedValue,
+    number_parameters,
+    parameter_named,
+    parse_values,
+    with_driver,
+    with_value,
+)
+from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.driver_options import OWN_BRAIN
+from ai4u_edu.page.editing.drivers import NETWORK
+from ai4u_edu.page.messages import MAX_NAME_CHARS, Name, PageCommand
+from ai4u_edu.page.panel import PanelContext
+from ai4u_edu.page.panel.answers import Answer
+from ai4u_edu.page.panel.commands.handler import Handler
+from ai4u_edu.page.panel.page import Page
+from ai4u_edu.page.panel.parts.part import PanelPart
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.teach.background import send_request, start_process
+from ai4u_edu.teach.learning import STOPPED
+
+MAX_STARTS = 200
+"""Episodes with each value."""
+DIED = "the program that drives has ended; try again"
+BY_KEYS = "You drive this robot by keys. Choose another driver in Drive, such as a network."
+NO_PROGRAM = (
+    "A program, a recording or a script drives this robot, which can't be tried here yet. Choose a "
+    "network or a controller in Drive; ai4u-edu vary tries programs, too."
+)
+
+
+class TryMany(PageCommand, tag="teach_try"):
+    """Let the driver of the page's agent drive from the same starts with each value of a number."""
+
+    parameter: Name
+    """Name of the number."""
+    values: Annotated[str, Meta(max_length=4 * MAX_NAME_CHARS)]
+    """Numbers with commas between."""
+    starts: Annotated[int, Meta(ge=1, le=MAX_STARTS)]
+    """Episodes with each value."""
+
+
+class StopTrying(PageCommand, tag="teach_stop_trying"):
+    """End the episodes; what was driven is kept."""
+
+
+class DownloadTried(PageCommand, tag="teach_download_tried"):
+    """Return the results as CSV: the file's `name`, and its text as `data`."""
+
+
+class VariableNumber(Struct, frozen=True):
+    """A number that can be varied."""
+
+    name: str
+    owner: str
+    """Block, agent or thing that has it, in words."""
+    label: str
+    """Name of the number in words, with its unit."""
+    value: float | None
+    """Its present value; null if it has none."""
+    limits: str
+    """Its range in words; empty if it has none."""
+
+
+class TriesState(Struct, frozen=True):
+    """State of the latest tries of the agent."""
+
+    is_over: bool
+    problem: str
+    """Sentence about why they ended early; empty if they did not."""
+    label: str
+    """The number in words."""
+    done: int
+    """Episodes that were driven."""
+    total: int
+    """Episodes with all values."""
+    rows: list[TriedValue]
+    """Results of the values that are done."""
+
+
+class TriesPart(PanelPart, frozen=True, kw_only=True):
+    """Numbers that can be varied, and what came of it."""
+
+    name: Literal["tries"] = "tries"
+    agent: str
+    """Id of the agent that the page shows."""
+    problem: str
+    """Sentence about why its driver can't be tried; empty if it can."""
+    numbers: list[VariableNumber]
+    tries: TriesState | None
+    """The latest tries of the agent in this scene; null if there were none since the start."""
+    max_starts: int
+
+
+class TryRequest(Struct, frozen=True):
+    """Values to try, for the process that drives."""
+
+    scene: str
+    """Text of the scene, with the driver in it."""
+    place: str
+    """Folder for relative paths in the scene; empty for none."""
+    agent: str
+    """Id of the agent."""
+    parameter: str
+    """Name of the number."""
+    values: list[float | int]
+    starts: int
+    """Episodes with each value."""
+    blocks: list[str] = []
+    """Python files with blocks that the scene has."""
+
+
+class TryNote(Struct, frozen=True, omit_defaults=True):
+    """Progress of the tries, from the process that drives."""
+
+    done: int = 0
+    """Episodes that were driven since the last note."""
+    row: TriedValue | None = None
+    """Result of a value that is done."""
+    problem: str = ""
+    """Sentence about why it can't go on."""
+
+
+class Tries:
+    """The values of a request, tried in a process of their own. It begins at once.
+
+    Args:
+        request: the values.
+        scene: name of the scene.
+        parameter: the number.
+        label: the number in words.
+    """
+
+    def __init__(
+        self, request: TryRequest, scene: str, parameter: NumberParameter, label: str
+    ) -> None:
+        self.request, self.scene, self.parameter = request, scene, parameter
+        self.state = TriesState(False, "", label, 0, request.starts * len(request.values), [])
+        """The latest one; it is replaced with every change."""
+        self._is_stopped = False
+        self._process = start_process("ai4u_edu.teach.try_process")
+        threading.Thread(target=self._run, name="teach tries", daemon=True).start()
+
+    def stop(self) -> None:
+        """End them; what was driven is kept."""
+        self._is_stopped = True
+        self._process.kill()
+
+    def _run(self) -> None:
+        process, problem = self._process, ""
+        with process, suppress(OSError):
+            send_request(process, self.request)
+            assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
+            for line in process.stdout:
+                note = msgspec.json.decode(line, type=TryNote)
+                problem = note.problem
+                rows = [*self.state.rows, *([note.row] if note.row is not None else [])]
+                done = self.state.done + note.done
+                self.state = msgspec.structs.replace(self.state, done=done, rows=rows)
+        if len(self.state.rows) < len(self.request.values):
+            problem = problem or (STOPPED if self._is_stopped else DIED)
+        self.state = msgspec.structs.replace(self.state, is_over=True, problem=problem)
+
+
+class TryingPages:
+    """The section "Try many" of the tab Teach: its part and its commands.
+
+    Args:
+        runner: runs the world.
+        editor: has the scene.
+        in_thread: has the option's thread do something, and returns its result.
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        editor: SceneEditor,
+        in_thread: Callable[[Callable[[], object]], Awaitable[object]],
+    ) -> None:
+        self._runner, self._editor, self._in_thread = runner, editor, in_thread
+        self._numbers: tuple[NumberParameter, ...] = ()
+        self._tries: Tries | None = None
+        self.commands: Mapping[type[PageCommand], Handler] = {
+            TryMany: self._try,
+            StopTrying: self._stop_trying,
+            DownloadTried: self._download,
+        }
+
+    def look(self) -> None:
+        """Look at the numbers of the present scene; the option's thread calls it."""
+        self._numbers = tuple(number_parameters(self._editor.scene))
+
+    def parts(self, context: PanelContext, agent: str) -> Iterator[tuple[str, bytes]]:
+        """Yield the part about an agent of the page."""
+        driver, numbers, tries = self._editor.driver_of(agent), self._numbers, self._tries
+        if tries is not None and (tries.scene, tries.request.agent) != (self._scene, agent):
+            tries = None
+        state = None if tries is None else tries.state
+        progress = None if state is None else (state.done, len(state.rows), state.is_over)
+        key = "tries", agent, driver, numbers, tries, progress
+
+        def part() -> TriesPart:
+            problem = self._reason_against(agent, driver)
+            is_own = driver.startswith(OWN_BRAIN)
+            shown = [_shown(each, agent) for each in numbers if _is_for(each, agent, is_own=is_own)]
+            return TriesPart(
+                agent=agent, problem=problem, numbers=shown, tries=state, max_starts=MAX_STARTS
+            )
+
+        yield "tries", context.cache.by_key(key, part)
+
+    def stop(self) -> None:
+        """End the tries."""
+        if self._tries is not None:
+            self._tries.stop()
+
+    # -- in the server's event loop ----------------------------------------------------------------
+
+    async def _try(self, page: Page, command: TryMany) -> Answer:
+        await self._in_thread(lambda: self._begin(page.view.agent, command))
+        return Answer("It drives.")
+
+    async def _stop_trying(self, _page: Page, _command: StopTrying) -> Answer:
+        tries = self._tries
+        if tries is None or tries.state.is_over:
+            return Answer("Nothing is tried now.")
+        tries.stop()
+        return Answer("The tries are stopped.")
+
+    async def _download(self, _page: Page, _command: DownloadTried) -> Answer:
+        tries = self._tries
+        if tries is None or not tries.state.rows:
+            raise SetupError("there are no results yet; try some values first")
+        data = Tried(tries.parameter, tries.state.rows).csv()
+        return Answer(more={"name": f"{tries.scene}-{tries.request.parameter}.csv", "data": data})
+
+    # -- in the option's thread --------------------------------------------------------------------
+
+    def _begin(self, agent: str, command: TryMany) -> None:
+        if self._tries is not None and not self._tries.state.is_over:
+            raise SetupError("values are tried already; wait until they are done, or stop them")
+        driver = self._editor.driver_of(agent)
+        if problem := self._reason_against(agent, driver):
+            raise SetupError(problem)
+        values = parse_values(command.values)
+        scene, _ = with_driver(self._editor.scene, self._spec(agent, driver), agent)
+        parameter = parameter_named(scene, command.parameter)
+        for value in values:  # what is wrong is said at once
+            with_value(scene, parameter, value)
+        number = _shown(parameter, agent)
+        request = TryRequest(
+            scene=scene.dumps(),
+            place=str(scene.folder or ""),
+            agent=agent,
+            parameter=parameter.name,
+            values=values,
+            starts=command.starts,
+            blocks=[str(file) for file in own_files()],
+        )
+        label = f"{number.owner}: {number.label}"
+        self._tries = Tries(request, self._scene, parameter, label)
+
+    def _reason_against(self, agent: str, driver: str) -> str:
+        """Return why a driver can't be tried, as sentences; empty if it can."""
+        if driver.startswith(NETWORK):
+            return ""
+        if not driver.startswith(OWN_BRAIN):
+            return NO_PROGRAM
+        brain = self._editor.state.agent(agent)["brains"][int(driver.removeprefix(OWN_BRAIN))]
+        controller = brain.get("controller")
+        if not isinstance(controller, Mapping):
+            return NO_PROGRAM
+        return BY_KEYS if listens_to_keys(Block.types[str(controller["type"])]) else ""
+
+    def _spec(self, agent: str, driver: str) -> str:
+        """Return a driver's name for the command line."""
+        controller = getattr(self._runner.sim.agent(agent).brain, "controller", None)
+        if driver.startswith(NETWORK) and isinstance(controller, NeuralNetController):
+            return str(controller.model_path)
+        return FROM_SCENE
+
+    @property
+    def _scene(self) -> str:
+        return self._editor.state.description.name
+
+
+def _is_for(number: NumberParameter, agent: str, *, is_own: bool) -> bool:
+    """Return True for a number of the agent or the world, and of its controller if that drives."""
+    if number.path[0] != "agents":
+        return True
+    return number.name.startswith(f"{agent}.") and (is_own or ".controller." not in number.name)
+
+
+def _shown(number: NumberParameter, agent: str) -> VariableNumber:
+    kind, _, thing = number.owner.partition(".")
+    owner = "the robot" if number.owner == agent else number.owner.removeprefix(f"{agent}.")
+    if number.path[0] != "agents":
+        owner = "the world" if kind == "world" else thing
+    label = number.name.rpartition(".")[2].replace("_", " ")
+    unit = f" ({number.shown_unit})" if number.shown_unit else ""
+    return VariableNumber(
+        number.name, owner.replace("_", " "), f"{label}{unit}", number.value, number.limits
+    )

@@ -1,0 +1,52 @@
+""" "Try many" in a real page: a number, values, a plot and a table."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.browser.plain_page import WITHOUT_VISER
+from tests.chromium import new_page
+from tests.teach.driving import teaching_room
+
+pytestmark = pytest.mark.browser
+
+
+def test_values_are_tried_and_shown(chromium: Browser, tmp_path: Path) -> None:
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    with teaching_room(tmp_path) as room:
+        WITHOUT_VISER.serve(page, room.url)
+        page.goto(room.url)
+        page.get_by_role("tab", name="Teach").click()
+        tab = page.get_by_role("tabpanel", name="Teach")
+        tab.get_by_role("heading", name="Try many").click()
+        expect(tab.get_by_text("You drive this robot by keys.")).to_be_visible()
+        start = tab.get_by_role("button", name="Try", exact=True)
+        expect(start).to_be_disabled()
+        room.editor.set_driver("0", "network:zoo:box_chase").result()
+        expect(start).to_be_enabled()
+
+        tab.get_by_label("Part", exact=True).select_option("move")
+        tab.get_by_label("Number", exact=True).select_option(label="move amount (m/s)")
+        expect(tab.get_by_text("It is 5 now. It can be at least 0, at most 100.")).to_be_visible()
+        tab.get_by_label("Values", exact=True).fill("5, x")
+        tab.get_by_label("Starts", exact=True).fill("2")
+        start.click()
+        expect(page.get_by_text("expected numbers with commas between")).to_be_visible()
+        tab.get_by_label("Values", exact=True).fill("5, 0.5")
+        start.focus()
+        page.keyboard.press("Enter")
+        expect(tab.get_by_text("4 episodes, the same starts with each value.")).to_be_visible()
+        rows = tab.get_by_role("table", name="move: move amount (m/s)").get_by_role("row")
+        expect(rows).to_have_count(3)
+        expect(rows.nth(1)).to_contain_text("2 of 2")
+        expect(rows.nth(1)).to_contain_text("34% and 100%")
+        plot = tab.get_by_role("img", name="Share of starts that reached the goal")
+        expect(plot).to_be_visible()
+        with page.expect_download() as download:
+            tab.get_by_role("button", name="Save the table as CSV").click()
+        assert download.value.suggested_filename == "box_chase-0.move.move_amount.csv"
+        assert Path(download.value.path()).read_text().startswith("0.move.move_amount,episodes")
+        page.context.close()
+    assert problems == []

@@ -1,0 +1,116 @@
+""" "Try many" over the panel's socket: the driver drives from the same starts with each value."""
+
+import csv
+import io
+from collections.abc import Iterator
+from pathlib import Path
+
+import psutil
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.games.jobs import engine
+from ai4u_edu.learn.training.varying import parameter_named, try_values, with_driver
+from ai4u_edu.teach import tries
+from ai4u_edu.teach.learning import STOPPED
+from tests.page.panel.rooms import PanelPage, PanelRoom
+from tests.teach.driving import teaching_room
+
+pytestmark = pytest.mark.slow
+
+SPEED, NETWORK = "0.move.move_amount", "network:zoo:box_chase"
+
+
+@pytest.fixture
+def room(tmp_path: Path) -> Iterator[PanelRoom]:
+    with teaching_room(tmp_path) as served:
+        yield served
+
+
+@pytest.fixture
+def page(room: PanelRoom) -> Iterator[PanelPage]:
+    with room.page() as opened:
+        opened.part("tries", lambda part: part["numbers"])
+        yield opened
+
+
+def let_a_network_drive(room: PanelRoom, page: PanelPage) -> None:
+    room.editor.set_driver("0", NETWORK).result()
+    page.part("tries", lambda part: not part["problem"])
+
+
+def test_the_results_are_those_of_the_command(room: PanelRoom, page: PanelPage) -> None:
+    let_a_network_drive(room, page)
+    page.done("teach_try", parameter=SPEED, values="2, 5", starts=3)
+    part = page.part("tries", lambda part: part["tries"] and part["tries"]["is_over"])
+    state = part["tries"]
+    assert (state["problem"], state["done"], state["total"]) == ("", 6, 6)
+    assert state["label"] == "move: move amount (m/s)"
+    scene, _ = with_driver(Scene.load("box_chase"), "zoo")
+    with engine("inline") as running:
+        rows = try_values(scene, parameter_named(scene, SPEED), [2, 5], range(3), running)
+    assert [(row["value"], row["successes"], row["seconds"]) for row in state["rows"]] == [
+        (row.value, row.successes, row.seconds) for row in rows
+    ]
+    answer = page.done("teach_download_tried")
+    assert answer["name"] == f"box_chase-{SPEED}.csv"
+    assert [row[SPEED] for row in csv.DictReader(io.StringIO(answer["data"]))] == ["2", "5"]
+
+
+def test_it_offers_the_numbers_of_the_robot_and_the_world(page: PanelPage) -> None:
+    numbers = {each["name"]: each for each in page.parts["tries"]["numbers"]}
+    assert numbers["0.vision.noise"]["owner"] == "vision"
+    assert numbers["0.max_steps_per_episode"]["owner"] == "the robot"
+    assert numbers["world.gravity"]["label"] == "gravity (m/s^2)"
+    assert numbers["bodies.box.mass"]["value"] == 5
+    assert "at least 1, at most 256" in numbers["0.vision.rows"]["limits"]
+
+
+def test_keys_and_programs_can_not_be_tried(room: PanelRoom, page: PanelPage) -> None:
+    assert page.parts["tries"]["problem"] == tries.BY_KEYS
+    answer = page.failed("teach_try", parameter=SPEED, values="1", starts=1)
+    assert answer["text"] == tries.BY_KEYS
+    room.editor.set_driver("0", "ai4u://127.0.0.1:8080").result()
+    page.part("tries", lambda part: part["problem"] == tries.NO_PROGRAM)
+
+
+def test_a_mistake_is_explained_before_anything_drives(room: PanelRoom, page: PanelPage) -> None:
+    let_a_network_drive(room, page)
+    for wrong, sentence in (
+        ({"values": "1, two"}, "expected numbers with commas between, as in 1,2,4"),
+        ({"values": "-1"}, f"{SPEED} = -1: expected at least 0, got -1"),
+        ({"parameter": "0.move.speed"}, "no number of this scene is called '0.move.speed'"),
+        ({"parameter": "0.vision.rows", "values": "9"}, "does not fit agent '0'"),
+    ):
+        words = {"parameter": SPEED, "values": "1", "starts": 1} | wrong
+        assert sentence in page.failed("teach_try", **words)["text"]
+    page.failed("teach_try", parameter=SPEED, values="1", starts=tries.MAX_STARTS + 1)
+    assert "try some values first" in page.failed("teach_download_tried")["text"]
+    assert page.done("teach_stop_trying")["text"] == "Nothing is tried now."
+
+
+def test_what_was_driven_is_kept_when_it_is_stopped_or_dies(
+    room: PanelRoom, page: PanelPage
+) -> None:
+    let_a_network_drive(room, page)
+    many = {"parameter": SPEED, "values": "5, 0", "starts": 200}
+    page.done("teach_try", **many)
+    page.part("tries", lambda part: part["tries"] and part["tries"]["rows"])
+    assert "tried already" in page.failed("teach_try", **many)["text"]
+    page.done("teach_stop_trying")
+    part = page.part("tries", lambda part: part["tries"]["is_over"])
+    assert part["tries"]["problem"] == STOPPED
+    assert [row["value"] for row in part["tries"]["rows"]] == [5]
+
+    page.done("teach_try", **many)
+    (process,) = (
+        each
+        for each in psutil.Process().children()
+        if "ai4u_edu.teach.try_process" in each.cmdline()
+    )
+    process.kill()
+    part = page.part(
+        "tries", lambda part: part["tries"]["is_over"] and part["tries"]["problem"] == tries.DIED
+    )
+    room.runner.step_decision("0").result()
+    assert not room.runner.error
