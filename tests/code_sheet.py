@@ -129,9 +129,7 @@ def _take_blocks(chromium: Browser, path: Path, size: tuple[int, int], scheme: S
         page.get_by_role("tab", name="Code").click()
         page.get_by_role("button", name="Blocks", exact=True).click()
         first = page.locator("*:focus")
-        expect(first).to_have_attribute(
-            "aria-label", re.compile("at each decision"), timeout=LOADING_MS
-        )
+        expect(first).to_have_attribute("aria-label", re.compile("forever"), timeout=LOADING_MS)
         _turn_away(page)
         page.keyboard.press("Control+Enter")
         expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)

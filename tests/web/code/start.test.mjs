@@ -26,19 +26,20 @@ test("readings are told by names, by size, or in words", () => {
   ]);
 });
 
-test("actions are told with their ranges, and begin at rest or with a small turn within their range", () => {
+test("actions are told with their ranges, and begin with a curve within their range", () => {
   assert.deepEqual(namesOf([], ACTUATORS).outputs, [
-    { name: "move", words: "forward -1 to 1, turn rate -1 to 0.2", values: [0, 0.2] },
-    { name: "pick", words: "choice 1 to 3", values: [1] },
-    { name: "arm", words: "number (no effect)", values: [0] },
+    { name: "move", words: "forward -1 to 1, turn rate -1 to 0.2", values: [{ name: "forward", value: 0.4 }, { name: "turn_rate", value: 0.2 }] },
+    { name: "pick", words: "choice 1 to 3", values: [{ name: "", value: 1 }] },
+    { name: "arm", words: "always 0", values: [{ name: "", value: 0 }] },
   ]);
 });
 
-test("the first program names what it senses and does, and decides", () => {
-  const names = namesOf(SENSORS.slice(3, 4), ACTUATORS.slice(0, 1));
+test("the first program drives in a circle, with a name for each number that does something", () => {
+  const wheels = { name: "drive", is_choice: false, components: [{ name: "left", low: -1, high: 1, has_effect: true }, { name: "right", low: -1, high: 1, has_effect: true }] };
+  const names = namesOf(SENSORS.slice(3, 4), [ACTUATORS[0], wheels, ACTUATORS[1], ACTUATORS[2]]);
   assert.equal(
     startProgram(names),
-    '# It senses:\n# percept["speed"]: speed, 1 number\n# It can do:\n# "move": forward -1 to 1, turn rate -1 to 0.2\n\n' +
-      'def decide(percept):\n    return {"move": [0, 0.2]}\n',
+    "def decide(percept):\n    forward = 0.4\n    turn_rate = 0.2\n    left = 0.4\n    right = 0.3\n" +
+      '    return {"move": [forward, turn_rate], "drive": [left, right], "pick": [1], "arm": [0]}\n',
   );
 });
