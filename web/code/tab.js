@@ -195,6 +195,7 @@ export class CodeTab {
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
+      this.#variables.note(detail.variables);
       this.#blocks.note(detail);
       this.#drawSoon();
     });
@@ -352,7 +353,7 @@ export class CodeTab {
     this.#goTo.remove();
     this.#markMistake(null);
     this.#markRan([]);
-    this.#variables.update({});
+    this.#variables.clear();
     this.#drawSoon();
   }
 
