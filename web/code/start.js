@@ -27,7 +27,8 @@ const CIRCLE = [[/turn|steer|right/, 0.3], [/forward|throttle|speed|left/, 0.4]]
  */
 export function namesOf(sensors, actuators) {
   return {
-    readings: sensors.map((sensor) => ({ key: sensor.key, words: readingWords(sensor) })),
+    // while a program decides, no episode is over
+    readings: sensors.filter((sensor) => sensor.class !== "DoneSensor").map((sensor) => ({ key: sensor.key, words: readingWords(sensor) })),
     outputs: actuators.map(({ name, is_choice: isChoice, components }) => ({
       name,
       words: components.map((component) => componentWords(component, isChoice)).join(", "),
@@ -78,7 +79,8 @@ function readingWords({ values, shape = [], stack = 1, text, help, title }) {
   if (isNamed) return values.map(({ name }) => name.replaceAll("_", " ")).join(", ");
   if (text !== undefined && shape.length === 0) return lowered(help || title);
   const size = shape.join(" x ") || "1";
-  return `${lowered(title)}, ${size} ${size === "1" ? "number" : "numbers"}${stack > 1 ? ` (${stack} moments)` : ""}`;
+  const before = stack > 1 ? `, now and ${stack - 1} ${stack === 2 ? "time" : "times"} before` : "";
+  return `${lowered(title)}, ${size} ${size === "1" ? "number" : "numbers"}${before}`;
 }
 
 /** @param {string} words */

@@ -8,6 +8,7 @@ const SENSORS = [
   { key: "rays", title: "Rays.", shape: [8, 2], stack: 3, values: [{ name: "0" }, { name: "1" }] },
   { key: "many", title: "Many", shape: [7], values: Array.from({ length: 7 }, (_, index) => ({ name: `v${index}` })) },
   { key: "speed", title: "Speed", shape: [] },
+  { key: "done", class: "DoneSensor", title: "Done", shape: [] },
   { key: "word", title: "Word", shape: [], text: "go", help: "What is said." },
 ];
 const ACTUATORS = [
@@ -19,7 +20,7 @@ const ACTUATORS = [
 test("readings are told by names, by size, or in words", () => {
   assert.deepEqual(namesOf(SENSORS, []).readings.map(({ words }) => words), [
     "left edge, right",
-    "rays, 8 x 2 numbers (3 moments)",
+    "rays, 8 x 2 numbers, now and 2 times before",
     "many, 7 numbers",
     "speed, 1 number",
     "what is said",
