@@ -97,7 +97,12 @@ def test_variables_that_are_numbers_have_a_curve_over_time(tab: CodePage) -> Non
     expect(curves.last).to_be_hidden()  # a text
     tab.press("Stop")
     tab.sense(3)  # for the run that was stopped
-    tab.sense(3)
-    tab.press("Run")
+    for step in (3, 4):
+        tab.sense(step)
+    tab.press("Step")
     expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near8word'left'")
     expect(curves.first).to_be_hidden()  # one number makes no curve
+    tab.sense(5)
+    tab.press("Step")
+    two = "near: from 8.00 to 10.0 in the latest 2 decisions"
+    expect(curves.first).to_have_attribute("aria-label", two)

@@ -125,8 +125,10 @@ export class ExampleList {
     this.#tiles.classList.add("ai4u-code-examples");
   }
 
-  /** @param {ScenePart} scene */
-  update({ scene, can_edit: canOpen }) {
+  /** @param {ScenePart | null} part null before it is known */
+  update(part) {
+    if (part === null) return;
+    const { scene, can_edit: canOpen } = part;
     const shown = `${scene} ${canOpen}`;
     if (shown === this.#shown) return; // else the focus would be lost
     this.#shown = shown;

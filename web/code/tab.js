@@ -205,7 +205,8 @@ export class CodeTab {
       const agent = this.#panel.part("agent");
       if (agent !== null) this.update(agent);
     });
-    this.#panel.addEventListener("part:scene", ({ detail }) => this.#examples.update(detail));
+    this.#panel.addEventListener("part:scene", () => this.#examples.update(this.#panel.part("scene")));
+    this.#examples.update(this.#panel.part("scene"));
     this.#panel.addEventListener("part:run", () => this.#noteOutcome());
     for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
@@ -236,7 +237,7 @@ export class CodeTab {
     this.#reports.end();
     this.#key = key;
     this.#timeline.clear();
-    this.#console.clear();
+    this.#clear();
     this.#program.open(scene, this.#agent.id, startProgram(this.#names));
     const next = this.#next;
     this.#next = null;
@@ -258,7 +259,7 @@ export class CodeTab {
 
   /** @param {Example} example */
   #chooseExample(example) {
-    if (this.#panel.part("scene")?.scene === example.scene) this.#takeExample(example, this.#blocks.isOn);
+    if (this.#panel.part("scene")?.scene === example.scene) this.#takeExample(example, this.#blocks.isOn, true);
     else this.#openScene(example.scene, example);
   }
 
@@ -275,7 +276,7 @@ export class CodeTab {
       return;
     }
     if (made === null) {
-      this.#panel.notice(`Expected the robot of ${example.sceneTitle}, got one with other senses. Open that scene again.`, "error");
+      this.#panel.notice(`The example needs the robot of ${example.sceneTitle}, and this one has other senses. Open the scene again.`, "error");
       return;
     }
     const text = isOfBlocks ? joinProgram(made.python, made.blocks, true) : made.python;
@@ -305,7 +306,7 @@ export class CodeTab {
     this.#test.stop();
     this.#active = this.#run;
     const source = this.#editor.text;
-    if (this.#run.phase === "off" || way === "run") this.#console.clear();
+    if (this.#run.phase === "off" || way === "run") this.#clear();
     this.#noteStart(source);
     if (way === "run") this.#run.run(source, this.#agent.id, from);
     else this.#run.step(source, this.#agent.id);
@@ -317,7 +318,7 @@ export class CodeTab {
     this.#stopAll();
     this.#panel.driving?.letGo(); // else whoever drove just before would go on
     this.#active = this.#test;
-    this.#console.clear();
+    this.#clear();
     this.#noteStart(this.#editor.text);
     this.#test.run(this.#editor.text, this.#agent.id);
   }
@@ -353,8 +354,14 @@ export class CodeTab {
     this.#goTo.remove();
     this.#markMistake(null);
     this.#markRan([]);
-    this.#variables.clear();
+    this.#variables.update({});
     this.#drawSoon();
+  }
+
+  /** Empty the output, and the curves of the variables. */
+  #clear() {
+    this.#console.clear();
+    this.#variables.clear();
   }
 
   /** @param {RunEnd & {summary?: string}} end */
