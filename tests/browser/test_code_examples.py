@@ -145,7 +145,7 @@ def test_an_example_is_a_new_program_in_its_scene(chromium: Browser) -> None:
         tab.press("Blocks")
         tab.page.get_by_role("button", name="Follow a wall").click()
         expect(programs).to_have_value("Follow a wall")
-        expect(tab.page.locator(".blocklyBlockCanvas")).to_contain_text("distance")
+        expect(tab.page.locator(".blocklySvg .blocklyBlockCanvas")).to_contain_text("distance")
         assert tab.sent() == []
         give_scene(tab, "box_chase", {})
         expect(programs).to_have_value("Program 1")

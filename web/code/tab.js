@@ -33,6 +33,7 @@ const FROZEN = "The browser stopped this page in the background, and your progra
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
+  #root;
   #panel;
   #run;
   #test;
@@ -103,6 +104,7 @@ export class CodeTab {
    * @param {ConstructorParameters<typeof CodeRun>[0]} [parts] of CodeRun and CodeTest
    */
   constructor(root, panel, parts = {}) {
+    this.#root = root;
     this.#panel = panel;
     this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
     this.#test = new CodeTest({
@@ -280,7 +282,9 @@ export class CodeTab {
       return;
     }
     const text = isOfBlocks ? joinProgram(made.python, made.blocks, true) : made.python;
-    if (this.#program.add(example.title, text)) this.#panel.notice("This is a new program. Choose another one in the list above it.");
+    if (!this.#program.add(example.title, text)) return;
+    this.#root.scrollIntoView(); // the examples stand below the editor
+    this.#panel.notice("This is a new program. Choose another one in the list above it.");
   }
 
   /** @param {string} text */
