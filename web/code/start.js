@@ -14,7 +14,7 @@ import { identifier } from "../blocks/words.js";
 /** Most numbers that are named one by one. */
 const MAX_NAMED = 6;
 /**
- * What the first program does, from -1 to 1, by a word in the number's name: it drives in a circle.
+ * Numbers of the first program, from -1 to 1, by a word in their name: it drives in a circle.
  * @type {[RegExp, number][]}
  */
 const CIRCLE = [[/turn|steer|right/, 0.3], [/forward|throttle|speed|left/, 0.4]];
