@@ -270,9 +270,12 @@ export class CodeTab {
    * @param {Example} example
    * @param {boolean} isOfBlocks
    * @param {boolean} [isLast] false if the robot's own part may still be on its way
+   * @returns {Promise<void>}
    */
   async #takeExample(example, isOfBlocks, isLast = false) {
-    const made = await exampleProgram(example, this.#panel.part("python"));
+    const part = this.#panel.part("python");
+    const made = await exampleProgram(example, part);
+    if (made === null && this.#panel.part("python") !== part) return this.#takeExample(example, isOfBlocks, isLast); // it came meanwhile
     if (made === null && !isLast) {
       this.#panel.addEventListener("part:python", () => this.#takeExample(example, isOfBlocks, true), { once: true });
       return;
