@@ -86,8 +86,6 @@ def _take(
         ready(page)
         if size == PHONE:
             page.get_by_role("button", name="Open the panel").click()
-        else:
-            _widen(page)
         page.get_by_role("tab", name="Code").click()
         _run(page, program)
         expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)
@@ -124,14 +122,10 @@ def _take_blocks(chromium: Browser, path: Path, size: tuple[int, int], scheme: S
         ready(page)
         if is_phone:
             page.get_by_role("button", name="Open the panel").click()
-        else:
-            _widen(page)
         page.get_by_role("tab", name="Code").click()
         page.get_by_role("button", name="Blocks", exact=True).click()
         first = page.locator("*:focus")
-        expect(first).to_have_attribute(
-            "aria-label", re.compile("at each decision"), timeout=LOADING_MS
-        )
+        expect(first).to_have_attribute("aria-label", re.compile("forever"), timeout=LOADING_MS)
         _turn_away(page)
         page.keyboard.press("Control+Enter")
         expect(page.locator(".ai4u-code-state")).to_contain_text("decision", timeout=LOADING_MS)
@@ -166,16 +160,6 @@ def programs_in_docs() -> list[str]:
     text = DOC.read_text(encoding="utf-8")
     blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, re.MULTILINE)
     return [re.sub(r"^    ", "", str(each), flags=re.MULTILINE).strip("\n") for each in blocks]
-
-
-def _widen(page: Page) -> None:
-    handle = page.get_by_role("separator", name="Size of the panel")
-    handle.focus()
-    page.keyboard.press("Tab")
-    page.keyboard.press("Shift+Tab")  # arrow keys drive unless a key led to the control
-    for _ in range(5):
-        page.keyboard.press("ArrowLeft")
-    page.get_by_role("button", name="Arena").click()
 
 
 def _run(page: Page, program: str) -> None:

@@ -25,6 +25,7 @@ FOLDER = "programs"
 MAX_DEVICE_CHARS = 64
 _ALL = "select seat, scene, agent, source, version, device, saved_at from programs"
 _OF_SEAT = _ALL + " where seat = ?"
+_NOT_DELETED = " and source != ''"
 _LATEST_FIRST = " order by version desc"
 
 
@@ -35,8 +36,9 @@ class ProgramRow:
     seat: int
     scene: str
     agent: str
-    """Id of the agent that it drives."""
+    """Id of the agent that it drives; behind a slash the program's name, if it has got one."""
     source: str
+    """The text; empty once the student has deleted the program."""
     version: int
     """Number of the save, counted over all programs of the class; a later one is greater."""
     device: str
@@ -46,7 +48,7 @@ class ProgramRow:
 
 
 class Programs:
-    """The present program of each seat, scene and agent. Thread-safe, as the class's file is.
+    """The programs of each seat, scene and agent. Thread-safe, as the class's file is.
 
     Args:
         store: of the class.
@@ -112,14 +114,21 @@ class Programs:
         rows = self._store.query(_OF_SEAT + _LATEST_FIRST, [seat])
         return [ProgramRow(*row) for row in rows]
 
+    def agents_of(self, seat: int, scene: str) -> list[str]:
+        """Return the agents of a seat's programs in a scene, the one that was saved last first."""
+        rows = self.of_seat(seat)
+        return [row.agent for row in rows if row.scene == scene and row.source]
+
     def latest_of(self, seat: int) -> ProgramRow | None:
         """Return the program of a seat that was saved last; None if there is none."""
-        rows = self._store.query(_OF_SEAT + _LATEST_FIRST + " limit 1", [seat])
+        rows = self._store.query(_OF_SEAT + _NOT_DELETED + _LATEST_FIRST + " limit 1", [seat])
         return ProgramRow(*rows[0]) if rows else None
 
     def latest_of_all(self) -> list[ProgramRow]:
         """Return the program of each seat that was saved last, the latest first."""
-        of_each = " where version in (select max(version) from programs group by seat)"
+        of_each = (
+            " where version in (select max(version) from programs where source != '' group by seat)"
+        )
         return [ProgramRow(*row) for row in self._store.query(_ALL + of_each + _LATEST_FIRST)]
 
     def age_of(self, program: ProgramRow) -> float:

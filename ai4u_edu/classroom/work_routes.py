@@ -170,7 +170,7 @@ class WorkRoutes:
     # -- programs ----------------------------------------------------------------------------------
 
     async def _program(self, seat: int, request: Request) -> Response:
-        """Keep a program of a seat (PUT), or return it (GET)."""
+        """Keep a seat's program (PUT), or return it (GET); without an agent, a scene's agents."""
         if request.method == "PUT":
             sent = await read_json(request, _SavedProgram, _MAX_PROGRAM_BYTES)
             version = await asyncio.to_thread(
@@ -185,6 +185,9 @@ class WorkRoutes:
             return JSONResponse({"version": version}, headers=NO_STORE)
         names = ("scene", "agent", "device")
         scene, agent, device = (request.query_params.get(name, "") for name in names)
+        if not agent:
+            agents = await asyncio.to_thread(self._programs.agents_of, seat, scene)
+            return JSONResponse({"agents": agents}, headers=NO_STORE)
         program = await asyncio.to_thread(self._programs.find, seat, scene, agent)
         facts = self._program_facts(program)
         if program is not None:

@@ -138,6 +138,8 @@ def _programs(live: LiveClass, seat: int) -> Files:
     """Yield the programs of a seat, as files with different names on all systems."""
     known: set[str] = set()
     for each in live.programs.of_seat(seat):
+        if not each.source:
+            continue
         name = _free_name(f"{_file_name(each.scene)}-{_file_name(each.agent)}", known)
         yield f"{name}.py", each.source.encode()
 

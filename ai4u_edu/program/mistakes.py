@@ -22,8 +22,8 @@ _PARAMETERS = re.compile(
 )
 _SYNTAX = (
     (
-        r"expected an indented block after (?P<what>.+) on line (?P<line>\d+)",
-        "This line belongs into the {what} of line {line}: begin it with four more spaces.",
+        r"indented block after (?P<what>.+?)(?: definition| statement)? on line (?P<line>\d+)",
+        "This line is inside the {what} of line {line}. Put four more spaces in front of it.",
     ),
     (
         r"unexpected indent",
@@ -63,7 +63,7 @@ _SYNTAX = (
     ),
     (
         r"cannot assign to|illegal expression for augmented assignment",
-        "Only a name can get a value: expected one in this line, on the left of the =.",
+        "Only a name can get a value: expected a name on the left of the =.",
     ),
     (
         r"'(?P<what>break|continue)' (?:outside loop|not properly in loop)",

@@ -41,8 +41,7 @@ def _checked_action(answer: Any, outputs: Outputs | None, line: int = 0) -> dict
     {'move': [1.0, 0.5]}
     >>> _checked_action({"mov": [1, 0.5]}, {"move": ([-1, -1], [1, 1])}, 3)
     Traceback (most recent call last):
-    ai4u_edu.program.mistakes.ProgramError: line 3: the agent has no actuator 'mov'; did you mean \
-'move'?
+    ai4u_edu.program.mistakes.ProgramError: line 3: the robot can't do 'mov'; did you mean 'move'?
     """
     if answer is None:
         raise ProgramError(NOTHING_RETURNED, line, "no-return")
@@ -59,9 +58,10 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
         if not isinstance(name, str) or name not in outputs:
             # others take no numbers, and the page does not list them
             known = [each for each, (low, _) in outputs.items() if len(low)]
-            text = f"the agent has no actuator {shown(name)}; {suggest(str(name), known)}"
+            hints = [suggest(str(name), known)]
             if not nearest(str(name), known):
-                text += f"; write, say, {_example(outputs)}"
+                hints = [*hints[len(known) == 1 :], f"write, say, {_example(outputs)}"]
+            text = "; ".join([f"the robot can't do {shown(name)}", *hints])
             raise ProgramError(text, line, "actuator")
         count = len(outputs[name][0])
     wanted = "numbers" if count is None else f"{count} number{'s' * (count != 1)}"
@@ -70,8 +70,8 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
     values = list(value) if isinstance(value, list | tuple | Reading) else [value]
     for each in values:
         if each is None or not isinstance(each, int | float):
-            text = f"action {name!r}: expected {wanted}, got {shown(each)} in {shown(value)}"
-            text += _advice(each, name, outputs)
+            expected = f"expected {wanted}, got {shown(each)} in {shown(value)}"
+            text = f"action {name!r}: {_advice(each, expected, name, outputs)}"
             raise ProgramError(text, line, "not-a-number")
     if count is not None and len(values) != count:
         text = f"action {name!r}: expected {wanted}, got {len(values)}: {shown(value)}"
@@ -88,16 +88,19 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
     return [round(each, _DIGITS) for each in numbers]
 
 
-def _advice(value: Any, name: str, outputs: Outputs | None) -> str:
-    """Return how to mend a value that is no number."""
+def _advice(value: Any, expected: str, name: str, outputs: Outputs | None) -> str:
+    """Return what is wrong with a value that is no number, and how to mend it."""
     if isinstance(value, str):
         try:
-            return f"; {shown(value)} is a text: write {float(value):g} without quotes"
+            return f"{shown(value)} is text. Write {float(value):g} without quotes."
         except ValueError:
-            return f"; {shown(value)} is a text, and a number has no quotes"
+            return f"{shown(value)} is text. Expected a number, without quotes."
     if value is None:
-        return "; None means that a function returned nothing, or that nothing was computed yet"
-    return f"; write, say, {_example(outputs, name)}"
+        return (
+            f"{expected}; None means that a function returned nothing, or that nothing was "
+            "computed yet"
+        )
+    return f"{expected}; write, say, {_example(outputs, name)}"
 
 
 def _example(outputs: Outputs | None, name: str = "") -> str:
@@ -335,7 +338,8 @@ class Program:
     def _endless(self, line: int) -> ProgramError:
         loop = loop_around(self._tree, line)
         why = why_endless(loop, is_in_decision=self._is_deciding)
-        text = f"Your code did not answer for {self.trace.limit_s:g} s. {why}"
+        limit = f"{self.trace.limit_s:g} second{'s' * (self.trace.limit_s != 1)}"
+        text = f"Your code has been running for {limit} without an answer. {why}"
         return ProgramError(text, loop.lineno if loop else line, "endless")
 
 
@@ -368,7 +372,8 @@ def _import(name: str, *arguments: Any, **options: Any) -> Any:
 
 def _no_input(*_prompt: object) -> None:
     raise ProgramError(
-        "input() has nobody to ask here: use what percept has, or write the value into the program"
+        "input() doesn't work here: the program only knows what the robot senses. Use what percept "
+        "has, or write the value into the program."
     )
 
 

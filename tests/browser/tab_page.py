@@ -32,7 +32,10 @@ INDEX = """<!doctype html>
 <style>{styles}</style>
 <body style="margin: 0">
 <aside class="ai4u-panel" style="{style}">
-  <div class="ai4u-panel-body"><div role="tabpanel" class="ai4u-tabpanel"></div></div>
+  <div class="ai4u-panel-body">
+    <div style="height: 41px"></div> <!-- the names of the tabs -->
+    <div role="tabpanel" class="ai4u-tabpanel"></div>
+  </div>
 </aside>
 {scripts}
 <script type="module">

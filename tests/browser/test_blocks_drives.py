@@ -41,9 +41,7 @@ class BlocksTab(WithEditor):
         expect(page.get_by_role("button", name="Blocks")).to_be_visible()
         go(page, "Tab", "Blocks")
         self.keys("Enter")
-        expect(page.locator("*:focus")).to_have_attribute(
-            "aria-label", re.compile("at each decision")
-        )
+        expect(page.locator("*:focus")).to_have_attribute("aria-label", re.compile("forever"))
 
     @property
     def state(self) -> Locator:

@@ -29,7 +29,8 @@ SCRIPT = """async ([part, programs]) => {
   window.makeSteps = (done) => {
     localStorage["ai4u-blocks-steps"] = done;
     window.steps?.element.remove();
-    window.steps = new BlockSteps(panel);
+    const open = (scene) => panel.send("open_scene", { name: scene, is_saved: false });
+    window.steps = new BlockSteps(panel, open);
     steps.setAgent(part);
     document.body.append(steps.element);
   };

@@ -30,9 +30,9 @@ class BlocksPage(CodePage):
     """The tab, with keys for the blocks."""
 
     def to_blocks(self) -> None:
-        self.page.get_by_role("button", name=re.compile("blocks", re.IGNORECASE)).focus()
+        self.page.get_by_role("button", name="Blocks", exact=True).focus()
         self.keys("Enter")
-        expect(self.focused).to_have_attribute("aria-label", re.compile("at each decision"))
+        expect(self.focused).to_have_attribute("aria-label", re.compile("forever"))
 
     def keys(self, *keys: str) -> None:
         for key in keys:
@@ -155,7 +155,7 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(tab: BlocksPage) -> 
     tab.editor.click()
     tab.page.keyboard.insert_text("x")
     assert "x" not in tab.text
-    tab.press("Continue in Python")
+    tab.press("Python")
     expect(tab.editor).to_be_focused()
     expect(tab.page.locator(".ai4u-blocks-editor")).to_be_hidden()
     tab.write(PROGRAM)
@@ -179,7 +179,24 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(tab: BlocksPage) -> 
     tab.page.wait_for_function("window.isReady")
     for name in ("scene", "python", "agent"):
         tab.give(PARTS[name], name)
-    expect(tab.canvas).to_contain_text("at each decision")
+    expect(tab.canvas).to_contain_text("forever")
+    expect(tab.editor).to_contain_text("turn = 1")
+
+
+def test_the_steps_open_their_scene_with_blocks_and_the_work_stays(tab: BlocksPage) -> None:
+    tab.to_blocks()
+    tab.choose("Actions", "turn")
+    expect(tab.editor).to_contain_text("turn = 1")
+    tab.press("Open the maze")
+    assert tab.sent() == [{"command": "open_scene", "name": "maze", "is_saved": False}]
+    for scene in ("maze", "box_chase"):
+        tab.give({**PARTS["scene"], "scene": scene}, "scene")
+        tab.give(PARTS["agent"])
+        expect(tab.page.locator(".ai4u-blocks-editor")).to_be_visible()
+        expect(tab.canvas).to_contain_text("forever")
+        if scene == "maze":
+            expect(tab.editor).not_to_contain_text("turn = 1")
+            expect(tab.page.get_by_role("button", name="Step 1: Drive")).to_be_visible()
     expect(tab.editor).to_contain_text("turn = 1")
 
 

@@ -136,6 +136,31 @@ def test_a_program_is_kept_goes_on_elsewhere_and_is_read(
     teacher.context.close()
 
 
+def test_named_programs_go_on_at_another_device(chromium: Browser, school: ServedClass) -> None:
+    ada = school.joined(name="Red Fox")
+    first = Desk(chromium, ada)
+    first.write(PROGRAM)
+    first.is_told("Kept in the class.")
+    first.page.get_by_role("button", name="New program").click()
+    named = f"{PROGRAM}# of the second program\n"
+    first.write(named)
+    first.is_told("Kept in the class.")
+    until(lambda: kept(school, ada) == named)
+
+    second = Desk(chromium, ada)
+    programs = second.page.get_by_label("Program", exact=True)
+    expect(programs.locator("option")).to_have_text(["Program 1", "Program 2"])
+    expect(second.editor).not_to_contain_text("of the second program")
+    programs.select_option("Program 2")
+    expect(second.editor).to_contain_text("of the second program")
+    second.page.get_by_role("button", name="Delete this program").click()
+    second.page.get_by_role("dialog").get_by_role("button", name="Delete").click()
+    expect(programs.locator("option")).to_have_text(["Program 1"])
+    until(lambda: kept(school, ada) == PROGRAM)
+    for desk in (first, second):
+        desk.close()
+
+
 def test_a_mistake_reaches_the_teacher_and_goes_with_the_next_run(
     chromium: Browser, school: ServedClass
 ) -> None:

@@ -28,11 +28,17 @@ def tab(chromium: Browser) -> Iterator[CodePage]:
         yield tab
 
 
-def test_it_begins_with_a_program_of_the_agents_own_senses_and_actions(tab: CodePage) -> None:
-    assert '# percept["box"]: direction, distance' in tab.text
-    assert '# "move": forward -1 to 1, turn -1 to 1, jump (no effect)' in tab.text
-    assert 'def decide(percept):\n    return {"move": [0, 0.3, 0]}' in tab.text
+def test_it_begins_with_a_program_that_drives_in_a_circle(tab: CodePage) -> None:
+    assert tab.text == (
+        "def decide(percept):\n    forward = 0.4\n    turn = 0.3\n"
+        '    return {"move": [forward, turn, 0]}\n'
+    )
     expect(tab.state).to_contain_text("Ready")
+    names = tab.page.locator(".ai4u-code-names > li")
+    expect(names.filter(has_text='percept["box"]')).to_contain_text("direction, distance")
+    expect(names.filter(has_text='"move"')).to_contain_text(
+        "forward -1 to 1, turn -1 to 1, always 0"
+    )
 
 
 def test_run_senses_decides_and_acts_until_the_episode_is_over(tab: CodePage) -> None:
@@ -54,7 +60,7 @@ def test_run_senses_decides_and_acts_until_the_episode_is_over(tab: CodePage) ->
     expect(tab.page.get_by_role("log")).to_have_text("1decision 1")
     expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near0.94")
     tab.sense(1, terminated=True, terms={"touch": 100})
-    expect(tab.state).to_contain_text("Goal reached at decision 1")
+    expect(tab.state).to_contain_text("Goal reached! Your program decided 1 time.")
     assert tab.page.evaluate("fake.closed") == 1
     expect(tab.page.get_by_role("button", name="Stop")).to_be_disabled()
 
@@ -185,6 +191,8 @@ def test_a_mistake_is_a_sentence_at_its_line(tab: CodePage) -> None:
     expect(tab.editor).to_be_focused()
     assert tab.page.evaluate("fake.closed") == 1
     assert tab.sent() == [{"command": "try_again"}, {"command": "pause"}]  # while it is mended
+    tab.give({**PARTS["run"], "is_paused": True}, "run")
+    expect(tab.state).to_contain_text("Stopped: there's a mistake in line 3. The world waits.")
     tab.press("Run")
     expect(tab.mistake).to_be_hidden()
     expect(marked).to_have_count(0)
@@ -218,7 +226,7 @@ def test_programs_are_kept_for_each_scene(tab: CodePage) -> None:
     tab.write(PROGRAM)
     tab.give({**PARTS["scene"], "scene": "maze"}, "scene")
     tab.give(PARTS["agent"])
-    assert "# It senses:" in tab.text
+    assert "turn = 0.3" in tab.text
     tab.give(PARTS["scene"], "scene")
     tab.give(PARTS["agent"])
     assert tab.text == PROGRAM
@@ -241,10 +249,55 @@ def test_an_earlier_run_is_taken_back(tab: CodePage) -> None:
     runs.select_option(index=2)
     assert tab.text == PROGRAM
     runs.select_option(label="The first program")
-    assert "# It senses:" in tab.text
+    assert "turn = 0.3" in tab.text
     tab.editor.click()
     tab.page.keyboard.press("ControlOrMeta+z")
     assert tab.text == PROGRAM
+
+
+def test_a_scene_has_several_programs_with_names(tab: CodePage) -> None:
+    programs = tab.page.get_by_label("Program", exact=True)
+    tab.write(PROGRAM)
+    tab.press("New program")
+    assert "turn = 0.3" in tab.text
+    tab.write("x = 1")
+    tab.press("Rename this program")
+    dialog = tab.page.get_by_role("dialog")
+    dialog.get_by_label("Name").fill("Wall follower")
+    dialog.get_by_role("button", name="Rename").click()
+    expect(programs.locator("option")).to_have_text(["Program 1", "Wall follower"])
+    programs.select_option("Program 1")
+    assert tab.text == PROGRAM
+    tab.press("Copy this program")
+    assert tab.text == PROGRAM
+    expect(programs).to_have_value("Program 2")
+    programs.select_option("Wall follower")
+    assert tab.text == "x = 1"
+    tab.page.reload()
+    tab.page.wait_for_function("window.isReady")
+    for name in ("scene", "python", "agent"):
+        tab.give(PARTS[name], name)
+    expect(programs).to_have_value("Wall follower")
+    assert tab.text == "x = 1"
+    tab.press("Delete this program")
+    dialog.get_by_role("button", name="Cancel").click()
+    expect(programs).to_have_value("Wall follower")
+    tab.press("Delete this program")
+    dialog.get_by_role("button", name="Delete").click()
+    expect(programs.locator("option")).to_have_text(["Program 1", "Program 2"])
+    assert tab.text == PROGRAM
+    tab.page.get_by_label("Earlier runs").select_option(index=1)
+    assert tab.text == "x = 1"
+
+
+def test_the_first_program_fits_the_robot_of_a_scene_whose_parts_come_later(tab: CodePage) -> None:
+    tab.give({**PARTS["scene"], "scene": "line_follow"}, "scene")
+    tab.give(PARTS["agent"])
+    wheel = {"low": -1, "high": 1, "has_effect": True}
+    wheels = [{"name": "left", **wheel}, {"name": "right", **wheel}]
+    drive = {"name": "move", "is_choice": False, "components": wheels}
+    tab.give({**PARTS["python"], "actuators": [drive]}, "python")
+    assert 'return {"move": [left, right]}' in tab.text
 
 
 def test_only_the_latest_runs_are_kept(tab: CodePage) -> None:

@@ -339,7 +339,7 @@ def test_who_drives_ends_the_test(tab: CodePage) -> None:
           panel.dispatchEvent(new CustomEvent("driver"));
         }"""
     )
-    expect(tab.mistake).to_have_text("You drive, so the test was ended.")
+    expect(tab.mistake).to_have_text("You're driving, so the test was ended.")
     assert tab.page.evaluate("fake.closed") == 1
 
 

@@ -79,3 +79,30 @@ def test_the_timeline_keeps_so_much_and_drops_the_oldest(tab: CodePage) -> None:
     }"""
     )
     assert found == [[None, None, "a"], [None, None, 3000], ["again", None]]
+
+
+def test_variables_that_are_numbers_have_a_curve_over_time(tab: CodePage) -> None:
+    tab.page.evaluate("""() => (fake.decide = (percept, number) => ({
+      ok: true, values: { move: [1, 0] }, printed: "", lines: [2],
+      variables: { near: String(number * 2), word: "'left'" } }))""")
+    for step in range(3):
+        tab.sense(step)
+    tab.press("Run")
+    curves = tab.page.locator(".ai4u-code-variables svg")
+    near = "near: from 2.00 to 6.00 in the latest 3 decisions"
+    expect(curves.first).to_have_attribute("aria-label", near)
+    expect(curves.first.locator("polyline")).to_have_attribute(
+        "points", "0.0,24.0 100.0,12.0 200.0,0.0"
+    )
+    expect(curves.last).to_be_hidden()  # a text
+    tab.press("Stop")
+    tab.sense(3)  # for the run that was stopped
+    for step in (3, 4):
+        tab.sense(step)
+    tab.press("Step")
+    expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near8word'left'")
+    expect(curves.first).to_be_hidden()  # one number makes no curve
+    tab.sense(5)
+    tab.press("Step")
+    two = "near: from 8.00 to 10.0 in the latest 2 decisions"
+    expect(curves.first).to_have_attribute("aria-label", two)

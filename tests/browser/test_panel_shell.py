@@ -145,6 +145,46 @@ def test_the_panel_can_be_folded_and_resized(desk: PanelPage) -> None:
     expect(desk.button("Pause")).to_be_visible()
 
 
+def test_the_tab_code_takes_almost_half_of_the_window(desk: PanelPage) -> None:
+    panel = desk.page.locator(".ai4u-panel")
+    handle = desk.page.get_by_role("separator", name="Size of the panel")
+    desk.tab("Code").click()
+    expect(panel).to_have_css("width", "576px")  # 45% of 1280
+    expect(handle).to_have_attribute("aria-valuenow", "45")
+    handle.focus()
+    desk.page.keyboard.press("Tab")
+    desk.page.keyboard.press("Shift+Tab")
+    desk.page.keyboard.press("ArrowLeft")
+    expect(panel).to_have_css("width", "640px")
+    desk.tab("Drive").click()
+    expect(panel).to_have_css("width", "340px")
+    desk.page.reload()
+    desk.tab("Code").click()
+    expect(panel).to_have_css("width", "640px")
+
+
+def test_above_the_tab_code_the_rows_are_folded_into_one(desk: PanelPage) -> None:
+    top = desk.page.locator(".ai4u-panel-top")
+    more = desk.button("Goal, score and camera")
+    expect(more).to_be_hidden()
+    desk.tab("Code").click()
+    expect(more).to_have_attribute("aria-expanded", "false")
+    for name in ("Pause", "Try again", "New start"):
+        expect(desk.button(name)).to_be_visible()
+    expect(desk.button("Arena")).to_be_hidden()
+    box = top.bounding_box()
+    assert box
+    assert box["height"] <= 48
+    more.click()
+    expect(desk.button("Arena")).to_be_visible()
+    desk.page.reload()
+    expect(desk.button("Arena")).to_be_visible()
+    more.click()
+    expect(desk.button("Arena")).to_be_hidden()
+    desk.tab("Drive").click()
+    expect(desk.button("Arena")).to_be_visible()
+
+
 def test_it_connects_again_and_looks_at_the_same(desk: PanelPage) -> None:
     desk.page.get_by_role("tab", name="Past").click()
     desk.until(lambda: desk.panel.shown["tabs"] == ["past"])

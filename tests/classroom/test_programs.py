@@ -88,6 +88,26 @@ def test_a_seat_has_a_limit_of_programs_and_loses_none(store: ClassStore) -> Non
     assert len(programs.of_seat(1)) == MAX_PROGRAMS
 
 
+def test_a_seat_has_several_programs_in_a_scene_but_not_those_that_it_deleted(
+    store: ClassStore,
+) -> None:
+    programs = Programs(store)
+
+    def save(scene: str, agent: str, source: str) -> None:
+        programs.save(1, scene, agent, source, base=0, device="a")
+
+    save("Maze", "robot", "first")
+    save("Maze", "robot/Wall", "second")
+    save("Tag", "robot", "of another scene")
+    save("Maze", "robot/Box", "third")
+    save("Maze", "robot/Box", "")
+    assert programs.agents_of(1, "Maze") == ["robot/Wall", "robot"]
+    assert programs.agents_of(2, "Maze") == []
+    latest, (of_all,) = programs.latest_of(1), programs.latest_of_all()
+    assert latest is not None
+    assert latest.source == of_all.source == "of another scene"
+
+
 def put(student: Student, **changes: Any) -> httpx.Response:
     body: dict[str, Any] = {"scene": "Maze", "agent": "robot", "source": "pass"}
     body |= {"base": 0, "device": "a"} | changes
@@ -121,6 +141,11 @@ def test_only_the_own_browser_and_the_teacher_read_a_program(served: ServedClass
     assert (answer["source"], answer["scene"], answer["agent"]) == (source, "Maze", "robot")
     assert (answer["version"], answer["is_of_device"]) == (saved.json()["version"], False)
     assert found(ben) == {"source": None}
+    assert put(ada, agent="robot/Wall").status_code == 200
+    assert found(ada, agent="") == {"agents": ["robot/Wall", "robot"]}
+    assert put(ada, agent="robot/Wall", source="").status_code == 200
+    assert found(ada, agent="") == {"agents": ["robot"]}
+    assert found(ben, agent="") == {"agents": []}
     stranger = served.student()
     assert put(stranger).status_code == 403
     assert stranger.client.get("api/program?scene=Maze&agent=robot").status_code == 403

@@ -30,7 +30,7 @@ const variable = { type: "field_variable", name: "VAR", variable: "count" };
  * @type {BlockKind[]}
  */
 export const KINDS = [
-  hat("on_decision", "at each decision", [], "What stands below decides what the robot does next, again and again."),
+  hat("on_decision", "forever", [], "Again and again, at each decision, what stands below decides what the robot does next."),
   hat("on_begin", "when an episode begins", [], "Once, before the first decision of each episode."),
   hat("on_becomes", "as soon as %1", [value("IF", "Boolean")], "Once, at the decision at which the condition becomes true."),
   statement("if", "control", "if %1 %2", [value("IF", "Boolean"), body("DO")]),

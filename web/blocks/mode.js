@@ -11,6 +11,7 @@
 import { freeId } from "../shared/ids.js";
 import { joinProgram, splitProgram } from "./text.js";
 import { button, element, setText } from "../shared/dom.js";
+import { segments } from "../panel/widgets/parts.js";
 import { retried } from "../shared/retry.js";
 
 const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
@@ -54,8 +55,10 @@ export class BlocksMode {
    * @type {string[]}
    */
   #blockOfLine = [];
-  #open = button("Blocks", () => this.#toBlocks(), { icon: "build", title: "Put the program together from blocks" });
-  #leave = button("Continue in Python", () => this.#toPython(), { title: "The Python becomes yours to change; the blocks are kept" });
+  #ways = segments("Write the program in", [
+    { value: "python", text: "Python", title: "The Python becomes yours to change; the blocks are kept" },
+    { value: "blocks", text: "Blocks", title: "Put the program together from blocks" },
+  ], (way) => (way === "blocks" ? this.open() : this.#toPython()));
   #words = element("p", { className: "ai4u-soft", role: "status" });
   #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
@@ -63,7 +66,7 @@ export class BlocksMode {
   #steps = null;
   /** The steps that lead to a program; filled with the first blocks. */
   steps = element("div", {});
-  bar = element("div", { className: "ai4u-blocks-bar" }, this.#open, this.#leave);
+  bar = this.#ways.element;
   element = element("div", { className: "ai4u-blocks", dataset: { ai4uKeys: "" } }, this.#words, this.#frame, this.#help);
 
   /**
@@ -73,6 +76,7 @@ export class BlocksMode {
    * @param {() => void} tab.changed called when the person has changed the blocks
    * @param {(text: string) => void} tab.replace called with another program
    * @param {(way: "run" | "step") => void} tab.run called when the person runs the program with a shortcut
+   * @param {(scene: string) => void} tab.openScene opens a scene of the library, and keeps to blocks
    */
   constructor(panel, tab) {
     this.#panel = panel;
@@ -170,7 +174,9 @@ export class BlocksMode {
 
   // -- the switch --------------------------------------------------------------------------------
 
-  async #toBlocks() {
+  /** Show the program's blocks, or a first one. */
+  async open() {
+    if (this.#isOn) return;
     const modules = await this.#load();
     if (modules === null || this.#part === null) return;
     const blocks = this.#blocks ?? modules.FIRST_BLOCKS;
@@ -182,6 +188,7 @@ export class BlocksMode {
   }
 
   #toPython() {
+    if (!this.#isOn) return;
     this.#set(false);
     this.#tab.changed();
     this.#tab.editor.focus();
@@ -197,9 +204,7 @@ export class BlocksMode {
 
   #draw() {
     this.#frame.hidden = this.#help.hidden = this.steps.hidden = !this.#isOn;
-    this.#leave.hidden = !this.#isOn;
-    this.#open.hidden = this.#isOn;
-    setText(this.#open.querySelector("span"), this.#blocks === null ? "Blocks" : "Back to your blocks");
+    this.#ways.set(this.#isOn ? "blocks" : "python");
     this.#say("");
   }
 
@@ -260,7 +265,7 @@ export class BlocksMode {
       this.#say(FAILED);
       return null;
     }
-    this.#steps = new this.#loaded.BlockSteps(this.#panel);
+    this.#steps = new this.#loaded.BlockSteps(this.#panel, this.#tab.openScene);
     this.steps.append(this.#steps.element);
     if (this.#part !== null) {
       this.#agent = this.#loaded.agentBlocks(this.#part);

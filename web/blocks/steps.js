@@ -15,7 +15,7 @@ const SCENE = "maze";
 const STEPS = [
   {
     title: "Drive",
-    texts: ["Open *Actions*, take *forward* and hang it under *at each decision*.", "Then press *Run*."],
+    texts: ["Open *Actions*, take *forward* and snap it under *forever*.", "Then press *Run*."],
     goal: "Done when the robot has reached a wall. Is it at a wall already? *New start* puts it elsewhere.",
   },
   {
@@ -71,12 +71,16 @@ export class BlockSteps {
   #progress = element("p", { className: "ai4u-steps-progress" });
   #status = element("p", { role: "status", className: "ai4u-steps-status" });
   #elsewhere = element("p", { textContent: "These steps are for the scene “Maze”." });
-  #open = button("Open the maze", () => this.#panel.send("open_scene", { name: SCENE, is_saved: false }), {});
+  #open;
   element;
 
-  /** @param {Panel} panel */
-  constructor(panel) {
+  /**
+   * @param {Panel} panel
+   * @param {(scene: string) => void} openScene opens a scene of the library, and keeps to blocks
+   */
+  constructor(panel, openScene) {
     this.#panel = panel;
+    this.#open = button("Open the maze", () => openScene(SCENE), {});
     this.#done = Math.min(recall(this.#key, 0), STEPS.length);
     this.#shown = Math.min(this.#done, STEPS.length - 1);
     const elsewhere = element("div", { className: "ai4u-steps-elsewhere" }, this.#elsewhere, this.#open);

@@ -1,4 +1,4 @@
-/** The section "Your program": where the program comes from, and where it is kept. */
+/** The person's programs: the bar with their names, and the section "Your program" on where they come from and are kept. */
 
 /** @import { Panel } from "../panel/panel.js" */
 
@@ -6,7 +6,9 @@ import { splitProgram } from "../blocks/text.js";
 import { handoutFor, handouts } from "../classroom/student/handout.js";
 import { ClassPrograms } from "../classroom/student/programs.js";
 import { freeId } from "../shared/ids.js";
-import { downloadText, KeptPrograms } from "./keep.js";
+import { downloadText, FIRST_NAME, KeptPrograms, MAX_NAME_CHARS, MAX_PROGRAMS } from "./keep.js";
+import { ask } from "../shared/dialog.js";
+import { field, showForm } from "../shared/form_dialog.js";
 import { button, element, fileButton } from "../shared/dom.js";
 import { section } from "../panel/widgets/parts.js";
 import { copyLink } from "../scenes/share.js";
@@ -25,6 +27,7 @@ export class ProgramSection {
     source: () => this.#kept.source,
     take: (source) => this.#takeFromClass(source),
     keep: (source) => this.#keepAsRun(source),
+    learn: (agents) => this.#learn(agents),
   });
   #scene = "";
   #agent = "";
@@ -35,6 +38,9 @@ export class ProgramSection {
   #name = null;
   /** The program that a person begins with. */
   #first = "";
+  #names = element("select", { ariaLabel: "Program" });
+  /** The names of the programs, and buttons to make, rename, copy and delete one. */
+  bar = element("div", { className: "ai4u-code-programs" }, this.#names);
   #runs = element("select", { id: freeId() });
   /** A program that came with a link. */
   shared;
@@ -52,12 +58,19 @@ export class ProgramSection {
     this.#panel = panel;
     this.#tab = tab;
     this.#runs.addEventListener("change", () => this.#takeRun(this.#runs.value));
+    this.#names.addEventListener("change", () => this.#choose(this.#names.value));
+    this.bar.append(
+      button("", () => this.add(FIRST_NAME, null), { icon: "add", label: "New program", kind: "quiet" }),
+      button("", () => this.#rename(), { icon: "text", label: "Rename this program", kind: "quiet" }),
+      button("", () => this.add(this.#kept.name, this.#tab.text()), { icon: "copy", label: "Copy this program", kind: "quiet" }),
+      button("", () => this.#remove(), { icon: "trash", label: "Delete this program", kind: "quiet" }),
+    );
     const label = element("label", { htmlFor: this.#runs.id, textContent: "Earlier runs" });
     const tools = element(
       "div",
       { className: "ai4u-code-tools" },
       element("div", { className: "ai4u-inline ai4u-code-runs" }, label, this.#runs),
-      button("Download .py", () => downloadText(`${this.#name ?? "program"}.py`, tab.text()), { icon: "download" }),
+      button("Download .py", () => downloadText(`${this.#fileName}.py`, tab.text()), { icon: "download" }),
       button("Copy link", () => this.#copyLink(), { icon: "copy", title: "Copy a link to this scene with your program" }),
       fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
     );
@@ -77,8 +90,95 @@ export class ProgramSection {
     [this.#scene, this.#agent, this.#name, this.#first] = [scene, agent, `${scene}-${agent}`, first];
     this.#kept.open(scene, agent);
     this.#tab.show(this.#kept.source ?? handoutFor(scene) ?? first);
-    this.#class.open(scene, agent);
+    this.#class.open(scene, this.#place);
     this.#draw();
+  }
+
+  /**
+   * Take another program to begin with: the robot has become another one.
+   * @param {string} first
+   */
+  setFirst(first) {
+    const isUntouched = this.#kept.source === null && this.#tab.text() === this.#first;
+    this.#first = first;
+    if (isUntouched) this.#tab.show(first);
+  }
+
+  /**
+   * Add a program, and show it.
+   * @param {string} name that it gets, with a number behind it if another one has it
+   * @param {string | null} source null for the one that a person begins with
+   * @returns {boolean} false if there are too many
+   */
+  add(name, source) {
+    if (this.#kept.names.length >= MAX_PROGRAMS) {
+      this.#panel.notice(`This scene has ${MAX_PROGRAMS} programs already. Delete one first.`, "error");
+      return false;
+    }
+    this.#kept.add(this.#kept.freeName(name), source);
+    this.#showPresent();
+    return true;
+  }
+
+  /** @param {string} name */
+  #choose(name) {
+    this.#kept.choose(name);
+    this.#showPresent();
+  }
+
+  async #rename() {
+    const input = element("input", { type: "text", value: this.#kept.name, maxLength: MAX_NAME_CHARS, required: true });
+    const answer = showForm({ title: "Rename the program", content: [field("Name", input)], yes: "Rename" }, () => {
+      const name = input.value.trim();
+      if (!name) throw new Error("Expected a name, got nothing. Write one or two words, such as Wall follower.");
+      if (name === this.#kept.name) return;
+      this.#class.removed(this.#scene, this.#place);
+      this.#kept.rename(this.#kept.freeName(name));
+      this.#class.open(this.#scene, this.#place);
+    });
+    input.select();
+    if (await answer) this.#draw();
+  }
+
+  async #remove() {
+    const { name } = this.#kept;
+    if (!(await ask({ title: `Delete “${name}”?`, text: "Its text stays under Earlier runs.", yes: "Delete" }))) return;
+    this.#kept.addRun(this.#tab.text());
+    this.#class.removed(this.#scene, this.#place);
+    this.#kept.remove();
+    this.#showPresent();
+  }
+
+  /** Show the program that has become the present one. */
+  #showPresent() {
+    this.#tab.show(this.#kept.source ?? this.#first);
+    this.#class.open(this.#scene, this.#place);
+    this.#draw();
+  }
+
+  /** The agent of the present program, as the class knows it: with a name behind a slash, if it has got one. */
+  get #place() {
+    const { name } = this.#kept;
+    return name === FIRST_NAME ? this.#agent : `${this.#agent}/${name}`;
+  }
+
+  /**
+   * List the programs that the class has, from another device.
+   * @param {string[]} agents with names behind a slash
+   */
+  #learn(agents) {
+    const start = `${this.#agent}/`;
+    const names = agents.filter((agent) => agent.startsWith(start)).map((agent) => agent.slice(start.length));
+    this.#kept.learn(names);
+    const isNew = this.#kept.source === null && this.#kept.name === FIRST_NAME && !agents.includes(this.#agent);
+    if (isNew && names.length) this.#choose(names[0]);
+    else this.#draw();
+  }
+
+  /** Name of the program's file, without its ending. */
+  get #fileName() {
+    const { name } = this.#kept;
+    return name === FIRST_NAME ? (this.#name ?? "program") : name.replace(/[^\p{L}\p{N}-]+/gu, "_");
   }
 
   /**
@@ -168,11 +268,14 @@ export class ProgramSection {
   }
 
   #draw() {
+    const { name: present, names } = this.#kept;
+    this.#names.replaceChildren(...names.map((name) => element("option", { value: name, textContent: name })));
+    this.#names.value = present;
     const shared = sharedFor(this.#scene, this.#agent);
     this.shared.update(shared === this.#tab.text() ? null : shared);
-    const runs = this.#kept.runs.map(({ at, source }) => {
+    const runs = this.#kept.runs.map(({ at, source, name = FIRST_NAME }) => {
       const lines = splitProgram(source).python.trim().split("\n").length;
-      return element("option", { value: at, textContent: `${when(at)} · ${lines} lines` });
+      return element("option", { value: at, textContent: `${name} · ${when(at)} · ${lines} lines` });
     });
     const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });
     const first = element("option", { value: "start", textContent: "The first program" });

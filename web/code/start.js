@@ -2,16 +2,22 @@
 
 /** @import { ActionRange, ProgramActuator, SensorReading } from "../generated/messages.js" */
 
+import { identifier } from "../blocks/words.js";
+
 /**
  * @typedef {object} Names words in a line, values to begin with
  * @property {{key: string, words: string}[]} readings
- * @property {{name: string, words: string, values: number[]}[]} outputs
+ * @property {{name: string, words: string, values: StartValue[]}[]} outputs
  */
+/** @typedef {{name: string, value: number}} StartValue one without a name is written as a number */
 
 /** Most numbers that are named one by one. */
 const MAX_NAMED = 6;
-/** Turn of the first program, from -1 to 1. */
-const TURN = 0.3;
+/**
+ * Numbers of the first program, from -1 to 1, by a word in their name: it drives in a circle.
+ * @type {[RegExp, number][]}
+ */
+const CIRCLE = [[/turn|steer|right/, 0.3], [/forward|throttle|speed|left/, 0.4]];
 
 /**
  * Return the names that the program of an agent reads and writes.
@@ -21,25 +27,32 @@ const TURN = 0.3;
  */
 export function namesOf(sensors, actuators) {
   return {
-    readings: sensors.map((sensor) => ({ key: sensor.key, words: readingWords(sensor) })),
+    // while a program decides, no episode is over
+    readings: sensors.filter((sensor) => sensor.class !== "DoneSensor").map((sensor) => ({ key: sensor.key, words: readingWords(sensor) })),
     outputs: actuators.map(({ name, is_choice: isChoice, components }) => ({
       name,
       words: components.map((component) => componentWords(component, isChoice)).join(", "),
-      values: components.map((component) => startValue(component, isChoice)),
+      values: components.map((component) => ({ name: component.has_effect ? component.name : "", value: startValue(component, isChoice) })),
     })),
   };
 }
 
 /**
- * Return the program that a person begins with: it turns on the spot.
+ * Return the program that a person begins with: it drives in a circle, and its numbers have names.
  * @param {Names} names
  */
-export function startProgram({ readings, outputs }) {
-  const sensed = readings.map(({ key, words }) => `# percept["${key}"]: ${words}`);
-  const done = outputs.map(({ name, words }) => `# "${name}": ${words}`);
-  const values = outputs.map((output) => `"${output.name}": [${output.values.join(", ")}]`);
-  const lines = ["# It senses:", ...sensed, "# It can do:", ...done, "", "def decide(percept):"];
-  return [...lines, `    return {${values.join(", ")}}`, ""].join("\n");
+export function startProgram({ outputs }) {
+  const taken = new Set(["percept"]);
+  /** @type {string[]} */
+  const lines = [];
+  const write = (/** @type {StartValue} */ { name, value }) => {
+    if (!name || !value) return String(value);
+    const variable = identifier(name, taken);
+    lines.push(`    ${variable} = ${value}`);
+    return variable;
+  };
+  const codes = outputs.map(({ name, values }) => `"${name}": [${values.map(write).join(", ")}]`);
+  return ["def decide(percept):", ...lines, `    return {${codes.join(", ")}}`, ""].join("\n");
 }
 
 /**
@@ -48,7 +61,7 @@ export function startProgram({ readings, outputs }) {
  */
 function componentWords({ name, low, high, has_effect: hasEffect }, isChoice) {
   const words = name ? name.replaceAll("_", " ") : isChoice ? "choice" : "number";
-  return `${words} ${hasEffect ? `${low} to ${high}` : "(no effect)"}`;
+  return hasEffect ? `${words} ${low} to ${high}` : "always 0";
 }
 
 /**
@@ -56,8 +69,8 @@ function componentWords({ name, low, high, has_effect: hasEffect }, isChoice) {
  * @param {boolean} isChoice
  */
 function startValue({ name, low, high, has_effect: hasEffect }, isChoice) {
-  const isTurn = hasEffect && !isChoice && /turn|steer/.test(name);
-  return Math.max(low, Math.min(high, isTurn ? TURN : 0));
+  const share = isChoice ? 1 : (CIRCLE.find(([word]) => word.test(name))?.[1] ?? 0); // 0 is a choice to stay
+  return Math.max(low, Math.min(high, hasEffect ? share : 0));
 }
 
 /** @param {SensorReading} sensor */
@@ -66,7 +79,8 @@ function readingWords({ values, shape = [], stack = 1, text, help, title }) {
   if (isNamed) return values.map(({ name }) => name.replaceAll("_", " ")).join(", ");
   if (text !== undefined && shape.length === 0) return lowered(help || title);
   const size = shape.join(" x ") || "1";
-  return `${lowered(title)}, ${size} ${size === "1" ? "number" : "numbers"}${stack > 1 ? ` (${stack} moments)` : ""}`;
+  const before = stack > 1 ? `, now and ${stack - 1} ${stack === 2 ? "time" : "times"} before` : "";
+  return `${lowered(title)}, ${size} ${size === "1" ? "number" : "numbers"}${before}`;
 }
 
 /** @param {string} words */

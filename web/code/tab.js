@@ -5,12 +5,15 @@
 /** @import { Panel } from "../panel/panel.js" */
 /** @import { Decision, RunDecision, RunEnd } from "./run.js" */
 /** @import { Names } from "./start.js" */
+/** @import { Example } from "./examples.js" */
 /** @import { Told } from "./timeline.js" */
 
 import { BlocksMode } from "../blocks/mode.js";
+import { joinProgram } from "../blocks/text.js";
 import { freeId } from "../shared/ids.js";
 import { CodeConsole } from "./console.js";
 import { CodeEditor } from "./editor.js";
+import { exampleProgram, ExampleList } from "./examples.js";
 import { NameList, VariableList } from "./facts.js";
 import { CodeMoment } from "./moment.js";
 import { ProgramSection } from "./program.js";
@@ -30,6 +33,7 @@ const FROZEN = "The browser stopped this page in the background, and your progra
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
+  #root;
   #panel;
   #run;
   #test;
@@ -46,13 +50,19 @@ export class CodeTab {
   #variables = new VariableList();
   #testTable = new TestTable((seed) => this.#begin(seed), () => this.#go("run", { seed: this.#test.failure }));
   #nameList = new NameList((code) => this.#editor.insert(code));
+  #examples = new ExampleList((example) => this.#chooseExample(example));
+  /**
+   * The scene that the person opens to go on there with blocks or an example.
+   * @type {{scene: string, example: Example | null, isOfBlocks: boolean} | null}
+   */
+  #next = null;
   /** @type {string | null} */
   #key = null;
   /** @type {AgentPart | null} */
   #agent = null;
   /**
    * End of the latest run; null before the first one.
-   * @type {(RunEnd & {summary?: string}) | null}
+   * @type {(RunEnd & {summary?: string, outcome?: string}) | null}
    */
   #end = null;
   /** Python: "loading", "ready", or a sentence about what went wrong. */
@@ -80,7 +90,7 @@ export class CodeTab {
   #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
   #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
-  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as possible" });
+  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 new starts, as fast as possible" });
   #state = element("p", { role: "status" });
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
@@ -94,6 +104,7 @@ export class CodeTab {
    * @param {ConstructorParameters<typeof CodeRun>[0]} [parts] of CodeRun and CodeTest
    */
   constructor(root, panel, parts = {}) {
+    this.#root = root;
     this.#panel = panel;
     this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
     this.#test = new CodeTest({
@@ -122,6 +133,7 @@ export class CodeTab {
       changed: () => this.#onChange(),
       replace: (text) => this.#program.replace(text),
       run: (way) => this.#go(way),
+      openScene: (scene) => this.#openScene(scene),
     });
     this.#program = new ProgramSection(panel, {
       text: () => this.#blocks.join(this.#editor.text),
@@ -129,12 +141,13 @@ export class CodeTab {
       isBusy: () => this.#run.isOn,
     });
     const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#here, this.#step, this.#tryOut, this.#stop);
-    const sections = [this.#testTable.element, this.#console.element, this.#variables.element, stars.element, this.#nameList.element, this.#program.element];
+    const lists = [this.#testTable.element, this.#console.element, this.#variables.element, this.#examples.element];
+    const sections = [...lists, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
-    const way = element("div", { className: "ai4u-code-way" }, this.#stateRow, this.#blocks.bar);
-    const head = element("div", { className: "ai4u-code-head" }, buttons, way);
+    const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
+    const way = element("div", { className: "ai4u-code-way" }, this.#program.bar, this.#blocks.bar);
     const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
-    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, this.#blocks.steps, body, this.#mistake];
+    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, way, this.#blocks.steps, body, this.#mistake];
     root.append(head, ...both, ...sections);
     this.#listen();
     this.#drawState();
@@ -160,6 +173,7 @@ export class CodeTab {
   #setNames(names, text) {
     this.#namesText = text;
     this.#names = names;
+    if (this.#key !== null) this.#program.setFirst(startProgram(names)); // the parts of a new scene come one after another
     this.#nameList.update(names);
     this.#editor.setNames({
       readings: names.readings.map(({ key }) => key),
@@ -175,7 +189,7 @@ export class CodeTab {
     });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) {
-        this.#test.stop("You drive, so the test was ended.");
+        this.#test.stop("You're driving, so the test was ended.");
         this.#reports.end();
       }
       this.#wasPerson = this.#isPerson;
@@ -183,6 +197,7 @@ export class CodeTab {
     this.#run.addEventListener("printed", ({ detail }) => this.#console.add(detail.number, detail.text));
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
+      this.#variables.note(detail.variables);
       this.#blocks.note(detail);
       this.#drawSoon();
     });
@@ -192,6 +207,9 @@ export class CodeTab {
       const agent = this.#panel.part("agent");
       if (agent !== null) this.update(agent);
     });
+    this.#panel.addEventListener("part:scene", () => this.#examples.update(this.#panel.part("scene")));
+    this.#examples.update(this.#panel.part("scene"));
+    this.#panel.addEventListener("part:run", () => this.#noteOutcome());
     for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
     document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
@@ -221,8 +239,55 @@ export class CodeTab {
     this.#reports.end();
     this.#key = key;
     this.#timeline.clear();
-    this.#console.clear();
+    this.#clear();
     this.#program.open(scene, this.#agent.id, startProgram(this.#names));
+    const next = this.#next;
+    this.#next = null;
+    if (next?.scene !== scene) return;
+    if (next.example !== null) this.#takeExample(next.example, next.isOfBlocks);
+    else if (next.isOfBlocks) this.#blocks.open();
+  }
+
+  /**
+   * Open a scene of the library, and go on there with an example, or with blocks if there are some here.
+   * @param {string} scene
+   * @param {Example | null} [example]
+   */
+  async #openScene(scene, example = null) {
+    this.#next = { scene, example, isOfBlocks: this.#blocks.isOn };
+    const { ok } = await this.#panel.send("open_scene", { name: scene, is_saved: false });
+    if (!ok) this.#next = null;
+  }
+
+  /** @param {Example} example */
+  #chooseExample(example) {
+    if (this.#panel.part("scene")?.scene === example.scene) this.#takeExample(example, this.#blocks.isOn, true);
+    else this.#openScene(example.scene, example);
+  }
+
+  /**
+   * Add an example to the person's programs.
+   * @param {Example} example
+   * @param {boolean} isOfBlocks
+   * @param {boolean} [isLast] false if the robot's own part may still be on its way
+   * @returns {Promise<void>}
+   */
+  async #takeExample(example, isOfBlocks, isLast = false) {
+    const part = this.#panel.part("python");
+    const made = await exampleProgram(example, part);
+    if (made === null && this.#panel.part("python") !== part) return this.#takeExample(example, isOfBlocks, isLast); // it came meanwhile
+    if (made === null && !isLast) {
+      this.#panel.addEventListener("part:python", () => this.#takeExample(example, isOfBlocks, true), { once: true });
+      return;
+    }
+    if (made === null) {
+      this.#panel.notice(`The example needs the robot of ${example.sceneTitle}, and this one has other senses. Open the scene again.`, "error");
+      return;
+    }
+    const text = isOfBlocks ? joinProgram(made.python, made.blocks, true) : made.python;
+    if (!this.#program.add(example.title, text)) return;
+    this.#root.scrollIntoView(); // the examples stand below the editor
+    this.#panel.notice("This is a new program. Choose another one in the list above it.");
   }
 
   /** @param {string} text */
@@ -248,7 +313,7 @@ export class CodeTab {
     this.#test.stop();
     this.#active = this.#run;
     const source = this.#editor.text;
-    if (this.#run.phase === "off" || way === "run") this.#console.clear();
+    if (this.#run.phase === "off" || way === "run") this.#clear();
     this.#noteStart(source);
     if (way === "run") this.#run.run(source, this.#agent.id, from);
     else this.#run.step(source, this.#agent.id);
@@ -260,7 +325,7 @@ export class CodeTab {
     this.#stopAll();
     this.#panel.driving?.letGo(); // else whoever drove just before would go on
     this.#active = this.#test;
-    this.#console.clear();
+    this.#clear();
     this.#noteStart(this.#editor.text);
     this.#test.run(this.#editor.text, this.#agent.id);
   }
@@ -300,6 +365,12 @@ export class CodeTab {
     this.#drawSoon();
   }
 
+  /** Empty the output, and the curves of the variables. */
+  #clear() {
+    this.#console.clear();
+    this.#variables.clear();
+  }
+
   /** @param {RunEnd & {summary?: string}} end */
   #onEnd(end) {
     this.#end = end;
@@ -309,7 +380,14 @@ export class CodeTab {
       this.#markMistake(end.line);
     }
     if (end.reason === "mistake") this.#hold();
+    this.#noteOutcome();
     this.#drawSoon();
+  }
+
+  /** Note the world's word for the end of the episode: it may come before the program's end or after it. */
+  #noteOutcome() {
+    const run = this.#panel.part("run");
+    if (this.#end?.reason === "over" && run?.result && run.decision === this.#end.percept.step) this.#end.outcome ??= run.result;
   }
 
   /** Let the world wait while the person looks for a mistake, unless that disturbs another person. */

@@ -1,7 +1,6 @@
 /** The line about a run of a program, in words. */
 
-/** Size of Python's files, which are loaded once (MB). */
-const PYTHON_MB = 13;
+const LOADING = "Getting Python ready (first time only) …";
 
 /** @import { RunEnd } from "./run.js" */
 
@@ -15,19 +14,20 @@ const PYTHON_MB = 13;
  * @param {boolean} run.isPerson true while the person drives in the program's place
  * @param {boolean} run.isPaused true while the world is paused
  * @param {string} run.python "loading", "ready", or a sentence about what went wrong
- * @param {(RunEnd & {summary?: string}) | null} run.end null while there is none; of a test it has a summary
+ * @param {(RunEnd & {summary?: string, outcome?: string}) | null} run.end null while there is none; of a test it has a summary, and
+ *   of an episode the world's word for its end, such as "fell"
  */
 export function runWords({ phase, decision, start, success, isPerson, isPaused, python, end }) {
-  if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);
+  if (phase === "loading") return line("busy", LOADING);
   if (phase === "joining") return line("busy", "The program gets the robot …");
   if (phase === "testing" && isPaused) return line("busy", "The world is paused", startWords(start));
   if (phase === "testing") return line("on", "Tests the program", startWords(start));
-  if (phase === "running" && isPerson) return line("busy", "You drive; let go, and the program goes on");
+  if (phase === "running" && isPerson) return line("busy", "You're driving. Press Let go to give the robot back to your program.");
   if (phase === "running" && isPaused) return line("busy", "The world is paused", `decision ${decision}`);
   if (phase === "running") return line("on", "Runs", `decision ${decision}`);
   if (phase === "stepping") return line("on", "Waits for the next step", `decision ${decision}`);
-  if (end !== null) return endWords(end, decision, success);
-  if (python === "loading") return line("off", `Loading Python, once (${PYTHON_MB} MB) …`);
+  if (end !== null) return endWords(end, decision, success, isPaused);
+  if (python === "loading") return line("off", LOADING);
   return python === "ready" ? line("off", "Ready") : line("bad", python);
 }
 
@@ -37,18 +37,24 @@ function startWords(start) {
 }
 
 /**
- * @param {RunEnd & {summary?: string}} end
+ * @param {RunEnd & {summary?: string, outcome?: string}} end
  * @param {number} decision
  * @param {string} success
+ * @param {boolean} isPaused
  */
-function endWords({ reason, percept, line: number, summary }, decision, success) {
+function endWords({ reason, percept, line: number, summary, outcome }, decision, success, isPaused) {
   const at = decision ? ` at decision ${decision}` : "";
   if (reason === "tested") return line("done", summary);
   if (reason === "stopped") return line("off", `Stopped${at}; the robot is yours`);
-  if (reason === "mistake") return line("bad", number === null ? `A mistake ended it${at}` : `A mistake in line ${number} ended it`);
+  if (reason === "mistake") {
+    const place = number === null ? "your program" : `line ${number}`;
+    return line("bad", `Stopped: there's a mistake in ${place}.${isPaused ? " The world waits." : ""}`);
+  }
   if (reason === "lost") return line("bad", `The run ended${at}`);
   const isGoal = Boolean(success && percept.terms?.[success] > 0);
-  return line(isGoal ? "done" : "off", `${isGoal ? "Goal reached" : "The episode is over"}${at}`);
+  if (isGoal) return line("done", `Goal reached! Your program decided ${decision} ${decision === 1 ? "time" : "times"}.`);
+  const what = outcome === "fell" ? "The robot fell" : percept.truncated ? "Time is up" : "The episode ended";
+  return line("off", `${what}, after ${decision} ${decision === 1 ? "decision" : "decisions"}.`);
 }
 
 /**

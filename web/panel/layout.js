@@ -1,8 +1,8 @@
 /**
  * Place of the panel: beside the canvas, below it on tablets held upright, a sheet above the keys on phones.
  *
- * It sets data-ai4u-layout (side, below, sheet) and data-ai4u-panel (open, folded) of the document's root, and
- * the CSS variables --ai4u-panel-size and --ai4u-dock-height; styles/panel/panel.css does the rest.
+ * It sets data-ai4u-layout (side, below, sheet), data-ai4u-panel (open, folded) and data-ai4u-wide of the document's
+ * root, and the CSS variables --ai4u-panel-size and --ai4u-dock-height; styles/panel/layout.css does the rest.
  */
 
 import { element, setAttributes } from "../shared/dom.js";
@@ -13,20 +13,24 @@ const PHONE = matchMedia("(max-width: 576px)");
 const LOW = matchMedia("(max-height: 500px)");
 const UPRIGHT = matchMedia("(orientation: portrait) and (max-width: 1000px)");
 /**
- * Smallest, largest and usual size: width beside the canvas (px), height below it (share of the window, %).
+ * Smallest, largest and usual size: width beside the canvas (px), that of a wide tab (share of the window, %), height
+ * below the canvas (%).
  * @type {Record<string, number[]>}
  */
-const SIZES = { side: [280, 560, 340], below: [25, 70, 42] };
+const SIZES = { side: [280, 560, 340], wide: [25, 70, 45], below: [25, 70, 42] };
+/** @type {Record<string, string>} */
+const UNITS = { side: "px", wide: "vw", below: "dvh" };
 /**
  * Change by an arrow key on the handle.
  * @type {Record<string, number>}
  */
-const STEPS = { side: 20, below: 5 };
+const STEPS = { side: 20, wide: 5, below: 5 };
 
 export class Layout {
   #root = document.documentElement;
   #onFold;
   #kind = "side";
+  #isWide = false;
   handle = element("div", { className: "ai4u-resize", tabIndex: 0 });
 
   /** @param {(isFolded: boolean) => void} onFold called with true when the panel is folded, and with false when it is opened */
@@ -36,7 +40,7 @@ export class Layout {
     this.handle.addEventListener("pointerdown", (event) => this.#startDrag(event));
     this.handle.addEventListener("pointermove", (event) => this.#drag(event));
     this.handle.addEventListener("keydown", (event) => this.#onKey(event));
-    this.handle.addEventListener("dblclick", () => this.#resize(SIZES[this.#kind]?.[2]));
+    this.handle.addEventListener("dblclick", () => this.#resize(SIZES[this.#size]?.[2]));
     for (const query of [PHONE, LOW, UPRIGHT]) query.addEventListener("change", () => this.arrange());
   }
 
@@ -50,12 +54,22 @@ export class Layout {
     this.#showFold(isFolded);
   }
 
+  /**
+   * Show a tab that needs width, or one that doesn't: beside the canvas, each has a size of its own.
+   * @param {boolean} isWide
+   */
+  widen(isWide) {
+    this.#isWide = isWide;
+    this.arrange();
+  }
+
   /** Choose the place that fits the window. */
   arrange() {
     this.#kind = PHONE.matches ? "sheet" : UPRIGHT.matches ? "below" : "side";
     this.#root.dataset.ai4uLayout = this.#kind;
     this.handle.hidden = this.#kind === "sheet";
-    this.#showSize(recall(`panel-size-${this.#kind}`, SIZES[this.#kind]?.[2]));
+    this.#root.toggleAttribute("data-ai4u-wide", this.#size === "wide");
+    this.#showSize(recall(`panel-size-${this.#size}`, SIZES[this.#size]?.[2]));
     this.#showFold(recall(this.#foldKey, this.#isSmall));
   }
 
@@ -66,6 +80,11 @@ export class Layout {
   observeDock(dock) {
     const update = () => this.#root.style.setProperty("--ai4u-dock-height", `${dock.offsetHeight}px`);
     new ResizeObserver(update).observe(dock);
+  }
+
+  /** Name of the size that can be changed now; "sheet" has none. */
+  get #size() {
+    return this.#kind === "side" && this.#isWide ? "wide" : this.#kind;
   }
 
   get #isSmall() {
@@ -85,9 +104,8 @@ export class Layout {
   /** @param {number | undefined} size undefined for a sheet, which has none */
   #showSize(size) {
     if (size === undefined) return;
-    const [min, max] = SIZES[this.#kind];
-    const unit = this.#kind === "side" ? "px" : "dvh";
-    this.#root.style.setProperty("--ai4u-panel-size", `${size}${unit}`);
+    const [min, max] = SIZES[this.#size];
+    this.#root.style.setProperty("--ai4u-panel-size", `${size}${UNITS[this.#size]}`);
     setAttributes(this.handle, {
       "aria-orientation": this.#kind === "side" ? "vertical" : "horizontal",
       "aria-valuemin": min,
@@ -98,11 +116,11 @@ export class Layout {
 
   /** @param {number | undefined} size */
   #resize(size) {
-    if (!(this.#kind in SIZES)) return;
-    const [min, max] = SIZES[this.#kind];
+    if (!(this.#size in SIZES)) return;
+    const [min, max] = SIZES[this.#size];
     const within = Math.max(min, Math.min(max, size));
     this.#showSize(within);
-    remember(`panel-size-${this.#kind}`, within);
+    remember(`panel-size-${this.#size}`, within);
   }
 
   /** @param {PointerEvent} event */
@@ -115,7 +133,9 @@ export class Layout {
   /** @param {PointerEvent} event */
   #drag(event) {
     if (!this.handle.hasPointerCapture(event.pointerId)) return;
-    if (this.#kind === "side") this.#resize(innerWidth - event.clientX);
+    const width = innerWidth - event.clientX;
+    if (this.#size === "side") this.#resize(width);
+    else if (this.#size === "wide") this.#resize((100 * width) / innerWidth);
     else this.#resize((100 * (innerHeight - event.clientY)) / innerHeight);
   }
 
@@ -125,7 +145,7 @@ export class Layout {
     const smaller = this.#kind === "side" ? "ArrowRight" : "ArrowDown";
     if (event.key !== bigger && event.key !== smaller) return;
     event.preventDefault();
-    const step = STEPS[this.#kind] * (event.key === bigger ? 1 : -1);
+    const step = STEPS[this.#size] * (event.key === bigger ? 1 : -1);
     this.#resize(Number(this.handle.getAttribute("aria-valuenow")) + step);
   }
 }

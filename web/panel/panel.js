@@ -95,6 +95,8 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     { value: "simple", text: "Simple" },
     { value: "details", text: "Details" },
   ], (mode) => this.#setDetails(mode === "details"));
+  #more = button("", () => this.#foldTop(!this.#isTopFolded), { icon: "down", label: "Goal, score and camera", kind: "quiet" });
+  #top = element("div", { className: "ai4u-panel-top" });
   #undo = button("", () => this.send("undo"), { icon: "undo", label: "Undo", kind: "quiet" });
   #redo = button("", () => this.send("redo"), { icon: "redo", label: "Redo", kind: "quiet" });
   #tabs = new Tabs(TABS, (name, root) => this.#openTab(name, root));
@@ -119,8 +121,9 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     const head = element("header", { className: "ai4u-panel-head" }, scenes.element, this.#modes.element, this.#fold);
     const history = element("div", { className: "ai4u-history" }, this.#undo, this.#redo);
     this.#run = new RunControls(this);
+    this.#top.append(this.#run.element, new ViewControls(this, history).element, this.#more);
     this.#body.append(
-      element("div", { className: "ai4u-panel-top" }, this.#run.element, new ViewControls(this, history).element),
+      this.#top,
       element("div", { className: "ai4u-panel-rest" }, ...this.#tabs.elements),
     );
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
@@ -318,6 +321,8 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     const parts = name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : name in PART_OF_TAB ? [PART_OF_TAB[name]] : [];
     this.show({ tabs: parts });
     this.#showHistory();
+    this.layout.widen(name === "code");
+    this.#showTop();
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);
       try {
@@ -331,6 +336,25 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     }
     const part = this.part(partOf(name));
     if (part !== null && this.#tabs.open === name) this.#opened.get(name)?.update(part);
+  }
+
+  /** True if what stands above the tabs is one row while the tab "Code" is open: a program needs the room. */
+  get #isTopFolded() {
+    return recall("code-top-folded", true);
+  }
+
+  /** @param {boolean} isFolded */
+  #foldTop(isFolded) {
+    remember("code-top-folded", isFolded);
+    this.#showTop();
+  }
+
+  #showTop() {
+    const isCode = this.#tabs.open === "code";
+    const isFolded = isCode && this.#isTopFolded;
+    this.#more.hidden = !isCode;
+    setAttributes(this.#top, { "data-small": isFolded });
+    setAttributes(this.#more, { "aria-expanded": isFolded ? "false" : "true" });
   }
 
   /** Show the buttons to undo and redo while a tab is open that changes the scene. */

@@ -273,7 +273,7 @@ export interface SeatProgram {
   age?: number;
 }
 
-/** A student's program as the class keeps it; without a `source` there is nothing else. */
+/** A student's program as the class keeps it; without a `source` there is nothing else, and an empty one was deleted. */
 export interface KeptProgram {
   source: string | null;
   version?: number;

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { beforeEach, mock, test } from "node:test";
 
-import { answerWith, openWindow, send, settle } from "../browser.mjs";
+import { answerWith as answerAll, openWindow, send, settle } from "../browser.mjs";
 
 mock.timers.enable({ apis: ["setTimeout"] });
 openWindow("http://class.example/r/a1/");
@@ -14,14 +14,31 @@ const ofClass = (source, version, isOfDevice = false) => ({ body: { source, vers
 let own;
 let log;
 let programs;
+let names;
+
+/** Let the class answer with these, one after another, and to who asks which programs there are with `names`. */
+function answerWith(...answers) {
+  const asked = answerAll(...answers);
+  const { fetch: answer } = globalThis;
+  globalThis.fetch = async (url, options) => {
+    const asksForNames = options.method === undefined && !new URL(url, location.href).searchParams.has("agent");
+    return asksForNames ? { ok: true, status: 200, json: async () => ({ agents: names }) } : answer(url, options);
+  };
+  return asked;
+}
 
 beforeEach(() => {
   mock.timers.reset();
   mock.timers.enable({ apis: ["setTimeout"] });
   openWindow("http://class.example/r/a1/");
   for (const key of ["code-version-a1/sumo-0", "code-device-a1"]) forget(key);
-  [own, log] = [null, []];
-  programs = new ClassPrograms({ source: () => own, take: (source) => log.push(`take ${source}`), keep: (source) => log.push(`keep ${source}`) });
+  [own, log, names] = [null, [], []];
+  programs = new ClassPrograms({
+    source: () => own,
+    take: (source) => log.push(`take ${source}`),
+    keep: (source) => log.push(`keep ${source}`),
+    learn: (agents) => agents.length && log.push(`learn ${agents}`),
+  });
 });
 
 const puts = (asked) => asked.filter(({ method }) => method === "PUT").map(({ body }) => JSON.parse(body));
@@ -36,7 +53,7 @@ test("a room is in the page's address", () => {
 test("without a class nothing is sent", async () => {
   openWindow("http://world.example/");
   const asked = answerWith(NONE);
-  const alone = new ClassPrograms({ source: () => "a", take: () => {}, keep: () => {} });
+  const alone = new ClassPrograms({ source: () => "a", take: () => {}, keep: () => {}, learn: () => {} });
   alone.open("sumo", "0");
   alone.ran("a");
   mock.timers.tick(60_000);
@@ -107,6 +124,29 @@ test("a newer program of another device is kept, and told", async () => {
   await settle();
   assert.deepEqual(log, ["keep newer"]);
   assert.match(words(), /newer program/);
+});
+
+test("the programs that the class has in a scene are told once, when the scene is opened", async () => {
+  names = ["0/Wall", "0"];
+  answerWith(NONE);
+  programs.open("sumo", "0");
+  programs.open("sumo", "0/Wall");
+  await settle();
+  assert.deepEqual(log, ["learn 0/Wall,0"]);
+});
+
+test("a program that was deleted here is emptied in the class, and an empty one there replaces nothing", async () => {
+  own = "mine";
+  const asked = answerWith(ofClass("", 4), { body: { version: 5 } });
+  programs.open("sumo", "0");
+  programs.removed("sumo", "0/Wall");
+  mock.timers.tick(0);
+  await settle();
+  assert.deepEqual(puts(asked).map(({ agent, source }) => [agent, source]), [["0/Wall", ""]]);
+  mock.timers.tick(2000);
+  await settle();
+  assert.deepEqual(puts(asked).map(({ agent, source }) => [agent, source]), [["0/Wall", ""], ["0", "mine"]]);
+  assert.deepEqual(log, []);
 });
 
 test("a teacher who looks in saves nothing", async () => {

@@ -8,6 +8,7 @@ const SENSORS = [
   { key: "rays", title: "Rays.", shape: [8, 2], stack: 3, values: [{ name: "0" }, { name: "1" }] },
   { key: "many", title: "Many", shape: [7], values: Array.from({ length: 7 }, (_, index) => ({ name: `v${index}` })) },
   { key: "speed", title: "Speed", shape: [] },
+  { key: "done", class: "DoneSensor", title: "Done", shape: [] },
   { key: "word", title: "Word", shape: [], text: "go", help: "What is said." },
 ];
 const ACTUATORS = [
@@ -19,26 +20,27 @@ const ACTUATORS = [
 test("readings are told by names, by size, or in words", () => {
   assert.deepEqual(namesOf(SENSORS, []).readings.map(({ words }) => words), [
     "left edge, right",
-    "rays, 8 x 2 numbers (3 moments)",
+    "rays, 8 x 2 numbers, now and 2 times before",
     "many, 7 numbers",
     "speed, 1 number",
     "what is said",
   ]);
 });
 
-test("actions are told with their ranges, and begin at rest or with a small turn within their range", () => {
+test("actions are told with their ranges, and begin with a curve within their range", () => {
   assert.deepEqual(namesOf([], ACTUATORS).outputs, [
-    { name: "move", words: "forward -1 to 1, turn rate -1 to 0.2", values: [0, 0.2] },
-    { name: "pick", words: "choice 1 to 3", values: [1] },
-    { name: "arm", words: "number (no effect)", values: [0] },
+    { name: "move", words: "forward -1 to 1, turn rate -1 to 0.2", values: [{ name: "forward", value: 0.4 }, { name: "turn_rate", value: 0.2 }] },
+    { name: "pick", words: "choice 1 to 3", values: [{ name: "", value: 1 }] },
+    { name: "arm", words: "always 0", values: [{ name: "", value: 0 }] },
   ]);
 });
 
-test("the first program names what it senses and does, and decides", () => {
-  const names = namesOf(SENSORS.slice(3, 4), ACTUATORS.slice(0, 1));
+test("the first program drives in a circle, with a name for each number that does something", () => {
+  const wheels = { name: "drive", is_choice: false, components: [{ name: "left", low: -1, high: 1, has_effect: true }, { name: "right", low: -1, high: 1, has_effect: true }] };
+  const names = namesOf(SENSORS.slice(3, 4), [ACTUATORS[0], wheels, ACTUATORS[1], ACTUATORS[2]]);
   assert.equal(
     startProgram(names),
-    '# It senses:\n# percept["speed"]: speed, 1 number\n# It can do:\n# "move": forward -1 to 1, turn rate -1 to 0.2\n\n' +
-      'def decide(percept):\n    return {"move": [0, 0.2]}\n',
+    "def decide(percept):\n    forward = 0.4\n    turn_rate = 0.2\n    left = 0.4\n    right = 0.3\n" +
+      '    return {"move": [forward, turn_rate], "drive": [left, right], "pick": [1], "arm": [0]}\n',
   );
 });

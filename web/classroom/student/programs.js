@@ -56,6 +56,8 @@ export class ClassPrograms {
    * @param {() => string | null} tab.source returns the program that the person has here; null for none
    * @param {(source: string) => void} tab.take replaces the program, and keeps the one before
    * @param {(source: string) => void} tab.keep keeps another program
+   * @param {(agents: string[]) => void} tab.learn called with the agents, and names behind a slash, of the programs that
+   *   the class has in a scene, the one that was saved last first
    */
   constructor(tab) {
     this.#tab = tab;
@@ -65,17 +67,31 @@ export class ClassPrograms {
   }
 
   /**
-   * Read the class's copy of the program of an agent in a scene.
+   * Read the class's copy of a program of an agent in a scene.
    * @param {string} scene
-   * @param {string} agent
+   * @param {string} agent with the program's name behind a slash, if it has got one
    */
   open(scene, agent) {
     if (!this.#isInClass) return;
-    this.#place = { scene: (scene || "scene").slice(0, MAX_SCENE_NAME_CHARS), agent };
+    const before = this.#place;
+    this.#place = placeOf(scene, agent);
     this.#isTouched = false;
     this.#say("");
     this.#save();
     this.#read(this.#place);
+    if (before?.scene !== this.#place.scene) this.#readNames(this.#place);
+  }
+
+  /**
+   * Have the class forget a program that the person has deleted.
+   * @param {string} scene
+   * @param {string} agent as of open()
+   */
+  removed(scene, agent) {
+    if (!this.#isInClass) return;
+    const place = placeOf(scene, agent);
+    this.#waiting.set(keyOf(place), { place, source: "" });
+    this.#saveIn(0);
   }
 
   /**
@@ -116,13 +132,19 @@ export class ClassPrograms {
     }
   }
 
+  /** @param {Place} place */
+  async #readNames(place) {
+    const { found } = await getNames(place.scene); // without an answer, the program itself says so
+    if (found !== null && this.#place?.scene === place.scene) this.#tab.learn(found.agents);
+  }
+
   /**
    * @param {Place} place
    * @param {KeptProgram} kept
    */
   #compare(place, { source, version, is_of_device: isOfDevice }) {
     const own = this.#tab.source();
-    if (source === null) {
+    if (!source) {
       if (own !== null) this.#queue(own, 0);
       return;
     }
@@ -233,13 +255,36 @@ export class ClassPrograms {
 }
 
 /**
+ * @param {string} scene
+ * @param {string} agent
+ * @returns {Place}
+ */
+function placeOf(scene, agent) {
+  return { scene: (scene || "scene").slice(0, MAX_SCENE_NAME_CHARS), agent };
+}
+
+/**
  * Return the class's answer; status 0 if it can't be reached.
  * @param {Place} place
  * @returns {Promise<{status: number, found: KeptProgram | null}>}
  */
-async function get({ scene, agent }) {
+function get({ scene, agent }) {
+  return getFound({ scene, agent, device: deviceId() });
+}
+
+/**
+ * Return the agents of the programs that the class has in a scene.
+ * @param {string} scene
+ * @returns {Promise<{status: number, found: {agents: string[]} | null}>}
+ */
+function getNames(scene) {
+  return getFound({ scene });
+}
+
+/** @param {Record<string, string>} facts of the query */
+async function getFound(facts) {
   try {
-    const query = new URLSearchParams({ scene, agent, device: deviceId() });
+    const query = new URLSearchParams(facts);
     const answer = await fetch(`${ADDRESS}?${query}`, { cache: "no-store" });
     return { status: answer.status, found: answer.ok ? await answer.json() : null };
   } catch {
