@@ -53,6 +53,7 @@ export class Networks {
         "div",
         { className: "ai4u-tools" },
         button("Let it drive", () => send("teach_drive"), { icon: "play", kind: "main" }),
+        button("Why?", () => void this.#explain(number), { icon: "rays", title: "Let it drive, and see in Drive because of what it acts" }),
         button("Rename", () => void this.#rename(number), { icon: "text" }),
         button("Download", () => void this.#download(number), { icon: "download" }),
         button("Delete", () => send("teach_delete"), { icon: "trash", kind: "danger" }),
@@ -71,6 +72,12 @@ export class Networks {
     this.#details.get(number)?.update(network);
     const mark = isDriving ? "drives" : "";
     this.#cards.get(number)?.update({ icon: "network", title, reads: how, mark, isOpen: this.#open === number });
+  }
+
+  /** @param {number} number */
+  async #explain(number) {
+    const { ok } = await this.#panel.send("teach_drive", { network: number });
+    if (ok) this.#panel.openTab("drive");
   }
 
   /** @param {number} number */
@@ -114,14 +121,9 @@ class Details {
     this.#number = number;
     this.#slider.addEventListener("input", () => this.#name());
     this.#slider.addEventListener("change", () => this.#replay());
-    const buttons = element(
-      "div",
-      { className: "ai4u-tools" },
-      button("Watch", () => this.#replay(), { icon: "play" }),
-      button("Back to live", () => this.#panel.send("back_to_live"), { icon: "live" }),
-    );
+    const watch = button("Watch", () => this.#replay(), { icon: "play" });
     const label = element("label", { className: "ai4u-teach-replays" }, element("span", { textContent: "How it got better" }), this.#slider, this.#shown);
-    this.#practice = element("div", {}, label, buttons);
+    this.#practice = element("div", {}, label, watch);
     this.element = element("div", {}, this.#facts, this.#practice);
   }
 

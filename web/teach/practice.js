@@ -40,7 +40,7 @@ export class PracticeView {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    this.#tools = element("div", { className: "ai4u-tools" }, this.#start, this.#put, this.#goOn, this.#pause, this.#stop);
+    this.#tools = element("div", { className: "ai4u-tools" }, this.#start, this.#goOn, this.#pause, this.#stop, this.#put);
     const settings = [this.#weights, this.#length.element, this.#begin.element];
     this.element.append(...settings, this.#tools, this.#bar, this.#left, this.#curve.element, this.#text, this.#hint);
   }
