@@ -2,14 +2,17 @@
 
 import contextlib
 import json
+import os
 import re
 import subprocess
 import sys
+import tempfile
 import threading
 import urllib.error
 import urllib.request
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -75,7 +78,10 @@ class Played:
 
 @contextlib.contextmanager
 def played(
-    *args: str, waits_for_key: bool = False, program: Sequence[str] = ("-m", "ai4u_edu")
+    *args: str,
+    waits_for_key: bool = False,
+    program: Sequence[str] = ("-m", "ai4u_edu"),
+    state: Path | None = None,
 ) -> Iterator[Played]:
     """Serve a scene: ``played("box_chase", "--seed", "1")``.
 
@@ -83,25 +89,33 @@ def played(
         args: arguments of ``ai4u-edu play``.
         waits_for_key: True lets the world wait for a person's first key.
         program: Python's arguments that run the command line.
+        state: the user's state folder; by default one that is deleted at the end.
     """
     wait = "--wait-for-key" if waits_for_key else "--no-wait-for-key"
     command = [sys.executable, *program, "play", *args, "--port", "0", "--no-open", wait]
-    process = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1
-    )
-    told: list[str] = []
+    with contextlib.ExitStack() as stack:
+        home = state or stack.enter_context(tempfile.TemporaryDirectory(ignore_cleanup_errors=True))
+        process = subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            bufsize=1,
+            env=os.environ | {"XDG_STATE_HOME": str(home)},
+        )
+        told: list[str] = []
 
-    def listen() -> None:
-        with process:  # closes its output, and waits for its end
-            told.extend(process.stdout or ())  # line by line, as they come
+        def listen() -> None:
+            with process:  # closes its output, and waits for its end
+                told.extend(process.stdout or ())  # line by line, as they come
 
-    listener = threading.Thread(target=listen)
-    listener.start()
-    try:
-        yield Played(process, _url(process, told), told)
-    finally:
-        process.terminate()
-        listener.join(LIMIT_S)
+        listener = threading.Thread(target=listen)
+        listener.start()
+        try:
+            yield Played(process, _url(process, told), told)
+        finally:
+            process.terminate()
+            listener.join(LIMIT_S)
 
 
 def _url(process: subprocess.Popen[str], told: list[str]) -> str:

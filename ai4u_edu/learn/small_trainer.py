@@ -2,14 +2,14 @@
 
 :mod:`ai4u_edu.learn.small` knows neither settings files nor folders; here they meet. The folder of
 a training (:class:`~ai4u_edu.learn.training.run.Run`) can be read while another process learns:
-each file is replaced as a whole. Whoever kills the process loses what came after the latest check.
+each file is replaced as a whole. Whoever kills the process loses the last second or two.
 
 Start the process with :data:`~ai4u_edu.base.numeric_threads.ONE_THREAD` in its environment: then
 the same seed gives the same network on the same machine.
 """
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
@@ -32,7 +32,10 @@ from ai4u_edu.scenes import Scene
 
 PACKAGES = ("ai4u-edu", "numpy", "pymunk", "gymnasium")
 MIN_INTERVAL_S = 1.0
-"""Shortest time between two writes of the network as it is."""
+"""Shortest time between two writes of the present state."""
+OnRound = Callable[[int, Callable[[Path], object]], object]
+"""Called with the decisions that were learned from so far, and a function that writes the network
+as it is to a file."""
 BLOCK_S = 2.0
 """Time of a block of decisions that is held out of a cloning with few drives."""
 
@@ -47,6 +50,7 @@ def train(
     begin_with: Path | None = None,
     reward_weights: Mapping[str, float] | None = None,
     overwrite: bool = False,
+    on_round: OnRound = lambda _decisions, _write: None,
     quiet: bool = False,
 ) -> Trained:
     """Start a training by PPO.
@@ -61,6 +65,7 @@ def train(
         begin_with: file of a network of the small learner to improve, such as a clone.
         reward_weights: factor of each reward term by its name; 1 for one that is left out.
         overwrite: True replaces a training that is in the folder.
+        on_round: called before the first round, and after each.
         quiet: True shows nothing.
 
     Raises:
@@ -101,15 +106,25 @@ def train(
     if overwrite:
         run.clear()
     run.begin(config, scene)
-    return _learn(run, config, training, quiet=quiet)
+    return _learn(run, config, training, on_round, quiet=quiet)
 
 
-def resume(folder: Path, *, steps: int | None = None, quiet: bool = False) -> Trained:
-    """Go on with a training that ended in any way, from its latest check.
+def resume(
+    folder: Path,
+    *,
+    scene: Scene | None = None,
+    steps: int | None = None,
+    on_round: OnRound = lambda _decisions, _write: None,
+    quiet: bool = False,
+) -> Trained:
+    """Go on with a training that ended in any way.
 
     Args:
         folder: the training's folder.
+        scene: the scene that it began with; left out, the one in the folder, in which relative
+            paths lead elsewhere.
         steps: decisions to learn from, the ones before counted too; left out, as it was begun.
+        on_round: called before the first round, and after each.
         quiet: True shows nothing.
 
     Raises:
@@ -117,7 +132,7 @@ def resume(folder: Path, *, steps: int | None = None, quiet: bool = False) -> Tr
     """
     run = Run(folder)
     config = run.config()
-    prepared = prepare(run.scene(), config.settings)
+    prepared = prepare(scene or run.scene(), config.settings)
     training = PpoTraining.resume(run.state, prepared)
     config = config.model_copy(update={"steps": steps or config.steps})
     if training.ppo.decisions >= config.steps:
@@ -125,7 +140,7 @@ def resume(folder: Path, *, steps: int | None = None, quiet: bool = False) -> Tr
             f"{folder} has learned from {training.ppo.decisions} steps already; "
             f"expected --steps larger than that, got {config.steps}"
         )
-    return _learn(run, config, training, quiet=quiet)
+    return _learn(run, config, training, on_round, quiet=quiet)
 
 
 def clone(
@@ -135,6 +150,8 @@ def clone(
     agent: str | None = None,
     seed: int = 0,
     updates: int = UPDATES,
+    persons_only: bool = False,
+    on_error: Callable[[int, float], object] = lambda _update, _error: None,
     quiet: bool = False,
 ) -> Cloned:
     """Learn to act as in recorded episodes, and write the network.
@@ -148,6 +165,8 @@ def clone(
         agent: the id of the agent to imitate; left out, the one that acts first.
         seed: of the network, and of which moments are held out.
         updates: gradient steps at most.
+        persons_only: True learns only from decisions that a person took by keys.
+        on_error: called with the gradient steps so far, and the error on held-out moments.
         quiet: True shows nothing.
 
     Raises:
@@ -156,33 +175,48 @@ def clone(
     """
     shown = demonstrations(episodes, agent=agent)
     decisions_per_s = shown.scene.world.ticks_per_second / (shown.skip_frame + 1)
+    drives = [
+        DriveData(
+            episode.observations,
+            episode.actions,
+            episode.rewards,
+            episode.by_person if persons_only else None,
+        )
+        for episode in shown.episodes
+    ]
     bar = ProgressBar(updates, "updates", quiet=quiet)
+
+    def show(update: int, error: float) -> None:
+        bar.show(update, f"error {error:.4f}")
+        on_error(update, error)
+
     try:
         result = clone_drives(
-            [DriveData(each.observations, each.actions, each.rewards) for each in shown.episodes],
+            drives,
             shown.observation_space,
             shown.action_space,
             seed=seed,
             updates=updates,
             block=max(1, round(BLOCK_S * decisions_per_s)),
-            on_error=lambda update, error: bar.show(update, f"error {error:.4f}"),
+            on_error=show,
         )
     finally:
         bar.close()
+    decisions = sum(map(len, drives))
     about = {
         "scene": shown.scene.name,
         "algorithm": "clone",
         "seed": seed,
         "steps": updates,
         "demonstrations": len(shown.episodes),
-        "decisions": shown.decisions,
+        "decisions": decisions,
         "skip_frame": shown.skip_frame,
         "repeat_action": shown.repeat_action,
     }
     write_network(result.network, Player(episodes[0]).sim.agent(shown.agent), about, path)
     return Cloned(
         path=path,
-        decisions=shown.decisions,
+        decisions=decisions,
         loss=min(error for _, error in result.errors),
         alike=result.alike,
         commonest=result.commonest,
@@ -191,15 +225,24 @@ def clone(
     )
 
 
-def _learn(run: Run, config: Config, training: PpoTraining, *, quiet: bool) -> Trained:
+def _learn(
+    run: Run,
+    config: Config,
+    training: PpoTraining,
+    on_round: OnRound,
+    *,
+    quiet: bool,
+) -> Trained:
     interrupt = Interrupt()
     writer = _Writer(run, config, training, quiet=quiet)
     try:
         with interrupt.listening():
             writer.begin()
+            on_round(training.ppo.decisions, writer.write_present)
 
             def after_round(_: PpoTraining) -> bool:
                 writer.after_round()
+                on_round(training.ppo.decisions, writer.write_present)
                 return interrupt.asked
 
             training.learn(config.steps, after_round)
@@ -252,11 +295,10 @@ class _Writer:
     def begin(self) -> None:
         """Write all files, so that a reader finds them and a training goes on from any moment."""
         self._write_network(self._training.best, self._run.best_network)
-        self._training.save(self._run.state)
         self._write_progress()
 
     def after_round(self) -> None:
-        """Write what is new: after a check all of it, else the network as it is, if it is time."""
+        """Write what is new: after a check all of it, else the present state, if it is time."""
         if len(self._training.checks) > self._checks_written:
             self._write_check()
         elif time.perf_counter() - self._written_at > MIN_INTERVAL_S:
@@ -269,12 +311,15 @@ class _Writer:
         """Write the last state."""
         if len(self._training.checks) > self._checks_written:
             self._write_check()
-        self._training.save(self._run.state)
         self._write_progress(is_over=True)
 
     def close(self) -> None:
         """Remove the bar."""
         self._bar.close()
+
+    def write_present(self, path: Path) -> None:
+        """Write the network as it is to a file."""
+        self._write_network(self._training.ppo.network, path)
 
     def _write_check(self) -> None:
         training = self._training
@@ -298,7 +343,8 @@ class _Writer:
     def _write_progress(self, *, is_over: bool = False) -> None:
         self._written_at = time.perf_counter()
         training, run = self._training, self._run
-        self._write_network(training.ppo.network, run.watched_network)
+        training.save(run.state)
+        self.write_present(run.watched_network)
         curve = tuple(
             CurvePoint(decisions=check.decisions, reward=check.reward, success=check.success)
             for check in training.checks

@@ -12,6 +12,8 @@ from ai4u_edu.teach.networks import MAX_TITLE_CHARS
 MIN_STEPS, MAX_STEPS = 256, 1_000_000
 """Fewest and most decisions of a practice."""
 
+Factors = Annotated[dict[Name, Annotated[float, Meta(ge=-1000, le=1000)]], Meta(max_length=64)]
+
 
 class LearnFromDrives(PageCommand, tag="teach_learn"):
     """Have a network learn from drives of the agent that the page shows, and let it drive then."""
@@ -29,10 +31,24 @@ class PractiseForRewards(PageCommand, tag="teach_practise"):
 
     steps: Annotated[int, Meta(ge=MIN_STEPS, le=MAX_STEPS)]
     """Decisions to learn from."""
-    weights: Annotated[dict[Name, Annotated[float, Meta(ge=-1000, le=1000)]], Meta(max_length=64)]
+    weights: Factors
     """Factors of reward terms by name; 1 for one that is left out."""
     begin_with: Number | None = None
     """Number of a network to begin with; null for a new one."""
+
+
+class PutRewards(PageCommand, tag="teach_put_rewards"):
+    """Multiply the scene's own rewards of the page's agent by factors."""
+
+    weights: Factors
+
+
+class PausePractising(PageCommand, tag="teach_pause"):
+    """Let the practice wait; it can go on after a restart of the world, too."""
+
+
+class GoOnPractising(PageCommand, tag="teach_go_on"):
+    """Go on with the practice that waits."""
 
 
 class StopPractising(PageCommand, tag="teach_stop_practising"):
@@ -68,6 +84,14 @@ class DownloadNetwork(PageCommand, tag="teach_download"):
     """Return a network's file: its `name`, and its bytes in base64 as `data`."""
 
     network: Number
+
+
+class ReplayPractice(PageCommand, tag="teach_replay"):
+    """Show an episode of a network's practice in the player of recorded episodes."""
+
+    network: Number
+    decisions: Number
+    """Decisions that the network had learned from then, one of its replays."""
 
 
 class TaughtDrive(Struct, frozen=True):
@@ -109,11 +133,19 @@ class LearningState(Struct, frozen=True):
 
 
 class PracticeState(Struct, frozen=True):
-    """State of the latest practice of the agent."""
+    """State of the latest practice."""
 
-    is_over: bool
+    phase: Literal["running", "paused", "over"]
     problem: str
     """Sentence about why it ended early; empty if it did not."""
+    elsewhere: str
+    """Agent and scene, if they are not what the page shows; empty otherwise."""
+    is_scene_changed: bool
+    """True if the scene was changed since; it goes on in the scene as it was."""
+    hint: str
+    """Sentence about what to change if it gets no better; empty if it does."""
+    seconds_left: float | None
+    """Time (s) until it ends at the latest; null before its first check."""
     decisions: int
     """Decisions that it has learned from."""
     total: int
@@ -132,6 +164,12 @@ class TaughtNetwork(Struct, frozen=True):
     title: str
     how: str
     """Sentence about how it learned."""
+    made_at: float
+    """Time (s since 1970) at which it was kept; 0 if it is not known."""
+    facts: list[str]
+    """Sentences about its rewards, drives and settings."""
+    replays: list[int]
+    """Decisions of its practice after which an episode was kept, ascending."""
     is_driving: bool
     """True if it drives the agent now."""
 
@@ -151,7 +189,9 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     rewards: list[str]
     """Names of the agent's reward terms."""
     practice: PracticeState | None
-    """The latest practice of the agent; null if there was none since the start."""
+    """The practice that runs or is paused, or the agent's latest one; null if there is none."""
+    decisions_per_s: float | None
+    """Decisions that such a practice learns from in a second; null before the first check."""
     networks: list[TaughtNetwork]
     """Networks of this scene, the latest first."""
     max_networks: int

@@ -1,9 +1,12 @@
 """A person's networks, which learned in the page."""
 
 import json
-from collections.abc import Sequence
+import shutil
+import time
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
@@ -28,13 +31,19 @@ class KeptNetwork:
     """Sentence about how it learned."""
     alike: float | None = None
     """Share of held-out moments in which it acts like the person; None if none were held out."""
+    made_at: float = 0.0
+    """Time (s since 1970) at which it was kept; 0 if it is not known."""
+    facts: tuple[str, ...] = ()
+    """Sentences about its rewards, drives and settings."""
+    replays: tuple[int, ...] = ()
+    """Decisions of its practice after which an episode was kept, ascending."""
 
 
 class NetworkFolder:
     """The networks of all scenes; one thread changes it, any may read it.
 
     A network's title and origin lie in a file beside it, so that a new title leaves the network as
-    it is.
+    it is. Episodes of its practice lie in a folder beside it.
 
     Args:
         folder: it is created with the first network.
@@ -42,9 +51,22 @@ class NetworkFolder:
 
     def __init__(self, folder: Path) -> None:
         self._networks, self._about = SceneFolder(folder, ".onnx"), SceneFolder(folder, ".json")
+        self._replays = SceneFolder(folder, ".replays")
 
-    def add(self, scene: str, network: bytes, about: KeptNetwork) -> KeptNetwork:
+    def add(
+        self,
+        scene: str,
+        network: bytes,
+        about: KeptNetwork,
+        replays: Mapping[int, bytes] = MappingProxyType({}),
+    ) -> KeptNetwork:
         """Keep a network, and return it with its number.
+
+        Args:
+            scene: name of the scene.
+            network: the network's file.
+            about: its origin; number, time and replays are set here.
+            replays: episodes of its practice, by the decisions before them.
 
         Raises:
             SetupError: there are as many as may be.
@@ -57,8 +79,18 @@ class NetworkFolder:
             )
         path = self._networks.next_file(scene)
         number = number_of(path)
-        kept = replace(about, number=number, title=about.title or f"Network {number}")
+        kept = replace(
+            about,
+            number=number,
+            title=about.title or f"Network {number}",
+            made_at=time.time(),
+            replays=tuple(sorted(replays)),
+        )
         write_atomically(path, network, over=False, mode=0o600)
+        for decisions, episode in replays.items():
+            file = self.replay(scene, number, decisions)
+            file.parent.mkdir(mode=0o700, exist_ok=True)
+            write_atomically(file, episode, mode=0o600)
         self._write(scene, kept)
         return kept
 
@@ -77,6 +109,10 @@ class NetworkFolder:
             raise SetupError(f"there is no network {number} of this scene any more")
         return path
 
+    def replay(self, scene: str, number: int, decisions: int) -> Path:
+        """Return the file of an episode of a network's practice; it may not be there."""
+        return self._replays.file(scene, number) / f"{decisions:09}.episode"
+
     def rename(self, scene: str, number: int, title: str) -> None:
         """Give a network another title.
 
@@ -93,6 +129,7 @@ class NetworkFolder:
         """Delete a network."""
         self._networks.file(scene, number).unlink(missing_ok=True)
         self._about.file(scene, number).unlink(missing_ok=True)
+        shutil.rmtree(self._replays.file(scene, number), ignore_errors=True)
 
     def _read(self, scene: str, number: int) -> KeptNetwork:
         try:
@@ -103,6 +140,9 @@ class NetworkFolder:
                 agent=str(plain["agent"]),
                 how=str(plain["how"]),
                 alike=None if plain["alike"] is None else float(plain["alike"]),
+                made_at=float(plain.get("made_at", 0.0)),
+                facts=tuple(str(fact) for fact in plain.get("facts", ())),
+                replays=tuple(int(decisions) for decisions in plain.get("replays", ())),
             )
         except (OSError, ValueError, TypeError, KeyError):  # somebody put the network there
             return KeptNetwork(number, f"Network {number}", "", "")

@@ -2,7 +2,6 @@
 
 import base64
 import logging
-import tempfile
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
@@ -11,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from queue import SimpleQueue
+from types import MappingProxyType
 from typing import TypeVar
 
 from ai4u_edu.agent import BasicAgent
@@ -40,7 +40,7 @@ from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.drives import Drive, DriveFolder, persons_decisions
 from ai4u_edu.teach.learning import Learning
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
-from ai4u_edu.teach.practice import Practice, PracticeRequest
+from ai4u_edu.teach.practice import Phase, Practice, PracticeFolder, PracticeRequest
 from ai4u_edu.teach.teachable import reason_against_teaching
 from ai4u_edu.teach.tries import TryingPages
 
@@ -62,18 +62,20 @@ class _SceneWork:
     """Names of an agent's reward terms, by its id."""
     networks: tuple[KeptNetwork, ...] = ()
     """The latest first."""
+    scene_name: str = ""
+    scene_text: str = ""
     warning: str = ""
 
 
 class TeachOption:
     """Teaching of a running world's agents: the tab "Teach", its part and its commands.
 
-    Drives and networks lie in the editor's work folder. A thread of its own reads and writes them,
-    and another process learns, so that the world's thread does neither.
+    Drives, networks and practices lie in the editor's work folder. A thread of its own reads and
+    writes them, and another process learns, so that the world's thread does neither.
 
     Args:
         runner: runs the world.
-        player: of recorded episodes; it is not needed.
+        player: shows episodes of a practice.
         editor: has the scene; without one, or without a work folder, there is nothing to teach.
     """
 
@@ -82,15 +84,17 @@ class TeachOption:
     def __init__(
         self,
         runner: Runner,
-        player: ReplayPlayer,  # noqa: ARG002 - other options need it
+        player: ReplayPlayer,
         editor: SceneEditor | None = None,
     ) -> None:
-        self._runner, self._editor = runner, editor
+        self._runner, self._player, self._editor = runner, player, editor
         self.tab: OptionTab | None = None
         self.commands: dict[type[PageCommand], Handler] = {}
         self._work = _SceneWork()
         self._learning: Learning | None = None
         self._practice: Practice | None = None
+        self._replays: dict[tuple[Path, int], int] = {}
+        """Numbers of episodes in the archive, by their file and its time."""
         self._tasks = SimpleQueue[Callable[[], object] | None]()
         folder = None if editor is None else editor.work_folder
         if editor is None or folder is None:
@@ -100,17 +104,22 @@ class TeachOption:
             m.LearnFromDrives: self._learn,
             m.StopLearning: self._stop_learning,
             m.PractiseForRewards: self._practise,
+            m.PutRewards: self._put_rewards,
+            m.PausePractising: self._pause_practising,
+            m.GoOnPractising: self._go_on_practising,
             m.StopPractising: self._stop_practising,
             m.ForgetDrive: self._forget_drive,
             m.DriveNetwork: self._drive_network,
             m.RenameNetwork: self._rename_network,
             m.DeleteNetwork: self._delete_network,
             m.DownloadNetwork: self._download_network,
+            m.ReplayPractice: self._replay_practice,
         }
         self._tries = TryingPages(runner, editor, self._done)
         self.commands |= self._tries.commands
         self._drives = DriveFolder(folder / "drives")
         self._networks = NetworkFolder(folder / "networks")
+        self._practices = PracticeFolder(folder / "practices")
         editor.offer(self._offered)
         editor.listeners.append(lambda _: self._tasks.put(self._look))
         if runner.recorder is not None:
@@ -127,7 +136,7 @@ class TeachOption:
             driver = self._editor.driver_of(agent)
             practice = self._practice
             progress = None if learning is None else (len(learning.errors), learning.is_over)
-            reached = None if practice is None else (practice.progress, practice.is_over)
+            reached = None if practice is None else (practice.progress, practice.phase)
             key = "teach", work.version, agent, driver, learning, progress, practice, reached
             yield (
                 "teach",
@@ -143,12 +152,12 @@ class TeachOption:
         """Leave the rays as they are."""
 
     def stop(self) -> None:
-        """End the learning and the thread."""
-        for process in (self._learning, self._practice):
-            if process is not None:
-                process.stop()
+        """End the learning and the thread; a practice can go on later."""
+        if self._learning is not None:
+            self._learning.stop()
         if self.tab is not None:
             self._tries.stop()
+        self._tasks.put(self._leave_practice)
         self._tasks.put(None)
 
     # -- in the server's event loop ----------------------------------------------------------------
@@ -168,11 +177,29 @@ class TeachOption:
         await self._done(lambda: self._begin_practice(page.view.agent, command))
         return Answer("It practises.")
 
+    async def _put_rewards(self, page: Page, command: m.PutRewards) -> Answer:
+        factors = {name: factor for name, factor in command.weights.items() if factor != 1.0}
+        if not factors:
+            raise SetupError("all factors are 1, as the scene has them; choose another one first")
+        editor = self._required_editor()
+        result = await page.result(editor.scale_rewards(page.view.agent, factors))
+        return change_answer("The scene pays so now.", result)
+
+    async def _pause_practising(self, _page: Page, _command: m.PausePractising) -> Answer:
+        if self._practice is None or self._practice.phase is not Phase.RUNNING:
+            return Answer("Nothing practises now.")
+        self._practice.pause()
+        return Answer("The practice is paused.")
+
+    async def _go_on_practising(self, _page: Page, _command: m.GoOnPractising) -> Answer:
+        await self._done(self._go_on)
+        return Answer("It practises.")
+
     async def _stop_practising(self, _page: Page, _command: m.StopPractising) -> Answer:
         practice = self._practice
-        if practice is None or practice.is_over:
+        if practice is None or practice.phase is Phase.OVER:
             return Answer("Nothing practises now.")
-        practice.stop()
+        await self._done(practice.stop)
         return Answer("The practice is stopped.")
 
     async def _forget_drive(self, _page: Page, command: m.ForgetDrive) -> Answer:
@@ -202,6 +229,21 @@ class TeachOption:
         file = self._networks.file(self._scene, command.network)
         data = base64.b64encode(await page.in_thread(file.read_bytes)).decode()
         return Answer(more={"name": file.name, "data": data})
+
+    async def _replay_practice(self, page: Page, command: m.ReplayPractice) -> Answer:
+        player = self._player
+        file = self._networks.replay(self._scene, command.network, command.decisions)
+        if player.archive is None or not file.is_file():
+            raise SetupError("this episode of the practice is not kept any more")
+        key = file, file.stat().st_mtime_ns
+        number = self._replays.get(key)
+        if number is None or player.archive.find(number) is None:
+            episode = await page.in_thread(lambda: Episode.load(file))
+            source = f"network {command.network} after {command.decisions:,} decisions"
+            number = self._replays[key] = player.archive.append(episode, source).number
+        player.open(number, page.view.agent)
+        player.play()
+        return Answer()
 
     async def _changed(self, change: Callable[[str], object]) -> None:
         """Have the thread change something of the present scene, and look again."""
@@ -239,17 +281,42 @@ class TeachOption:
             drives=list(work.drives.get(agent, ())),
             learning=None if learning is None or learning.agent != agent else _state_of(learning),
             rewards=list(work.rewards.get(agent, ())),
-            practice=(
-                None
-                if practice is None or practice.request.agent != agent
-                else _practice_state(practice)
-            ),
+            practice=None if practice is None else self._practice_state(practice, work, agent),
+            decisions_per_s=None if practice is None else practice.decisions_per_s,
             networks=[
-                m.TaughtNetwork(each.number, each.title, each.how, is_driving(each))
-                for each in work.networks
+                m.TaughtNetwork(
+                    network.number,
+                    network.title,
+                    network.how,
+                    network.made_at,
+                    list(network.facts),
+                    list(network.replays),
+                    is_driving(network),
+                )
+                for network in work.networks
             ],
             max_networks=MAX_NETWORKS,
             warning=work.warning,
+        )
+
+    def _practice_state(
+        self, practice: Practice, work: _SceneWork, agent: str
+    ) -> m.PracticeState | None:
+        progress, request, speed = practice.progress, practice.request, practice.decisions_per_s
+        is_here = (request.agent, request.scene_name) == (agent, work.scene_name)
+        if practice.phase is Phase.OVER and not is_here:
+            return None
+        return m.PracticeState(
+            phase=practice.phase.value,
+            problem=practice.problem,
+            elsewhere="" if is_here else f"agent {request.agent} of {request.scene_name}",
+            is_scene_changed=is_here and request.scene != work.scene_text,
+            hint=practice.hint,
+            seconds_left=speed and (progress.total - progress.decisions) / speed,
+            decisions=progress.decisions,
+            total=progress.total,
+            rewards=[round(point.reward, 3) for point in progress.curve],
+            success=progress.curve[-1].success if progress.curve else None,
         )
 
     # -- in the world's thread ---------------------------------------------------------------------
@@ -299,15 +366,39 @@ class TeachOption:
             drives={agent.id: tuple(_shown(drives, agent, described)) for agent in sim.agents},
             rewards={agent.id: reward_names(editor.state.agent(agent.id)) for agent in sim.agents},
             networks=tuple(reversed(self._networks.networks(scene.description.name))),
+            scene_name=scene.description.name,
+            scene_text=scene.dumps(),
             warning=self._work.warning,
         )
+        self._find_practice(scene.description.name)
+
+    def _find_practice(self, scene: str) -> None:
+        """Offer to go on with a practice of the present scene that an earlier process began."""
+        practice = self._practice
+        if practice is not None and (
+            practice.phase is Phase.RUNNING or practice.request.scene_name == scene
+        ):
+            return
+        self._leave_practice()
+        self._practice = self._practices.find(scene, self._make_practice)
+
+    def _leave_practice(self) -> None:
+        practice, self._practice = self._practice, None
+        if practice is not None and practice.phase is not Phase.OVER:
+            practice.leave()
 
     def _keep_network(
-        self, scene: str, network: bytes, about: KeptNetwork, *, drives: bool = True
+        self,
+        scene: str,
+        network: bytes,
+        about: KeptNetwork,
+        replays: Mapping[int, bytes] = MappingProxyType({}),
+        *,
+        drives: bool = True,
     ) -> None:
         """Keep a network that has learned, and let it drive."""
         try:
-            kept = self._networks.add(scene, network, about)
+            kept = self._networks.add(scene, network, about, replays)
         except (OSError, SetupError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             self._work = replace(self._work, warning=f"The network could not be kept: {reason}.")
@@ -320,7 +411,8 @@ class TeachOption:
             self._required_editor().set_driver(about.agent, f"{NETWORK}{file.name}")
 
     def _check_free(self, agent: str) -> None:
-        if any(each is not None and not each.is_over for each in (self._learning, self._practice)):
+        is_practising = self._practice is not None and self._practice.phase is Phase.RUNNING
+        if is_practising or (self._learning is not None and not self._learning.is_over):
             raise SetupError("the robot learns already; wait until it is done, or stop it")
         if problem := self._work.problems.get(agent, ""):
             raise SetupError(problem)
@@ -335,24 +427,41 @@ class TeachOption:
             raise SetupError(f"expected reward terms of {', '.join(names)}, got {wrong}")
         if command.begin_with is not None:
             begin_with = str(self._networks.file(self._scene, command.begin_with).absolute())
-        folder = tempfile.TemporaryDirectory(prefix="ai4u-edu-practice-")
+        if self._practice is not None and self._practice.phase is Phase.PAUSED:
+            raise SetupError("a practice is paused; go on with it, or stop it first")
+        if len(self._work.networks) >= MAX_NETWORKS:
+            raise SetupError(
+                f"this scene has {MAX_NETWORKS} networks already; delete one that you do not need"
+            )
         scene = editor.scene
         request = PracticeRequest(
             scene=scene.dumps(),
+            scene_name=scene.description.name,
             place=str(scene.folder or ""),
             agent=agent,
-            folder=str(Path(folder.name) / "run"),
             steps=command.steps,
             seed=0,
             weights={name: each for name, each in command.weights.items() if each != 1.0},
             begin_with=begin_with,
         )
-        name = scene.description.name
-        self._practice = Practice(
-            request,
-            on_progress=partial(self._on_practised, name),
-            on_end=partial(self._on_practice_end, name, folder),
+        try:
+            folder, request = self._practices.add(scene.description.name, request)
+        except OSError as error:
+            raise SetupError(f"the practice could not be begun: {error.strerror}") from None
+        self._practice = self._make_practice(folder, request)
+        self._practice.go_on()
+
+    def _make_practice(self, folder: Path, request: PracticeRequest) -> Practice:
+        return Practice(
+            folder, request, on_progress=self._on_practised, on_end=self._on_practice_end
         )
+
+    def _go_on(self) -> None:
+        practice = self._practice
+        if practice is None or practice.phase is not Phase.PAUSED:
+            raise SetupError("there is no practice that could go on; begin another one")
+        self._check_free(practice.request.agent)
+        practice.go_on()
 
     def _begin_learning(self, agent: str, numbers: list[int]) -> None:
         self._check_free(agent)
@@ -379,12 +488,16 @@ class TeachOption:
             agent=learning.agent,
             how=f"learned from {drives} with {note.decisions} decisions",
             alike=note.alike,
+            facts=(
+                f"Alike in {note.alike:.0%} of {note.held_out} moments that it had not seen.",
+                "Seed: 0.",
+            ),
         )
         self._tasks.put(partial(self._keep_network, scene, out.read_bytes(), about))
 
     # -- in the thread of the practice -------------------------------------------------------------
 
-    def _on_practised(self, scene: str, practice: Practice) -> None:
+    def _on_practised(self, practice: Practice) -> None:
         """Let the network drive as it is now; whoever has taken over keeps the agent."""
         if practice.controller is not None:
             practice.controller.reload()
@@ -394,28 +507,28 @@ class TeachOption:
         brain = LocalBrain(controller=controller, **controller.network.rhythm)
 
         def drive() -> None:
-            if self._scene == scene:
+            if self._scene == practice.request.scene_name:
                 self._runner.sim.agent(practice.request.agent).use_brain(brain)
 
         self._runner.submit(drive)
 
-    def _on_practice_end(
-        self, scene: str, folder: tempfile.TemporaryDirectory[str], practice: Practice
-    ) -> None:
+    def _on_practice_end(self, practice: Practice) -> None:
         best = practice.run.best_network
         network = best.read_bytes() if best.is_file() and practice.progress.curve else b""
-        folder.cleanup()
+        replays = practice.replays()
+        practice.remove()
         if not network:
             return
         checks = practice.progress.curve
         share = max((each.success or 0.0 for each in checks), default=0.0)
         reached = "" if checks[-1].success is None else f", goal reached from {share:.0%} of starts"
         how = f"practised for {practice.progress.decisions} decisions{reached}"
-        about = KeptNetwork(0, "", practice.request.agent, how)
+        about = KeptNetwork(0, "", practice.request.agent, how, facts=practice.facts)
         brains = [agent.brain for agent in self._runner.sim.agents if agent.id == about.agent]
         # whoever has taken over goes on driving
         drives = any(getattr(brain, "controller", 0) is practice.controller for brain in brains)
-        self._tasks.put(partial(self._keep_network, scene, network, about, drives=drives))
+        scene = practice.request.scene_name
+        self._tasks.put(partial(self._keep_network, scene, network, about, replays, drives=drives))
 
     @property
     def _scene(self) -> str:
@@ -441,18 +554,6 @@ def _shown(
                 share=round(persons_decisions(record) / len(record), 3),
                 reason=drive.reason_against(agent, scene),
             )
-
-
-def _practice_state(practice: Practice) -> m.PracticeState:
-    progress = practice.progress
-    return m.PracticeState(
-        is_over=practice.is_over,
-        problem=practice.problem,
-        decisions=progress.decisions,
-        total=progress.total,
-        rewards=[round(point.reward, 3) for point in progress.curve],
-        success=progress.curve[-1].success if progress.curve else None,
-    )
 
 
 def _state_of(learning: Learning) -> m.LearningState:

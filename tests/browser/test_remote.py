@@ -44,8 +44,7 @@ for percept in (robot := connect(sys.argv[1], patience=float(sys.argv[2]))):
 
 
 @pytest.fixture
-def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Played]:
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+def server(tmp_path: Path) -> Iterator[Played]:
     (tmp_path / "bare.yaml").write_text(SCENE)
     scene = str(tmp_path / "bare.yaml")
     with socket.socket(type=socket.SOCK_DGRAM) as silent:  # no script answers there

@@ -1,7 +1,6 @@
 """A scene is shared by a link: copied on one page, and opened on another."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
@@ -20,11 +19,9 @@ LINK = shared_link(Scene.load("maze"), 77).fragment
 
 
 @pytest.fixture(scope="module")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
-        with played("box_chase", "--seed", "1") as server:
-            yield server
+def server() -> Iterator[Played]:
+    with played("box_chase", "--seed", "1") as server:
+        yield server
 
 
 @pytest.fixture
@@ -65,10 +62,7 @@ def test_where_nothing_may_be_copied_the_link_is_shown(server: Played, page: Pag
     assert box.evaluate("box => box.selectionEnd - box.selectionStart") == len(box.input_value())
 
 
-def test_a_link_is_opened_after_a_question(
-    chromium: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+def test_a_link_is_opened_after_a_question(chromium: Browser) -> None:
     with played("box_chase", "--seed", "1") as server:  # of its own, since it replaces the scene
         page = new_page(chromium)
         WITHOUT_VISER.serve(page, server.url)

@@ -6,10 +6,13 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 
+from ai4u_edu.recording.episode import encode
 from ai4u_edu.teach.drives import DriveFolder
+from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
 from tests.teach.driving import SEEDS, drive, teaching_room
+from tests.waiting import until
 
 pytestmark = pytest.mark.browser
 
@@ -49,6 +52,9 @@ def test_a_robot_learns_from_the_chosen_drives_and_drives(
         network = tmp_path / "networks" / "box_chase-1.onnx"
         assert Path(download.value.path()).read_bytes() == network.read_bytes()
 
+        tab.get_by_role("button", name="Why?").click()
+        expect(page.get_by_role("tabpanel", name="Drive")).to_be_visible()
+        page.get_by_role("tab", name="Teach").click()
         drives.get_by_role("button", name="Delete drive 2", exact=True).click()
         expect(drives.get_by_role("checkbox")).to_have_count(len(SEEDS) - 1)
         page.context.close()
@@ -73,9 +79,45 @@ def test_a_robot_practises_for_rewards_until_it_is_stopped(
         tab.get_by_label("Length").select_option("Long")
         tab.get_by_role("button", name="Practise").click()
         expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
-        expect(tab.get_by_role("button", name="Practise")).to_be_disabled()
+        expect(tab.get_by_role("button", name="Practise")).to_be_hidden()
+        pause = tab.get_by_role("button", name="Pause the practice")
+        expect(pause).to_be_visible()
+        tab.get_by_label("Begin with").focus()
+        page.keyboard.press("Tab")
+        page.keyboard.press("Enter")
+        expect(tab.get_by_role("button", name="Go on with the practice")).to_be_focused()
+        page.keyboard.press("Enter")
+        expect(pause).to_be_focused()
         tab.get_by_role("button", name="Stop").click()
         expect(tab.get_by_text("The practice was stopped.")).to_be_visible()
         expect(tab.get_by_role("button", name="Practise")).to_be_enabled()
+        page.context.close()
+    assert problems == []
+
+
+def test_a_slider_shows_how_a_network_got_better(chromium: Browser, tmp_path: Path) -> None:
+    about = KeptNetwork(0, "", "0", "practised for 8192 decisions", facts=("Seed: 0.",))
+    replays = {decisions: encode(drive(1)) for decisions in (0, 1024, 8192)}
+    NetworkFolder(tmp_path / "networks").add("box_chase", b"not asked to drive", about, replays)
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    with teaching_room(tmp_path) as room:
+        WITHOUT_VISER.serve(page, room.url)
+        page.goto(room.url)
+        page.get_by_role("tab", name="Teach").click()
+        tab = page.get_by_role("tabpanel", name="Teach")
+        tab.get_by_role("article").get_by_role("button", name="Network 1").click()
+        expect(tab.get_by_text("Seed: 0.")).to_be_visible()
+        expect(tab.get_by_text("Made on")).to_be_visible()
+        tab.get_by_role("button", name="Delete", exact=True).focus()
+        page.keyboard.press("Tab")
+        expect(tab.get_by_role("slider", name="How it got better")).to_be_focused()
+        page.keyboard.press("ArrowRight")
+        expect(tab.get_by_text("after 1,024 decisions", exact=True)).to_be_visible()
+        until(lambda: room.runner.latest.past)
+        page.get_by_role("button", name="Back to live").click()
+        until(lambda: not room.runner.latest.past)
+        page.get_by_role("tab", name="Past").click()
+        expect(page.get_by_text("network 1 after 1,024 decisions").first).to_be_visible()
         page.context.close()
     assert problems == []

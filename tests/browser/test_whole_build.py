@@ -34,10 +34,8 @@ RAYS = "linear_ray_casting"
 @pytest.fixture(scope="module")
 def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Played]:
     folder = tmp_path_factory.mktemp("build")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("XDG_STATE_HOME", str(folder / "state"))
-        with played("box_chase_ai4u", "--scenes", str(folder / "scenes")) as server:
-            yield server
+    with played("box_chase_ai4u", "--scenes", str(folder / "scenes")) as server:
+        yield server
 
 
 @pytest.fixture

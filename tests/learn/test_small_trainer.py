@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -69,7 +70,7 @@ def test_without_torch_it_learns_and_says_why(
     assert "since Stable-Baselines3 and torch are not installed" in done.stderr
 
 
-def test_a_killed_training_goes_on_from_its_latest_check(scene: str, tmp_path: Path) -> None:
+def test_a_killed_training_goes_on(scene: str, tmp_path: Path) -> None:
     out, settings = tmp_path / "run", tmp_path / "quick.yaml"
     settings.write_text(json.dumps(QUICK))
     command = [sys.executable, "-m", "ai4u_edu", "train", scene, "--trainer", "small"]
@@ -79,8 +80,11 @@ def test_a_killed_training_goes_on_from_its_latest_check(scene: str, tmp_path: P
         process.kill()
         process.wait(LIMIT_S)
     before = Run(out).checks()
-    done = train(resume=True, out=out, steps=before[-1].steps + 512, quiet=True)
-    assert done.steps == before[-1].steps + 512
+    with np.load(Run(out).state) as state:
+        steps = json.loads(str(state["state"]))["decisions"]
+    assert steps >= before[-1].steps
+    done = train(resume=True, out=out, steps=steps + 512, quiet=True)
+    assert done.steps == steps + 512
     assert done.checks[: len(before)] == before
     with pytest.raises(SetupError, match="steps already; expected --steps larger"):
         train(resume=True, out=out, steps=512, quiet=True)

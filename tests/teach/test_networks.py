@@ -1,5 +1,6 @@
 """A person's networks on the disk."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -56,3 +57,17 @@ def test_a_network_whose_title_is_lost_is_still_there(tmp_path: Path) -> None:
         assert folder.networks("box_chase") == [KeptNetwork(1, "Network 1", "", "")]
     with pytest.raises(SetupError, match="no network 2"):
         folder.file("box_chase", 2)
+
+
+def test_a_networks_episodes_and_facts_go_with_it(tmp_path: Path) -> None:
+    folder = NetworkFolder(tmp_path)
+    about = replace(CLONE, facts=("Seed: 0.",))
+    folder.add("box_chase", b"one", about, {8192: b"late", 0: b"early"})
+    (network,) = NetworkFolder(tmp_path).networks("box_chase")
+    assert (network.replays, network.facts) == ((0, 8192), ("Seed: 0.",))
+    assert network.made_at > 0
+    assert folder.replay("box_chase", 1, 8192).read_bytes() == b"late"
+    folder.rename("box_chase", 1, "Racer")
+    assert folder.networks("box_chase") == [replace(network, title="Racer")]
+    folder.remove("box_chase", 1)
+    assert list(tmp_path.iterdir()) == []

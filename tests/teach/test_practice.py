@@ -1,20 +1,39 @@
 """Practice for rewards over the panel's socket, and the network that drives meanwhile."""
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import psutil
 import pytest
 
+from ai4u_edu import Scene
 from ai4u_edu.blocks import NeuralNetController
+from ai4u_edu.blocks.block import Block
+from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.teach import learning, networks
+from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeRequest
 from tests.page.panel.rooms import PanelPage, PanelRoom
+from tests.playing import Played, played
 from tests.teach.driving import teaching_room
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 pytestmark = pytest.mark.slow
 
+BLOCK = """
+from ai4u_edu import RewardFunc
+
+class Lamp(RewardFunc):
+    calls = 0
+
+    def on_update(self, body, view):
+        Lamp.calls += 1
+        if Lamp.calls > 40:
+            {body}
+        return 0.0
+"""
+"""A reward that fails once an episode is under way."""
 SOON = 256
 """Decisions of the shortest practice."""
 LATE = 1_000_000
@@ -39,15 +58,34 @@ def controller(room: PanelRoom) -> NeuralNetController | None:
     return found if isinstance(found, NeuralNetController) else None
 
 
+def practising(server: psutil.Process) -> list[psutil.Process]:
+    """Return the processes of a server that practise."""
+    name = "ai4u_edu.teach.practice_process"
+    return [child for child in server.children() if name in child.cmdline()]
+
+
 def test_a_network_practises_and_drives_then(room: PanelRoom, page: PanelPage) -> None:
     assert page.parts["teach"]["rewards"] == ["touch", "fall", "min_dist"]
     page.done("teach_practise", steps=SOON, weights={"touch": 1, "fall": 2})
     part = page.part("teach", lambda part: part["networks"] and part["networks"][0]["is_driving"])
-    assert part["practice"]["is_over"]
+    assert part["practice"]["phase"] == "over"
     assert part["practice"]["problem"] == ""
     assert part["practice"]["decisions"] >= SOON
     assert len(part["practice"]["rewards"]) == 1
-    assert "practised for" in part["networks"][0]["how"]
+    network = part["networks"][0]
+    assert "practised for" in network["how"]
+    assert network["facts"][0] == "Rewards: fall times 2, all others as in the scene."
+    assert network["made_at"] > 0
+    first, last = network["replays"]  # it was too short for eleven
+    assert (first, last) == (0, part["practice"]["decisions"])
+    for decisions in (first, last, first):
+        page.done("teach_replay", network=1, decisions=decisions)
+        page.done("back_to_live")
+    page.show("0", "past")
+    past = page.part("past", lambda part: len(part.get("episodes") or ()) >= 2)
+    assert [each["source"] for each in past["episodes"]].count("network 1 after 0 decisions") == 1
+    page.show("0", "teach")
+    assert "not kept" in page.failed("teach_replay", network=1, decisions=7)["text"]
     assert room.editor.driver_of("0").startswith(NETWORK)
     page.done("teach_practise", steps=SOON, weights={}, begin_with=1)
     page.part("teach", lambda part: len(part["networks"]) == 2)
@@ -64,7 +102,7 @@ def test_the_network_of_the_moment_drives_until_it_is_stopped(
     until(lambda: driving.network is not first)  # it drives with what it has learned since
     assert "learns already" in page.failed("teach_practise", steps=SOON, weights={})["text"]
     page.done("teach_stop_practising")
-    part = page.part("teach", lambda part: part["practice"] and part["practice"]["is_over"])
+    part = page.part("teach", lambda part: part["practice"] and part["practice"]["phase"] == "over")
     assert part["practice"]["problem"] == learning.STOPPED
     assert room.editor.undo_label in ("", "0: driven by network:box_chase-1.onnx")
 
@@ -72,16 +110,122 @@ def test_the_network_of_the_moment_drives_until_it_is_stopped(
 def test_a_killed_practice_keeps_what_the_world_has(room: PanelRoom, page: PanelPage) -> None:
     page.done("teach_practise", steps=LATE, weights={})
     until(lambda: controller(room) is not None)
-    (process,) = (
-        each
-        for each in psutil.Process().children()
-        if "ai4u_edu.teach.practice_process" in each.cmdline()
-    )
+    (process,) = practising(psutil.Process())
     process.kill()
-    part = page.part("teach", lambda part: part["practice"] and part["practice"]["is_over"])
+    part = page.part("teach", lambda part: part["practice"] and part["practice"]["phase"] == "over")
     assert part["practice"]["problem"] == learning.DIED
     room.runner.step_decision("0").result()
     assert not room.runner.error
+
+
+def test_a_paused_practice_goes_on(room: PanelRoom, page: PanelPage) -> None:
+    assert page.done("teach_pause")["text"] == "Nothing practises now."
+    assert "no practice that could go on" in page.failed("teach_go_on")["text"]
+    page.done("teach_practise", steps=LATE, weights={"touch": 2})
+    page.part("teach", lambda part: part["practice"] and part["practice"]["decisions"] > 0)
+    page.done("teach_pause")
+    part = page.part("teach", lambda part: part["practice"]["phase"] == "paused")
+    before = part["practice"]["decisions"]
+    assert "a practice is paused" in page.failed("teach_practise", steps=SOON, weights={})["text"]
+    page.done("teach_go_on")
+    part = page.part("teach", lambda part: part["practice"]["decisions"] > before)
+    assert part["practice"]["phase"] == "running"
+    page.done("teach_pause")
+    page.part("teach", lambda part: part["practice"]["phase"] == "paused")
+    page.done("teach_stop_practising")
+    part = page.part("teach", lambda part: part["practice"]["phase"] == "over")
+    assert part["practice"]["problem"] == learning.STOPPED
+    assert room.editor.work_folder is not None
+    assert not list((room.editor.work_folder / "practices").glob("*"))
+
+
+def test_a_practice_goes_on_in_its_scene_though_the_robot_is_gone(
+    room: PanelRoom, page: PanelPage
+) -> None:
+    page.done("teach_practise", steps=LATE, weights={})
+    page.part("teach", lambda part: part["practice"] and part["practice"]["decisions"] > 0)
+    room.editor.open(Scene.load("soccer")).result()
+    part = page.part("teach", lambda part: part["practice"] and part["practice"]["elsewhere"])
+    assert part["practice"]["elsewhere"] == "agent 0 of box_chase"
+    before = part["practice"]["decisions"]
+    page.part("teach", lambda part: part["practice"]["decisions"] > before)
+    page.done("teach_pause")
+    page.part("teach", lambda part: part["practice"]["phase"] == "paused")
+    room.editor.open(Scene.load("box_chase")).result()
+    part = page.part("teach", lambda part: part["practice"] and not part["practice"]["elsewhere"])
+    assert part["practice"]["phase"] == "paused"
+    assert not part["practice"]["is_scene_changed"]
+    room.editor.remove_block("0", ("sensors", 0)).result()
+    part = page.part("teach", lambda part: part["practice"]["is_scene_changed"])
+    page.done("teach_go_on")
+    page.part("teach", lambda part: part["practice"]["decisions"] > before)
+    room.runner.step_decision("0").result()
+    assert not room.runner.error
+
+
+@pytest.mark.parametrize(
+    ("body", "problem"),
+    [
+        ("raise KeyError('lamp')", "Lamp 'lamp' of agent '0' failed: KeyError: 'lamp' (lamp.py"),
+        ("[0 for _ in iter(int, 1)]", "has not answered for"),
+    ],
+)
+def test_a_block_that_fails_or_hangs_is_named(tmp_path: Path, body: str, problem: str) -> None:
+    file = tmp_path / "lamp.py"
+    file.write_text(BLOCK.format(body=body))
+    before = dict(Block.types)
+    try:
+        load_blocks(file)
+        text = Scene.load("box_chase").dumps()
+        scene = Scene.loads(
+            text.replace("\n    rewards:\n", "\n    rewards:\n      - type: Lamp\n")
+        )
+        ends: list[Practice] = []
+        request = PracticeRequest(scene.dumps(), "box_chase", "", "0", SOON, 0, {})
+        folder, request = PracticeFolder(tmp_path / "practices").add("box_chase", request)
+        practice = Practice(folder, request, on_progress=lambda _: None, on_end=ends.append)
+        practice.go_on()
+        until(lambda: ends)
+        assert problem in practice.problem
+    finally:
+        Block.types.clear()
+        Block.types.update(before)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL, and the state folder of XDG")
+def test_a_practice_goes_on_after_its_server_was_killed(tmp_path: Path) -> None:
+    def panel(server: Played) -> PanelPage:
+        return PanelPage(server.url.replace("http", "ws", 1) + "ws/panel")
+
+    with played("box_chase", "--seed", "1", state=tmp_path) as server, panel(server) as page:
+        page.part("teach", lambda part: part["rewards"])
+        page.done("teach_practise", steps=LATE, weights={})
+        page.part("teach", lambda part: part["practice"] and part["practice"]["decisions"] > 0)
+        (learner,) = practising(psutil.Process(server.process.pid))
+        server.process.kill()
+        psutil.wait_procs([learner], LIMIT_S)
+    with played("box_chase", "--seed", "2", state=tmp_path) as server, panel(server) as page:
+        part = page.part("teach", lambda part: part["practice"])
+        assert part["practice"]["phase"] == "paused"
+        before = part["practice"]["decisions"]
+        assert before > 0
+        page.done("teach_go_on")
+        page.part("teach", lambda part: part["practice"]["decisions"] > before)
+        page.done("teach_stop_practising")
+        page.part("teach", lambda part: part["practice"]["phase"] == "over")
+
+
+def test_factors_become_the_scenes_own(room: PanelRoom, page: PanelPage) -> None:
+    assert "all factors are 1" in page.failed("teach_put_rewards", weights={"touch": 1})["text"]
+    page.done("teach_put_rewards", weights={"touch": 0.5, "min_dist": 3})
+    text = room.editor.text()
+    assert "reward: 50.0" in text
+    assert "success_reward: 0.03" in text
+    assert "step_reward: -0.003" in text
+    assert "no reward 'luck'" in page.failed("teach_put_rewards", weights={"luck": 2})["text"]
+    assert "ends the episode" in page.failed("teach_put_rewards", weights={"touch": 0})["text"]
+    room.editor.undo().result()
+    assert room.editor.is_as_opened
 
 
 def test_a_practice_that_can_not_begin_says_why(page: PanelPage) -> None:

@@ -624,11 +624,19 @@ export interface LearningState {
   remarks: string[];
 }
 
-/** State of the latest practice of the agent. */
+/** State of the latest practice. */
 export interface PracticeState {
-  is_over: boolean;
+  phase: "over" | "paused" | "running";
   /** Sentence about why it ended early; empty if it did not. */
   problem: string;
+  /** Agent and scene, if they are not what the page shows; empty otherwise. */
+  elsewhere: string;
+  /** True if the scene was changed since; it goes on in the scene as it was. */
+  is_scene_changed: boolean;
+  /** Sentence about what to change if it gets no better; empty if it does. */
+  hint: string;
+  /** Time (s) until it ends at the latest; null before its first check. */
+  seconds_left: number | null;
   /** Decisions that it has learned from. */
   decisions: number;
   /** Decisions after which it ends at the latest. */
@@ -646,6 +654,12 @@ export interface TaughtNetwork {
   title: string;
   /** Sentence about how it learned. */
   how: string;
+  /** Time (s since 1970) at which it was kept; 0 if it is not known. */
+  made_at: number;
+  /** Sentences about its rewards, drives and settings. */
+  facts: string[];
+  /** Decisions of its practice after which an episode was kept, ascending. */
+  replays: number[];
   /** True if it drives the agent now. */
   is_driving: boolean;
 }
@@ -664,8 +678,10 @@ export interface TeachPart {
   learning: LearningState | null;
   /** Names of the agent's reward terms. */
   rewards: string[];
-  /** The latest practice of the agent; null if there was none since the start. */
+  /** The practice that runs or is paused, or the agent's latest one; null if there is none. */
   practice: PracticeState | null;
+  /** Decisions that such a practice learns from in a second; null before the first check. */
+  decisions_per_s: number | null;
   /** Networks of this scene, the latest first. */
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
@@ -1109,6 +1125,10 @@ export interface ForgetDrive {
   drive: number;
 }
 
+/** Go on with the practice that waits. */
+export interface GoOnPractising {
+}
+
 /** Show a decision of the chosen episode, counted from 0. */
 export interface GoToStep {
   step: number;
@@ -1204,6 +1224,10 @@ export interface OpenScene {
 export interface Pause {
 }
 
+/** Let the practice wait; it can go on after a restart of the world, too. */
+export interface PausePractising {
+}
+
 /** Keep an episode however many others come, or no longer. */
 export interface Pin {
   number: number;
@@ -1222,6 +1246,11 @@ export interface PractiseForRewards {
   weights: Record<string, number>;
   /** Number of a network to begin with; null for a new one. */
   begin_with?: number | null;
+}
+
+/** Multiply the scene's own rewards of the page's agent by factors. */
+export interface PutRewards {
+  weights: Record<string, number>;
 }
 
 /** Begin an episode with the same start, against a ghost of the chosen one. */
@@ -1255,6 +1284,13 @@ export interface RemoveGhost {
 export interface RenameNetwork {
   network: number;
   title: string;
+}
+
+/** Show an episode of a network's practice in the player of recorded episodes. */
+export interface ReplayPractice {
+  network: number;
+  /** Decisions that the network had learned from then, one of its replays. */
+  decisions: number;
 }
 
 /** Begin an episode with the locked seed, or else with a new one. */
@@ -1443,9 +1479,13 @@ export interface Commands {
   teach_download_tried: DownloadTried;
   teach_drive: DriveNetwork;
   teach_forget_drive: ForgetDrive;
+  teach_go_on: GoOnPractising;
   teach_learn: LearnFromDrives;
+  teach_pause: PausePractising;
   teach_practise: PractiseForRewards;
+  teach_put_rewards: PutRewards;
   teach_rename: RenameNetwork;
+  teach_replay: ReplayPractice;
   teach_stop: StopLearning;
   teach_stop_practising: StopPractising;
   teach_stop_trying: StopTrying;

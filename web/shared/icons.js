@@ -66,6 +66,7 @@ const PATHS = {
   scenes: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",
   pin: "M9 4h6l-1 6 3 3H7l3-3zM12 13v7",
   play: "M7 5l12 7-12 7z",
+  pause: "M8.5 5v14M15.5 5v14",
   stop: "M7 7h10v10H7z",
   back: "M17 5L9 12l8 7zM6 5v14",
   forward: "M7 5l8 7-8 7zM18 5v14",

@@ -25,49 +25,89 @@ export class PracticeView {
   #length = choice("Length", (value) => (this.#steps = value));
   #begin = choice("Begin with", (value) => (this.#beginWith = value));
   #start = button("Practise", () => void this.#practise(), { icon: "target", kind: "main" });
+  #put = button("Put into the scene", () => void this.#putIntoScene(), { icon: "scenes" });
+  #pause = button("Pause", () => this.#panel.send("teach_pause"), { icon: "pause", label: "Pause the practice" });
+  #goOn = button("Go on", () => this.#panel.send("teach_go_on"), { icon: "play", label: "Go on with the practice", kind: "main" });
   #stop = button("Stop", () => this.#panel.send("teach_stop_practising"), { icon: "stop" });
+  #tools;
   #bar = element("progress", { max: 1, ariaLabel: "Practice" });
   #curve = new Curve("Mean reward of an episode at each check");
   #text = element("p", { role: "status" });
+  #left = element("p", { className: "ai4u-soft" });
+  #hint = element("p", { className: "ai4u-hint-text", role: "status" });
   element = element("div", { className: "ai4u-teach-practice" });
 
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    const tools = element("div", { className: "ai4u-tools" }, this.#start, this.#stop);
+    this.#tools = element("div", { className: "ai4u-tools" }, this.#start, this.#goOn, this.#pause, this.#stop, this.#put);
     const settings = [this.#weights, this.#length.element, this.#begin.element];
-    this.element.append(...settings, tools, this.#bar, this.#curve.element, this.#text);
-    this.#length.set(LENGTHS, this.#steps);
+    this.element.append(...settings, this.#tools, this.#bar, this.#left, this.#curve.element, this.#text, this.#hint);
   }
 
   /**
    * @param {TeachPart} part
    * @param {boolean} isLearning true while a network learns from drives
    */
-  update({ networks, practice, rewards }, isLearning) {
+  update({ decisions_per_s: speed, networks, practice, rewards }, isLearning) {
+    this.#length.set(
+      LENGTHS.map(({ value, text }) => ({ value, text: speed ? `${text}, about ${roughly(Number(value) / speed)}` : text })),
+      this.#steps,
+    );
     keyed(this.#weights, rewards, (name) => name, weightRow);
     const kept = networks.map(({ number, title }) => ({ value: String(number), text: title }));
     if (!kept.some(({ value }) => value === this.#beginWith)) this.#beginWith = NEW;
     this.#begin.set([{ value: NEW, text: "A new network" }, ...kept], this.#beginWith);
-    const isUnderWay = practice !== null && !practice.is_over;
-    this.#start.disabled = isUnderWay || isLearning;
-    this.#stop.hidden = !isUnderWay;
-    this.#bar.hidden = !isUnderWay;
+    const phase = practice === null ? "over" : practice.phase;
+    const focused = document.activeElement;
+    this.#start.hidden = phase !== "over";
+    this.#start.disabled = isLearning;
+    this.#goOn.hidden = phase !== "paused";
+    this.#goOn.disabled = isLearning;
+    this.#pause.hidden = phase !== "running";
+    this.#stop.hidden = phase === "over";
+    if (focused instanceof HTMLElement && focused.hidden && this.#tools.contains(focused)) {
+      /** @type {HTMLElement | null} */ (this.#tools.querySelector("button:not([hidden], :disabled)"))?.focus();
+    }
+    this.#bar.hidden = phase === "over";
     this.#bar.value = practice === null ? 0 : practice.decisions / practice.total;
+    this.#left.hidden = phase !== "running" || practice.seconds_left === null;
+    setText(this.#left, this.#left.hidden ? "" : `At most ${roughly(practice.seconds_left)} left`);
     this.#curve.update(practice?.rewards ?? []);
     setText(this.#text, practice === null ? "" : sentenceOf(practice));
+    setText(this.#hint, practice?.hint ?? "");
+    this.#hint.hidden = !practice?.hint;
   }
 
   async #practise() {
-    const inputs = [...this.#weights.querySelectorAll("input")];
-    const weights = Object.fromEntries(inputs.map((input) => [input.name, input.valueAsNumber]));
-    if (inputs.some((input) => Number.isNaN(input.valueAsNumber))) {
-      this.#panel.notice("Each reward needs a number: 1 as in the scene, 0 to switch it off.", "error");
-      return;
-    }
+    const weights = this.#chosenWeights();
+    if (weights === null) return;
     const beginWith = this.#beginWith === NEW ? null : Number(this.#beginWith);
     await this.#panel.send("teach_practise", { steps: Number(this.#steps), weights, begin_with: beginWith }, { quiet: true });
   }
+
+  /** The factors become the scene's own amounts, so that they are 1 then. */
+  async #putIntoScene() {
+    const weights = this.#chosenWeights();
+    if (weights === null) return;
+    const { ok } = await this.#panel.send("teach_put_rewards", { weights });
+    if (ok) for (const input of this.#weights.querySelectorAll("input")) input.value = "1";
+  }
+
+  /** Return the factors, or null if one is no number, which the page says then. */
+  #chosenWeights() {
+    const inputs = [...this.#weights.querySelectorAll("input")];
+    if (inputs.some((input) => Number.isNaN(input.valueAsNumber))) {
+      this.#panel.notice("Each reward needs a number: 1 as in the scene, 0 to switch it off.", "error");
+      return null;
+    }
+    return Object.fromEntries(inputs.map((input) => [input.name, input.valueAsNumber]));
+  }
+}
+
+/** Return a duration in words. @param {number} seconds */
+function roughly(seconds) {
+  return seconds < 90 ? `${Math.ceil(seconds)} s` : `${Math.round(seconds / 60)} min`;
 }
 
 /** @param {string} name */
@@ -77,10 +117,14 @@ function weightRow(name) {
 }
 
 /** @param {PracticeState} practice */
-function sentenceOf({ is_over: isOver, problem, decisions, success }) {
+function sentenceOf({ phase, problem, decisions, success, elsewhere, is_scene_changed: isSceneChanged }) {
   const reached = success === null ? "" : ` It reaches the goal from ${percent(success)} of its starts.`;
   if (problem === "stopped") return `The practice was stopped.${reached}`;
   if (problem) return `It could not go on: ${problem}.`;
   const count = decisions.toLocaleString("en");
-  return isOver ? `It has practised for ${count} decisions, and drives now.${reached}` : `It has practised for ${count} decisions.${reached}`;
+  const who = elsewhere ? `The ${elsewhere}` : "It";
+  if (phase === "over") return `${who} has practised for ${count} decisions, and drives now.${reached}`;
+  const waits = phase === "paused" ? ", and waits for you" : "";
+  const scene = isSceneChanged ? " It practises in the scene as it was before your changes." : "";
+  return `${who} has practised for ${count} decisions${waits}.${reached}${scene}`;
 }

@@ -67,14 +67,14 @@ export class Tab {
     this.#warning.hidden = !warning;
     this.#drives.update(part);
     const isLearning = learning !== null && !learning.is_over;
-    const isPractising = practice !== null && !practice.is_over;
+    const isPractising = practice?.phase === "running";
     const count = this.#drives.chosen.length;
     setText(this.#learn.querySelector("span"), `Learn from ${count} drive${count === 1 ? "" : "s"}`);
     this.#learn.disabled = isLearning || isPractising || count === 0;
     this.#learn.hidden = drives.length === 0;
     this.#stop.hidden = !isLearning;
     this.#learning.update(learning);
-    this.#sections.practice.hidden = Boolean(problem) || rewards.length === 0;
+    this.#sections.practice.hidden = practice === null && (Boolean(problem) || rewards.length === 0);
     this.#practice.update(part, isLearning);
     this.#sections.networks.hidden = networks.length === 0;
     this.#networks.update(part);

@@ -17,7 +17,7 @@ One of the small learner has networks in place of models, and writes them withou
     DIR/best.onnx       the network that did best in a check; at first, the one that it began with
     DIR/watched.onnx    the network as it is now, at most a second old
     DIR/watched.json    decisions so far, and the learning curve
-    DIR/state.npz       all that --resume needs, as it was at the latest check
+    DIR/state.npz       all that --resume needs, at most a second old
 """
 
 import json

@@ -213,6 +213,15 @@ class SceneEditor:
         """
         return self._submit(lambda: proposals.change_agent(self.state, agent_id, values))
 
+    def scale_rewards(self, agent_id: str, factors: Mapping[str, float]) -> "Future[ChangeResult]":
+        """Multiply what reward functions pay, as one change; those without a factor stay.
+
+        Args:
+            agent_id: the agent that gets the rewards.
+            factors: by the reward function's name.
+        """
+        return self._submit(lambda: proposals.scale_rewards(self.state, agent_id, factors))
+
     def set_driver(self, agent_id: str, name: str) -> "Future[ChangeResult]":
         """Choose an agent's driver: one of :meth:`drivers`, or an ``ai4u://`` address."""
         return self._submit(

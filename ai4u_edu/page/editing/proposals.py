@@ -7,13 +7,14 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.blocks import Block
 from ai4u_edu.page.editing import blocks, settings, things
 from ai4u_edu.page.editing.driver_options import with_driver
 from ai4u_edu.page.editing.drivers import DriverRegistry
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.input_checks import check_name, check_plain
 from ai4u_edu.page.editing.plain import BlockPath, Plain
-from ai4u_edu.page.editing.state import EditState
+from ai4u_edu.page.editing.state import EditState, reward_names
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import write_yaml
 from ai4u_edu.world import Pose
@@ -63,6 +64,33 @@ def change_agent(state: EditState, agent_id: str, values: Plain) -> Proposal:
     agent = settings.with_agent_settings(state.agent(agent_id), values)
     path = _path(state, agent_id, ())
     return Proposal(state.with_agent(agent_id, agent), f"change agent {agent_id}", path)
+
+
+def scale_rewards(state: EditState, agent_id: str, factors: Mapping[str, float]) -> Proposal:
+    """Propose other amounts of an agent's reward functions.
+
+    Raises:
+        ChangeError: a reward function has no such name, or no amounts.
+    """
+    agent = state.agent(agent_id)
+    names = reward_names(agent)
+    for name, factor in factors.items():
+        if name not in names:
+            raise ChangeError([ParameterProblem((), f"there is no reward {name!r}")])
+        path: BlockPath = ("rewards", names.index(name))
+        block = blocks.block_at(agent, path)
+        amounts = _amounts(block)
+        if not amounts:
+            raise ChangeError(
+                [ParameterProblem((), f"{name} has no amount here; change it in its own code")]
+            )
+        if factor == 0.0 and block.get("cause_episode_to_end"):
+            text = f"{name} also ends the episode, which it does not if it pays 0; choose a factor"
+            raise ChangeError([ParameterProblem((), f"{text} such as 0.01")])
+        values = {each: float(f"{factor * amount:.12g}") for each, amount in amounts.items()}
+        agent = blocks.changed(agent, path, values)
+    path = _path(state, agent_id, ())
+    return Proposal(state.with_agent(agent_id, agent), "change the rewards", path)
 
 
 def set_driver(state: EditState, agent_id: str, name: str, drivers: DriverRegistry) -> Proposal:
@@ -140,6 +168,17 @@ def change_settings(state: EditState, values: Plain) -> Proposal:
     """Propose another title or goal of the scene, or other settings of its world."""
     description = settings.with_scene_settings(state.description, values)
     return Proposal(replace(state, description=description), "change the scene")
+
+
+def _amounts(reward: Plain) -> dict[str, float]:
+    """Return what a reward function pays, by the names of its parameters."""
+    cls = Block.types[str(reward["type"])]
+    values = {
+        name: reward.get(name, field.get_default(call_default_factory=True))
+        for name, field in cls.parameters().items()
+        if name == "reward" or name.endswith("_reward")
+    }
+    return {name: value for name, value in values.items() if isinstance(value, int | float)}
 
 
 def _path(state: EditState, agent_id: str, path: BlockPath) -> BlockPath:
