@@ -23,7 +23,7 @@ _PARAMETERS = re.compile(
 _SYNTAX = (
     (
         r"expected an indented block after (?P<what>.+) on line (?P<line>\d+)",
-        "This line belongs into the {what} of line {line}: begin it with four more spaces.",
+        "This line is inside the {what} in line {line}. Put four spaces in front of it.",
     ),
     (
         r"unexpected indent",

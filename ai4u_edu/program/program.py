@@ -41,7 +41,7 @@ def _checked_action(answer: Any, outputs: Outputs | None, line: int = 0) -> dict
     {'move': [1.0, 0.5]}
     >>> _checked_action({"mov": [1, 0.5]}, {"move": ([-1, -1], [1, 1])}, 3)
     Traceback (most recent call last):
-    ai4u_edu.program.mistakes.ProgramError: line 3: the agent has no actuator 'mov'; did you mean \
+    ai4u_edu.program.mistakes.ProgramError: line 3: the robot can't do 'mov'; did you mean \
 'move'?
     """
     if answer is None:
@@ -59,7 +59,7 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
         if not isinstance(name, str) or name not in outputs:
             # others take no numbers, and the page does not list them
             known = [each for each, (low, _) in outputs.items() if len(low)]
-            text = f"the agent has no actuator {shown(name)}; {suggest(str(name), known)}"
+            text = f"the robot can't do {shown(name)}; {suggest(str(name), known)}"
             if not nearest(str(name), known):
                 text += f"; write, say, {_example(outputs)}"
             raise ProgramError(text, line, "actuator")
@@ -335,7 +335,7 @@ class Program:
     def _endless(self, line: int) -> ProgramError:
         loop = loop_around(self._tree, line)
         why = why_endless(loop, is_in_decision=self._is_deciding)
-        text = f"Your code did not answer for {self.trace.limit_s:g} s. {why}"
+        text = f"Your code has been running for {self.trace.limit_s:g} s without an answer. {why}"
         return ProgramError(text, loop.lineno if loop else line, "endless")
 
 
@@ -367,9 +367,7 @@ def _import(name: str, *arguments: Any, **options: Any) -> Any:
 
 
 def _no_input(*_prompt: object) -> None:
-    raise ProgramError(
-        "input() has nobody to ask here: use what percept has, or write the value into the program"
-    )
+    raise ProgramError("input() doesn't work here: the program only knows what the robot senses")
 
 
 def _check_parameters(function: Any) -> None:

@@ -241,7 +241,8 @@ class Readings(Mapping[str, Any]):
 
     >>> Readings({"line": [0.0, 1.0]})["lien"]
     Traceback (most recent call last):
-    ai4u_edu.program.reading.MissingReadingError: no reading is called 'lien'; did you mean 'line'?
+    ai4u_edu.program.reading.MissingReadingError: there is no sensor called 'lien'; did you mean \
+'line'?
     """
 
     __slots__ = ("_converted", "_percept")
@@ -254,7 +255,7 @@ class Readings(Mapping[str, Any]):
         if key not in self._converted:
             if key not in self._percept:
                 hint = suggest(str(key), self._percept)
-                raise MissingReadingError(f"no reading is called {key!r}; {hint}")
+                raise MissingReadingError(f"there is no sensor called {key!r}; {hint}")
             self._converted[key] = _plain(self._percept[key])
         return self._converted[key]
 

@@ -69,7 +69,7 @@ def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:
     stars(tab.page, 0)
     mistakes = [
         ("(percept):", "(percept)", "A colon (:) is missing"),
-        ("    cosine =", "cosine =", "four more spaces"),
+        ("    cosine =", "cosine =", "four spaces"),
         ('["orientation"][0]', '["orientation"[0]', "is never closed"),
         ('"orientation"', '"orientatoin"', "'orientation'"),
         ("if cosine", "if cosin", "did you mean 'cosine'?"),
@@ -77,12 +77,12 @@ def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:
         ('"move"', '"mvoe"', "'move'"),
         ("[1, 0, 0, 0]", "[1, 0]", "4"),
         ("[0, 0.3, 0, 0]", '["left", 0.3, 0, 0]', "number"),
-        ('    print("cosine", cosine)', "    while cosine < 2:\n        pass", "did not answer"),
+        ('    print("cosine", cosine)', "    while cosine < 2:\n        pass", "without an answer"),
     ]
     for good, bad, words in mistakes:
         assert good in right
         server.restart(int(MIDDLE))
-        if words == "did not answer":
+        if words == "without an answer":
             set_limits(tab.page, programS=1)
         tab.write(right.replace(good, bad))
         tab.press("Run")
@@ -102,7 +102,7 @@ def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:
 
 
 ABUSE = {
-    "an endless loop": ("    while True: pass", "did not answer"),
+    "an endless loop": ("    while True: pass", "without an answer"),
     "a loop that nothing interrupts": ("    10**10**8", "did not come back"),
     "a huge print": ("    print('x' * 10**8)\n    return {}", ""),
     "many prints": ("    for each in range(20000): print(each)\n    return {}", ""),

@@ -100,7 +100,7 @@ def test_seven_lines_reach_the_box(server: Played, tab: CodeTab) -> None:
     driver = tab.page.locator(".ai4u-row .ai4u-driver")
     drivers = record_texts(tab.page, ".ai4u-row .ai4u-driver")
     tab.page.keyboard.press("ControlOrMeta+Enter")
-    expect(tab.state).to_contain_text("Goal reached at decision")
+    expect(tab.state).to_contain_text("Goal reached! Your program decided")
     assert any("Your program drives" in text for text in drivers())
     assert agent(server)["reward_terms"]["touch"] == 100
     expect(tab.page.get_by_role("log")).to_contain_text("cosine 0.9")
@@ -126,7 +126,7 @@ def test_an_endless_loop_is_ended_at_its_line(tab: CodeTab) -> None:
     tab.write(f"{BODY}while True:\n        pass")
     tab.press("Run")
     expect(tab.mistake).to_contain_text("Line 2: ")
-    expect(tab.mistake).to_contain_text("did not answer for 1 s")
+    expect(tab.mistake).to_contain_text("has been running for 1 s without an answer")
     expect(tab.page.locator(".ai4u-code-mistake-line")).to_have_text("    while True:")
     set_limits(tab.page)
 

@@ -54,7 +54,7 @@ def test_run_senses_decides_and_acts_until_the_episode_is_over(tab: CodePage) ->
     expect(tab.page.get_by_role("log")).to_have_text("1decision 1")
     expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near0.94")
     tab.sense(1, terminated=True, terms={"touch": 100})
-    expect(tab.state).to_contain_text("Goal reached at decision 1")
+    expect(tab.state).to_contain_text("Goal reached! Your program decided")
     assert tab.page.evaluate("fake.closed") == 1
     expect(tab.page.get_by_role("button", name="Stop")).to_be_disabled()
 

@@ -119,7 +119,7 @@ def test_a_speed_that_is_not_in_the_list_is_shown(desk: PanelPage) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "mode"), [("Follow", "follow"), ("Turn with robot", "turn"), ("Robot's view", "eyes")]
+    ("name", "mode"), [("Follow", "follow"), ("Turn along", "turn"), ("Through its eyes", "eyes")]
 )
 def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
     def show_camera(sent: Json) -> Json:
@@ -138,7 +138,7 @@ def test_the_trail_and_the_camera_are_shown_as_they_are(desk: PanelPage) -> None
     expect(trail).to_have_attribute("aria-checked", "false")
     desk.panel.change("view", camera="turn", has_trail=True)
     expect(trail).to_have_attribute("aria-checked", "true")
-    expect(desk.button("Turn with robot")).to_have_attribute("aria-pressed", "true")
+    expect(desk.button("Turn along")).to_have_attribute("aria-pressed", "true")
 
 
 def test_details_tell_of_the_script_of_other_robots_and_of_the_latest_rewards(
@@ -297,7 +297,7 @@ WHY: Json = {
     "name": "why",
     "agent": "0",
     "problem": "",
-    "sentence": "It turns left because ray 4 sees the box; without it, it would go straight.",
+    "sentence": "It turns left because ray 4 sees the box. Without it, it would go straight.",
     "baseline": "the middle of its range",
     "limits": "Two slots that say the same can both seem unimportant.",
     "components": ["forward", "turn"],
@@ -323,7 +323,7 @@ def test_because_of_what(desk: PanelPage) -> None:
     desk.panel.let_network_drive()
     section = desk.page.locator(".ai4u-why-sentence")
     expect(section).to_be_hidden()
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: desk.panel.commands("why") == [{"on": True}])
     desk.panel.send(WHY)
     expect(section).to_have_text(WHY["sentence"])
@@ -343,7 +343,7 @@ def test_because_of_what(desk: PanelPage) -> None:
     desk.panel.send(WHY | {"problem": "A person drives.", "sentence": "", "slots": [], "top": []})
     expect(section).to_have_text("A person drives.")
     expect(rows).to_have_count(0)
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: desk.panel.commands("why") == [{"on": True}, {"on": False}])
     expect(section).to_be_hidden()
     assert desk.problems == []
@@ -351,7 +351,7 @@ def test_because_of_what(desk: PanelPage) -> None:
 
 def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> None:
     desk.panel.let_network_drive()
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: len(desk.panel.commands("why")) == 1)
     desk.panel.drop()
     desk.until(lambda: len(desk.panel.commands("why")) == 2)
@@ -371,13 +371,13 @@ def test_what_if(desk: PanelPage) -> None:
         return {"dials": dials, "action": [turn]}
 
     desk.panel.replies["what_if"] = reply
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: desk.panel.commands("why"))
     desk.panel.send(WHY)
-    hint = desk.page.get_by_text("Pause the world to try other values.")
+    hint = desk.page.get_by_text("Press Pause, then try other numbers.")
     expect(hint).to_be_visible()
     desk.panel.change("run", is_paused=True)
-    slot = desk.page.get_by_label("If this were another number")
+    slot = desk.page.get_by_label("Try another number")
     expect(slot).to_be_visible()
     expect(hint).to_be_hidden()
     slot.select_option("direction")

@@ -45,11 +45,11 @@ def win(site: ServedViser, page: Page, decisions: int) -> str:
 @pytest.mark.nightly
 def test_the_time_is_compared_with_the_best_one_of_this_browser(site: ServedViser) -> None:
     page = site.page()
-    assert win(site, page, 12) == "Reached the goal in 1.0 s"
-    assert win(site, page, 6) == "Reached the goal in 0.5 s, your best"
+    assert win(site, page, 12) == "You did it! 1.0 s"
+    assert win(site, page, 6) == "You did it! 0.5 s \u2013 your best"
     page.reload()
     ready(page)
-    assert win(site, page, 18) == "Reached the goal in 1.5 s (your best: 0.5 s)"
+    assert win(site, page, 18) == "You did it! 1.5 s (your best: 0.5 s)"
 
 
 def test_times_of_scenes_and_drivers_are_apart(site: ServedViser) -> None:
@@ -57,7 +57,7 @@ def test_times_of_scenes_and_drivers_are_apart(site: ServedViser) -> None:
     found = page.evaluate(
         """async () => {
             const { KEYS, PROGRAM, Results, timeText } = await import("./web/page/results.js");
-            const results = new Results(() => {});
+            const results = new Results();
             let episode = 0;
             const win = (seconds, task, by) => timeText(results.of(
                 { outcome: "goal", title: "Any", episode: (episode += 1), seconds }, task, by));
@@ -70,11 +70,11 @@ def test_times_of_scenes_and_drivers_are_apart(site: ServedViser) -> None:
         }"""
     )
     assert found == [
-        " in 9.0 s",
-        " in 1.0 s",
-        " in 8.0 s, your best",
-        " in 2.0 s (your program's best: 1.0 s)",
-        " in 20.0 s",
+        " 9.0 s",
+        " 1.0 s",
+        " 8.0 s \u2013 your best",
+        " 2.0 s (your program's best: 1.0 s)",
+        " 20.0 s",
         8,
         None,
     ]

@@ -59,7 +59,7 @@ def ran(tab: CodePage, **scene: Any) -> None:
     tab.write(PROGRAM)
     begin(tab)
     tab.sense(1, terminated=True, terms={"touch": 100})
-    expect(tab.state).to_contain_text("Goal reached at decision 1")
+    expect(tab.state).to_contain_text("Goal reached! Your program decided")
 
 
 def begin(tab: CodePage) -> None:

@@ -32,7 +32,7 @@ IN_DECIDE = [
         "return {'move': percept['eys'][:2]}",
         2,
         "wrong-key",
-        "no reading is called 'eys'; did you mean 'eyes'?",
+        "there is no sensor called 'eys'; did you mean 'eyes'?",
     ),
     (
         "return percept.eyes",
@@ -58,7 +58,7 @@ IN_DECIDE = [
         "return {'mov': [1, 0]}",
         2,
         "actuator",
-        "the agent has no actuator 'mov'; did you mean 'move'?",
+        "the robot can't do 'mov'; did you mean 'move'?",
     ),
     (
         "return {'move': [1]}",
@@ -85,7 +85,7 @@ IN_DECIDE = [
         "return {'forward': 1}",
         2,
         "actuator",
-        "no actuator 'forward'; known are 'move'; write, say, {\"move\": [1, 0]}",
+        "the robot can't do 'forward'; known are 'move'; write, say, {\"move\": [1, 0]}",
     ),
     ("return {'move': [1, 1e999]}", 2, "not-finite", "expected finite numbers, got [1, inf]"),
     (
@@ -117,19 +117,19 @@ IN_DECIDE = [
     ("percept['eyes'][0] = 1", 2, "error", "a reading can't be changed"),
     ("return decide(percept)", 2, "recursion", "calls itself again and again"),
     ("exit()", 2, "error", "ended the program"),
-    ("return {'move': [input('?'), 0]}", 2, "error", "use what percept has, or write the value"),
+    ("return {'move': [input('?'), 0]}", 2, "error", "only knows what the robot senses"),
     (
         "while True:\n        pass",
         2,
         "endless",
-        "Your code did not answer for 0.2 s. The robot asks it again at each decision: use `if`, "
-        "not `while`.",
+        "Your code has been running for 0.2 s without an answer. The robot asks it again at each "
+        "decision: use `if`, not `while`.",
     ),
     (
         "while True:\n        try:\n            x = 1\n        except:\n            pass",
         2,
         "endless",
-        "did not answer",
+        "without an answer",
     ),
     ("for x in iter(int, 1):\n        pass", 2, "endless", "never ends, or takes very long."),
     (
@@ -144,7 +144,7 @@ IN_DECIDE = [
 AT_LOAD = [
     ("def decide(percept)\n    return {}", 1, "syntax", "A colon (:) is missing"),
     ("def decide(percept):\nreturn {}", 2, "indentation",
-     "belongs into the function definition of line 1: begin it with four more spaces"),
+     "is inside the function definition in line 1. Put four spaces in front of it"),
     ("x = 1\n  y = 2", 2, "indentation", "begins with more spaces than the line before it"),
     ("def f():\n    x = 1\n  y = 2", 3, "indentation", "a number of spaces that no line above has"),
     ("x = (1 + 2\n", 1, "syntax", "The bracket ( in this line is never closed."),

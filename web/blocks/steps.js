@@ -15,7 +15,7 @@ const SCENE = "maze";
 const STEPS = [
   {
     title: "Drive",
-    texts: ["Open *Actions*, take *forward* and hang it under *at each decision*.", "Then press *Run*."],
+    texts: ["Open *Actions*, take *forward* and snap it under *at each decision*.", "Then press *Run*."],
     goal: "Done when the robot has reached a wall. Is it at a wall already? *New start* puts it elsewhere.",
   },
   {

@@ -13,10 +13,10 @@ import { earn, starRow, stars, starsOf } from "../scenes/stars.js";
 
 const NOTICES = [
   "A star: your program has reached the goal.",
-  `Two stars: your program reaches the goal from ${STARTS} of ${STARTS} unseen starts.`,
-  `Three stars: from ${STARTS} of ${STARTS} unseen starts, and in few decisions.`,
+  `Two stars: your program reaches the goal from ${STARTS} of ${STARTS} new starts.`,
+  `Three stars: from ${STARTS} of ${STARTS} new starts, and in few decisions.`,
 ];
-const CHANGED = "Stars are for the scene as it is in the library, and for its first robot.";
+const CHANGED = "Stars count only in the original scene, for its first robot.";
 
 export class CodeStars {
   /** The stars in a row, for the head of the tab. */
@@ -94,8 +94,8 @@ export class CodeStars {
 export function goalWords({ count, few_decisions: few }) {
   const all = [
     "Reach the goal once, with Run.",
-    `Reach it from ${STARTS} of ${STARTS} unseen starts, with Test.`,
-    `Do that in at most ${few} decisions, on average.`,
+    `Press Test: reach the goal from ${STARTS} new starts.`,
+    `... and do it fast: ${few} decisions or fewer on average.`,
   ];
   return all.slice(0, count);
 }

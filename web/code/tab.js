@@ -80,7 +80,7 @@ export class CodeTab {
   #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
   #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
-  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 unseen starts, as fast as possible" });
+  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 new starts, as fast as possible" });
   #state = element("p", { role: "status" });
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
@@ -175,7 +175,7 @@ export class CodeTab {
     });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) {
-        this.#test.stop("You drive, so the test was ended.");
+        this.#test.stop("You're driving, so the test was ended.");
         this.#reports.end();
       }
       this.#wasPerson = this.#isPerson;

@@ -29,7 +29,7 @@ export function testWords({ rows, isOn }) {
 export class TestTable {
   #sentence = element("caption");
   #body = element("tbody");
-  #hint = element("p", { className: "ai4u-hint-text", textContent: "A click on a start begins it in the world; Run drives it." });
+  #hint = element("p", { className: "ai4u-hint-text", textContent: "Click a row to try that start." });
   #watch;
   element;
 

@@ -1,8 +1,5 @@
 /** The line about a run of a program, in words. */
 
-/** Size of Python's files, which are loaded once (MB). */
-const PYTHON_MB = 13;
-
 /** @import { RunEnd } from "./run.js" */
 
 /**
@@ -18,16 +15,16 @@ const PYTHON_MB = 13;
  * @param {(RunEnd & {summary?: string}) | null} run.end null while there is none; of a test it has a summary
  */
 export function runWords({ phase, decision, start, success, isPerson, isPaused, python, end }) {
-  if (phase === "loading") return line("busy", `Loading Python, once (${PYTHON_MB} MB) …`);
+  if (phase === "loading") return line("busy", "Getting Python ready (first time only) …");
   if (phase === "joining") return line("busy", "The program gets the robot …");
   if (phase === "testing" && isPaused) return line("busy", "The world is paused", startWords(start));
   if (phase === "testing") return line("on", "Tests the program", startWords(start));
-  if (phase === "running" && isPerson) return line("busy", "You drive; let go, and the program goes on");
+  if (phase === "running" && isPerson) return line("busy", "You're driving. Press Let go to give the robot back to your program.");
   if (phase === "running" && isPaused) return line("busy", "The world is paused", `decision ${decision}`);
   if (phase === "running") return line("on", "Runs", `decision ${decision}`);
   if (phase === "stepping") return line("on", "Waits for the next step", `decision ${decision}`);
   if (end !== null) return endWords(end, decision, success);
-  if (python === "loading") return line("off", `Loading Python, once (${PYTHON_MB} MB) …`);
+  if (python === "loading") return line("off", "Getting Python ready (first time only) …");
   return python === "ready" ? line("off", "Ready") : line("bad", python);
 }
 
@@ -45,10 +42,16 @@ function endWords({ reason, percept, line: number, summary }, decision, success)
   const at = decision ? ` at decision ${decision}` : "";
   if (reason === "tested") return line("done", summary);
   if (reason === "stopped") return line("off", `Stopped${at}; the robot is yours`);
-  if (reason === "mistake") return line("bad", number === null ? `A mistake ended it${at}` : `A mistake in line ${number} ended it`);
+  if (reason === "mistake") return line("bad", number === null ? "Stopped: there's a mistake" : `Stopped: there's a mistake in line ${number}`);
   if (reason === "lost") return line("bad", `The run ended${at}`);
   const isGoal = Boolean(success && percept.terms?.[success] > 0);
-  return line(isGoal ? "done" : "off", `${isGoal ? "Goal reached" : "The episode is over"}${at}`);
+  if (isGoal) return line("done", decision ? `Goal reached! Your program decided ${times(decision)}.` : "Goal reached!");
+  return line("off", decision ? `The try is over. Your program decided ${times(decision)}.` : "The try is over");
+}
+
+/** @param {number} count */
+function times(count) {
+  return count === 1 ? "once" : `${count} times`;
 }
 
 /**

@@ -15,7 +15,7 @@ const PAGE_PARTS = {
 };
 const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to jump forward, Start to restart.";
 
-const START_TEXT = "Restart tries the same start again. N draws a new start, unless N is a driving key.";
+const START_TEXT = "R tries the same start again. N gives a new start, unless N is a driving key.";
 const GRAPHICS_TEXT =
   "Drawn without a graphics card, so the picture may be slow. If there is one, turn hardware acceleration on in the browser.";
 

@@ -23,9 +23,8 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "../scenes/share.js";
-import { KEYS, PROGRAM, Results } from "./results.js";
+import { KEYS, NETWORK, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "../shared/socket.js";
-import { playTone } from "../shared/tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -86,7 +85,7 @@ let classBar = null;
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
-const results = new Results(playTone);
+const results = new Results();
 /** @param {keyof Commands} command one that needs no arguments */
 const send = (command) => socket.send({ type: "do", id: 0, command });
 const banners = new Banners(send);
@@ -178,10 +177,10 @@ function draw() {
   const scene = panel?.part("scene");
   const task = HAS_PANEL && !scene ? "" : scene?.key || state?.title;
   const result = results.of(connected ? state : null, task, task ? driverOfEpisode(isDriven) : "");
-  const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : "";
-  panel?.drawBest(driver ? results.best(task, driver) : null, driver === PROGRAM);
+  const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : otherDriver();
+  panel?.drawBest(driver ? results.best(task, driver) : null, driver);
   banners.draw(connected ? state : null, {
-    restart: label(keymap.keys.restart?.[0] ?? ""),
+    restart: dock.hasAttribute("data-touch") ? "" : label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
     isLost,
@@ -192,14 +191,19 @@ function draw() {
 }
 
 /**
- * Return who drives the present episode, for its time; empty for networks, scripts and tests.
+ * Return what drives the present episode, for its time; empty for scripts elsewhere and tests.
  * @param {boolean} isDriven true if a person may drive by this page's keys
  */
 function driverOfEpisode(isDriven) {
   const program = panel?.program;
   const isPrograms = program?.agent === hello.agent && program?.episode === state?.agent_episode;
   if (isPrograms) return program.isTest ? "" : PROGRAM;
-  return isDriven ? KEYS : "";
+  return isDriven ? KEYS : otherDriver();
+}
+
+/** Return NETWORK if a network drives the agent, else an empty text. */
+function otherDriver() {
+  return /network/i.test(hello.others || hello.brain) ? NETWORK : "";
 }
 
 /** Return true while a teacher holds the world, or a race counts down. */
@@ -214,7 +218,7 @@ function canDrive() {
 
 /** Return what a person does to start driving, in words. */
 function howToDrive() {
-  if (dock.hasAttribute("data-touch")) return hello.stick ? "push the stick" : "tap a key";
+  if (dock.hasAttribute("data-touch")) return hello.stick ? "move the stick" : "tap a key";
   if (!hello.others) return "press a key";
   const first = [...dpadActions(hello.keys).values(), ...Object.keys(hello.keys)][0];
   return `press ${label(keymap.keys[first]?.[0] ?? "")}`;

@@ -55,7 +55,7 @@ async function open(wanted, title) {
   isOpening = true;
   try {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    if (text && !(await ask({ title: `Open ${title}?`, text, yes: "Open" }))) return;
     find("main").setAttribute("aria-busy", "true");
     await request("api/scene", wanted);
     goToWorld();

@@ -132,9 +132,9 @@ def test_each_agent_has_a_program_of_its_own(tmp_path: Path) -> None:
     ("body", "message"),
     [
         ("pass", r"mine\.py, line 2: Your function returned nothing \(None\)"),
-        ("return {'mov': [1, 0, 0, 0]}", r"mine\.py, line 2: the agent has no actuator 'mov'; "),
+        ("return {'mov': [1, 0, 0, 0]}", r"mine\.py, line 2: the robot can't do 'mov'; "),
         ("return {'move': [1]}", r"mine\.py, line 2: action 'move': expected 4 numbers, got 1"),
-        ("percept['visoin']", r"mine\.py, line 2: no reading is called 'visoin'; did you mean"),
+        ("percept['visoin']", r"mine\.py, line 2: there is no sensor called 'visoin'; did you"),
     ],
 )
 def test_mistakes_in_decisions(tmp_path: Path, body: str, message: str) -> None:
@@ -146,7 +146,7 @@ def test_mistakes_in_decisions(tmp_path: Path, body: str, message: str) -> None:
 def test_a_decision_that_never_ends_is_ended(tmp_path: Path) -> None:
     sim = built(tmp_path, "def decide(percept):\n    while True:\n        pass\n")
     controller(sim).program.trace.limit_s = 0.2
-    message = r"mine\.py, line [23]: Your code did not answer for 0\.2 s"
+    message = r"mine\.py, line [23]: Your code has been running for 0\.2 s without an answer"
     with pytest.raises(BlockError, match=message):
         sim.step()
 

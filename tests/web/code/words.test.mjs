@@ -9,11 +9,11 @@ const ended = (end, changes = {}) => words({ end: { reason: "over", percept: { t
 
 test("a run is told by its phase", () => {
   assert.equal(words({}), "off|Ready|");
-  assert.equal(words({ phase: "loading" }), "busy|Loading Python, once (13 MB) …|");
+  assert.equal(words({ phase: "loading" }), "busy|Getting Python ready (first time only) …|");
   assert.equal(words({ phase: "joining" }), "busy|The program gets the robot …|");
   assert.equal(words({ phase: "running", decision: 4 }), "on|Runs|decision 4");
   assert.equal(words({ phase: "running", isPaused: true, decision: 4 }), "busy|The world is paused|decision 4");
-  assert.equal(words({ phase: "running", isPerson: true, isPaused: true }), "busy|You drive; let go, and the program goes on|");
+  assert.equal(words({ phase: "running", isPerson: true, isPaused: true }), "busy|You're driving. Press Let go to give the robot back to your program.|");
   assert.equal(words({ phase: "stepping", decision: 4 }), "on|Waits for the next step|decision 4");
 });
 
@@ -24,18 +24,18 @@ test("a test is told with its start", () => {
 });
 
 test("Python that loads or is missing is told before the first run only", () => {
-  assert.equal(words({ python: "loading" }), "off|Loading Python, once (13 MB) …|");
+  assert.equal(words({ python: "loading" }), "off|Getting Python ready (first time only) …|");
   assert.equal(words({ python: "No network." }), "bad|No network.|");
-  assert.equal(ended({}, { python: "loading" }), "off|The episode is over at decision 9|");
+  assert.equal(ended({}, { python: "loading" }), "off|The try is over. Your program decided 9 times.|");
 });
 
 test("the end is told with its reason", () => {
-  assert.equal(ended({ percept: { terms: { touch: 1 } } }), "done|Goal reached at decision 9|");
-  assert.equal(ended({ percept: { terms: { touch: 0 } } }), "off|The episode is over at decision 9|");
-  assert.equal(ended({ percept: { terms: { touch: 1 } } }, { success: "" }), "off|The episode is over at decision 9|");
+  assert.equal(ended({ percept: { terms: { touch: 1 } } }), "done|Goal reached! Your program decided 9 times.|");
+  assert.equal(ended({ percept: { terms: { touch: 0 } } }), "off|The try is over. Your program decided 9 times.|");
+  assert.equal(ended({ percept: { terms: { touch: 1 } } }, { success: "" }), "off|The try is over. Your program decided 9 times.|");
   assert.equal(ended({ reason: "stopped" }, { decision: 0 }), "off|Stopped; the robot is yours|");
-  assert.equal(ended({ reason: "mistake", line: 3 }), "bad|A mistake in line 3 ended it|");
-  assert.equal(ended({ reason: "mistake" }), "bad|A mistake ended it at decision 9|");
+  assert.equal(ended({ reason: "mistake", line: 3 }), "bad|Stopped: there's a mistake in line 3|");
+  assert.equal(ended({ reason: "mistake" }), "bad|Stopped: there's a mistake|");
   assert.equal(ended({ reason: "lost" }), "bad|The run ended at decision 9|");
   assert.equal(ended({ reason: "tested", summary: "8 of 10 starts" }), "done|8 of 10 starts|");
 });
