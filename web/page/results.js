@@ -80,6 +80,16 @@ export function timesOf(task) {
   return typeof times === "object" ? times : {};
 }
 
+/**
+ * Return the best times for a task as a text: "Best: you 12.3 s · your program 9.0 s"; empty without any.
+ * @param {string} task
+ */
+export function timesText(task) {
+  const times = timesOf(task);
+  const parts = [[KEYS, "you"], [PROGRAM, "your program"]].filter(([by]) => typeof times[by] === "number");
+  return parts.length ? `Best: ${parts.map(([by, who]) => `${who} ${format(times[by])} s`).join(" · ")}` : "";
+}
+
 /** Return true if a person has won by keys before, in any scene. */
 export function hasWon() {
   return Object.values(recall(key(), {})).some((times) => typeof times?.[KEYS] === "number");

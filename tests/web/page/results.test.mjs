@@ -4,7 +4,7 @@ import { beforeEach, test } from "node:test";
 import { openWindow } from "../browser.mjs";
 
 const { kept } = openWindow();
-const { BEST, FIRST, KEYS, PROGRAM, Results, SLOWER, timeText } = await import("../../../web/page/results.js");
+const { BEST, FIRST, KEYS, NETWORK, PROGRAM, Results, SLOWER, hasWon, timesText, timeText } = await import("../../../web/page/results.js");
 const { forget } = await import("../../../web/shared/storage.js");
 let results;
 
@@ -44,6 +44,18 @@ test("no time is kept of a defeat, of the past, or of others", () => {
   assert.equal(won(2, 5, KEYS, { past: "episode 3" }), null);
   assert.equal(won(3, 5, ""), null);
   assert.equal(results.of(null, "chase", KEYS), null);
+});
+
+test("the best times of a task are told together; a network's are not a person's", () => {
+  assert.equal(timesText("chase"), "");
+  assert.equal(hasWon(), false);
+  won(1, 5, PROGRAM);
+  won(2, 3, NETWORK);
+  assert.match(timesText("chase"), /^Best: your program 5[.,]0 s$/);
+  assert.equal(hasWon(), false);
+  won(3, 7.25);
+  assert.match(timesText("chase"), /^Best: you 7[.,][23] s · your program 5[.,]0 s$/);
+  assert.equal(hasWon(), true);
 });
 
 test("the words tell the time and the best one", () => {
