@@ -293,7 +293,7 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     expect(title).to_be_hidden()
     tab.give({**PART, "playing": PLAYING})
     title.click()
-    first, second = tab.page.get_by_label("One driver"), tab.page.get_by_label("Another one")
+    first, second = tab.page.get_by_label("First"), tab.page.get_by_label("Second", exact=True)
     expect(first).to_have_value("what-it-did")
     expect(second).to_have_value("network:checkpoint-1.onnx")
     second.select_option("Network zoo:box_chase")

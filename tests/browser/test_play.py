@@ -83,6 +83,7 @@ def test_to_the_box_it_is_a_hundred_and_the_end(server: Played, page: Page) -> N
 
 
 def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> None:
+    page.get_by_role("button", name="Details").click()
     for text in ("Box chase", "Ray picture", "Direction and distance", "My last action", "Rewards"):
         page.locator(".ai4u-panel").get_by_text(text, exact=False).first.wait_for()
     assert page.evaluate(

@@ -872,6 +872,10 @@ export interface StateEvent {
   terms: Record<string, number | null>;
   /** Codes of the keys that the agent sees held. */
   held: string[];
+  /** Contacts of its body with others that have begun since the world's reset. */
+  bumps: number;
+  /** Things that it has collected, and stages that it has passed, in this episode. */
+  collects: number;
 }
 
 /** Position of a stick on the screen or a gamepad. */

@@ -14,6 +14,7 @@ import { showLeft } from "../classroom/student/overlay.js";
 import { element } from "../shared/dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
+import { Effects, flyStars } from "./effects.js";
 import { keysReachPage, watchFocus } from "./focus.js";
 import { Gamepads } from "./gamepad.js";
 import { Help } from "./help.js";
@@ -23,6 +24,7 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "../scenes/share.js";
+import { stars } from "../scenes/stars.js";
 import { KEYS, NETWORK, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "../shared/socket.js";
 
@@ -60,6 +62,7 @@ const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${enco
 const keymap = new KeyMap();
 const keys = new HeldKeys(() => {
   if (!isHeld()) socket.send({ type: "keys", held: keys.held, stick: keys.stick });
+  followMotor();
   draw();
 });
 const row = element("div", { className: "ai4u-row" });
@@ -85,6 +88,7 @@ let classBar = null;
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
+const effects = new Effects(row);
 const results = new Results();
 /** @param {keyof Commands} command one that needs no arguments */
 const send = (command) => socket.send({ type: "do", id: 0, command });
@@ -138,7 +142,9 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
       break;
     case "state":
       if ((message.paused && !state?.paused) || (message.waiting === HELD && !isHeld())) keys.releaseAll();
+      effects.follow(state, message, isMyDrive());
       state = message;
+      followMotor();
       break;
     case "class":
       classBar ??= new ClassBar(draw);
@@ -150,6 +156,7 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
       break;
   }
   draw();
+  if (message.type === "state" && message.outcome) panel?.dispatchEvent(new Event("win"));
 };
 
 /** Apply the agent's key bindings to the keyboard, the screen's keys, gamepads and the help. */
@@ -198,7 +205,22 @@ function driverOfEpisode(isDriven) {
   const program = panel?.program;
   const isPrograms = program?.agent === hello.agent && program?.episode === state?.agent_episode;
   if (isPrograms) return program.isTest ? "" : PROGRAM;
-  return isDriven ? KEYS : otherDriver();
+  if (isDriven) return isMyDrive() ? KEYS : ""; // another page may drive it
+  return otherDriver();
+}
+
+/** Return true if this page, or its program, drives the agent: others' robots make no sound. */
+function isMyDrive() {
+  if (panel?.hasProgram) return true;
+  if (hello.others) return false;
+  return control.driver === hello.you || (control.driver === null && hasActed);
+}
+
+/** Let the motor hum while this page's keys move the robot. */
+function followMotor() {
+  const isMoving = keys.held.length > 0 || keys.stick.forward !== 0 || keys.stick.turn !== 0;
+  const isStill = !state || state.paused || state.outcome || state.past || state.waiting;
+  effects.motor(isMoving && !isStill && control.driver === hello.you);
 }
 
 /** Return NETWORK if a network drives the agent, else an empty text. */
@@ -227,6 +249,7 @@ function howToDrive() {
 // a notebook keeps its frame hidden until this message
 if (window.parent !== window) window.parent.postMessage("ai4u-edu", "*");
 
+stars.addEventListener("change", (event) => event instanceof CustomEvent && flyStars(event.detail));
 draw();
 loadLayout().then(arrange);
 socket.open();
