@@ -1,4 +1,4 @@
-/** What winning and falling look and sound like: confetti over the picture, stars that fly in, and sounds. */
+/** Winning and falling, to see and to hear: confetti over the picture, stars that fly in, and sounds. */
 
 /** @import { StateEvent } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
