@@ -190,8 +190,9 @@ def check_shown(tree: ast.Module) -> Iterator[tuple[int, str]]:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
     }
     for node in ast.walk(tree):
-        is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
-        if is_text and id(node) not in documents:
+        if id(node) in documents or not isinstance(node, ast.Constant):
+            continue
+        if isinstance(node.value, str):
             yield from _check_phrases(node.lineno, node.value, SHOWN_PHRASES)
 
 

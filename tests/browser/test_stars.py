@@ -115,8 +115,8 @@ def test_the_goals_stand_there_with_those_that_are_reached(tab: CodePage) -> Non
     expect(goals).to_have_text(
         [
             "☆Reach the goal once, with Run.",
-            "☆Reach it from 10 of 10 unseen starts, with Test.",
-            "☆Do that in at most 80 decisions, on average.",
+            "☆Press Test: reach the goal from 10 new starts.",
+            "☆... and do it fast: 80 decisions or fewer on average.",
         ]
     )
     ran(tab)
