@@ -141,7 +141,7 @@ def test_the_end_of_an_episode_and_a_new_one(site: ServedViser) -> None:
 
     banner = page.locator(".ai4u-banner")
     pay(100)
-    expect(banner).to_contain_text(re.compile(r"You did it! \d+\.\d s"))
+    expect(banner).to_contain_text("You did it!")  # nobody drove, so there is no time
     expect(banner).to_contain_text("Press R to play again.")
     expect(banner.get_by_role("button")).to_have_text(["Play again", "New start", "Next scene"])
     page.keyboard.press("KeyR")
