@@ -61,7 +61,7 @@ def main() -> None:
 def _take(chromium: Browser, scene: str, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
     """Take a picture of the page that tells because of what a network of the zoo acts."""
     with _page(chromium, scene, size, scheme) as page:
-        page.get_by_role("switch", name="Show because of what").click()
+        page.get_by_role("switch", name="Show why").click()
         expect(page.locator(".ai4u-why-sentence")).to_contain_text("because", timeout=20_000)
         page.get_by_role("button", name="Pause", exact=True).click()
         page.locator(".ai4u-why-sentence").scroll_into_view_if_needed()
@@ -75,10 +75,10 @@ def _take_maps(
     """Take a picture of the page with arrows, values and a stand-in over the floor."""
     with _page(chromium, scene, size, scheme) as page:
         page.get_by_role("button", name="Pause", exact=True).click()
-        for name in ("Arrows: what it would do there", "Colours: what each place is worth"):
+        for name in ("Arrows: where it would go", "Colours: good and bad places"):
             page.get_by_role("switch", name=name).click()
         if SCENES[scene]:
-            page.get_by_label("It would look").select_option(SCENES[scene])
+            page.get_by_label("Facing").select_option(SCENES[scene])
         expect(page.locator(".ai4u-map-scale")).to_be_visible(timeout=60_000)
         expect(page.locator(".ai4u-map-progress:visible")).to_have_count(0, timeout=120_000)
         page.get_by_role("switch", name="Try another place").click()

@@ -13,6 +13,8 @@ from ai4u_edu.snapshot.block_info import SensorInfo, block_info_of, sensor_pictu
 
 Kind = Literal["slot", "sensor"]
 KINDS = ("slot", "sensor")
+MIN_SIDE = 0.3
+"""Least size of a direction's sine or cosine for a side to be named: 17 degrees."""
 
 Mask = npt.NDArray[np.bool_]
 
@@ -21,13 +23,15 @@ class Group(NamedTuple):
     """Numbers of one reading that are replaced together."""
 
     name: str
-    """Name for people, as ``ray 7`` or ``orientation: cosine``."""
+    """Name for people, as ``ray 7`` or ``orientation: ahead?``."""
     key: str
     """Perception key of the reading."""
     mask: Mask
     """(size,) True for each number of the flattened reading that belongs to it."""
     sees: str = ""
     """Group that a ray or an eye meets at this moment; ``nothing`` if none, empty for others."""
+    says: str = ""
+    """Clause on what it says at this moment, as ``the box is behind it``; empty for none."""
 
 
 def slots_of(percept: Mapping[str, Any], keys: Iterable[str]) -> list[Group]:
@@ -73,27 +77,33 @@ def groups_of_agent(agent: BasicAgent, *, whole: bool = False) -> list[Group]:
     inputs = {each.perception_key for each in agent.bound_blocks.sensors if each.is_input}
     infos = [info for info in block_info_of(agent).sensor_infos if info.key in inputs]
     pictures = sensor_pictures_of(agent)
-    return groups_of(infos, pictures.rays, pictures.spots, whole=whole)
+    return groups_of(infos, pictures.rays, pictures.spots, agent.percept, whole=whole)
 
 
 def groups_of(
     infos: Sequence[SensorInfo],
     rays: Mapping[str, RayPicture],
     spots: Mapping[str, SpotPicture],
+    percept: Mapping[str, Any],
     *,
     whole: bool = False,
 ) -> list[Group]:
     """Return the groups of sensors that are described, as :func:`groups_of_agent` does."""
     found: list[Group] = []
     for info in infos:
-        parts = _parts(info, rays.get(info.key), spots.get(info.key))
+        parts = _parts(info, rays.get(info.key), spots.get(info.key), percept)
         found += parts
         if whole and len(parts) > 1:
             found += _wholes(info, rays.get(info.key))
     return found
 
 
-def _parts(info: SensorInfo, picture: RayPicture | None, spots: SpotPicture | None) -> list[Group]:
+def _parts(
+    info: SensorInfo,
+    picture: RayPicture | None,
+    spots: SpotPicture | None,
+    percept: Mapping[str, Any],
+) -> list[Group]:
     if picture is not None:
         planes = _planes(info, len(picture.groups))
         if planes:
@@ -105,11 +115,34 @@ def _parts(info: SensorInfo, picture: RayPicture | None, spots: SpotPicture | No
             _group(f"eye {index + 1}", info, [index], seen if is_lit else "nothing")
             for index, is_lit in enumerate(spots.lit)
         ]
-    names = info.slots or tuple(map(str, range(count)))
+    names = info.slot_words or tuple(map(str, range(count)))
     return [
-        _group(f"{info.key}: {name.replace('_', ' ')}" if count > 1 else info.key, info, [index])
+        _group(
+            f"{info.key}: {name}" if count > 1 else info.key,
+            info,
+            [index],
+            says=_says(info, name, index, percept),
+        )
         for index, name in enumerate(names)
     ]
+
+
+def _says(info: SensorInfo, name: str, index: int, percept: Mapping[str, Any]) -> str:
+    """Return in a clause what a direction to a target says at this moment; empty for others."""
+    if name not in ("ahead?", "left?") or len(info.targets) != 1:
+        return ""
+    reading = np.asarray(percept[info.key])
+    if reading.size != info.stack * len(info.low):
+        return ""
+    value = float(reading.reshape(info.stack, -1)[-1, index])
+    if value < info.low[index] or abs(value) > 1:
+        return ""  # it does not see the target
+    ahead, behind = (
+        ("ahead of it", "behind it") if name == "ahead?" else ("to its left", "to its right")
+    )
+    beside = "beside it" if name == "ahead?" else "neither to its left nor to its right"
+    where = beside if abs(value) < MIN_SIDE else ahead if value > 0 else behind
+    return f"the {info.targets[0].replace('_', ' ')} is {where}"
 
 
 def _rays(info: SensorInfo, picture: RayPicture, planes: int) -> list[Group]:
@@ -163,7 +196,9 @@ def _planes(info: SensorInfo, rays: int) -> int:
     return next((planes for planes in (1, 2) if rays and len(info.low) == planes * rays), 0)
 
 
-def _group(name: str, info: SensorInfo, numbers: Iterable[int], sees: str = "") -> Group:
+def _group(
+    name: str, info: SensorInfo, numbers: Iterable[int], sees: str = "", says: str = ""
+) -> Group:
     mask = np.zeros(len(info.low), np.bool_)
     mask[list(numbers)] = True
-    return Group(name, info.key, np.tile(mask, info.stack), sees)
+    return Group(name, info.key, np.tile(mask, info.stack), sees, says)

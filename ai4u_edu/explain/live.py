@@ -46,7 +46,7 @@ MAX_MEAN_PERCEPTS = 600
 
 Floats = npt.NDArray[np.float64]
 
-KEYS_DRIVE = "A person drives: no slot of the percept decides. Choose a network or a controller."
+KEYS_DRIVE = "You are driving. Let a trained network drive to see why it acts."
 MIDDLE = "the middle of its range"
 GONE = "There is no such agent any more."
 SCRIPT_DRIVES = "A script elsewhere drives; only it can say why."
@@ -288,7 +288,7 @@ def parts_of(infos: Sequence[SensorInfo], agent: AgentState) -> list[Group]:
     """Return the groups of sensors to leave out; a large picture is left out as a whole."""
     found: list[Group] = []
     for info in infos:
-        parts = groups_of([info], agent.rays, agent.spots)
+        parts = groups_of([info], agent.rays, agent.spots, agent.percept)
         if len(parts) > MAX_PARTS:
             parts = [
                 Group(f"all of {info.key}", info.key, np.logical_or.reduce([p.mask for p in parts]))

@@ -21,8 +21,9 @@ from ai4u_edu.explain.groups import Group, Kind, groups_by
 from ai4u_edu.explain.policy import Floats, Percepts, Policy, PolicyLike
 
 LIMITS = (
-    "Each slot alone is set to its mean (or the middle of its range). Two slots that say the same "
-    "can both seem unimportant, and the changed percept may be one that never occurs."
+    "One sensor number at a time is replaced by its average, or by the middle of its range. Two "
+    "numbers that say the same can both seem unimportant, and the changed numbers may be some that "
+    "never occur together."
 )
 """The method's limits, in words for people."""
 OTHER_NUMBERS = (

@@ -125,6 +125,8 @@ def sentence(told: Occlusion, axes: Sequence[Axis]) -> str:
         and _words(axis, float(told.without[number, index])) == _words(axis, otherwise)
     ]
     without = "it" if len(equal) == 1 else "one of them"
+    if all(told.groups[row].says for row in equal):
+        without = "that sensor" if len(equal) == 1 else "one of these sensors"
     return _because(axis, now, otherwise, _reasons(told, equal), without)
 
 
@@ -169,7 +171,7 @@ def decisive(told: Occlusion, axes: Sequence[Axis]) -> frozenset[str]:
 def _no_single(told: Occlusion, axes: Sequence[Axis], size: float, row: int) -> str:
     """Return a sentence for a decision that no slot alone explains, with its cause."""
     text = (
-        f"No single slot decides: without any one of them the action moves by less than "
+        f"No single number decides: without any one of them the action moves by less than "
         f"{MIN_SHARE:.0%} of its range."
     )
     none = np.flatnonzero(~np.isfinite(told.without).all(axis=1))
@@ -214,11 +216,11 @@ def _because(
     words, other = _words(axis, now), _words(axis, otherwise)
     if words != other:
         return (
-            f"It {words} because {reasons}{how}; without {without}, it would {_infinitive(other)}."
+            f"It {words} because {reasons}{how}. Without {without}, it would {_infinitive(other)}."
         )
     only = ("", "only ") if abs(now) > abs(otherwise) else ("only ", "")
     return (
-        f"It {words} by {only[0]}{number(abs(now))} because {reasons}{how}; without {without}, it "
+        f"It {words} by {only[0]}{number(abs(now))} because {reasons}{how}. Without {without}, it "
         f"would by {only[1]}{number(abs(otherwise))}."
     )
 
@@ -235,6 +237,8 @@ def _reason(group: Group) -> str:
     if group.sees:
         seen = group.sees if group.sees in ("nothing", "something") else f"the {group.sees}"
         return f"{group.name} sees {seen}"
+    if group.says:
+        return group.says
     return f"of {group.name}"
 
 

@@ -94,14 +94,14 @@ def _dials(info: SensorInfo, agent: AgentState) -> list[Dial]:
         return []
     latest = reading.reshape(info.stack, -1)[-1]
     found = []
-    for group in groups_of([info], agent.rays, agent.spots):
+    for group in groups_of([info], agent.rays, agent.spots, agent.percept):
         numbers = np.flatnonzero(group.mask[: len(info.low)])
-        parts = ("",) if len(numbers) == 1 else (": code", ": distance")
+        parts = ("{}",) if len(numbers) == 1 else ("what {} sees", "how far {} sees")
         found += [
             Dial(
                 info.key,
                 int(index),
-                f"{group.name}{part}",
+                part.format(group.name),
                 float(latest[index]),
                 float(info.low[index]),
                 float(info.high[index]),

@@ -8,7 +8,7 @@ from functools import cached_property
 from threading import Lock
 from typing import overload
 
-from ai4u_edu.blocks import Block
+from ai4u_edu.blocks import Block, RemoteBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.recording.episode import AgentRecord, Episode
 from ai4u_edu.recording.errors import RecordingError
@@ -42,6 +42,13 @@ class ArchiveEntry:
     def is_person(self) -> bool:
         """True if a person took most decisions of the agent that acts first, by keys."""
         return drove_by_keys(self.first)
+
+    @cached_property
+    def task(self) -> tuple[str, str]:
+        """Its scene's task, and the kind of its driver: ``keys``, ``program`` or ``network``."""
+        is_program = RemoteBrain.__name__ in self.first.driver
+        kind = "keys" if self.is_person else "program" if is_program else "network"
+        return self.episode.scene.task_key(), kind
 
     @property
     def first(self) -> AgentRecord:
@@ -125,16 +132,18 @@ class Archive(Sequence[Episode]):
         return tuple(entry for entry in entries if entry.number not in dropped)
 
     def bests(self) -> frozenset[int]:
-        """Return the numbers of the best entries of each scene: a person's, and one of the others.
+        """Return the numbers of the best entries of each task and kind of driver.
 
-        The best one reached the goal soonest, or else got the highest reward. One that has no other
-        to compare with is none, and episodes that were loaded from files don't count.
+        The best one reached the goal soonest; in a scene without a goal it got the highest reward.
+        A lost try is none, nor is one that has no other to compare with, and episodes that were
+        loaded from files don't count.
         """
-        alike: defaultdict[tuple[str, bool], list[ArchiveEntry]] = defaultdict(list)
+        alike: defaultdict[tuple[str, str], list[ArchiveEntry]] = defaultdict(list)
         for entry in self.entries:
             if not entry.source:
-                alike[entry.episode.scene.name, entry.is_person].append(entry)
-        return frozenset(max(each, key=_rank).number for each in alike.values() if len(each) > 1)
+                alike[entry.task].append(entry)
+        firsts = (max(entries, key=_rank) for entries in alike.values() if len(entries) > 1)
+        return frozenset(entry.number for entry in firsts if entry.success is not False)
 
     def find(self, number: int) -> ArchiveEntry | None:
         """Return the entry of a number; None if it was dropped."""

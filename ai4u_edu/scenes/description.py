@@ -1,5 +1,7 @@
 """The content of a scene file as data."""
 
+import json
+import zlib
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, get_args
 
@@ -17,6 +19,9 @@ from ai4u_edu.world.shapes import Description
 Level = Literal["easy", "medium", "hard"]
 LEVELS: tuple[Level, ...] = get_args(Level)
 """Difficulties of a scene, the lowest first."""
+TASK_FIELDS = {"success", "world", "floors", "areas", "bodies"}
+TASK_PARTS = ("body", "actuators", "rewards", "max_steps_per_episode")
+"""Fields of a scene, and parameters of its agents, that decide how long reaching the goal takes."""
 Text = Annotated[str, Field(max_length=2000)]
 
 
@@ -54,6 +59,13 @@ class SceneDescription(Description):
     def things(self) -> tuple[FloorDescription | AreaDescription | BodyDescription, ...]:
         """Everything that is in the world."""
         return (*self.floors, *self.areas, *self.bodies)
+
+    def task_key(self) -> str:
+        """Return a key of all that makes times comparable: world, bodies, motion and rewards."""
+        parts = self.model_dump(mode="json", include=TASK_FIELDS)
+        parts["agents"] = [{name: agent.get(name) for name in TASK_PARTS} for agent in self.agents]
+        text = json.dumps(parts, sort_keys=True, default=str)
+        return f"{self.name}-{zlib.crc32(text.encode()):08x}"
 
     def where_is(self, name: str) -> DataPath:
         """Return the path of the floor, area or body of that name; of several, the last one's."""

@@ -30,6 +30,15 @@ from ai4u_edu.blocks.sensors.ray_sensor import spread
 MIN_VISIBLE = {"cosine": -1.0, "distance": 0.0}
 """Least readings of an OrientationSensor for a visible target."""
 
+SLOT_WORDS = {
+    ("BearingSensor", "sine"): "left?",
+    ("BearingSensor", "cosine"): "ahead?",
+    ("OrientationSensor", "cosine"): "ahead?",
+    ("HeadingSensor", "sine"): "north?",
+    ("HeadingSensor", "cosine"): "east?",
+}
+"""Names for people of numbers that mathematics names, by the sensor's class and the slot."""
+
 POWERS = {
     "forward": ("move_amount",),
     "strafe": ("move_amount",),
@@ -99,6 +108,13 @@ class SensorInfo:
     """Position of a ray sensor's origin on the body: (forward, left, up), metres."""
     rays: RayLayout | None = None
     """Order of the numbers of a flat fan of rays."""
+
+    @property
+    def slot_words(self) -> tuple[str, ...]:
+        """Names of one reading's numbers for people; empty if they have none."""
+        return tuple(
+            SLOT_WORDS.get((self.block, slot), slot.replace("_", " ")) for slot in self.slots
+        )
 
 
 class Component(NamedTuple):

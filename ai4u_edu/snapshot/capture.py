@@ -14,6 +14,7 @@ from ai4u_edu.blocks import (
     Stages,
     WASDRBMoveController,
 )
+from ai4u_edu.blocks.actuators.collect import CollectActuator
 from ai4u_edu.snapshot.block_info import block_info_of, sensor_pictures_of
 from ai4u_edu.snapshot.types import (
     NOWHERE,
@@ -67,7 +68,12 @@ def capture_snapshot(
         real_time_factor=real_time_factor,
         error=error,
         bodies=capture_bodies(sim),
-        agents=tuple(capture_agent(agent, sim.success, sim.phase(agent)) for agent in sim.agents),
+        agents=tuple(
+            capture_agent(
+                agent, sim.success, sim.phase(agent), world.contacts.begun(agent.body_name)
+            )
+            for agent in sim.agents
+        ),
         slow_tick=slow_tick,
         episode_time=world.time if episode_time is None else episode_time,
         waiting=waiting,
@@ -118,14 +124,18 @@ def capture_bodies(sim: ControlRequestor) -> tuple[BodyState, ...]:
     return tuple(states)
 
 
-def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) -> AgentState:
+def capture_agent(
+    agent: BasicAgent, success: str = "", phase: Phase = NOWHERE, bumps: int = 0
+) -> AgentState:
     """Capture the percept, action and reward of an agent's last decision.
 
     Args:
         agent: the agent.
         success: the reward term that is paid when the goal is reached.
         phase: the agent's progress in its present decision.
+        bumps: contacts of its body that have begun.
     """
+    stages = _stages(agent)
     ledger, info, pictures = agent.ledger, block_info_of(agent), sensor_pictures_of(agent)
     reward, terms = ledger.finished
     return AgentState(
@@ -151,7 +161,14 @@ def capture_agent(agent: BasicAgent, success: str = "", phase: Phase = NOWHERE) 
         succeeded=ledger.episode_terms.get(success, 0.0) > 0,
         fell=_fell(agent),
         needs=tuple(_needs(agent)),
-        stages=_stages(agent),
+        bumps=bumps,
+        collects=sum(each.passed for each in stages)
+        + sum(
+            actuator.count
+            for actuator in agent.bound_blocks.actuators.values()
+            if isinstance(actuator, CollectActuator)
+        ),
+        stages=stages,
         seconds_left=_seconds_left(agent),
         spots=pictures.spots,
         legends=info.legends,

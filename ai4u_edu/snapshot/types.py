@@ -127,6 +127,10 @@ class AgentState(NamedTuple):
     """True if it was paid in this episode for reaching the scene's goal."""
     fell: bool = False
     """True if its episode ended because it fell."""
+    bumps: int = 0
+    """Contacts of its body with others that have begun since the world's reset."""
+    collects: int = 0
+    """Things that it has collected, and stages that it has passed, in this episode."""
     needs: tuple[Need, ...] = ()
     stages: tuple[Stages, ...] = ()
     """Stages on the way to the goal, such as marks that it passed; one for each set of targets."""

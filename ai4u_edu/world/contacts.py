@@ -30,6 +30,7 @@ class Contacts:
         self._watched: dict[str, None] = {}
         self._touching: dict[str, dict[str, None]] = {}
         self._last: dict[tuple[str, str], int] = {}
+        self._begun: dict[str, int] = {}
         self._passing: dict[Body, dict[Body, None]] = {}
 
     def attach(self, space: pymunk.Space, owners: dict[pymunk.Shape, Body]) -> None:
@@ -38,6 +39,7 @@ class Contacts:
         self._space, self._owners = space, owners
         self._touching.clear()
         self._last.clear()
+        self._begun.clear()
         self._passing.clear()
         compare, separate = self._guard(self._compare), self._guard(self._separate)
         space.on_collision(WATCHED, None, begin=compare, separate=separate)
@@ -69,6 +71,10 @@ class Contacts:
     def of(self, name: str) -> tuple[str, ...]:
         """Return the names of bodies that a watched body touches, in the order of first touch."""
         return tuple(self._touching.get(name, ()))
+
+    def begun(self, name: str) -> int:
+        """Return how many contacts of a watched body have begun since the world's reset."""
+        return self._begun.get(name, 0)
 
     def touched_after(self, name: str, other: str, tick: int) -> bool:
         """Return True if the two touch now, or touched at any tick after the given one."""
@@ -128,7 +134,10 @@ class Contacts:
     def _touch(self, a: Body, b: Body) -> None:
         for one, other in ((a.name, b.name), (b.name, a.name)):
             if one in self._watched:
-                self._touching.setdefault(one, {})[other] = None
+                touching = self._touching.setdefault(one, {})
+                if other not in touching:
+                    touching[other] = None
+                    self._begun[one] = self._begun.get(one, 0) + 1
 
     def _end(self, name: str, other: str, last: int) -> None:
         touching = self._touching.get(name)

@@ -21,6 +21,7 @@ from ai4u_edu import (
     World,
 )
 from ai4u_edu.base.errors import BlockError
+from ai4u_edu.snapshot import capture_snapshot
 from tests.builders import small_sim
 
 AHEAD, BACK, STAY = (1, 0, 0, 0), (-1, 0, 0, 0), (0, 0, 0, 0)
@@ -81,7 +82,8 @@ def there(world: World) -> list[str]:
 
 def test_what_is_touched_is_gone_and_nothing_holds_the_agent_up() -> None:
     world = orchard((1.5, 0), (3.5, 0), (0, 3))
-    sim = sim_with(world, CollectActuator(group="apple"))
+    collector = CollectActuator(group="apple")
+    sim = sim_with(world, collector)
     while world["robot"].position[0] < 0.65:
         sim.step()
     assert there(world) == ["apple 1", "apple 2", "apple 3"]
@@ -92,6 +94,10 @@ def test_what_is_touched_is_gone_and_nothing_holds_the_agent_up() -> None:
         sim.step()
     assert there(world) == ["apple 3"]
     assert world["robot"].position[0] > 5.5
+    assert collector.count == 2
+    assert capture_snapshot(sim).agents[0].collects == 2
+    sim.reset()
+    assert collector.count == 0
 
 
 def test_no_ray_meets_it_and_nothing_touches_it() -> None:

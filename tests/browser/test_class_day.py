@@ -214,7 +214,7 @@ def after_forgetting_nothing_is_left(day: Day, folder: Path) -> None:
         if each["name"].startswith("ai4u_edu_seat")
     ]
     assert len(tokens) == len(day.students)
-    day.teacher.get_by_role("button", name="End of class…").click()
+    day.teacher.get_by_role("button", name="End class…").click()
     dialog = day.teacher.locator("dialog.ai4u-form")
     dialog.get_by_label("I have the file, or need none").check()
     dialog.get_by_label(f"Type the code {CODE} to confirm").fill(CODE)

@@ -376,7 +376,7 @@ def test_the_program_of_the_docs_is_tested_in_a_real_world(chromium: Browser) ->
         until(lambda: "Remote" not in agent(server)["brain"])
         page.keyboard.press("Escape")
         page.keyboard.press("KeyW")
-        expect(page.locator(".ai4u-row .ai4u-driver")).to_contain_text("You drive")
+        expect(page.locator(".ai4u-row .ai4u-driver")).to_contain_text("You're driving")
         tab.press("Test")
         expect(tab.state).to_contain_text("of 10 reached the goal")
         until(lambda: server.snapshot()["time_scale"] == 2)

@@ -46,7 +46,7 @@ def test_a_room_under_a_path(
         page.goto(f"{room.url}user/ann/room{end}")
         ready(page)
         page.keyboard.down("KeyW")
-        expect(driver_status(page)).to_have_text("You drive")
+        expect(driver_status(page)).to_have_text("You're driving")
         until(lambda: room.held == ["KeyW"])
         page.keyboard.up("KeyW")
         page.get_by_role("textbox").first.fill("hello")

@@ -85,7 +85,7 @@ def test_a_gamepad_drives_by_halves_jumps_and_restarts(site: ServedViser) -> Non
     page.evaluate("pad.axes = [0.05, -0.6]")
     until(lambda: 0.4 < pushed(site).forward < 0.7 and pushed(site).turn == 0)
     until(lambda: site.pose()[0] > 0.1)
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
     page.evaluate("pad.axes = [1, 0]")
     until(lambda: pushed(site) == Stick(0, 1))
     page.evaluate("pad.axes = [0, 0.1]")
@@ -332,7 +332,7 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     found = page.evaluate(CONTRAST)
     other.keyboard.up("KeyW")
     page.get_by_role("button", name="Take over").click()
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
     found += page.evaluate(CONTRAST)
     site.room.runner.pause().result(LIMIT_S)
     expect(page.locator(".ai4u-banner", has_text="Paused")).to_be_visible()
@@ -342,7 +342,7 @@ def test_all_that_is_written_can_be_read(site: ServedViser, scheme: str) -> None
     found += page.evaluate(CONTRAST)
     texts = {text for text, _ in found}
     assert {
-        "You drive",
+        "You're driving",
         "Take over",
         "forward",
         "Resume",
@@ -484,7 +484,7 @@ class TestScripted:
         expect(driver_status(page)).to_have_text("A script drives \u2013 press W to take over")
         page.keyboard.down("KeyW")
         until(lambda: site.room.held == ["KeyW"])
-        expect(driver_status(page)).to_have_text("You drive")
+        expect(driver_status(page)).to_have_text("You're driving")
         until(lambda: site.room.runner.latest.agents[0].action["move"] == (1, 0, 0, 0))
         page.keyboard.up("KeyW")
         until(lambda: site.room.runner.latest.agents[0].action["move"] == (0, 0, 0, 0))
@@ -495,7 +495,7 @@ class TestScripted:
     def test_a_click_takes_over_and_a_closed_page_gives_back(self, site: ServedViser) -> None:
         page = site.page()
         page.get_by_role("button", name="Take over").click()
-        expect(driver_status(page)).to_have_text("You drive")
+        expect(driver_status(page)).to_have_text("You're driving")
         page.context.close()
         until(lambda: site.room.runner.latest.agents[0].action["move"][1] == -0.5)
 
@@ -513,7 +513,7 @@ def test_a_network_of_the_zoo_is_taken_over_and_goes_on(zoo: Played, site: Serve
     page.keyboard.press("KeyR")
     page.keyboard.down("KeyS")
     until(lambda: action()[:1] < [-0.3] and action()[1:] == [0])  # at a beginner's speed
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
     page.keyboard.up("KeyS")
     page.keyboard.press("KeyR")
     page.locator(".ai4u-dock").get_by_role("button", name="Let go").click()
@@ -547,7 +547,7 @@ def test_a_page_follows_into_another_world(site: ServedViser, query: str) -> Non
     page = site.page(query)
     page.keyboard.down("KeyW")
     until(lambda: site.room.held == ["KeyW"])
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
     new = worlds_robot(site)
     expect(driver_status(page)).to_have_text("Press a key to drive")
     page.keyboard.up("KeyW")
@@ -569,7 +569,7 @@ def test_the_whole_page_comes_from_here(zoo: Played, site: ServedViser) -> None:
     page.keyboard.press("?")
     page.keyboard.press("Escape")
     page.keyboard.press("KeyW")
-    expect(driver_status(page)).to_contain_text("You drive")
+    expect(driver_status(page)).to_contain_text("You're driving")
     page.keyboard.press("KeyR")
     page.get_by_role("tab", name="Past").click()
     card = page.locator(".ai4u-tabpanel:visible article")

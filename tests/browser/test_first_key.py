@@ -47,7 +47,7 @@ def test_a_key_starts_and_drives_and_r_repeats_the_start(site: ServedViser) -> N
     expect(banner(page)).to_have_text("Press a key to start")
     assert waits(site)
     drives(site, page)
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
     expect(banner(page)).to_have_count(0)
     page.keyboard.press("KeyR")
     expect(driver_status(page)).to_have_text("Press a key to start")
@@ -62,7 +62,7 @@ def test_a_key_that_drives_nothing_starts_too(site: ServedViser, key: str) -> No
     expect(banner(page)).to_have_text("Press a key to start")
     page.keyboard.press(key)
     until(lambda: tick(site) > 0)
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
 
 
 def test_keys_of_the_browser_and_of_the_help_do_not_start(
@@ -85,8 +85,8 @@ def test_keys_of_the_browser_and_of_the_help_do_not_start(
 
 def test_a_touch_screen_is_told_to_push_the_stick(site: ServedViser) -> None:
     page = site.page(touch=True)
-    expect(driver_status(page)).to_have_text("Push the stick to start")
-    expect(banner(page)).to_have_text("Push the stick to start")
+    expect(driver_status(page)).to_have_text("Move the stick to start")
+    expect(banner(page)).to_have_text("Move the stick to start")
 
 
 def test_the_result_offers_the_same_start_and_a_new_one(site: ServedViser) -> None:

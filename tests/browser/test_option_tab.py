@@ -26,6 +26,7 @@ def test_a_tab_of_an_option_is_loaded_sends_commands_and_shows_its_part(chromium
     with serve_world(runner, editor=editor, options=options, timeouts=PATIENT) as world:
         WITHOUT_VISER.serve(page, world.url)
         page.goto(world.url)
+        page.get_by_role("button", name="Details").click()
         drive = page.get_by_role("tabpanel", name="Drive")
         expect(drive.get_by_role("heading", name="Sensors")).to_be_visible()
         page.get_by_role("tab", name="Build").click()

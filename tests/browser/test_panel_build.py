@@ -83,7 +83,7 @@ DRIVERS = [
     {
         "name": "keys:StrikerController",
         "title": "Striker",
-        "reason": "It needs a sensor with the name ball.",
+        "reason": "Not for this robot: it needs a sensor with the name ball.",
     },
 ]
 GALLERY = [
@@ -274,7 +274,7 @@ def test_a_driver_is_chosen_and_one_that_can_not_drive_is_grey(tab: TabPage) -> 
     expect(driver).to_have_value("brain:0")
     striker = driver.locator("option", has_text="Striker")
     expect(striker).to_be_disabled()
-    expect(striker).to_contain_text("It needs a sensor with the name ball.")
+    expect(striker).to_contain_text("Not for this robot: it needs a sensor with the name ball.")
     tab.answer("driver", ok=False, text="It can't.")
     driver.select_option("network:zoo:box_chase")
     assert commands(tab) == [{"command": "driver", "name": "network:zoo:box_chase"}]
@@ -299,7 +299,7 @@ def test_controls_are_large_enough_and_have_names(
     tab.give(PART)
     tab.head("Ray sensor").click()
     tab.give({**PART, "form": FORM})
-    tab.page.get_by_text("Agent's settings").click()
+    tab.page.get_by_text("Robot settings").click()
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []
     tab.close()

@@ -119,7 +119,7 @@ def test_a_speed_that_is_not_in_the_list_is_shown(desk: PanelPage) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "mode"), [("Follow", "follow"), ("Turn with robot", "turn"), ("Robot's view", "eyes")]
+    ("name", "mode"), [("Follow", "follow"), ("Turn along", "turn"), ("Through its eyes", "eyes")]
 )
 def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
     def show_camera(sent: Json) -> Json:
@@ -135,10 +135,12 @@ def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
 
 def test_the_trail_and_the_camera_are_shown_as_they_are(desk: PanelPage) -> None:
     trail = desk.page.get_by_role("switch", name="Trail")
+    expect(trail).to_be_hidden()
+    desk.button("Details").click()
     expect(trail).to_have_attribute("aria-checked", "false")
     desk.panel.change("view", camera="turn", has_trail=True)
     expect(trail).to_have_attribute("aria-checked", "true")
-    expect(desk.button("Turn with robot")).to_have_attribute("aria-pressed", "true")
+    expect(desk.button("Turn along")).to_have_attribute("aria-pressed", "true")
 
 
 def test_details_tell_of_the_script_of_other_robots_and_of_the_latest_rewards(
@@ -183,8 +185,23 @@ def test_dark_is_remembered(desk: PanelPage) -> None:
     expect(desk.page.locator(".ai4u-panel")).to_have_css("color-scheme", "dark")
 
 
+def win(desk: PanelPage) -> None:
+    """Let the page know of a win by keys."""
+    desk.page.evaluate(
+        "times => localStorage.setItem('ai4u-best-times', JSON.stringify(times))",
+        {"maze-1": {"keys": 14.5}},
+    )
+    desk.page.reload()
+    desk.wait()
+
+
 def test_sensors_are_told_in_words_and_can_be_drawn(desk: PanelPage) -> None:
     sensor = desk.page.locator(".ai4u-sensor", has_text="Direction and distance")
+    hint = desk.page.get_by_text("After your first win, you see here what the robot senses.")
+    expect(sensor).to_be_hidden()  # a beginner drives first
+    expect(hint).to_be_visible()
+    win(desk)
+    expect(hint).to_be_hidden()
     expect(sensor).to_contain_text("4.20 m")
     expect(sensor.get_by_text("OrientationSensor")).to_be_hidden()
     eye = sensor.get_by_role("button")
@@ -201,6 +218,7 @@ def test_sensors_are_told_in_words_and_can_be_drawn(desk: PanelPage) -> None:
 
 
 def test_new_readings_keep_the_focus(desk: PanelPage) -> None:
+    win(desk)
     eye = desk.page.locator(".ai4u-sensor", has_text="Direction").get_by_role("button")
     eye.focus()
     sensors = desk.panel.parts["agent"]["sensors"]
@@ -221,10 +239,11 @@ def test_a_bar_begins_at_zero(desk: PanelPage) -> None:
 
 def test_rewards_are_a_table(desk: PanelPage) -> None:
     rows = desk.page.locator(".ai4u-table:visible tr")
-    expect(rows.filter(has_text="closer")).to_contain_text("0.12")
-    expect(rows.last).to_contain_text("2.75")
+    expect(rows).to_have_count(0)
     expect(desk.page.locator(".ai4u-curve.ai4u-details-only")).to_be_hidden()
     desk.button("Details").click()
+    expect(rows.filter(has_text="closer")).to_contain_text("0.12")
+    expect(rows.last).to_contain_text("2.75")
     line = desk.page.locator(".ai4u-details-only polyline")
     expect(line).to_have_attribute("points", re.compile(r"^0\.0,55\.2 .* 280\.0,2\.0$"))
 
@@ -297,7 +316,7 @@ WHY: Json = {
     "name": "why",
     "agent": "0",
     "problem": "",
-    "sentence": "It turns left because ray 4 sees the box; without it, it would go straight.",
+    "sentence": "It turns left because ray 4 sees the box. Without it, it would go straight.",
     "baseline": "the middle of its range",
     "limits": "Two slots that say the same can both seem unimportant.",
     "components": ["forward", "turn"],
@@ -323,14 +342,16 @@ def test_because_of_what(desk: PanelPage) -> None:
     desk.panel.let_network_drive()
     section = desk.page.locator(".ai4u-why-sentence")
     expect(section).to_be_hidden()
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: desk.panel.commands("why") == [{"on": True}])
     desk.panel.send(WHY)
     expect(section).to_have_text(WHY["sentence"])
-    items = desk.page.get_by_role("list", name="Slots that move the action most")
+    items = desk.page.get_by_role("list", name="Numbers that matter most")
     expect(items.get_by_role("listitem")).to_have_text(
         [re.compile("^ray 4 . the boxturn .40 %$"), re.compile("^box: distanceforward .20 %$")]
     )
+    expect(desk.page.get_by_text("We replace one sensor number at a time")).to_be_visible()
+    desk.page.get_by_text("How is this computed?").locator("visible=true").click()
     expect(desk.page.get_by_text(re.compile("^Compared with the middle"))).to_be_visible()
     # bars beside the numbers of a sensor, and cells under the strips of another one
     rows = desk.page.locator(".ai4u-bar-row[data-why]")
@@ -343,7 +364,7 @@ def test_because_of_what(desk: PanelPage) -> None:
     desk.panel.send(WHY | {"problem": "A person drives.", "sentence": "", "slots": [], "top": []})
     expect(section).to_have_text("A person drives.")
     expect(rows).to_have_count(0)
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: desk.panel.commands("why") == [{"on": True}, {"on": False}])
     expect(section).to_be_hidden()
     assert desk.problems == []
@@ -351,7 +372,7 @@ def test_because_of_what(desk: PanelPage) -> None:
 
 def test_because_of_what_is_asked_for_again_after_a_break(desk: PanelPage) -> None:
     desk.panel.let_network_drive()
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: len(desk.panel.commands("why")) == 1)
     desk.panel.drop()
     desk.until(lambda: len(desk.panel.commands("why")) == 2)
@@ -371,13 +392,13 @@ def test_what_if(desk: PanelPage) -> None:
         return {"dials": dials, "action": [turn]}
 
     desk.panel.replies["what_if"] = reply
-    desk.page.get_by_role("switch", name="Show because of what").click()
+    desk.page.get_by_role("switch", name="Show why").click()
     desk.until(lambda: desk.panel.commands("why"))
     desk.panel.send(WHY)
-    hint = desk.page.get_by_text("Pause the world to try other values.")
+    hint = desk.page.get_by_text("Press Pause, then try other numbers.")
     expect(hint).to_be_visible()
     desk.panel.change("run", is_paused=True)
-    slot = desk.page.get_by_label("If this were another number")
+    slot = desk.page.get_by_label("Try another number")
     expect(slot).to_be_visible()
     expect(hint).to_be_hidden()
     slot.select_option("direction")

@@ -29,7 +29,7 @@ VALUES: Json = {
     "seconds": 12.3,
     "low": -0.5,
     "high": 98.2,
-    "words": "what one episode from there pays",
+    "words": "The colours are the points of one try from there.",
     "colours": ["#00224e", "#fee838"],
 }
 
@@ -57,7 +57,7 @@ def desk(warm: PanelPage) -> PanelPage:
 def test_a_person_is_not_asked_for_reasons(desk: PanelPage) -> None:
     sections = [
         desk.page.locator("summary", has_text=title)
-        for title in ("Because of what", "What it would do elsewhere")
+        for title in ("Why?", "What if it stood somewhere else?")
     ]
     for each in sections:
         expect(each).to_be_visible()
@@ -68,8 +68,8 @@ def test_a_person_is_not_asked_for_reasons(desk: PanelPage) -> None:
 
 
 def test_maps_over_the_floor(desk: PanelPage) -> None:
-    arrows = desk.page.get_by_role("switch", name="Arrows: what it would do there")
-    colours = desk.page.get_by_role("switch", name="Colours: what each place is worth")
+    arrows = desk.page.get_by_role("switch", name="Arrows: where it would go")
+    colours = desk.page.get_by_role("switch", name="Colours: good and bad places")
     bar = desk.page.get_by_role("progressbar", name="Arrows")
     legend = desk.page.get_by_role("list", name="Arrows")
     arrows.click()
@@ -82,7 +82,7 @@ def test_maps_over_the_floor(desk: PanelPage) -> None:
     expect(legend.get_by_role("listitem")).to_have_text(
         ["turns left", "goes straight", "turns right"]
     )
-    desk.page.get_by_label("It would look").select_option("box")
+    desk.page.get_by_label("Facing").select_option("box")
     desk.until(lambda: desk.panel.commands("maps")[-1]["facing"] == "box")
     desk.panel.send(MAPS | {"field": MAPS["field"] | {"done": 200}})
     expect(bar).to_be_hidden()
@@ -91,7 +91,7 @@ def test_maps_over_the_floor(desk: PanelPage) -> None:
     desk.until(lambda: desk.panel.commands("maps")[-1]["values"])
     desk.panel.send(MAPS | {"values": VALUES})
     expect(desk.page.locator(".ai4u-map-scale")).to_have_text(re.compile("^.0.5098.2$"))
-    expect(desk.page.get_by_text("Worth is what one episode from there pays.")).to_be_visible()
+    expect(desk.page.get_by_text("Yellow: starting here ends well.")).to_be_visible()
     assert findings(desk.page, ".ai4u-maps") == []
     desk.button("Cancel: arrows").press("Enter")
     desk.until(lambda: not desk.panel.commands("maps")[-1]["field"])
@@ -115,7 +115,7 @@ def test_if_it_stood_here(desk: PanelPage) -> None:
     desk.panel.replies["elsewhere"] = reply
     switch = desk.page.get_by_role("switch", name="Try another place")
     switch.click()
-    hint = desk.page.get_by_text("Pause the world to try other places.")
+    hint = desk.page.get_by_text("Press Pause, then drag the purple robot.")
     expect(hint).to_be_visible()
     assert desk.panel.commands("elsewhere") == []
     desk.panel.change("run", is_paused=True)

@@ -20,7 +20,7 @@ MINE = {
     "source": "",
     "driver": "Keys W, A, S, D",
     "is_person": True,
-    "result": True,
+    "end": "goal",
     "reward": 9.7312,
     "decisions": 80,
     "seconds": 14.2,
@@ -33,7 +33,7 @@ NETWORKS = {
     "number": 4,
     "driver": "Trained network",
     "is_person": False,
-    "result": False,
+    "end": "fell",
     "is_best": False,
 }
 PLAYING = {
@@ -71,9 +71,9 @@ def tab(chromium: Browser) -> Iterator[TabPage]:
 def test_a_persons_drives_stand_apart(tab: TabPage) -> None:
     drives = tab.page.locator("details").filter(has_text="Your drives")
     expect(drives.locator("article")).to_have_count(1)
-    expect(drives).to_contain_text("Episode 3 · Donutgoal reached · reward 9.73 · 14.2 s★ best")
+    expect(drives).to_contain_text("Episode 3 · Donutwon in 14.2 s★ best")
     programs = tab.page.locator("details").filter(has_text="Networks and programs")
-    expect(programs).to_contain_text("Episode 4 · Donutgoal missed")
+    expect(programs).to_contain_text("Episode 4 · Donutfell after")
     expect(tab.page.get_by_text("Finished episodes appear here.")).to_be_hidden()
     tab.give({**PART, "episodes": []})
     expect(tab.page.get_by_text("Finished episodes appear here.")).to_be_visible()
@@ -94,7 +94,7 @@ def test_what_was_driven_elsewhere_stands_apart(tab: TabPage) -> None:
     tab.give({**PART, "playing": {**PLAYING, "number": 5, "scene": "Maze", "is_here": False}})
     expect(tab.page.get_by_text("Showing episode 5 · Maze")).to_be_visible()
     # its drivers are those of another scene
-    expect(tab.page.get_by_text("Two drivers on this episode")).to_be_hidden()
+    expect(tab.page.get_by_text("Compare two drivers")).to_be_hidden()
 
 
 def test_a_click_on_a_row_chooses_and_shows_it(tab: TabPage) -> None:
@@ -252,7 +252,7 @@ def test_controls_are_large_enough_and_have_names(
 
 
 def test_what_paid_in_the_episode(tab: TabPage) -> None:
-    title = tab.page.locator("summary").filter(has_text="What paid in this episode")
+    title = tab.page.locator("summary").filter(has_text="Where the points came from")
     expect(title).to_be_hidden()
     near = {"term": "near", "amount": -0.001}
     moments = [
@@ -289,11 +289,11 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     found = {"step": 11, "count": 80, "distance": [0, 0.1, 1.0], "largest": 1.0, "action": [turn]}
     reasons = {"first": "", "second": "It turns right because of ray 1."}
     tab.answer("compare", **found, **reasons)
-    title = tab.page.locator("summary").filter(has_text="Two drivers on this episode")
+    title = tab.page.locator("summary").filter(has_text="Compare two drivers")
     expect(title).to_be_hidden()
     tab.give({**PART, "playing": PLAYING})
     title.click()
-    first, second = tab.page.get_by_label("One driver"), tab.page.get_by_label("Another one")
+    first, second = tab.page.get_by_label("First"), tab.page.get_by_label("Second", exact=True)
     expect(first).to_have_value("what-it-did")
     expect(second).to_have_value("network:checkpoint-1.onnx")
     second.select_option("Network zoo:box_chase")
@@ -309,7 +309,7 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     tab.page.get_by_role("button", name="Show step 12").click()
     assert tab.sent()[-1] == {"command": "step", "step": 11}
     # a slider through the checkpoints, in the order of what they learned from
-    slider = tab.page.get_by_role("slider", name="The other one, after learning from")
+    slider = tab.page.get_by_role("slider", name="The second one, after learning from")
     expect(slider).to_have_attribute("max", "1")
     tab.answer("compare", **found | {"step": None, "largest": 0.04})
     slider.press("End")

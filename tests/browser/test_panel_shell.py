@@ -107,7 +107,7 @@ def test_a_failure_is_an_alert_and_a_result_a_status(desk: PanelPage) -> None:
 
 
 def test_details_are_remembered(desk: PanelPage) -> None:
-    decision = desk.button("Decision")
+    decision = desk.button("One decision")
     expect(decision).to_be_hidden()
     desk.button("Details").click()
     expect(decision).to_be_visible()

@@ -244,7 +244,7 @@ def test_an_unsaved_scene_is_offered(tab: TabPage) -> None:
 
 
 def test_settings_of_the_scene_change(tab: TabPage) -> None:
-    tab.page.get_by_text("Scene's settings").click()
+    tab.page.get_by_text("Scene settings").click()
     gravity = tab.page.get_by_label("gravity (m/s^2)")
     gravity.fill("1.6")
     gravity.press("Enter")

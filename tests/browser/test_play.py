@@ -65,7 +65,7 @@ def test_off_the_plate_it_falls_and_r_restarts(server: Played, page: Page) -> No
     assert state["reward_terms"]["fall"] == -1
     assert state["pose"][0] > 5
     assert state["pose"][1:2] == [0]
-    page.get_by_text("Fell.").wait_for()
+    page.get_by_text("You fell.").wait_for()
     until(lambda: agent(server)["pose"][2] < -1.5)  # and it goes on falling while one looks
     episode = server.snapshot()["episode"]
     page.keyboard.press("KeyR")
@@ -79,10 +79,11 @@ def test_to_the_box_it_is_a_hundred_and_the_end(server: Played, page: Page) -> N
     state = agent(server)
     assert state["reward_terms"]["touch"] == 100
     assert -3 < state["pose"][0] < -1.3  # where it touched, and as far as it coasted since
-    page.get_by_text(re.compile(r"Reached the goal in \d+\.\d s")).wait_for()
+    page.get_by_text(re.compile(r"You did it! \d+\.\d s")).wait_for()
 
 
 def test_the_page_shows_what_the_agent_senses(server: Played, page: Page) -> None:
+    page.get_by_role("button", name="Details").click()
     for text in ("Box chase", "Ray picture", "Direction and distance", "My last action", "Rewards"):
         page.locator(".ai4u-panel").get_by_text(text, exact=False).first.wait_for()
     assert page.evaluate(

@@ -102,7 +102,7 @@ def test_a_key_takes_the_agent_over_from_a_script_elsewhere_and_lets_it_go(
     )
     until(lambda: does(server, 0, 0.25, 0, 0))
     page.keyboard.down("KeyW")
-    expect(driver_status(page)).to_have_text("You drive")
+    expect(driver_status(page)).to_have_text("You're driving")
     until(lambda: does(server, 1, 0, 0, 0))
     page.keyboard.up("KeyW")
     assert script.poll() is None

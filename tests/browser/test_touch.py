@@ -57,11 +57,11 @@ def phone(site: ServedViser) -> Page:
 
 def test_the_stick_drives_by_halves_and_rests_when_let_go(site: ServedViser, phone: Page) -> None:
     fingers, (x, y) = Fingers(phone), centre(stick_of(phone))
-    expect(driver_status(phone)).to_have_text("Push the stick to drive")
+    expect(driver_status(phone)).to_have_text("Move the stick to drive")
     fingers.touch("touchStart", a=(x, y))
     fingers.touch("touchMove", a=(x, y - 25))
     until(lambda: 0.3 < pushed(site).forward < 0.8)
-    expect(driver_status(phone)).to_have_text("You drive")
+    expect(driver_status(phone)).to_have_text("You're driving")
     until(lambda: site.pose()[0] > 0.1)
     assert site.pose()[1] == 0, "a push that is nearly straight is straight"
     fingers.touch("touchMove", a=(x + 4, y - 300))

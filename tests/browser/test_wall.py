@@ -381,8 +381,8 @@ def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> 
 
 
 def test_everything_is_forgotten_only_after_export_and_code(page: Page, school: WallServer) -> None:
-    page.get_by_role("button", name="End of class…").click()
-    dialog = page.get_by_role("dialog", name="End of class")
+    page.get_by_role("button", name="End class…").click()
+    dialog = page.get_by_role("dialog", name="End class")
     forget = dialog.get_by_role("button", name="Forget everything")
     forget.click()
     expect(dialog.get_by_role("alert")).to_contain_text("Export first")

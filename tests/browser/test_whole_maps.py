@@ -36,11 +36,11 @@ def page(server: Played, chromium: Browser) -> Iterator[Page]:
 
 
 def test_arrows_and_colours_lie_on_the_floor_until_they_are_cancelled(page: Page) -> None:
-    arrows = page.get_by_role("switch", name="Arrows: what it would do there")
+    arrows = page.get_by_role("switch", name="Arrows: where it would go")
     arrows.click()
-    page.get_by_label("It would look").select_option("box")
+    page.get_by_label("Facing").select_option("box")
     until_drawn(page, lambda picture: share(picture, rgb("blue")) > 0.05)
-    colours = page.get_by_role("switch", name="Colours: what each place is worth")
+    colours = page.get_by_role("switch", name="Colours: good and bad places")
     colours.click()
     expect(page.locator(".ai4u-map-progress:visible")).to_have_count(0)
     until_drawn(page, lambda picture: share(picture, rgb("#fee838"), 60) > 0.15)

@@ -138,7 +138,7 @@ def test_the_camera_is_where_it_is_wanted(page: Page) -> None:
         return share(picture, SKY) > 0.1
 
     arena = until_drawn(page, lambda picture: not has_sky(picture))
-    press(page, "Robot's view")
+    press(page, "Through its eyes")
     seen = until_drawn(page, has_sky)
     page.keyboard.down("KeyA")  # it looks around
     until_drawn(page, lambda picture: bool(np.abs(picture.astype(int) - seen).mean() > 1))

@@ -102,7 +102,7 @@ def test_a_controller_of_an_agent_gets_the_same_kind_of_percept() -> None:
     told = occlusion(
         agent.brain, agent.percept, baseline=middle_of(agent), groups=groups_of_agent(agent)
     )
-    assert told.names[told.strongest()] == "bearing: sine"
+    assert told.names[told.strongest()] == "bearing: left?"
     assert told.shift[told.strongest()].tolist() == pytest.approx(
         [0, -agent.percept["bearing"][0], 0, 0]
     )

@@ -51,7 +51,7 @@ def turns_for_ray(ray: int, rays: int = 9) -> Any:
 def test_the_sentence_names_the_planted_ray() -> None:
     # 1 m to the left at 3 m: 18 degrees; ray 3 of 9 in 90 degrees is at 18
     assert told_of(robot_and_box(turns_for_ray(3))) == (
-        "It turns left because ray 3 sees the box; without it, it would go straight."
+        "It turns left because ray 3 sees the box. Without it, it would go straight."
     )
 
 
@@ -138,7 +138,7 @@ def of(policy: Any, percept: dict[str, Any] = ONE, axes: tuple[Axis, ...] = ()) 
         pytest.param(
             lambda a, b: max(a, b),
             ONE,
-            "It has action above 0 because of a and of b together; without both, it would have "
+            "It has action above 0 because of a and of b together. Without both, it would have "
             "action near 0.",
             id="two-together",
         ),
@@ -165,7 +165,7 @@ def test_each_cause_of_no_single_slot_has_its_sentence(
 
 def test_equal_slots_are_all_named_and_the_sum_of_the_parts_is_told() -> None:
     assert of(lambda a, b: a * b) == [
-        "It has action above 0 because of a and of b; without one of them, it would have action "
+        "It has action above 0 because of a and of b. Without one of them, it would have action "
         "near 0.",
         "Left out one by one, the slots explain 200% of what all do together: some need each "
         "other.",
@@ -224,7 +224,7 @@ def test_wheels_and_eyes_have_words_of_their_own() -> None:
         groups=groups,
     )
     assert sentence(told, [Axis("left", -1, 1), Axis("right", -1, 1)]) == (
-        f"It turns its right wheel forward because {lit.name} sees the line; without it, it would "
+        f"It turns its right wheel forward because {lit.name} sees the line. Without it, it would "
         "stop its right wheel."
     )
     jumps = [Axis("jump", 0, 1)]
@@ -237,13 +237,15 @@ def test_more_and_less_of_the_same() -> None:
         robot_and_box(lambda percept: {"move": [0.2 + 0.5 * percept["bearing"][1], 0, 0, 0]})
     )
     assert more == (
-        "It drives forward by 0.67 because of bearing: cosine; without it, it would by only 0.20."
+        "It drives forward by 0.67 because the box is ahead of it. Without that sensor, it would "
+        "by only 0.20."
     )
     less = told_of(
         robot_and_box(lambda percept: {"move": [1 - percept["bearing"][1] / 2, 0, 0, 0]})
     )
     assert less == (
-        "It drives forward by only 0.53 because of bearing: cosine; without it, it would by 1.00."
+        "It drives forward by only 0.53 because the box is ahead of it. Without that sensor, it "
+        "would by 1.00."
     )
 
 
@@ -256,6 +258,6 @@ def test_what_has_no_effect_is_not_told() -> None:
 def test_an_action_nobody_described_has_its_own_names() -> None:
     told = occlusion(lambda percept: [percept["a"]], {"a": 0.5}, baseline={"a": np.zeros(())})
     assert sentence(told, []) == (
-        "It has action above 0 because of a; without it, it would have action near 0."
+        "It has action above 0 because of a. Without it, it would have action near 0."
     )
     assert told.groups == (Group("a", "a", told.groups[0].mask),)

@@ -67,14 +67,20 @@ def test_the_best_one_reached_the_goal_first() -> None:
 def test_the_best_ones_of_scenes_and_drivers_are_apart() -> None:
     archive = Archive()
     assert archive.bests() == frozenset()
-    chase = take("box_chase", decisions=20).episode
-    (agent,) = chase.agents
+    lost = take("box_chase", decisions=20).episode
+    (agent,) = lost.agents
+    no_goal = lost.scene.model_copy(update={"success": None})
+    chase = replace(lost, scene=no_goal)
     by_keys = "LocalBrain(WASDRBMoveController)"
     person = replace(chase, agents=(replace(agent, driver=by_keys),))
-    other = replace(chase, scene=chase.scene.model_copy(update={"name": "donut"}))
-    for episode in (chase, chase, person, person, other):
+    program = replace(chase, agents=(replace(agent, driver="RemoteBrain(a script)"),))
+    other = replace(chase, scene=no_goal.model_copy(update={"name": "donut"}))
+    changed = replace(chase, scene=no_goal.model_copy(update={"bodies": no_goal.bodies[:1]}))
+    for episode in (chase, chase, person, person, program, other, changed, lost, lost):
         archive.append(episode)
-    assert archive.bests() == {1, 3}  # one of a kind is no best one
+    assert archive.bests() == {1, 3}  # one of a kind is no best one, and neither is a lost one
+    archive.append(program)
+    assert archive.bests() == {1, 3, 5}
 
 
 def test_a_program_that_took_most_decisions_is_no_person() -> None:

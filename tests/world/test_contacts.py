@@ -51,6 +51,11 @@ def test_begin_and_separate(pair: Pair) -> None:
     pair.robot.move_to(-2, 0)
     pair.run(1)
     assert pair.view.contacts(pair.robot) == ()
+    assert pair.world.contacts.begun("robot") == 1
+    pair.meet()
+    assert pair.world.contacts.begun("robot") == 2
+    pair.world.reset()
+    assert pair.world.contacts.begun("robot") == 0
 
 
 def test_contacts_are_tracked_for_watched_bodies_only(pair: Pair) -> None:

@@ -10,7 +10,7 @@ const MIN_HELP = 30;
  * @type {Record<string, {text: string, sign: string}>}
  */
 const STATUSES = {
-  waiting: { text: "not begun", sign: "○" },
+  waiting: { text: "not started", sign: "○" },
   driving: { text: "driving", sign: "▶" },
   solved: { text: "solved", sign: "✓" },
   fell: { text: "fell", sign: "↓" },

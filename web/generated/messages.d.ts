@@ -329,8 +329,8 @@ export interface KeptEpisode {
   driver: string;
   /** True if a person took most decisions, by keys. */
   is_person: boolean;
-  /** True if an agent reached the goal; null for a scene without a goal. */
-  result: boolean | null;
+  /** Its end: an agent reached the goal, the one that acts first fell, or the time was up. */
+  end: "fell" | "goal" | "over" | "time";
   /** Sum of the rewards of the agent that acts first. */
   reward: number;
   /** Decisions of the agent that acts first. */
@@ -948,6 +948,10 @@ export interface StateEvent {
   terms: Record<string, number | null>;
   /** Codes of the keys that the agent sees held. */
   held: string[];
+  /** Contacts of its body with others that have begun since the world's reset. */
+  bumps: number;
+  /** Things that it has collected, and stages that it has passed, in this episode. */
+  collects: number;
 }
 
 /** Position of a stick on the screen or a gamepad. */

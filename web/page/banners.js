@@ -14,12 +14,12 @@ const NOT_BOLD_KINDS = ["error", "task"];
  * @type {Record<string, string[]>}
  */
 const OUTCOME_TEXTS = {
-  goal: ["Reached the goal", "reached the goal"],
-  won: ["You win", "wins"],
+  goal: ["You did it!", "did it!"],
+  won: ["You won!", "won!"],
   lost: ["You lost.", "lost."],
-  fell: ["Fell.", "fell."],
+  fell: ["You fell.", "fell."],
   time: ["Time is up."],
-  over: ["Episode over."],
+  over: ["The try is over."],
 };
 const WINS = ["goal", "won"];
 /**
@@ -50,7 +50,7 @@ const MIN_TERM = 0.005;
  * @property {string} held the text for a world that a teacher holds; empty for none
  * @property {string} howToStart what the person does to start, such as "press a key"; empty if this page can't
  */
-/** @typedef {{kind: string, text: string, amount?: string, hint?: string, details?: string, buttons?: string[]}} Banner */
+/** @typedef {{kind: string, text: string, hint?: string, details?: string, score?: string, buttons?: string[]}} Banner */
 
 export class Banners {
   #sendCommand;
@@ -131,12 +131,12 @@ export class Banners {
   }
 
   /** @param {Banner} banner */
-  #element({ kind, text, amount, hint, details, buttons = [] }) {
+  #element({ kind, text, hint, details, score, buttons = [] }) {
     const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
     const words = element("p", {}, element(tag, { textContent: text }));
-    if (amount) words.append(" ", element("span", { className: "ai4u-amount", textContent: amount }));
     if (hint) words.append(element("span", { className: "ai4u-hint", textContent: hint }));
     if (details) words.append(element("small", { textContent: details }));
+    if (score) words.append(element("small", { className: "ai4u-details-only", textContent: score }));
     const made = element("div", { className: "ai4u-banner" }, words);
     made.dataset.kind = kind;
     for (const name of buttons) {
@@ -163,7 +163,7 @@ function outcomeText(state, { name, result }) {
   const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
   const text = name && theirs ? `${name} ${theirs}` : mine;
   if (!WINS.includes(state.outcome)) return text;
-  return result ? text + timeText(result) : `${text}!`;
+  return result ? text + timeText(result) : text;
 }
 
 /**
@@ -186,12 +186,12 @@ function outcomeBanner(state, page) {
   const { outcome, reward, terms } = state;
   const isWin = WINS.includes(outcome);
   const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= MIN_TERM);
+  const sum = parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ");
   return {
     kind: isWin ? "goal" : "over",
     text: outcomeText(state, page),
-    amount: signed(reward),
-    hint: page.restart && ` – press ${page.restart} to ${isWin ? "play" : "try"} again`,
-    details: parts.length > 1 ? parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ") : "",
+    hint: page.restart && ` Press ${page.restart} to ${isWin ? "play" : "try"} again.`,
+    score: [`Score ${signed(reward)}`, parts.length > 1 && sum].filter(Boolean).join(": "),
     buttons: isWin ? ["Play again", "New start", "Next scene"] : ["Try again", "New start"],
   };
 }

@@ -71,5 +71,5 @@ function status({ connected, hello, control, howToDrive, isWaiting, isHeld, isRe
   if (isWaiting && (isMine || control.driver === null)) return [isMine ? "mine" : "free", `${capitalized(howToDrive)} to start`];
   if (control.driver === null) return ["free", `${capitalized(howToDrive)} to drive`];
   if (!isMine) return ["other", `${control.name || "Another page"} drives`];
-  return ["mine", "You drive"];
+  return ["mine", "You're driving"];
 }

@@ -4,7 +4,6 @@ import { element } from "../shared/dom.js";
 import { isDrawnBySoftware } from "./graphics.js";
 import { isTextInput } from "./keys.js";
 import { label } from "./labels.js";
-import { isToneOn, setTone } from "../shared/tone.js";
 import { copyLink } from "../scenes/share.js";
 
 const PAGE_PARTS = {
@@ -15,7 +14,7 @@ const PAGE_PARTS = {
 };
 const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to jump forward, Start to restart.";
 
-const START_TEXT = "Restart tries the same start again. N draws a new start, unless N is a driving key.";
+const START_TEXT = "R tries the same start again. N gives a new start, unless N is a driving key.";
 const GRAPHICS_TEXT =
   "Drawn without a graphics card, so the picture may be slow. If there is one, turn hardware acceleration on in the browser.";
 
@@ -29,7 +28,6 @@ export class Help {
   #status = element("p", { className: "ai4u-status", role: "status" });
   #graphics = element("p", { hidden: true, textContent: GRAPHICS_TEXT });
   #reset = element("button", { type: "button", className: "ai4u-plain", textContent: "Reset keys" });
-  #tone = element("input", { type: "checkbox" });
   /**
    * The action whose new key is waited for; null if none is.
    * @type {string | null}
@@ -72,7 +70,6 @@ export class Help {
     this.#keys.releaseAll();
     this.#status.textContent = "";
     this.#graphics.hidden = !isDrawnBySoftware();
-    this.#tone.checked = isToneOn();
     this.#listKeys();
     this.#dialog.showModal(); // traps the focus, and restores it on closing
   }
@@ -121,10 +118,8 @@ export class Help {
       element("p", { textContent: GAMEPAD_TEXT }),
       element("h3", { textContent: "On this page" }),
       element("dl", {}, ...descriptions),
-      element("label", {}, this.#tone, " Play a short tone when you reach the goal"),
       this.#graphics,
     );
-    this.#tone.addEventListener("change", () => setTone(this.#tone.checked));
     this.#dialog.addEventListener("keydown", (event) => this.#rebind(event), { capture: true });
     // else viser moves its camera
     this.#dialog.addEventListener("keydown", (event) => event.stopPropagation());

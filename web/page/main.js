@@ -14,6 +14,7 @@ import { showLeft } from "../classroom/student/overlay.js";
 import { element } from "../shared/dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
+import { Effects, flyStars } from "./effects.js";
 import { keysReachPage, watchFocus } from "./focus.js";
 import { Gamepads } from "./gamepad.js";
 import { Help } from "./help.js";
@@ -23,9 +24,9 @@ import { Keycaps } from "./keycaps.js";
 import { label, loadLayout } from "./labels.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "../scenes/share.js";
-import { KEYS, PROGRAM, Results } from "./results.js";
+import { stars } from "../scenes/stars.js";
+import { KEYS, NETWORK, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "../shared/socket.js";
-import { playTone } from "../shared/tone.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -61,6 +62,7 @@ const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${enco
 const keymap = new KeyMap();
 const keys = new HeldKeys(() => {
   if (!isHeld()) socket.send({ type: "keys", held: keys.held, stick: keys.stick });
+  followMotor();
   draw();
 });
 const row = element("div", { className: "ai4u-row" });
@@ -86,7 +88,8 @@ let classBar = null;
 let panel = null;
 const gamepads = new Gamepads(keys);
 const help = new Help(row, keys, keymap, arrange);
-const results = new Results(playTone);
+const effects = new Effects(row);
+const results = new Results();
 /** @param {keyof Commands} command one that needs no arguments */
 const send = (command) => socket.send({ type: "do", id: 0, command });
 const banners = new Banners(send);
@@ -139,7 +142,9 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
       break;
     case "state":
       if ((message.paused && !state?.paused) || (message.waiting === HELD && !isHeld())) keys.releaseAll();
+      effects.follow(state, message, isMyDrive());
       state = message;
+      followMotor();
       break;
     case "class":
       classBar ??= new ClassBar(draw);
@@ -151,6 +156,7 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
       break;
   }
   draw();
+  if (message.type === "state" && message.outcome) panel?.dispatchEvent(new Event("win"));
 };
 
 /** Apply the agent's key bindings to the keyboard, the screen's keys, gamepads and the help. */
@@ -178,10 +184,10 @@ function draw() {
   const scene = panel?.part("scene");
   const task = HAS_PANEL && !scene ? "" : scene?.key || state?.title;
   const result = results.of(connected ? state : null, task, task ? driverOfEpisode(isDriven) : "");
-  const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : "";
-  panel?.drawBest(driver ? results.best(task, driver) : null, driver === PROGRAM);
+  const driver = panel?.hasProgram ? PROGRAM : isDriven ? KEYS : otherDriver();
+  panel?.drawBest(driver ? results.best(task, driver) : null, driver);
   banners.draw(connected ? state : null, {
-    restart: label(keymap.keys.restart?.[0] ?? ""),
+    restart: dock.hasAttribute("data-touch") ? "" : label(keymap.keys.restart?.[0] ?? ""),
     name: isDriven ? "" : hello.name,
     isNew: !hasActed,
     isLost,
@@ -192,14 +198,34 @@ function draw() {
 }
 
 /**
- * Return who drives the present episode, for its time; empty for networks, scripts and tests.
+ * Return what drives the present episode, for its time; empty for scripts elsewhere and tests.
  * @param {boolean} isDriven true if a person may drive by this page's keys
  */
 function driverOfEpisode(isDriven) {
   const program = panel?.program;
   const isPrograms = program?.agent === hello.agent && program?.episode === state?.agent_episode;
   if (isPrograms) return program.isTest ? "" : PROGRAM;
-  return isDriven ? KEYS : "";
+  if (isDriven) return isMyDrive() ? KEYS : ""; // another page may drive it
+  return otherDriver();
+}
+
+/** Return true if this page, or its program, drives the agent: others' robots make no sound. */
+function isMyDrive() {
+  if (panel?.hasProgram) return true;
+  if (hello.others) return false;
+  return control.driver === hello.you || (control.driver === null && hasActed);
+}
+
+/** Let the motor hum while this page's keys move the robot. */
+function followMotor() {
+  const isMoving = keys.held.length > 0 || keys.stick.forward !== 0 || keys.stick.turn !== 0;
+  const isStill = !state || state.paused || state.outcome || state.past || state.waiting;
+  effects.motor(isMoving && !isStill && control.driver === hello.you);
+}
+
+/** Return NETWORK if a network drives the agent, else an empty text. */
+function otherDriver() {
+  return /network/i.test(hello.others || hello.brain) ? NETWORK : "";
 }
 
 /** Return true while a teacher holds the world, or a race counts down. */
@@ -214,7 +240,7 @@ function canDrive() {
 
 /** Return what a person does to start driving, in words. */
 function howToDrive() {
-  if (dock.hasAttribute("data-touch")) return hello.stick ? "push the stick" : "tap a key";
+  if (dock.hasAttribute("data-touch")) return hello.stick ? "move the stick" : "tap a key";
   if (!hello.others) return "press a key";
   const first = [...dpadActions(hello.keys).values(), ...Object.keys(hello.keys)][0];
   return `press ${label(keymap.keys[first]?.[0] ?? "")}`;
@@ -223,6 +249,7 @@ function howToDrive() {
 // a notebook keeps its frame hidden until this message
 if (window.parent !== window) window.parent.postMessage("ai4u-edu", "*");
 
+stars.addEventListener("change", (event) => event instanceof CustomEvent && flyStars(event.detail));
 draw();
 loadLayout().then(arrange);
 socket.open();

@@ -1,12 +1,19 @@
 /** A person's results: the time of an episode that reached the goal, and the best times in this browser. */
 
 /** @import { StateEvent } from "../generated/messages.js" */
+import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
 
-const WINS = ["goal", "won"];
+export const WINS = ["goal", "won"];
 /** Drivers whose times are kept apart. */
 export const KEYS = "keys";
 export const PROGRAM = "program";
+export const NETWORK = "network";
+/**
+ * Words for a best time by driver.
+ * @type {Record<string, string>}
+ */
+const WHOSE = { program: "your program's best", network: "the network's best" };
 /** Kinds of a time, compared with the best one before. */
 export const FIRST = "first";
 export const BEST = "best";
@@ -18,19 +25,13 @@ export class Results {
   #episode = "";
   /** @type {Result | null} */
   #result = null;
-  #onwin;
-
-  /** @param {() => void} onwin called once for each episode that a person won */
-  constructor(onwin) {
-    this.#onwin = onwin;
-  }
 
   /**
    * Return the result of the episode that has just ended, or null.
    *
    * @param {StateEvent | null} state the server's last one; null while disconnected
    * @param {string} task what is driven, such as the scene's name
-   * @param {string} by KEYS or PROGRAM: what drives; empty for others, whose results are not kept
+   * @param {string} by KEYS, PROGRAM or NETWORK: what drives; empty for others, whose results are not kept
    */
   of(state, task, by) {
     if (!state?.outcome || state.past) {
@@ -48,7 +49,7 @@ export class Results {
   /**
    * Return the best time (s) of a driver; null if there is none.
    * @param {string} task what is driven
-   * @param {string} by KEYS or PROGRAM
+   * @param {string} by KEYS, PROGRAM or NETWORK
    */
   best(task, by) {
     return timesOf(task)[by] ?? null;
@@ -63,31 +64,51 @@ export class Results {
     const times = timesOf(task);
     const before = times[by];
     const isBetter = before === undefined || seconds < before;
-    if (isBetter) remember("best-times", { ...recall("best-times", {}), [task]: { ...times, [by]: seconds } });
-    this.#onwin();
+    if (isBetter) remember(key(), { ...recall(key(), {}), [task]: { ...times, [by]: seconds } });
     const kind = before === undefined ? FIRST : isBetter ? BEST : SLOWER;
     return { seconds, best: isBetter ? seconds : before, kind, by };
   }
 }
 
 /**
- * Return the best times for a task by driver. Earlier versions kept one number, of whoever drove.
+ * Return the best times (s) for a task by driver. Earlier versions kept one number, of whoever drove.
  * @param {string} task
  * @returns {Record<string, number>}
  */
-function timesOf(task) {
-  const times = recall("best-times", {})[task];
+export function timesOf(task) {
+  const times = recall(key(), {})[task];
   return typeof times === "object" ? times : {};
 }
 
 /**
- * Return a result as the end of a sentence: " in 2.3 s, your best".
+ * Return the best times for a task as a text: "Best: you 12.3 s · your program 9.0 s"; empty without any.
+ * @param {string} task
+ */
+export function timesText(task) {
+  const times = timesOf(task);
+  const parts = [[KEYS, "you"], [PROGRAM, "your program"]].filter(([by]) => typeof times[by] === "number");
+  return parts.length ? `Best: ${parts.map(([by, who]) => `${who} ${format(times[by])} s`).join(" · ")}` : "";
+}
+
+/** Return true if a person has won by keys before, in any scene. */
+export function hasWon() {
+  return Object.values(recall(key(), {})).some((times) => typeof times?.[KEYS] === "number");
+}
+
+/**
+ * Return a result as the end of a sentence: " 2.3 s – your best".
  * @param {Result} result
  */
 export function timeText({ seconds, best, kind, by }) {
-  const [time, whose] = [` in ${format(seconds)} s`, by === PROGRAM ? "your program's best" : "your best"];
-  if (kind === BEST) return `${time}, ${whose}`;
+  const [time, whose] = [` ${format(seconds)} s`, WHOSE[by] ?? "your best"];
+  if (kind === BEST) return `${time} – ${whose}`;
   return kind === SLOWER ? `${time} (${whose}: ${format(best)} s)` : time;
+}
+
+/** Students of a class may use one device in turn. */
+function key() {
+  const room = roomOfPage();
+  return room ? `best-times-${room}` : "best-times";
 }
 
 /** @param {number} seconds */

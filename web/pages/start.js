@@ -5,6 +5,7 @@ import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
+import { timesText } from "../page/results.js";
 import { watchSharedScene } from "../scenes/share.js";
 import { starRow, starsOf } from "../scenes/stars.js";
 
@@ -42,6 +43,7 @@ showLessons();
  * @property {string} level
  * @property {number | null} minutes to reach the goal for the first time
  * @property {number} stars
+ * @property {string} key of its task, for best times; empty for a saved one
  * @property {string} picture its address
  */
 
@@ -55,7 +57,7 @@ async function open(wanted, title) {
   isOpening = true;
   try {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    if (text && !(await ask({ title: `Open ${title}?`, text, yes: "Open" }))) return;
     find("main").setAttribute("aria-busy", "true");
     await request("api/scene", wanted);
     goToWorld();
@@ -90,21 +92,23 @@ async function showScenes() {
  * @param {Card} card
  * @param {{name: string} | {saved: string}} wanted
  */
-function sceneCard({ name, title, goal, level, minutes, stars, picture }, wanted) {
+function sceneCard({ name, title, goal, level, minutes, stars, key, picture }, wanted) {
   cards += 1;
   const id = cards;
   const facts = [level, minutes && `${minutes} min`].filter(Boolean).join(" · ");
   const row = stars > 0 && starRow(starsOf(name), stars).element;
+  const times = timesText(key);
   const button = element(
     "button",
     { type: "button" },
     scenePicture(picture, title),
     element("span", { className: "ai4u-name", id: `title-${id}`, textContent: title }),
     element("span", { className: "ai4u-facts", id: `facts-${id}`, hidden: !facts && !row }, facts, row),
+    element("span", { className: "ai4u-times", id: `times-${id}`, hidden: !times, textContent: times }),
     element("span", { id: `goal-${id}`, textContent: goal }),
   );
   button.setAttribute("aria-labelledby", `title-${id}`);
-  button.setAttribute("aria-describedby", `facts-${id} goal-${id}`);
+  button.setAttribute("aria-describedby", `facts-${id} times-${id} goal-${id}`);
   button.addEventListener("click", () => open(wanted, title));
   return element("li", {}, button);
 }

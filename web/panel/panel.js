@@ -243,12 +243,12 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   }
 
   /**
-   * Show the best time (s) of whoever drives, the person or the program.
+   * Show the best time (s) of a kind of driver.
    * @param {number | null} time null for none
-   * @param {boolean} isPrograms
+   * @param {string} by the kind, as of results.js
    */
-  drawBest(time, isPrograms) {
-    this.#run.drawBest(time, isPrograms);
+  drawBest(time, by) {
+    this.#run.drawBest(time, by);
   }
 
   /** @param {boolean} isOn */

@@ -11,6 +11,11 @@ import { number, seconds } from "../shared/numbers.js";
 
 /** Most characters of a goal, as a scene's file takes. */
 const MAX_GOAL_CHARS = 2000;
+/**
+ * Names of best times by the kind of driver.
+ * @type {Record<string, string>}
+ */
+const BEST = { program: "Best (code)", network: "Best (network)" };
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, "max"];
 
 export class RunControls {
@@ -25,7 +30,7 @@ export class RunControls {
   #problem = element("p", { className: "ai4u-run-problem", role: "alert" });
   #status = element("p", { className: "ai4u-soft ai4u-details-only ai4u-run-status" });
   #change = button("", () => this.#changeGoal(), { icon: "text", label: "Change the goal", kind: "quiet" });
-  #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }), { kind: "main" });
+  #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }));
   #speed = element("select", { id: freeId() });
   #seed = element("input", { type: "text", inputMode: "numeric", id: freeId(), autocomplete: "off" });
   #lock = toggle("Lock", (on) => this.#panel.send("lock_seed", { on }), { title: "Begin each episode with this seed" });
@@ -36,17 +41,18 @@ export class RunControls {
     this.#panel = panel;
     this.#goal.append(this.#change);
     this.#goalText.addEventListener("click", () => this.#change.hidden || this.#changeGoal());
-    this.drawBest(null, false);
+    this.drawBest(null, "");
+    this.#facts.score.element.classList.add("ai4u-details-only");
     const quietly = (/** @type {"try_again" | "new_start"} */ command) => panel.send(command, {}, { quiet: true });
-    const again = button("Try again", () => quietly("try_again"), { title: "Begin an episode with the same start" });
-    const fresh = button("New start", () => quietly("new_start"), { title: "Begin an episode with a new start" });
+    const again = button("Try again", () => quietly("try_again"), { title: "Start again from the same place", kind: "main" });
+    const fresh = button("New start", () => quietly("new_start"), { title: "Start again from another place" });
     const facts = element("dl", { className: "ai4u-facts" }, ...Object.values(this.#facts).map(({ element: made }) => made));
     this.element = element(
       "section",
       { className: "ai4u-run", ariaLabel: "Run" },
       this.#goal,
       facts,
-      element("div", { className: "ai4u-buttons" }, this.#pause, again, fresh),
+      element("div", { className: "ai4u-buttons" }, again, fresh, this.#pause),
       this.#stages,
       this.#details(),
       this.#status,
@@ -59,8 +65,8 @@ export class RunControls {
 
   #details() {
     const panel = this.#panel;
-    const tick = button("Tick", () => panel.send("tick", {}, { quiet: true }), { title: "Pause, and run one tick of the physics" });
-    const decision = button("Decision", () => panel.send("decision", {}, { quiet: true }), { title: "Pause, and run to the agent's next decision" });
+    const tick = button("One tick", () => panel.send("tick", {}, { quiet: true }), { title: "Pause, and run one tick of the physics" });
+    const decision = button("One decision", () => panel.send("decision", {}, { quiet: true }), { title: "Pause, and run to the agent's next decision" });
     const options = SPEEDS.map((speed) => element("option", { value: speed, textContent: speed === "max" ? "maximum" : `${speed}x` }));
     this.#speed.append(...options);
     this.#speed.addEventListener("change", () => {
@@ -86,15 +92,15 @@ export class RunControls {
   }
 
   /**
-   * Show the best time (s) of whoever drives, the person or the program.
+   * Show the best time (s) of a kind of driver.
    * @param {number | null} time null for none
-   * @param {boolean} isPrograms
+   * @param {string} by the kind, as of results.js
    */
-  drawBest(time, isPrograms) {
+  drawBest(time, by) {
     const { best } = this.#facts;
     best.element.hidden = typeof time !== "number";
     if (best.element.hidden) return;
-    setText(best.element.firstChild, isPrograms ? "Best (code)" : "Best");
+    setText(best.element.firstChild, BEST[by] ?? "Best");
     best.set(seconds(time));
   }
 

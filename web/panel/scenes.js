@@ -80,7 +80,7 @@ export class ScenePicker {
   /** @param {SceneCard} scene */
   async #load({ name, title, is_saved: isSaved = false }) {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    if (text && !(await ask({ title: `Open ${title}?`, text, yes: "Open" }))) return;
     await this.#panel.send("open_scene", { name, is_saved: isSaved });
   }
 }

@@ -11,8 +11,8 @@ import { segments, toggle } from "./widgets/parts.js";
 const CAMERAS = [
   { value: "arena", text: "Arena", title: "See everything from above" },
   { value: "follow", text: "Follow", title: "Stay above the robot" },
-  { value: "turn", text: "Turn with robot", title: "Stay above the robot and turn with it" },
-  { value: "eyes", text: "Robot's view", title: "See what the robot would see" },
+  { value: "turn", text: "Turn along", title: "Stay above the robot and turn with it" },
+  { value: "eyes", text: "Through its eyes", title: "See what the robot would see" },
 ];
 
 const LESS_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
@@ -28,6 +28,7 @@ export class ViewControls {
     const cameras = segments("Camera", CAMERAS, (mode) => panel.send("camera", { mode }, { quiet: true }));
     cameras.element.classList.add("ai4u-cameras");
     const trail = toggle("Trail", (on) => panel.send("trail", { on }, { quiet: true }), { title: "Draw the robot's way" });
+    trail.element.classList.add("ai4u-details-only");
     panel.addEventListener("part:view", ({ detail }) => {
       cameras.set(detail.camera);
       trail.set(detail.has_trail);

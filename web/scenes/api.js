@@ -29,6 +29,6 @@ export async function unsavedSentence() {
   const { is_changed: isChanged, is_autosaved: isAutosaved } = await request("api/scene");
   if (!isChanged) return "";
   return isAutosaved
-    ? "Your present scene is kept among the unsaved ones."
-    : "Your present scene has changes that are not saved. Undo brings it back.";
+    ? "Your scene is kept; find it under Unsaved."
+    : "Your scene has changes that are not saved. Undo brings it back.";
 }

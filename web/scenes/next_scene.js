@@ -10,7 +10,7 @@ export async function openNextScene() {
     const index = scenes.findIndex((/** @type {{name: string}} */ scene) => scene.name === present);
     const { name, title } = scenes[(index + 1) % scenes.length];
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: `Open “${title}”?`, text, yes: "Open" }))) return;
+    if (text && !(await ask({ title: `Open ${title}?`, text, yes: "Open" }))) return;
     await request("api/scene", { name });
   } catch (error) {
     await tell("The next scene can't be opened", error.message);

@@ -37,7 +37,7 @@ export function earn(scene, count) {
   const all = { ...allStars(), [scene]: count };
   if (Object.keys(all).length > MAX_SCENES) return false;
   remember(key(), all);
-  stars.dispatchEvent(new Event("change"));
+  stars.dispatchEvent(new CustomEvent("change", { detail: count }));
   return true;
 }
 

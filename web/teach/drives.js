@@ -82,5 +82,5 @@ export class Drives {
 
 /** @param {TaughtDrive} drive */
 function outcome({ result }) {
-  return result === null ? "" : result ? "goal reached" : "goal missed";
+  return result === null ? "" : result ? "goal reached" : "not there yet";
 }

@@ -52,6 +52,12 @@ class CollectActuator(Actuator):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._due: dict[str, int] = {}
+        self._count = 0
+
+    @property
+    def count(self) -> int:
+        """Number of bodies that it has collected in this episode."""
+        return self._count
 
     def space(self) -> Box:
         """Return a space without numbers."""
@@ -66,6 +72,7 @@ class CollectActuator(Actuator):
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forget the bodies that came back with the reset of the world."""
+        self._count = 0
         self._due = {
             name: due for name, due in self._due.items() if name in view and view[name].fallen
         }
@@ -94,6 +101,7 @@ class CollectActuator(Actuator):
 
     def _collect(self, thing: Body, view: WorldView) -> None:
         thing.leave()
+        self._count += 1
         for name, amount in self.adds.items():
             self._variables[name].add_value(amount)
         if self.comes_back_after is not None:

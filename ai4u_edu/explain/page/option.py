@@ -46,8 +46,8 @@ _TOP_SLOTS = 6
 _MAX_FACED = 12
 """Most things in the list of what the agent can look at."""
 _SOURCES = {
-    "critic": "what its critic expects from there on, which may be wrong",
-    "rollouts": "what one episode from there pays, later rewards counting less",
+    "critic": "The colours are the points that its critic expects from there; it may be wrong.",
+    "rollouts": "The colours are the points of one try from there; later points count less.",
 }
 """The sources of values in words."""
 

@@ -98,7 +98,7 @@ def _sentence(error: AI4UError) -> str:
     if isinstance(error, ActionError):
         return "Its actions don't fit this agent's actuators."
     if missing := re.search(r"no sensor has the (?:perception_)?key '([^']*)'", text):
-        return f"It needs a sensor with the name {missing[1]}."
+        return f"Not for this robot: it needs a sensor with the name {missing[1]}."
     if "does not fit agent" in text:
         return "It was trained with other sensors or actuators."
     if isinstance(error, ChangeError | PlainDataError) and error.problems:

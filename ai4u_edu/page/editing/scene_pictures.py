@@ -44,6 +44,8 @@ class LibraryScene(NamedTuple):
     """Time that a person needs to reach the goal for the first time."""
     stars: int
     """Number of stars that a program can earn."""
+    key: str
+    """Key of its task, under which a page keeps best times."""
 
 
 def scene_picture(scene: Scene, longest_px: int) -> bytes:
@@ -124,4 +126,5 @@ def _in_words(name: str) -> LibraryScene:
     about = SceneDescription.model_validate(YamlFile(text, name).data)
     title = about.title or about.name
     level, stars = about.level or "", star_goals(about).count
-    return LibraryScene(about.name, title, about.goal, level, about.minutes, stars)
+    key = about.task_key()
+    return LibraryScene(about.name, title, about.goal, level, about.minutes, stars, key)

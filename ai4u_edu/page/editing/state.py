@@ -1,7 +1,5 @@
 """The edited state: a scene's description, and drivers that it does not contain."""
 
-import json
-import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -16,9 +14,6 @@ from ai4u_edu.page.editing.input_checks import check_name
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals, library_star_goals
 
-TASK_FIELDS = {"success", "world", "floors", "areas", "bodies"}
-TASK_PARTS = ("body", "actuators", "rewards", "max_steps_per_episode")
-"""Fields of a scene, and parameters of its agents, that decide how long reaching the goal takes."""
 NO_DRIVERS: Mapping[str, str] = MappingProxyType({})
 
 
@@ -51,13 +46,8 @@ class EditState:
 
     @cached_property
     def task_key(self) -> str:
-        """Key of all that makes times comparable: world, bodies, motion and rewards."""
-        parts = self.description.model_dump(mode="json", include=TASK_FIELDS)
-        parts["agents"] = [
-            {name: agent.get(name) for name in TASK_PARTS} for agent in self.description.agents
-        ]
-        text = json.dumps(parts, sort_keys=True, default=str)
-        return f"{self.description.name}-{zlib.crc32(text.encode()):08x}"
+        """Key of all that makes times comparable."""
+        return self.description.task_key()
 
     def agent_index(self, agent_id: str) -> int:
         """Return the index of an agent in the description."""

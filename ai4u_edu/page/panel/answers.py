@@ -13,8 +13,8 @@ MAX_ERROR_CHARS = 2000
 """Length of an error that is sent to a page; it may repeat the page's own message."""
 _LATER: dict[When, str] = {
     "now": "",
-    "next decision": "It works from the next decision on.",
-    "next reset": "It works from the next episode on.",
+    "next decision": "It works right away.",
+    "next reset": "It works after the next start.",
 }
 
 
@@ -36,7 +36,7 @@ def change_answer(text: str, result: ChangeResult, **more: Any) -> Answer:
         more: other fields of the message.
 
     >>> change_answer("Ray sensor added.", ChangeResult("next decision")).text
-    'Ray sensor added. It works from the next decision on.'
+    'Ray sensor added. It works right away.'
     """
     if not result.label and result.note:
         return Answer(_sentence(result.note), more)  # nothing has changed

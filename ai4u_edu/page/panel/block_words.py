@@ -102,7 +102,7 @@ _SENSORS = {
     "StepSensor": BlockWords(
         "Step counter", _EPISODE, "clock", "Counts the decisions of this episode."
     ),
-    "DoneSensor": BlockWords("Episode over", _EPISODE, "end", "1 once the episode is over."),
+    "DoneSensor": BlockWords("Episode over", _EPISODE, "end", "1 at the end, 0 before."),
     "TruncatedSensor": BlockWords("Out of time", _EPISODE, "clock", "1 once the time is up."),
     "IDSensor": BlockWords("My name", _EPISODE, "text", "Gives the name of the robot."),
     "AgentArraySensor": BlockWords(
@@ -170,13 +170,13 @@ _REWARDS = {
         "Park in an area", _REACH, "area", "A reward for standing straight in an area."
     ),
     "CheckpointsReward": BlockWords(
-        "Visit targets in order",
+        "Touch things in order",
         _REACH,
         "route",
         "A reward for each target that is touched in order.",
     ),
     "GoneReward": BlockWords(
-        "Make things disappear",
+        "Make things go away",
         _REACH,
         "presence",
         "A reward for each thing of a group that leaves the world.",
@@ -188,7 +188,10 @@ _REWARDS = {
         "Every metre closer", _CLOSER, "closer", "A reward for each metre closer to the target."
     ),
     "MinDistReward": BlockWords(
-        "Closer than ever", _CLOSER, "closer", "A reward for being closer to the target than ever."
+        "Closer than before",
+        _CLOSER,
+        "closer",
+        "A reward for being closer to the target than ever.",
     ),
     "DistanceToTargetRewardFunc": BlockWords(
         "Be near the target", _CLOSER, "target", "A reward for being near the target."

@@ -34,7 +34,7 @@ FIELD_HINTS = {
     "self_exclude": "On: doesn't see the robot itself.",
     "max_distance": "How far it sees. Empty: everywhere.",
     "radius": "How far it reaches. Empty: everywhere.",
-    "target": "The thing it is about.",
+    "target": "Which thing?",
     "reference": "The thing from which to look. Empty: the robot.",
     "info": "What to tell: direction, distance or both.",
     "max_speed": "The highest speed.",
@@ -57,11 +57,11 @@ FIELD_HINTS = {
     "name": "Its name.",
     "eye": "Where the eye is: forward, left and up, in metres.",
     "property": "What to look at: x, y, z, speed, on_ground, steps or a sensor's name.",
-    "PositionSensor.target": "The thing it is about. Empty: the robot.",
+    "PositionSensor.target": "Which thing? Empty: the robot.",
     "ParkedRewardFunc.max_speed": "The highest speed that counts as parked.",
     **dict.fromkeys(
         (f"{name}.target" for name in ("EvalBoolValue", "EvalFloatValue", "EvalIntValue")),
-        "The thing it is about. Empty: the robot.",
+        "Which thing? Empty: the robot.",
     ),
     **dict.fromkeys(
         (f"{name}.reward" for name in ("EvalBoolValue", "EvalFloatValue", "EvalIntValue")),

@@ -152,6 +152,10 @@ class StateEvent(InputEvent, frozen=True, tag="state"):
     """The same by reward term."""
     held: list[str]
     """Codes of the keys that the agent sees held."""
+    bumps: int
+    """Contacts of its body with others that have begun since the world's reset."""
+    collects: int
+    """Things that it has collected, and stages that it has passed, in this episode."""
 
 
 class ErrorEvent(InputEvent, frozen=True, tag="error"):
@@ -234,6 +238,8 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> StateEvent
         reward=finite(agent.episode_reward),
         terms={name: finite(value) for name, value in agent.episode_terms.items()},
         held=sorted(agent.held_keys),
+        bumps=agent.bumps,
+        collects=agent.collects,
     )
 
 

@@ -33,7 +33,7 @@ class SceneView(BaseModel):
     name: str
     title: str
     is_changed: bool = Field(description="true if it has changes that are not saved")
-    is_autosaved: bool = Field(description="true if changes are kept among the unsaved scenes")
+    is_autosaved: bool = Field(description="true if changes are kept under Unsaved")
 
 
 class LinkView(BaseModel):

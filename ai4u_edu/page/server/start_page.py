@@ -26,6 +26,7 @@ class LibrarySceneView(BaseModel):
     level: Literal["", "easy", "medium", "hard"]
     minutes: int | None = Field(description="to reach the goal for the first time")
     stars: int = Field(0, description="number of stars that a program can earn")
+    key: str = Field("", description="key of its task, under which a page keeps best times")
     picture: str = Field(
         description="address of a PNG file, relative to the page, or a data URL; empty if the "
         "scene can't be read"

@@ -45,7 +45,7 @@ def test_each_page_has_its_own_maps(monkeypatch: pytest.MonkeyPatch) -> None:
         other.done("maps", field=False, values=True)
         values = other.part("maps", is_complete)["values"]
         assert values["low"] < values["high"] <= 100
-        assert values["words"].startswith("what one episode from there pays")
+        assert values["words"].startswith("The colours are the points of one try from there")
         assert len(values["colours"]) == 13
         assert choice_of(client).maps == (True, False, "box")
         page.done("maps", field=True, values=False, facing="bax")
@@ -59,13 +59,13 @@ def test_a_person_is_no_policy() -> None:
         page.show("0", "agent")
         page.done("maps", field=True, values=False)
         part = page.part("maps", lambda part: part["problem"])
-        assert part["problem"].startswith("A person drives")
+        assert part["problem"].startswith("You are driving.")
         assert part["field"] is None
         page.parts.clear()
         page.done("maps", field=True, values=True)
         # the page has cleared both and waits, though nothing is other than it was
         assert page.part("maps")["problem"] == part["problem"]
-        assert page.failed("elsewhere")["text"].startswith("A person drives")
+        assert page.failed("elsewhere")["text"].startswith("You are driving.")
 
 
 def test_if_it_stood_elsewhere() -> None:

@@ -25,7 +25,7 @@ def test_it_comes_when_it_is_asked_for() -> None:
         assert [slot["name"] for slot in part["slots"]][:2] == ["ray 1", "ray 2"]
         assert {slot["key"] for slot in part["slots"]} == {"vision", "heading", "last_action"}
         assert part["sentence"].startswith(("It ", "No single slot"))
-        assert "Two slots that say the same" in part["limits"]
+        assert "Two numbers that say the same" in part["limits"]
         shares = [slot["share"] for slot in part["top"]]
         assert shares == sorted(shares, reverse=True)
         page.done("why", on=False)
@@ -40,7 +40,7 @@ def test_a_person_needs_no_explanation() -> None:
     with panel_room() as room, room.page() as page:
         page.show("0", "agent")
         page.done("why", on=True)
-        assert page.part("why")["problem"].startswith("A person drives")
+        assert page.part("why")["problem"].startswith("You are driving.")
         assert page.part("why")["slots"] == []
 
 
@@ -54,7 +54,7 @@ def test_what_if_a_number_were_another_one() -> None:
         room.runner.submit(lambda: agent.use_brain(steer)).result(LIMIT_S)
         page.show("0", "agent")
         told = page.done("what_if", changes=[])
-        (dial,) = [each for each in told["dials"] if each["name"] == "orientation: cosine"]
+        (dial,) = [each for each in told["dials"] if each["name"] == "orientation: ahead?"]
         assert (dial["key"], dial["index"], dial["low"], dial["high"]) == ("orientation", 0, -1, 1)
         assert dial["value"] == pytest.approx(agent.percept["orientation"][0], abs=1e-6)
         forward, turn = told["action"][:2]
@@ -98,7 +98,7 @@ def test_in_a_recorded_episode_the_baseline_is_its_mean() -> None:
 
         def explains_the_step(part: Message) -> bool:
             """Return True for the decision that was chosen; the first one was shown before."""
-            (slot,) = [each for each in part["slots"] if each["name"] == "orientation: cosine"]
+            (slot,) = [each for each in part["slots"] if each["name"] == "orientation: ahead?"]
             return bool(slot["shares"][1] == pytest.approx(moved / 2 / 2, abs=1e-3))
 
         page.part("why", explains_the_step, baseline=words)

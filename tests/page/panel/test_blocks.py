@@ -43,7 +43,7 @@ def test_the_blocks_of_an_agent(page: PanelPage) -> None:
 def test_a_block_is_added_changed_moved_and_deleted(page: PanelPage, room: PanelRoom) -> None:
     before = titles(page.part("blocks"), "actuators")
     done = page.done("add_block", **{"class": "GrabActuator", "parent": ["actuators"]})
-    assert done["text"] == "Grab things added. It works from the next decision on."
+    assert done["text"] == "Grab things added. It works right away."
     path = done["path"]
     assert path == ["actuators", len(before)]
     page.show("0", "blocks", block=path)

@@ -82,7 +82,11 @@ def test_a_gallery_groups_by_question_and_tells_what_can_not_work() -> None:
         ("box_chase", "brain:0", ""),
         ("box_chase", "keys:ArrowController", ""),
         ("box_chase", "network:zoo:box_chase", ""),
-        ("box_chase", "keys:StrikerController", "It needs a sensor with the name ball."),
+        (
+            "box_chase",
+            "keys:StrikerController",
+            "Not for this robot: it needs a sensor with the name ball.",
+        ),
         (
             "grid_world",
             "keys:WASDRBMoveController",

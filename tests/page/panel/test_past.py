@@ -39,6 +39,7 @@ def test_episodes_are_listed_and_pinned(page: PanelPage) -> None:
     assert entry["is_person"]
     assert entry["driver"] == "Keys W, A, S, D"
     assert entry["seed"] == "1"
+    assert entry["end"] == "over"
     assert page.done("pin", number=number, on=True)["text"] == f"Episode {number} is kept."
     page.done("tick")
     assert page.part("past", lambda m: m["episodes"][0]["is_pinned"])

@@ -41,6 +41,7 @@ def test_all_scenes_are_listed_the_easiest_first(room: Room) -> None:
         about = Scene.load(each["name"]).description
         assert each["title"] == about.title
         assert (each["goal"], each["minutes"]) == (about.goal, about.minutes)
+        assert each["key"] == about.task_key()
 
 
 def test_each_scene_has_a_picture(room: Room) -> None:

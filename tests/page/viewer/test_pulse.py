@@ -1,10 +1,10 @@
-"""The target that was reached pulses."""
+"""The target that was reached pulses, and a fall is drawn slowly at first."""
 
 from dataclasses import replace
 
 import pytest
 
-from ai4u_edu.page.viewer.scene.bodies import PULSE_S, Pulse, reached_target
+from ai4u_edu.page.viewer.scene.bodies import PULSE_S, SLOW_FALL_S, Pulse, SlowFall, reached_target
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 
@@ -49,3 +49,31 @@ def test_nothing_pulses_while_motion_is_reduced(runner: Runner) -> None:
     assert pulse.scales(end)[1] > 1.0
     is_reduced = True
     assert (pulse.scales(end) == 1.0).all()
+
+
+def falling(snapshot: Snapshot, z: float) -> Snapshot:
+    agent = snapshot.agents[0]._replace(terminated=True, fell=True)
+    robot, *others = snapshot.bodies
+    return replace(snapshot, agents=(agent,), bodies=(robot._replace(z=z), *others))
+
+
+def test_a_fall_is_drawn_slowly_at_first_and_catches_up(runner: Runner) -> None:
+    now, is_reduced = 5.0, False
+    slow = SlowFall(lambda: now, lambda: is_reduced)
+    assert slow.drawn(runner.latest) is runner.latest.bodies
+    assert slow.drawn(falling(runner.latest, 0.0))[0].z == 0.0
+    assert [age for _, age in slow.puffs()] == [0.0]
+    now += SLOW_FALL_S / 2
+    half = falling(runner.latest, -1.2)
+    assert slow.drawn(half)[0].z == pytest.approx(-0.4)
+    assert slow.drawn(half)[1:] == runner.latest.bodies[1:]
+    is_reduced = True
+    assert slow.drawn(half) is half.bodies
+    assert slow.puffs() == []
+    is_reduced = False
+    now += SLOW_FALL_S / 2
+    assert slow.drawn(falling(runner.latest, -2.4))[0].z == pytest.approx(-2.4)
+    now += 0.1
+    assert slow.drawn(falling(runner.latest, -3.0))[0].z == -3.0
+    slow.drawn(runner.latest)
+    assert slow.puffs() == []  # another episode

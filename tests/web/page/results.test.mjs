@@ -4,15 +4,13 @@ import { beforeEach, test } from "node:test";
 import { openWindow } from "../browser.mjs";
 
 const { kept } = openWindow();
-const { BEST, FIRST, KEYS, PROGRAM, Results, SLOWER, timeText } = await import("../../../web/page/results.js");
+const { BEST, FIRST, KEYS, NETWORK, PROGRAM, Results, SLOWER, hasWon, timesText, timeText } = await import("../../../web/page/results.js");
 const { forget } = await import("../../../web/shared/storage.js");
-let wins = 0;
 let results;
 
 beforeEach(() => {
   forget("best-times");
-  wins = 0;
-  results = new Results(() => (wins += 1));
+  results = new Results();
 });
 
 function won(episode, seconds, by = KEYS, changes = {}) {
@@ -24,14 +22,12 @@ test("a time is the first, then better or slower than the best", () => {
   assert.deepEqual(won(2, 4), { seconds: 4, best: 4, kind: BEST, by: KEYS });
   assert.deepEqual(won(3, 4), { seconds: 4, best: 4, kind: SLOWER, by: KEYS });
   assert.deepEqual(won(4, 9).best, 4);
-  assert.equal(wins, 4);
   assert.equal(results.best("chase", KEYS), 4);
 });
 
 test("each episode counts once, until another one runs", () => {
   won(1, 5);
   assert.equal(won(1, 5).kind, FIRST);
-  assert.equal(wins, 1);
   results.of({ title: "Chase", episode: 1 }, "chase", KEYS);
   assert.equal(won(1, 5).kind, SLOWER);
 });
@@ -48,12 +44,23 @@ test("no time is kept of a defeat, of the past, or of others", () => {
   assert.equal(won(2, 5, KEYS, { past: "episode 3" }), null);
   assert.equal(won(3, 5, ""), null);
   assert.equal(results.of(null, "chase", KEYS), null);
-  assert.equal(wins, 0);
+});
+
+test("the best times of a task are told together; a network's are not a person's", () => {
+  assert.equal(timesText("chase"), "");
+  assert.equal(hasWon(), false);
+  won(1, 5, PROGRAM);
+  won(2, 3, NETWORK);
+  assert.match(timesText("chase"), /^Best: your program 5[.,]0 s$/);
+  assert.equal(hasWon(), false);
+  won(3, 7.25);
+  assert.match(timesText("chase"), /^Best: you 7[.,][23] s · your program 5[.,]0 s$/);
+  assert.equal(hasWon(), true);
 });
 
 test("the words tell the time and the best one", () => {
   const about = (kind, by = KEYS) => timeText({ seconds: 2.25, best: 1, kind, by });
-  assert.match(about(FIRST), /^ in 2[.,][23] s$/);
-  assert.match(about(BEST), /s, your best$/);
+  assert.match(about(FIRST), /^ 2[.,][23] s$/);
+  assert.match(about(BEST), /s – your best$/);
   assert.match(about(SLOWER, PROGRAM), / \(your program's best: 1[.,]0 s\)$/);
 });

@@ -28,6 +28,6 @@ test("the sentence about changes says where they are", async () => {
     return unsavedSentence();
   };
   assert.equal(await sentence(false, true), "");
-  assert.match(await sentence(true, true), /unsaved ones/);
+  assert.match(await sentence(true, true), /under Unsaved/);
   assert.match(await sentence(true, false), /Undo/);
 });

@@ -2,7 +2,7 @@
 
 import { element } from "../../shared/dom.js";
 import { recall, remember } from "../../shared/storage.js";
-import { playNotes } from "../../shared/tone.js";
+import { playNotes } from "../../shared/sound.js";
 
 /** Time from the third to the second, and from there to the first (ms). */
 const STEP_MS = 1200;

@@ -71,7 +71,7 @@ function showJoin() {
   const count = state.seats.filter((seat) => seat.state === "in").length;
   const here = count ? `${counted(count, "student")} ${count === 1 ? "is" : "are"} here` : "Nobody is here yet";
   showNames();
-  setText(find("#here"), state.open ? here : `${here}. Nobody else may join now.`);
+  setText(find("#here"), state.open ? here : `${here}. The class is locked.`);
 }
 
 /** Show who has joined, the latest at the end. */

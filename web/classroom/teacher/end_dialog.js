@@ -27,7 +27,7 @@ export async function showEnd(state, onForgotten) {
     }),
     field(`Type the code ${state.code} to confirm`, code),
   ];
-  const form = { title: "End of class", content, yes: "Forget everything", isDanger: true };
+  const form = { title: "End class", content, yes: "Forget everything", isDanger: true };
   const isForgotten = await showForm(form, async () => {
     if (!without.checked) throw new Error("Export first, or tick that you need no file.");
     if (code.value.replace(/[\s-]/g, "").toUpperCase() !== state.code) throw new Error(`To confirm, type the code of this class: ${state.code}.`);

@@ -14,9 +14,9 @@ import { choice, section } from "../widgets/parts.js";
 
 /** @type {{kind: ListBlocks["kind"], title: string, one: string, add: string, none: string, detailsOnly?: boolean}[]} */
 const KINDS = [
-  { kind: "sensors", title: "Sensors", one: "Sensor", add: "Add a sensor", none: "It notices nothing yet." },
+  { kind: "sensors", title: "Sensors", one: "Sensor", add: "Add a sensor", none: "No sensors yet." },
   { kind: "actuators", title: "Actuators", one: "Actuator", add: "Add an actuator", none: "It can't do anything yet." },
-  { kind: "rewards", title: "Rewards", one: "Reward", add: "Add a reward", none: "It gets no reward yet." },
+  { kind: "rewards", title: "Rewards", one: "Reward", add: "Add a reward", none: "No rewards yet." },
   { kind: "brains", title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
 ];
 /** Delay after a change until the drivers are listed again (ms). */
@@ -58,7 +58,7 @@ export class BuildTab {
     this.#settings = new Form({
       onChange: (values) => panel.send("change_agent", { values }),
     });
-    root.append(section("build-settings", "Agent's settings", { isOpen: false }, this.#settings.element));
+    root.append(section("build-settings", "Robot settings", { isOpen: false }, this.#settings.element));
     this.#scene = panel.part("scene")?.scene ?? "";
     panel.addEventListener("part:scene", ({ detail }) => this.#onScene(detail.scene));
   }

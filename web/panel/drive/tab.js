@@ -7,6 +7,7 @@
  * @import { Bar } from "../widgets/bars.js"
  */
 import { DriverStatus } from "../../page/driver_status.js";
+import { hasWon } from "../../page/results.js";
 import { button, element, keyed, setText } from "../../shared/dom.js";
 import { Bars } from "../widgets/bars.js";
 import { Elsewhere } from "../why/elsewhere.js";
@@ -44,7 +45,11 @@ export class DriveTab {
   #elsewhere;
   /** @type {AgentPart | null} */
   #latest = null;
-  #howTo = element("p");
+  #howTo = element("p", { className: "ai4u-hint-text" });
+  #later = element("p", {
+    className: "ai4u-hint-text ai4u-simple-only",
+    textContent: "After your first win, you see here what the robot senses.",
+  });
   #sections;
   #root;
 
@@ -67,20 +72,21 @@ export class DriveTab {
     this.#sections = {
       python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
       training: section("training", "Training", {}, this.#training.element),
-      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#scriptWarning, this.#brain, this.#script, this.#howTo),
+      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#scriptWarning, this.#brain, this.#script),
       robots: section("robots", "All robots", { isOpen: false, detailsOnly: true }, this.#robots.element),
       needs: section("needs", "Needs", {}, this.#needs.element),
       sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
-      why: section("why", "Because of what", {}, this.#why.element),
-      maps: section("maps", "What it would do elsewhere", {}, this.#maps.element, this.#elsewhere.element),
-      rewards: section("rewards", "Rewards", {}, this.#rewards.element),
+      why: section("why", "Why?", {}, this.#why.element),
+      maps: section("maps", "What if it stood somewhere else?", {}, this.#maps.element, this.#elsewhere.element),
+      rewards: section("rewards", "Rewards", { detailsOnly: true }, this.#rewards.element),
       action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
     };
     const { training, driver, robots, needs, why, maps, sensors, rewards, action, python } = this.#sections;
-    root.append(this.#agents.element, training, driver, needs, why, maps, sensors, rewards, action, robots, python);
+    root.append(this.#agents.element, this.#howTo, this.#later, training, driver, needs, why, maps, sensors, rewards, action, robots, python);
     panel.addEventListener("part:scene", ({ detail }) => this.#drawScene(detail));
     panel.addEventListener("driver", ({ detail }) => this.#drawDriver(detail));
     panel.addEventListener("agent", () => this.#drawShown());
+    panel.addEventListener("win", () => this.#drawShown());
     panel.addEventListener("part:curve", ({ detail }) => this.#rewards.drawCurve(detail.points));
     panel.addEventListener("part:python", ({ detail }) => this.#drawPython(detail));
     panel.addEventListener("part:training", ({ detail }) => this.#drawTraining(detail));
@@ -108,6 +114,7 @@ export class DriveTab {
     this.#rewards.update(agent.rewards ?? [], agent.paid ?? []);
     setText(this.#script, scriptWords(agent.script));
     setText(this.#scriptWarning, scriptWarning(agent.script));
+    this.#drawSimple();
     this.#robots.update(agent.others ?? []);
     this.#sections.robots.hidden = !agent.others?.length;
   }
@@ -155,6 +162,10 @@ export class DriveTab {
     this.#rewards.setHelp(scene.rewards ?? "");
     const isPerson = Boolean(scene.agents.find(({ id }) => id === this.#panel.shown.agent)?.is_person);
     this.#sections.why.hidden = this.#sections.maps.hidden = isPerson; // only who decides by the percept can be asked
+    // a beginner drives first; a notebook's text may speak of sensors from the start
+    const isNew = isPerson && !hasWon() && window.parent === window;
+    this.#sections.sensors.classList.toggle("ai4u-details-only", isNew);
+    this.#later.hidden = !isNew;
     keyed(
       this.#legend,
       scene.legend ?? [],
@@ -173,6 +184,13 @@ export class DriveTab {
     this.#driverRow.hidden = !isDriven;
     this.#driveThis.hidden = isDriven;
     this.#driver.draw(status);
+    this.#drawSimple();
+  }
+
+  /** Show a beginner who drives only if there is something to do about it: the dock says it, too. */
+  #drawSimple() {
+    const hasNews = !this.#driveThis.hidden || this.#scriptWarning.textContent !== "";
+    this.#sections.driver.classList.toggle("ai4u-details-only", !hasNews);
   }
 
   /** Follow the page to another agent: one that was chosen here or clicked in the picture. */

@@ -31,15 +31,15 @@ export class Comparison {
    */
   #names = { first: null, second: null };
   #choices = {
-    first: choice("One driver", (name) => this.#choose("first", name)),
-    second: choice("Another one", (name) => this.#choose("second", name)),
+    first: choice("First", (name) => this.#choose("first", name)),
+    second: choice("Second", (name) => this.#choose("second", name)),
   };
   #checkpoint = element("input", { type: "range", id: freeId(), min: 0, step: 1 });
   #learned = element("output");
   #checkpoints = element(
     "div",
     { className: "ai4u-field", hidden: true },
-    element("label", { htmlFor: this.#checkpoint.id, textContent: "The other one, after learning from" }),
+    element("label", { htmlFor: this.#checkpoint.id, textContent: "The second one, after learning from" }),
     element("div", { className: "ai4u-what-if-row" }, this.#checkpoint, this.#learned),
   );
   #start = button("Compare", () => this.#compare(), { kind: "main" });
@@ -56,7 +56,7 @@ export class Comparison {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    this.element = section("compare", "Two drivers on this episode", { isOpen: false }, this.#body);
+    this.element = section("compare", "Compare two drivers", { isOpen: false }, this.#body);
     this.element.hidden = true;
     this.element.addEventListener("toggle", () => this.#list());
     this.#checkpoint.addEventListener("input", () => this.#slide());
@@ -150,7 +150,7 @@ export class Comparison {
     if (!differs) return;
     setText(this.#jump.querySelector("span"), `Show step ${step + 1}`);
     this.#reasons.replaceChildren(
-      ...[["One driver", first], ["Another one", second]].filter(([, text]) => text).flatMap(([name, text]) => [
+      ...[["First", first], ["Second", second]].filter(([, text]) => text).flatMap(([name, text]) => [
         element("dt", { textContent: name }),
         element("dd", { textContent: text }),
       ]),

@@ -11,12 +11,15 @@ import { fact } from "../widgets/parts.js";
 /** Time that "Copied" stands on a button (ms). */
 const COPIED_MS = 1500;
 
+/** Ends of an episode in words, before its time. */
+const ENDS = { goal: "won in", fell: "fell after", time: "time was up after", over: "stopped after" };
+
 export class EpisodeCard {
   #panel;
   /** @type {KeptEpisode} */
   #episode = null;
   #card;
-  #facts = { driver: fact("Driver"), steps: fact("Steps"), seed: fact("Seed") };
+  #facts = { driver: fact("Driver"), score: fact("Score"), steps: fact("Steps"), seed: fact("Seed") };
   #copy = button("Copy", () => this.#copySeed(), { icon: "copy", kind: "quiet", label: "Copy the seed" });
   #downloads = element("div", { className: "ai4u-tools", role: "group", ariaLabel: "Download" });
 
@@ -24,9 +27,9 @@ export class EpisodeCard {
   constructor(panel) {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => void this.#choose(isOpen) });
-    const { driver, steps, seed } = this.#facts;
+    const { driver, score, steps, seed } = this.#facts;
     seed.element.append(this.#copy);
-    const list = element("dl", { className: "ai4u-episode-facts" }, driver.element, steps.element, seed.element);
+    const list = element("dl", { className: "ai4u-episode-facts" }, driver.element, score.element, steps.element, seed.element);
     this.#card.body.append(list, this.#downloads);
   }
 
@@ -42,11 +45,10 @@ export class EpisodeCard {
   update(episode, isOpen, downloads = []) {
     this.#episode = episode;
     const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;
-    const reads = [resultOf(episode), `reward ${shortNumber(reward)}`, `${seconds.toFixed(1)} s`].filter(Boolean);
     this.#card.update({
       icon: episode.is_person ? "person" : "network",
       title: `Episode ${number} · ${scene}`,
-      reads: reads.join(" · "),
+      reads: `${ENDS[episode.end]} ${seconds.toFixed(1)} s`,
       isOpen,
       mark: isBest ? "★ best" : "",
     });
@@ -56,6 +58,7 @@ export class EpisodeCard {
     setAttributes(this.#card.element, { "data-pinned": Boolean(isPinned) });
     if (!isOpen) return;
     this.#facts.driver.set(episode.driver);
+    this.#facts.score.set(shortNumber(reward));
     this.#facts.steps.set(String(decisions));
     setText(this.#facts.seed.element.querySelector("dd"), String(episode.seed));
     this.#showDownloads(downloads);
@@ -101,11 +104,6 @@ export class EpisodeCard {
  */
 function panelPin(panel, number, on) {
   panel.send("pin", { number, on }, { quiet: true });
-}
-
-/** @param {KeptEpisode} episode */
-function resultOf({ result }) {
-  return result === null ? "" : result ? "goal reached" : "goal missed";
 }
 
 /**

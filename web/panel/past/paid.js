@@ -26,7 +26,7 @@ export class PaidTerms {
   constructor(panel) {
     this.#panel = panel;
     const body = element("div", { className: "ai4u-maps" }, this.#none, this.#terms, this.#hint, this.#moments);
-    this.element = section("paid", "What paid in this episode", { isOpen: false }, body);
+    this.element = section("paid", "Where the points came from", { isOpen: false }, body);
     this.element.hidden = true;
     this.element.addEventListener("toggle", () => this.#ask());
   }

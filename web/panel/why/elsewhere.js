@@ -27,7 +27,7 @@ export class Elsewhere {
   #timer = 0;
   #asked = 0;
   #switch = toggle("Try another place", (isOn) => this.#turn(isOn));
-  #hint = element("p", { className: "ai4u-soft", textContent: "Pause the world to try other places." });
+  #hint = element("p", { className: "ai4u-soft", textContent: "Press Pause, then drag the purple robot." });
   #inputs = new Map(FIELDS.map(({ name, step }) => /** @type {const} */ ([name, this.#input(step)])));
   #says = element("p", { className: "ai4u-soft", role: "status" });
   #action = new Bars();

@@ -6,7 +6,7 @@
  */
 import { button, element, setText } from "../../shared/dom.js";
 import { number, seconds } from "../../shared/numbers.js";
-import { choice, toggle } from "../widgets/parts.js";
+import { choice, howComputed, toggle } from "../widgets/parts.js";
 
 const AS_NOW = "";
 const TURNS = [
@@ -22,10 +22,10 @@ export class Maps {
   #facing = AS_NOW;
   #isOn = { field: false, values: false };
   #switches = {
-    field: toggle("Arrows: what it would do there", (isOn) => this.#turn("field", isOn)),
-    values: toggle("Colours: what each place is worth", (isOn) => this.#turn("values", isOn)),
+    field: toggle("Arrows: where it would go", (isOn) => this.#turn("field", isOn)),
+    values: toggle("Colours: good and bad places", (isOn) => this.#turn("values", isOn)),
   };
-  #faced = choice("It would look", (name) => this.#face(name));
+  #faced = choice("Facing", (name) => this.#face(name));
   #problem = element("p", { className: "ai4u-map-problem", hidden: true });
   #field = new Progress("Arrows", () => this.#cancel("field"));
   #values = new Progress("Values", () => this.#cancel("values"));
@@ -34,7 +34,10 @@ export class Maps {
   #high = element("span");
   #ramp = element("i", { ariaHidden: "true" });
   #scale = element("p", { className: "ai4u-map-scale" }, this.#low, this.#ramp, this.#high);
-  #worth = element("p", { className: "ai4u-soft" });
+  #worth = element("p", { className: "ai4u-soft", textContent: "Yellow: starting here ends well. Blue: it ends badly." });
+  /** The source of the colours' numbers. */
+  #source = element("p", { className: "ai4u-soft" });
+  #how = howComputed(this.#source);
   #moment = element("p", { className: "ai4u-soft" });
   #result = element(
     "div",
@@ -47,6 +50,7 @@ export class Maps {
     this.#scale,
     this.#worth,
     this.#moment,
+    this.#how,
   );
   element = element("div", {}, this.#switches.field.element, this.#switches.values.element, this.#result);
 
@@ -112,7 +116,7 @@ export class Maps {
     setText(this.#problem, part.problem);
     // what was chosen stays in the list, also where the next scene has no such thing
     const names = [...new Set([...part.faced, this.#facing])].filter((name) => name !== AS_NOW);
-    const options = [{ value: AS_NOW, text: "as it looks now" }, ...names.map((value) => ({ value, text: `to: ${value}` }))];
+    const options = [{ value: AS_NOW, text: "same as now" }, ...names.map((value) => ({ value, text: `the ${value}` }))];
     this.#faced.element.hidden = names.length === 0;
     this.#faced.set(options, this.#facing);
     this.#drawField(part.field);
@@ -133,12 +137,12 @@ export class Maps {
     const isOn = this.#isOn.values && Boolean(this.#problem.hidden);
     this.#values.draw(isOn, values);
     const hasScale = isOn && typeof values?.low === "number";
-    this.#scale.hidden = this.#worth.hidden = !hasScale;
+    this.#scale.hidden = this.#worth.hidden = this.#how.hidden = !hasScale;
     if (!hasScale) return;
     setText(this.#low, number(values.low));
     setText(this.#high, number(values.high));
     this.#ramp.style.background = `linear-gradient(to right, ${values.colours.join(", ")})`;
-    setText(this.#worth, `Worth is ${values.words}.`);
+    setText(this.#source, values.words);
   }
 }
 
@@ -169,7 +173,7 @@ class Progress {
       this.#bar.max = map.count;
       this.#bar.value = map.done;
     } else this.#bar.removeAttribute("value");
-    setText(this.#words, map ? `${map.done} of ${map.count} places` : "It begins");
+    setText(this.#words, map ? `${map.done} of ${map.count} places` : "Starting …");
   }
 }
 
@@ -180,5 +184,5 @@ function turnItem({ text, kind }) {
 
 /** @param {number} time (s) */
 function momentWords(time) {
-  return `At each place the robot is at rest, as if an episode began there; everything else is as it was at ${seconds(time)}.`;
+  return `We put a resting robot on each spot and ask what it would do. Everything else stays as it is now (${seconds(time)}).`;
 }

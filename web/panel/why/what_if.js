@@ -28,8 +28,8 @@ export class WhatIf {
   #asked = 0;
   #isPaused = false;
   #isExplained = false;
-  #hint = element("p", { className: "ai4u-soft", textContent: "Pause the world to try other values." });
-  #slot = choice("If this were another number", (id) => this.#choose(id));
+  #hint = element("p", { className: "ai4u-soft", textContent: "Press Pause, then try other numbers." });
+  #slot = choice("Try another number", (id) => this.#choose(id));
   #slider = element("input", { type: "range", id: freeId(), ariaLabel: "Value" });
   #value = element("output");
   #none = button("As it is", () => this.#reset(), { icon: "undo", kind: "quiet" });

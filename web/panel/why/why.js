@@ -1,11 +1,11 @@
-/** "Because of what": how far each slot of the percept moves the action, and the method's limits. */
+/** "Why?": how far each slot of the percept moves the action, and the method's limits. */
 
 /**
  * @import { ExplainedSlot, WhyPart } from "../../types/panel.js"
  * @import { Panel } from "../panel.js"
  */
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
-import { toggle } from "../widgets/parts.js";
+import { howComputed, toggle } from "../widgets/parts.js";
 import { WhatIf } from "./what_if.js";
 
 /** A sentence that changes five times a second can't be read. */
@@ -22,12 +22,17 @@ export class Why {
   #part = null;
   #saidAt = -SENTENCE_MS;
   #later = 0;
-  #switch = toggle("Show because of what", (isOn) => this.#toggle(isOn));
+  #switch = toggle("Show why", (isOn) => this.#toggle(isOn));
   #sentence = element("p", { className: "ai4u-why-sentence" });
-  #list = element("ul", { className: "ai4u-why-list", ariaLabel: "Slots that move the action most" });
+  #list = element("ul", { className: "ai4u-why-list", ariaLabel: "Numbers that matter most" });
   #also = element("p", { className: "ai4u-soft", hidden: true });
   #limits = element("p", { className: "ai4u-soft" });
-  #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#also, this.#limits);
+  #method = element("p", {
+    className: "ai4u-soft",
+    textContent: "We replace one sensor number at a time by its average and look how much the action changes.",
+  });
+  #how = howComputed(this.#also, this.#limits);
+  #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#method, this.#how);
   #whatIf;
   element = element("div", {}, this.#switch.element, this.#result);
 
@@ -98,7 +103,7 @@ export class Why {
     this.#list.hidden = part.top.length === 0;
     keyed(this.#list, part.top, ({ name }) => name, makeSlot, (item, slot) => drawSlot(item, slot, part.components, scale));
     this.#whatIf.update(!part.problem);
-    this.#limits.hidden = Boolean(part.problem);
+    this.#method.hidden = this.#how.hidden = Boolean(part.problem);
     setText(this.#also, part.also ?? "");
     this.#also.hidden = !part.also;
     setText(this.#limits, [`Compared with ${part.baseline}.`, part.explained, part.limits].filter(Boolean).join(" "));

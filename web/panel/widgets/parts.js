@@ -26,6 +26,14 @@ export function section(key, title, { isOpen = true, detailsOnly = false } = {},
 }
 
 /**
+ * Return how something is computed, folded.
+ * @param {Node[]} children
+ */
+export function howComputed(...children) {
+  return element("details", { className: "ai4u-how" }, element("summary", { textContent: "How is this computed?" }), ...children);
+}
+
+/**
  * Return a switch with a label. `set` shows a state without calling `onChange`.
  * @param {string} label
  * @param {(isOn: boolean) => void} onChange

@@ -56,7 +56,7 @@ export class WorldTab {
         this.#hint, // below the buttons, which its other texts would move
         this.#list,
       ),
-      section("world-settings", "Scene's settings", { isOpen: false }, this.#settings.element),
+      section("world-settings", "Scene settings", { isOpen: false }, this.#settings.element),
       this.#files.kept,
     );
     panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));

@@ -6,6 +6,7 @@ from msgspec import Struct
 
 from ai4u_edu.base.optional_deps import has
 from ai4u_edu.blocks import Block
+from ai4u_edu.blocks.block import default_name
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -23,6 +24,10 @@ FORMATS = {
 """Titles of the download formats, by file extension."""
 
 
+FALLS = ("FallReward", "DynamicFallReward")
+"""Classes of rewards that are paid when their agent falls."""
+
+
 class KeptEpisode(Struct, frozen=True):
     """A recorded episode that is kept."""
 
@@ -36,8 +41,8 @@ class KeptEpisode(Struct, frozen=True):
     """Title of the driver, or the file that it was loaded from."""
     is_person: bool
     """True if a person took most decisions, by keys."""
-    result: bool | None
-    """True if an agent reached the goal; null for a scene without a goal."""
+    end: Literal["goal", "fell", "time", "over"]
+    """Its end: an agent reached the goal, the one that acts first fell, or the time was up."""
     reward: float
     """Sum of the rewards of the agent that acts first."""
     decisions: int
@@ -160,7 +165,7 @@ def _episode(entry: ArchiveEntry, *, is_best: bool, is_here: bool) -> KeptEpisod
         is_here=is_here,
         driver=entry.source or driver_words(entry.first.driver),
         is_person=entry.is_person,
-        result=entry.success,
+        end=_end(entry),
         reward=entry.first.total,
         decisions=len(entry.first),
         seconds=round(episode.seconds, 2),
@@ -169,6 +174,25 @@ def _episode(entry: ArchiveEntry, *, is_best: bool, is_here: bool) -> KeptEpisod
         is_best=is_best,
         source=entry.source,
     )
+
+
+def _end(entry: ArchiveEntry) -> Literal["goal", "fell", "time", "over"]:
+    """Return how an episode ended. A recording tells a fall by what it cost."""
+    if entry.success:
+        return "goal"
+    record = entry.first
+    if not len(record) or not (last := record[len(record) - 1]).ended:
+        return "over"
+    agents = (each for each in entry.episode.scene.agents if str(each.get("id", "0")) == record.id)
+    falls = {
+        str(reward.get("name") or default_name(Block.types[reward["type"]], "Reward"))
+        for agent in agents
+        for reward in agent.get("rewards", ())
+        if reward["type"] in FALLS
+    }
+    if last.terminated and any(last.reward_terms.get(name) for name in falls):
+        return "fell"
+    return "time" if last.truncated else "over"
 
 
 def _playing(context: PanelContext) -> PlayedEpisode | None:

@@ -183,12 +183,12 @@ def reading_text(value: Any) -> str:
 def _lines(sensor: SensorInfo, rows: Floats) -> list[ReadingLine]:
     """Return each number with its name, unit and range, and its older values, oldest first."""
     count = len(sensor.low)
-    names = sensor.slots or tuple(map(str, range(count)) if count > 1 else ("value",))
+    names = sensor.slot_words or tuple(map(str, range(count)) if count > 1 else ("value",))
     units = sensor.unit.split(", ")
     units = units if len(units) == count else [sensor.unit] * count
     return [
         ReadingLine(
-            name=name.replace("_", " "),
+            name=name,
             value=_short(rows[-1, i]),
             text=number(float(rows[-1, i])),
             unit=units[i],

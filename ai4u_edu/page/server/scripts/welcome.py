@@ -30,7 +30,7 @@ class ObservationSubset:
         known = (*layout.slots, *layout.texts)
         for key in keys:
             if key not in known:
-                raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, known)}")
+                raise NameNotFoundError(f"there is no sensor called {key!r}; {suggest(key, known)}")
         wanted = set(keys or known)
         sensors = {sensor.perception_key: sensor for sensor in agent.bound_blocks.sensors}
         self._slots = [slot for key, slot in layout.slots.items() if key in wanted]

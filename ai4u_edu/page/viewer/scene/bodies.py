@@ -9,6 +9,7 @@ import math
 import time
 from collections import defaultdict
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,18 +19,26 @@ from viser import BatchedMeshHandle, SceneApi, SceneNodePointerEvent
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.face import face, pupils, rings
-from ai4u_edu.page.viewer.scene.geometry import Array, cap, join_meshes, prism, soft_shadow
+from ai4u_edu.page.viewer.scene.geometry import Array, cap, circle, join_meshes, prism, soft_shadow
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import DARK, LIGHT, half_width
-from ai4u_edu.snapshot.theme import VOID, Rgb, body_colour, label_text, mix_colours
+from ai4u_edu.snapshot.theme import RAY_MISS, VOID, Rgb, body_colour, label_text, mix_colours
 from ai4u_edu.world import CircleShape
 
 PULSE_S = 1.0
 """Duration of a pulse, wall time (s)."""
+SLOW_FALL_S = 1.0
+"""Duration of a fall's drawing, wall time (s): slow in its first half, catching up in the other."""
+_SLOWNESS = 3.0
+"""Factor by which a fall is slower at first."""
+PUFF_S = 0.6
+"""Duration of the puff where a body left its floor, wall time (s)."""
+_PUFF_BALLS = 7
+"""Discs of a puff, in a ring."""
 _PULSE_COUNT = 2
 """Times that a body grows and shrinks during a pulse."""
 _PULSE_GROWTH = 0.22
@@ -97,6 +106,89 @@ def _pulse_scale(seconds: float) -> float:
     if not 0.0 <= seconds < PULSE_S:
         return 1.0
     return 1.0 + _PULSE_GROWTH * math.sin(math.pi * _PULSE_COUNT * seconds / PULSE_S) ** 2
+
+
+class SlowFall:
+    """The states in which bodies are drawn: an agent's falls slowly at first, then catches up.
+
+    Only the drawing lags; the world's clock goes on as always.
+
+    Args:
+        clock: wall clock (s); replaced in tests.
+        is_motion_reduced: returns True while everything is drawn as it is.
+    """
+
+    def __init__(
+        self,
+        clock: Callable[[], float] = time.monotonic,
+        is_motion_reduced: Callable[[], bool] = lambda: False,
+    ) -> None:
+        self._clock, self._is_motion_reduced = clock, is_motion_reduced
+        self._falls: dict[tuple[str, int, int], _Fall] = {}
+
+    def drawn(self, snapshot: Snapshot) -> tuple[BodyState, ...]:
+        """Return the states in which the bodies of a snapshot are drawn."""
+        falling = [agent for agent in snapshot.agents if agent.fell and not snapshot.past]
+        if not falling:
+            self._falls = {}
+            return snapshot.bodies
+        now, falls = self._clock(), {}
+        states = {body.name: body for body in snapshot.bodies}
+        for agent in falling:
+            episode = agent.id, snapshot.episode, agent.episode
+            fall = self._falls.get(episode) or _Fall(now, agent.body, [])
+            if not fall.states and states[agent.body].fallen:
+                continue  # it fell before anybody saw it
+            falls[episode] = fall
+            if now - fall.began <= SLOW_FALL_S:
+                fall.states.append((now - fall.began, states[agent.body]))
+        self._falls = falls
+        if self._is_motion_reduced():
+            return snapshot.bodies
+        for fall in falls.values():
+            if now - fall.began <= SLOW_FALL_S:
+                states[fall.body] = fall.state_at(_drawn_time(now - fall.began))
+        return tuple(states.values())
+
+    def puffs(self) -> list[tuple[BodyState, float]]:
+        """Return the state in which each falling body left its floor, and the time (s) since."""
+        if self._is_motion_reduced():
+            return []
+        now = self._clock()
+        return [(fall.states[0][1], now - fall.began) for fall in self._falls.values()]
+
+
+class _Fall(NamedTuple):
+    began: float
+    """Wall time (s) of the first snapshot that showed it."""
+    body: str
+    states: list[tuple[float, BodyState]]
+    """Times (s) since then, and the body's states."""
+
+    def state_at(self, seconds: float) -> BodyState:
+        """Return the state at a time since the beginning, between two that were seen."""
+        last = len(self.states) - 1
+        after = next((n for n, (when, _) in enumerate(self.states) if when >= seconds), last)
+        (start, before), (end, state) = self.states[max(after - 1, 0)], self.states[after]
+        share = 1.0 if end <= start else (seconds - start) / (end - start)
+        x, y, z = (
+            a + share * (b - a)
+            for a, b in zip(
+                (before.x, before.y, before.z), (state.x, state.y, state.z), strict=True
+            )
+        )
+        return before._replace(x=x, y=y, z=z, heading=state.heading)
+
+
+def _drawn_time(seconds: float) -> float:
+    """Return the time (s) of a fall that is drawn a time after it began: slow, then catching up.
+
+    >>> [round(_drawn_time(seconds), 2) for seconds in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    [0.0, 0.08, 0.17, 0.58, 1.0]
+    """
+    half = SLOW_FALL_S / 2
+    slow = min(seconds, half) / _SLOWNESS
+    return slow + max(seconds - half, 0.0) * (SLOW_FALL_S - half / _SLOWNESS) / half
 
 
 _SHADOW_DIRECTION = np.array([0.6, -0.8])
@@ -197,6 +289,8 @@ class Bodies:
         self._built_for: object = None
         self._groups: list[_BodyGroup] = []
         self._pulse = Pulse(is_motion_reduced=is_motion_reduced)
+        self._slow_fall = SlowFall(is_motion_reduced=is_motion_reduced)
+        self._puff: BatchedMeshHandle | None = None
         self.nodes: dict[str, str] = {}
         """Names of the scene nodes of bodies that have their own, by the name of the body."""
 
@@ -239,10 +333,41 @@ class Bodies:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Move all bodies to their current poses."""
-        poses = compute_poses(snapshot, self._layers)
+        drawn = replace(snapshot, bodies=self._slow_fall.drawn(snapshot))
+        self._draw_puff(snapshot)
+        poses = compute_poses(drawn, self._layers)
         poses = poses._replace(scales=poses.scales * self._pulse.scales(snapshot))
         for group in self._groups:
             group.move(poses)
+
+    def _draw_puff(self, snapshot: Snapshot) -> None:
+        """Draw discs that spread where a body has just left its floor, and vanish."""
+        puffs = [(state, age) for state, age in self._slow_fall.puffs() if age < PUFF_S]
+        if not puffs:
+            if self._puff is not None:
+                self._puff.remove()
+                self._puff = None
+            return
+        state, age = puffs[-1]
+        share = age / PUFF_S
+        body = next(each for each in snapshot.static_scene.bodies if each.name == state.name)
+        reach = body.shape.reach
+        if self._puff is None:
+            disc = cap(circle(1.0, corners=16))
+            colours = [RAY_MISS] * _PUFF_BALLS
+            self._puff = MeshDrawer(self._scene, "/puff").batch("discs", disc, colours, 0.6)
+        angles = np.linspace(0, 2 * np.pi, _PUFF_BALLS, endpoint=False)
+        distance = reach * (0.6 + 1.2 * share)
+        level = snapshot.static_scene.lowest_floor + self._layers.body
+        self._puff.batched_positions = np.stack(
+            [
+                state.x + distance * np.cos(angles),
+                state.y + distance * np.sin(angles),
+                np.full(_PUFF_BALLS, level),
+            ],
+            axis=1,
+        ).astype(np.float32)
+        self._puff.batched_scales = np.full(_PUFF_BALLS, 0.45 * reach * (1 - share), np.float32)
 
 
 class _BodyGroup:

@@ -371,7 +371,7 @@ class _PageOverlay:
         shown = [
             sensor
             for sensor in agent.sensor_infos
-            if not body.fallen
+            if not (body.fallen or agent.fell)  # its rays go out when it falls
             and self._viewer_client.shows_sensor(sensor.key, is_default=agent.has_marks(sensor))
         ]
         keys = [sensor.key for sensor in shown]
