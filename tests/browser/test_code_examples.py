@@ -35,7 +35,7 @@ REACH_M = 12.0
 
 @dataclass
 class Drive:
-    """What a program saw and did, decision by decision."""
+    """Places, headings and percepts of a program, decision by decision."""
 
     places: list[tuple[float, float]] = field(default_factory=list)
     headings: list[float] = field(default_factory=list)

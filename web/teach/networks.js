@@ -53,7 +53,7 @@ export class Networks {
         "div",
         { className: "ai4u-tools" },
         button("Let it drive", () => send("teach_drive"), { icon: "play", kind: "main" }),
-        button("Why?", () => void this.#explain(number), { icon: "rays", title: "Let it drive, and see in Drive because of what it acts" }),
+        button("Why?", () => void this.#explain(number), { icon: "rays", title: "Let it drive, and see in Drive why it acts so" }),
         button("Rename", () => void this.#rename(number), { icon: "text" }),
         button("Download", () => void this.#download(number), { icon: "download" }),
         button("Delete", () => send("teach_delete"), { icon: "trash", kind: "danger" }),
@@ -101,7 +101,7 @@ export class Networks {
   }
 }
 
-/** How a network was made, and a slider through the episodes of its practice. */
+/** The making of a network in words, and a slider through the episodes of its practice. */
 class Details {
   #panel;
   #number;

@@ -16,7 +16,7 @@ let log;
 let programs;
 let names;
 
-/** Let the class answer with these, one after another, and to who asks which programs there are with `names`. */
+/** Let the class answer with these, one after another, and with `names` to a question for the programs. */
 function answerWith(...answers) {
   const asked = answerAll(...answers);
   const { fetch: answer } = globalThis;
