@@ -44,11 +44,11 @@ def find_fault(claim: Claim) -> str:
         scene = Scene.loads(claim.scene) if "\n" in claim.scene else Scene.load(claim.scene)
         if episode.seed != claim.seed:
             return f"expected seed {claim.seed}, got {episode.seed}"
-        # the world and agents are compared below; what counts as success is not among them
+        if not Replay(episode).fits(scene.build()):
+            return "it was driven in another scene"
+        # the world and agents are those of the scene; what counts as success is not among them
         goal = {"success": scene.description.success, "goal": scene.description.goal}
         replay = Replay(replace(episode, scene=episode.scene.model_copy(update=goal)))
-        if not replay.fits(scene.build()):
-            return "it was driven in another scene"
         if not replay.verdict.exact:
             return replay.verdict.why
         found = _outcome(replay)

@@ -408,7 +408,7 @@ def test_all_that_can_be_used_has_a_name(chromium: Browser, zoo: Played) -> None
     page.keyboard.press("KeyR")  # there is a past then
     page.get_by_role("button", name="Details", exact=True).click()
     for tab, last in {
-        "Drive": "Decision",
+        "Drive": "One decision",
         "Build": "Add a sensor",
         "World": "Open a file",
         "Past": "Open a recording",

@@ -86,7 +86,7 @@ def test_maps_over_the_floor(desk: PanelPage) -> None:
     desk.until(lambda: desk.panel.commands("maps")[-1]["facing"] == "box")
     desk.panel.send(MAPS | {"field": MAPS["field"] | {"done": 200}})
     expect(bar).to_be_hidden()
-    expect(desk.page.get_by_text("as it was at 12.3 s")).to_be_visible()
+    expect(desk.page.get_by_text("as it is now (12.3 s)")).to_be_visible()
     colours.click()
     desk.until(lambda: desk.panel.commands("maps")[-1]["values"])
     desk.panel.send(MAPS | {"values": VALUES})

@@ -109,9 +109,9 @@ def test_the_time_stands_still_goes_on_by_ticks_and_as_fast_as_wanted(
     press(page, "Pause")
     until(lambda: server.snapshot()["paused"])
     tick, steps = server.snapshot()["tick"], agent(server)["steps"]
-    press(page, "Tick")
+    press(page, "One tick")
     until(lambda: server.snapshot()["tick"] == tick + 1)
-    press(page, "Decision")
+    press(page, "One decision")
     until(lambda: agent(server)["steps"] == steps + 1)
     assert server.snapshot()["paused"]
     press(page, "Resume")

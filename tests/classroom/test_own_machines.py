@@ -1,5 +1,6 @@
 """Students' own machines in a real class: a notebook and ``play --class``."""
 
+import os
 import subprocess
 import sys
 import time
@@ -216,7 +217,10 @@ def test_a_world_on_another_machine_joins_and_keeps_its_seat(
 
 def play_and_be_seen(there: ServedClass, *command: str) -> str:
     """Play until the wall shows the world; return the name of the seat."""
-    with played(*command) as room, TeacherSocket(there) as teacher:
+    with (
+        played(*command, state=Path(os.environ["XDG_STATE_HOME"])) as room,
+        TeacherSocket(there) as teacher,
+    ):
         name = "".join(room.told).partition("Joined the class as ")[2].partition(".\n")[0]
         (number,) = (each["number"] for each in there.state()["seats"] if each["name"] == name)
 

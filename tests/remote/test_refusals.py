@@ -59,7 +59,7 @@ def test_each_refusal_says_what_to_do() -> None:
         )
         assert "got another one" in refused(room, "bad_token", token="open")
         assert refused(room, "unknown_key", **said, keys=("plaec",)) == (
-            "no reading is called 'plaec'; did you mean 'place'?"
+            "there is no sensor called 'plaec'; did you mean 'place'?"
         )
         assert refused(room, "session_over", **said, session="1234") == (
             "session '1234' of agent 'a' is over; connect again"

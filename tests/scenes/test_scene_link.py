@@ -5,7 +5,7 @@ from base64 import urlsafe_b64encode
 from random import Random
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from ai4u_edu.base.errors import AI4UError, SceneError
@@ -61,12 +61,19 @@ def test_any_text_comes_back(text: str, seed: int | None) -> None:
     assert decode_link(encode_link(text, seed)) == (text, seed)
 
 
+@example(place=1298, char="_")
 @given(st.integers(6, len(LINK.partition("&")[0]) - 2), st.sampled_from("Aa0_-%+é "))
 def test_a_damaged_link_says_so(place: int, char: str) -> None:
     damaged = LINK[:place] + char + LINK[place + 1 :]
     assume(damaged != LINK)
-    with pytest.raises(SceneError, match="damaged"):
-        decode_link(damaged)
+    told = ""
+    try:
+        link = decode_link(damaged)
+    except SceneError as error:
+        told = str(error)
+    else:  # a few bits fill up the last byte before the checksum, and mean nothing
+        assert link == decode_link(LINK)
+    assert not told or "damaged" in told
 
 
 @pytest.mark.parametrize("cut", [7, 20, 200, -30])

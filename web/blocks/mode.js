@@ -41,6 +41,8 @@ export class BlocksMode {
    */
   #blocks = null;
   #isOn = false;
+  /** True while the first blocks are loaded that the person wants to see. */
+  #isOpening = false;
   /**
    * The modules that are loaded with the first blocks.
    * @type {Modules | null}
@@ -90,6 +92,11 @@ export class BlocksMode {
     return this.#isOn;
   }
 
+  /** True also while the blocks are loaded. */
+  get isWanted() {
+    return this.#isOn || this.#isOpening;
+  }
+
   /**
    * Offer the blocks of an agent.
    * @param {PythonPart} part
@@ -119,6 +126,7 @@ export class BlocksMode {
    */
   take(text) {
     const { python, blocks, isOfBlocks } = splitProgram(text);
+    this.#isOpening = false; // that was for the program before
     this.#blocks = blocks;
     this.#set(isOfBlocks);
     if (isOfBlocks) this.#shown = this.#show(blocks);
@@ -176,8 +184,11 @@ export class BlocksMode {
 
   /** Show the program's blocks, or a first one. */
   async open() {
-    if (this.#isOn) return;
+    if (this.isWanted) return;
+    this.#isOpening = true;
     const modules = await this.#load();
+    if (!this.#isOpening) return;
+    this.#isOpening = false;
     if (modules === null || this.#part === null) return;
     const blocks = this.#blocks ?? modules.FIRST_BLOCKS;
     const { text } = modules.pythonOf(blocks, this.#agent);

@@ -254,14 +254,14 @@ export class CodeTab {
    * @param {Example | null} [example]
    */
   async #openScene(scene, example = null) {
-    this.#next = { scene, example, isOfBlocks: this.#blocks.isOn };
+    this.#next = { scene, example, isOfBlocks: this.#blocks.isWanted };
     const { ok } = await this.#panel.send("open_scene", { name: scene, is_saved: false });
     if (!ok) this.#next = null;
   }
 
   /** @param {Example} example */
   #chooseExample(example) {
-    if (this.#panel.part("scene")?.scene === example.scene) this.#takeExample(example, this.#blocks.isOn, true);
+    if (this.#panel.part("scene")?.scene === example.scene) this.#takeExample(example, this.#blocks.isWanted, true);
     else this.#openScene(example.scene, example);
   }
 

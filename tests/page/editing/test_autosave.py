@@ -320,12 +320,9 @@ def test_the_command_line_restores(tmp_path: Path) -> None:
     assert told.stderr == "error: there is no unsaved scene; expected: ai4u-edu play SCENE\n"
 
 
-def test_a_state_folder_that_can_t_be_made_is_no_reason_not_to_start(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_state_folder_that_can_t_be_made_is_no_reason_not_to_start(tmp_path: Path) -> None:
     (tmp_path / "state").touch()
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    with played("box_chase") as server:
+    with played("box_chase", state=tmp_path / "state") as server:
         assert server.snapshot()["agents"]
     told = "".join(server.told)
     assert f"warning: changes can't be kept in {tmp_path}/state/ai4u-edu/unsaved: Not a" in told
@@ -341,10 +338,10 @@ def test_restore_takes_the_scene_that_is_named(
     for ago_s, name in enumerate(["sumo", "tag", "tag"]):
         text = Scene.load(name).dumps()
         left_by_an_earlier_version(folder, f"{name}-0123456789a{ago_s}-1", text, ago_s=60 * ago_s)
-    with played("tag", "--restore") as server:
+    with played("tag", "--restore", state=tmp_path) as server:
         assert len(server.snapshot()["agents"]) == len(Scene.load("tag").description.agents)
         until(lambda: [each.name for each in unsaved_scenes(folder)] == ["sumo", "tag"])
-        with played("2", "--restore") as other:
+        with played("2", "--restore", state=tmp_path) as other:
             until(lambda: "unsaved scenes: 1 sumo (" in "".join(other.told))
             until(lambda: [each.name for each in unsaved_scenes(folder)] == ["sumo"])
 

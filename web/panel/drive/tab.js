@@ -104,6 +104,7 @@ export class DriveTab {
     setText(this.#brain, agent.brain ? `Brain: ${agent.brain}` : "");
     const state = [agent.problem, agent.state, agent.clipped ? `${agent.clipped} numbers out of range, cut` : ""];
     setText(this.#state, state.filter(Boolean).join(" · "));
+    this.#drawSimple();
     this.#needs.update((agent.needs ?? []).map(needRow));
     this.#sections.needs.hidden = !agent.needs?.length;
     this.#latest = agent;
@@ -189,7 +190,7 @@ export class DriveTab {
 
   /** Show a beginner who drives only if there is something to do about it: the dock says it, too. */
   #drawSimple() {
-    const hasNews = !this.#driveThis.hidden || this.#scriptWarning.textContent !== "";
+    const hasNews = !this.#driveThis.hidden || [this.#scriptWarning, this.#state].some(({ textContent }) => textContent !== "");
     this.#sections.driver.classList.toggle("ai4u-details-only", !hasNews);
   }
 
