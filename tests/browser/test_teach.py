@@ -9,9 +9,8 @@ from playwright.sync_api import Browser, expect
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.teach.drives import DriveFolder
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
-from tests.browser.plain_page import WITHOUT_VISER
-from tests.chromium import new_page
-from tests.teach.driving import SEEDS, drive, teaching_room
+from tests.browser.teach_tab import teach_tab
+from tests.teach.driving import SEEDS, drive
 from tests.waiting import until
 
 pytestmark = pytest.mark.browser
@@ -23,13 +22,8 @@ def test_a_robot_learns_from_the_chosen_drives_and_drives(
     folder = DriveFolder(tmp_path / "drives")
     for seed in SEEDS:
         folder.add(drive(seed))
-    page, problems = new_page(chromium), list[str]()
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    with teaching_room(tmp_path) as room:
-        WITHOUT_VISER.serve(page, room.url)
-        page.goto(room.url)
-        page.get_by_role("tab", name="Teach").click()
-        tab = page.get_by_role("tabpanel", name="Teach")
+    with teach_tab(chromium, tmp_path) as (tab, _):
+        page = tab.page
         drives = tab.get_by_role("group", name="Drives to learn from")
         expect(drives.get_by_role("checkbox", checked=True)).to_have_count(len(SEEDS))
         drives.get_by_role("checkbox", name=re.compile("^Drive 1 ")).uncheck()
@@ -57,20 +51,13 @@ def test_a_robot_learns_from_the_chosen_drives_and_drives(
         page.get_by_role("tab", name="Teach").click()
         drives.get_by_role("button", name="Delete drive 2", exact=True).click()
         expect(drives.get_by_role("checkbox")).to_have_count(len(SEEDS) - 1)
-        page.context.close()
-    assert problems == []
 
 
 def test_a_robot_practises_for_rewards_until_it_is_stopped(
     chromium: Browser, tmp_path: Path
 ) -> None:
-    page, problems = new_page(chromium), list[str]()
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    with teaching_room(tmp_path) as room:
-        WITHOUT_VISER.serve(page, room.url)
-        page.goto(room.url)
-        page.get_by_role("tab", name="Teach").click()
-        tab = page.get_by_role("tabpanel", name="Teach")
+    with teach_tab(chromium, tmp_path) as (tab, _):
+        page = tab.page
         touch = tab.get_by_role("group", name="Worth of each reward").get_by_label("touch")
         touch.fill("")
         tab.get_by_role("button", name="Practise").click()
@@ -91,21 +78,14 @@ def test_a_robot_practises_for_rewards_until_it_is_stopped(
         tab.get_by_role("button", name="Stop").click()
         expect(tab.get_by_text("The practice was stopped.")).to_be_visible()
         expect(tab.get_by_role("button", name="Practise")).to_be_enabled()
-        page.context.close()
-    assert problems == []
 
 
 def test_a_slider_shows_how_a_network_got_better(chromium: Browser, tmp_path: Path) -> None:
     about = KeptNetwork(0, "", "0", "practised for 8192 decisions", facts=("Seed: 0.",))
     replays = {decisions: encode(drive(1)) for decisions in (0, 1024, 8192)}
     NetworkFolder(tmp_path / "networks").add("box_chase", b"not asked to drive", about, replays)
-    page, problems = new_page(chromium), list[str]()
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    with teaching_room(tmp_path) as room:
-        WITHOUT_VISER.serve(page, room.url)
-        page.goto(room.url)
-        page.get_by_role("tab", name="Teach").click()
-        tab = page.get_by_role("tabpanel", name="Teach")
+    with teach_tab(chromium, tmp_path) as (tab, room):
+        page = tab.page
         tab.get_by_role("article").get_by_role("button", name="Network 1").click()
         expect(tab.get_by_text("Seed: 0.")).to_be_visible()
         expect(tab.get_by_text("Made on")).to_be_visible()
@@ -119,5 +99,3 @@ def test_a_slider_shows_how_a_network_got_better(chromium: Browser, tmp_path: Pa
         until(lambda: not room.runner.latest.past)
         page.get_by_role("tab", name="Past").click()
         expect(page.get_by_text("network 1 after 1,024 decisions").first).to_be_visible()
-        page.context.close()
-    assert problems == []

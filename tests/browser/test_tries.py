@@ -5,21 +5,14 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.browser.plain_page import WITHOUT_VISER
-from tests.chromium import new_page
-from tests.teach.driving import teaching_room
+from tests.browser.teach_tab import teach_tab
 
 pytestmark = pytest.mark.browser
 
 
 def test_values_are_tried_and_shown(chromium: Browser, tmp_path: Path) -> None:
-    page, problems = new_page(chromium), list[str]()
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    with teaching_room(tmp_path) as room:
-        WITHOUT_VISER.serve(page, room.url)
-        page.goto(room.url)
-        page.get_by_role("tab", name="Teach").click()
-        tab = page.get_by_role("tabpanel", name="Teach")
+    with teach_tab(chromium, tmp_path) as (tab, room):
+        page = tab.page
         tab.get_by_role("heading", name="Try many").click()
         expect(tab.get_by_text("You drive this robot by keys.")).to_be_visible()
         start = tab.get_by_role("button", name="Try", exact=True)
@@ -48,5 +41,3 @@ def test_values_are_tried_and_shown(chromium: Browser, tmp_path: Path) -> None:
             tab.get_by_role("button", name="Save the table as CSV").click()
         assert download.value.suggested_filename == "box_chase-0.move.move_amount.csv"
         assert Path(download.value.path()).read_text().startswith("0.move.move_amount,episodes")
-        page.context.close()
-    assert problems == []
