@@ -1,7 +1,9 @@
 """AI4U's protocol over real sockets: a session, and everything that can happen to it."""
 
+import gc
 import threading
 from collections.abc import Iterator
+from json import dumps
 from typing import Any, Literal
 
 import psutil
@@ -17,6 +19,7 @@ from ai4u_edu import (
     RBMoveActuator,
     RemoteBrain,
     RewardFunc,
+    Scene,
     World,
 )
 from ai4u_edu.base.errors import SetupError
@@ -748,6 +751,22 @@ def test_in_real_time_the_world_never_waits(script: UDPScript) -> None:
     state = script.hear()
     assert state["steps"] >= before[1] + 10
     brain.close()
+
+
+def test_a_scene_that_is_read_opens_nothing_and_one_that_is_dropped_leaves_nothing() -> None:
+    plain = Scene.load("box_chase").plain()
+    plain["agents"][0]["brains"] = [{"type": "RemoteBrain", "port": 7, "mode": "realtime"}]
+
+    def threads() -> list[str]:
+        return [each.name for each in threading.enumerate() if each.name == "ai4u 127.0.0.1:7"]
+
+    sim = Scene.loads(dumps(plain), name="scene.yaml").build()  # JSON is YAML as well
+    sim.reset()
+    assert not threads()
+    sim.tick()
+    assert threads()
+    del sim
+    until(lambda: gc.collect() >= 0 and not threads())
 
 
 @pytest.mark.parametrize("mode", ["lockstep", "realtime"])

@@ -78,7 +78,9 @@ class AI4ULink:
         self._timeout = receive_timeout
         self._is_threaded = threaded
         self._clock = clock
+        self._is_open = False
         self._socket: UdpSocket | None = None
+        """None until the first question: a scene that is only read or tried opens no socket."""
 
     @property
     def expects_reply(self) -> bool:
@@ -114,10 +116,7 @@ class AI4ULink:
         """A reply that came while the world stood still."""
         self._malformed = ""
         """A sentence about the last message of the session that was no reply, or had no effect."""
-        self._socket = UdpSocket(self._peer)
-        self._close_socket = weakref.finalize(self, self._socket.close)
-        if self._is_threaded:
-            self._thread = LinkThread(self.talk, f"ai4u {self.where}", self._clock)
+        self._is_open = True
 
     def tell(self, observation: Observation) -> None:
         """Send an observation in advance, or let the thread send it."""
@@ -132,6 +131,7 @@ class AI4ULink:
     def ask(self, observation: Observation, timeout: float) -> Reply | None:
         """Return the script's answer."""
         if self._is_threaded:
+            self._opened_socket()
             return self._thread.exchange(observation, timeout)
         if self._early_reply is not None:
             reply, self._early_reply = self._early_reply, None
@@ -144,21 +144,23 @@ class AI4ULink:
 
     def idle(self) -> None:
         """Repeat the question to a script that asked for time, or poll one that has not started."""
-        if self._is_threaded or self._socket is None or self._early_reply is not None:
+        if self._is_threaded or not self._is_open or self._early_reply is not None:
             return
         if self._asked is not None or not self.expects_reply:
             self._early_reply = self.talk(self._asked, self._clock())
 
     def close(self, reason: str) -> None:
         """Tell the script that the world has ended."""
-        if self._socket is None:
+        if not self._is_open:
             return
-        if self._is_threaded:
-            self._thread.close()
-        if self.state is LinkState.CONNECTED:
-            self._say_goodbye()
-        self._close_socket()
-        self._socket = None
+        self._is_open = False
+        if self._socket is not None:
+            if self._is_threaded:
+                self._thread.close()
+            if self.state is LinkState.CONNECTED:
+                self._say_goodbye()
+            self._close_socket()
+            self._socket = None
         self.state, self.reason = LinkState.WAITING, reason
 
     # -- the dialogue ----------------------------------------------------------------------------
@@ -191,7 +193,7 @@ class AI4ULink:
             self._asked = observation
             if self._state is None or self._state[0] is not observation:
                 self._state = observation, self._codec.state(observation)
-        udp = self._open_socket
+        udp = self._opened_socket()
         # the protocol has no numbers: an old reply would be taken for the answer to this request
         self.ignored += udp.drain()
         request = self._dialogue.request(self._state[1] if self._state else None)
@@ -228,7 +230,7 @@ class AI4ULink:
 
     def _receive(self, deadline: float) -> AI4UReply | None:
         """Return the reply to the request in flight; None if it is not there yet, or was lost."""
-        udp = self._open_socket
+        udp = self._opened_socket()
         for _ in range(MAX_RECEIVED_AT_ONCE):
             udp.wait_readable(max(0.0, self._wait_until(deadline) - self._clock()) * 1000)
             looked_at = self._clock()  # a reply may come while this thread gets no processor time
@@ -325,7 +327,7 @@ class AI4ULink:
 
     def _say_goodbye(self) -> None:
         deadline = time.monotonic() + GOODBYE_TIMEOUT_S
-        udp = self._open_socket
+        udp = self._opened_socket()
         try:
             udp.send(self._dialogue.goodbye_request())
             while (left := deadline - time.monotonic()) > 0:
@@ -335,11 +337,26 @@ class AI4ULink:
         except OSError:
             return  # then it has gone already
 
-    @property
-    def _open_socket(self) -> UdpSocket:
+    def _opened_socket(self) -> UdpSocket:
+        """Return the socket; open it first, and start the thread, if that was not done yet."""
         if self._socket is None:
-            raise SetupError(f"the link to {self.where} is closed; expected open() first")
+            if not self._is_open:
+                raise SetupError(f"the link to {self.where} is closed; expected open() first")
+            self._socket = UdpSocket(self._peer)
+            self._close_socket = weakref.finalize(self, self._socket.close)
+            if self._is_threaded:
+                self._start_thread()
         return self._socket
+
+    def _start_thread(self) -> None:
+        link = weakref.ref(self)  # a thread that held it would keep it when the world is gone
+
+        def talk(observation: Observation | None, deadline: float) -> Reply | None:
+            here = link()
+            return None if here is None else here.talk(observation, deadline)
+
+        self._thread = LinkThread(talk, f"ai4u {self.where}", self._clock)
+        weakref.finalize(self, self._thread.end)
 
 
 def _resolve(host: str, port: int) -> tuple[str, int]:

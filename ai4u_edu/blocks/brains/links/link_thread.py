@@ -66,11 +66,15 @@ class LinkThread:
         return reply
 
     def close(self) -> None:
-        """End the thread."""
+        """End the thread, and wait until it has ended."""
+        self.end()
+        self._thread.join()
+
+    def end(self) -> None:
+        """End the thread soon."""
         with self._changed:
             self._is_closing = True
             self._changed.notify_all()
-        self._thread.join()
 
     def _run(self) -> None:
         while True:
