@@ -18,6 +18,7 @@ from ai4u_edu.blocks.parameterized import field_docs
 from ai4u_edu.page.messages import Message, PageCommand
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.server.input_messages import InputEvent
+from ai4u_edu.wire.class_link import Switches
 
 FILE = Path(__file__).parents[1] / "web" / "generated" / "messages.d.ts"
 HEAD = """\
@@ -123,6 +124,7 @@ def source() -> str:
     file.map("PanelParts", "The parts of the panel by name.", parts)
     for kind in subclasses(InputEvent):
         file.received(kind)
+    file.received(Switches)
     for kind in subclasses(Message):
         file.sent(kind)
     commands = [

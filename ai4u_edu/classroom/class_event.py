@@ -8,6 +8,8 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import Any
 
+from msgspec.structs import asdict
+
 from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
 from ai4u_edu.classroom.help_score import MISTAKE_HELP
 from ai4u_edu.classroom.live_class import LiveClass
@@ -73,6 +75,7 @@ class ClassEvents:
             "open": live.seats.is_open,
             "problem": live.problem,
             "attention": live.attention.as_event(),
+            "switches": asdict(live.switches),
             "shown": live.shown.model_dump(),
             "race": live.race.event(is_projected=is_projected),
             "tournament": tournament_event(

@@ -7,14 +7,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Literal
 
-from pydantic import BaseModel
+from msgspec.structs import asdict, replace
+from pydantic import BaseModel, RootModel
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.log_limit import log_limited
 from ai4u_edu.classroom.assignments import Assignments
 from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
-from ai4u_edu.classroom.errors import StoreError
+from ai4u_edu.classroom.errors import CommandError, StoreError
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
 from ai4u_edu.classroom.programs import ProgramRuns, Programs, Stars
 from ai4u_edu.classroom.progress import Progress
@@ -29,12 +30,14 @@ from ai4u_edu.member.room_state import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
     CheckedNetwork,
+    ClassSettings,
     ExerciseResult,
     FromClass,
     HandedIn,
     LinkWelcome,
     People,
     Person,
+    Switches,
     Work,
 )
 
@@ -42,6 +45,7 @@ _logger = logging.getLogger(__name__)
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
+SWITCHES = "switches"
 PRESENT_ROOM = "present_room_"
 """Beginning of the name of a setting with the room that a seat used last."""
 ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
@@ -53,6 +57,10 @@ class Shown(BaseModel):
     kind: ShownKind = "join"
     room: str = ""
     game: int = 0
+
+
+class _StoredSwitches(RootModel[dict[str, bool]]):
+    root: dict[str, bool] = {}
 
 
 class LiveClass:
@@ -79,6 +87,7 @@ class LiveClass:
         self.looks_in: Counter[str] = Counter()
         """Open sockets of the teacher's pages in each room."""
         self.attention = AttentionState(store)
+        self.switches = _read_switches(store)
         self.assignments = Assignments(store)
         self.progress = Progress(store)
         self.programs, self.program_runs = Programs(store), ProgramRuns(store)
@@ -190,6 +199,7 @@ class LiveClass:
         link.send(LinkWelcome(VERSION, name, colour))
         link.send(self.assignments.of(room.id))
         link.send(self.attention.as_message())
+        link.send(ClassSettings(self.switches))
         link.send(self.race.messages()(room.id))
         if room.seat:
             link.send(self._handed_in(room.seat))
@@ -239,6 +249,22 @@ class LiveClass:
     def tell_attention(self) -> None:
         """Tell all rooms and pages of the teacher's request."""
         self._send(lambda _: self.attention.as_message())
+
+    def switch(self, name: str, *, on: bool) -> None:
+        """Turn one of the class's switches, and tell all rooms and pages.
+
+        Raises:
+            CommandError: there is no such switch.
+            StoreError: it can't be stored; then nothing has changed.
+        """
+        if name not in Switches.__struct_fields__:
+            known = ", ".join(Switches.__struct_fields__)
+            raise CommandError(f"name: expected one of {known}, got {name!r}")
+        switches = replace(self.switches, **{name: on})
+        stored = _StoredSwitches(asdict(switches))
+        self.store.set_setting(SWITCHES, stored.model_dump_json())
+        self.switches = switches
+        self._send(lambda _: ClassSettings(switches))
 
     def tell_assignments(self) -> None:
         """Tell all rooms their scenes."""
@@ -312,6 +338,7 @@ class LiveClass:
         self.rooms.clear()
         self._wrong = {}
         self.attention.read()
+        self.switches = Switches()
         self.assignments.read()
         self.progress.read()
         self.program_runs.read()
@@ -336,3 +363,11 @@ class LiveClass:
 def _wrong_answers(store: ClassStore) -> dict[str, tuple[str, str, int]]:
     rows = store.query("select room, exercise, diagnosis, count from wrong_answers")
     return {room: (exercise, diagnosis, count) for room, exercise, diagnosis, count in rows}
+
+
+def _read_switches(store: ClassStore) -> Switches:
+    """Return the stored switches; those that another version had are left out."""
+    stored = store.setting_as(SWITCHES, _StoredSwitches).root
+    return Switches(
+        **{name: on for name, on in stored.items() if name in Switches.__struct_fields__}
+    )

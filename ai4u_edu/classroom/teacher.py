@@ -139,6 +139,15 @@ class _Attend(_Command):
     seconds: _Seconds = 0.0
 
 
+class _Switch(_Command):
+    """Turn something on or off in the whole class."""
+
+    do: Literal["switch"]
+    name: str = Field(max_length=40)
+    """A field of :class:`~ai4u_edu.wire.class_link.Switches`."""
+    on: bool
+
+
 class _StartRace(_Command):
     """Start a race."""
 
@@ -198,6 +207,7 @@ _AnyCommand = (
     | _PlainCommand
     | _Assign
     | _Attend
+    | _Switch
     | _StartRace
     | _BeginTournament
     | _StartTournament
@@ -269,6 +279,8 @@ class Teacher:
             case _Attend(kind=kind, message=message, seconds=seconds):
                 await asyncio.to_thread(live.attention.set, kind, message.strip(), seconds)
                 live.tell_attention()
+            case _Switch(name=name, on=on):
+                live.switch(name, on=on)
             case _StartRace():
                 scene = await asyncio.to_thread(_find_scene, live, wanted.scene)
                 race = live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)

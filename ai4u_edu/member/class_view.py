@@ -5,10 +5,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ai4u_edu.wire.class_link import Attention, CurrentRace, LinkWelcome, People, Person
+from msgspec.structs import asdict
+
+from ai4u_edu.wire.class_link import Attention, CurrentRace, LinkWelcome, People, Person, Switches
 
 TEACHER = "teacher"
 STUDENT = "student"
+NO_SWITCHES = Switches()
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,7 @@ class _Shown:
     has_teacher: bool = False
     attention: Attention | None = None
     attention_ends_at: float | None = None
+    switches: Switches = NO_SWITCHES
     race: CurrentRace | None = None
     race_starts_at: float = 0.0
     own_best: float | None = None
@@ -77,6 +81,10 @@ class ClassView:
         """
         self._change(attention=message, attention_ends_at=ends_at)
 
+    def set_switches(self, switches: Switches) -> None:
+        """Show what the teacher has turned on for the whole class."""
+        self._change(switches=switches)
+
     def set_race(self, race: CurrentRace | None, starts_at: float, own_best: float | None) -> None:
         """Show a race.
 
@@ -119,6 +127,7 @@ class ClassView:
                 "message": shown.attention.message if shown.attention else "",
                 "ends_in": self._left(shown.attention_ends_at),
             },
+            "switches": asdict(shown.switches),
             "race": self._race(shown),
             "lesson": shown.lesson,
             "program": (

@@ -37,6 +37,7 @@ from ai4u_edu.wire.class_link import (
     POSES_PER_S,
     Assignment,
     Attention,
+    ClassSettings,
     CurrentRace,
     EpisodeResult,
     FromClass,
@@ -170,6 +171,8 @@ class ClassMember:
             case Attention():
                 with self._attention_lock:
                     self._pay_attention(message)
+            case ClassSettings():
+                self.view.set_switches(message.switches)
             case CurrentRace(phase="countdown", id=str(name)) if name:
                 starts_at = self._clock() + message.starts_in_s
                 self._holds.for_race(starts_at)  # at once, whatever the other thread does

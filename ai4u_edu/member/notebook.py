@@ -23,6 +23,7 @@ from ai4u_edu.wire.class_link import (
     Applied,
     Assignment,
     Attention,
+    ClassSettings,
     CurrentRace,
     ExerciseResult,
     FromClass,
@@ -36,7 +37,7 @@ from ai4u_edu.wire.class_link import (
 )
 
 NO_WORLD = "The notebook shows no world at present."
-_REPLAYED = (LinkWelcome, People, Attention, CurrentRace)
+_REPLAYED = (LinkWelcome, People, Attention, ClassSettings, CurrentRace)
 """Messages of which a world that is shown later gets the latest one. Of assignments it gets only a
 lesson's: a scene would replace the world that a cell has just shown."""
 

@@ -6,6 +6,7 @@ message, then its fields. The room begins::
     room    hello                       which seat or room, by its secret
     class   welcome                     whose link this is
     class   people, assignment, attention, race      the present ones, and again at each change
+    class   settings                                 likewise
     room    drawing, poses, state, work              the present ones, and again at each change
     room    episodeResult, exerciseResult, network   each with a key
     class   ack                         the result with that key is stored
@@ -28,7 +29,7 @@ from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
 from ai4u_edu.wire.validation import LIST, MAX_TEXT_CHARS, Finite, Int, Text
 
-VERSION = 1
+VERSION = 2
 SUBPROTOCOL = f"ai4u-edu-class.v{VERSION}"
 """The WebSocket's subprotocol."""
 PATH = "/link"
@@ -276,6 +277,19 @@ class Attention(TaggedMessage, frozen=True):
     """Seconds until it ends by itself; 0: it does not."""
 
 
+class Switches(Record, frozen=True):
+    """What the teacher has turned on for the whole class. Each is off at first."""
+
+    sound: bool = False
+    """Students' pages may make sounds."""
+
+
+class ClassSettings(TaggedMessage, frozen=True, tag="settings"):
+    """What holds in all rooms."""
+
+    switches: Switches
+
+
 class RaceRow(Record, frozen=True):
     """A place in a race."""
 
@@ -333,7 +347,15 @@ FromRoom = (
     | Applied
 )
 FromClass = (
-    LinkWelcome | Ack | HandedIn | People | Assignment | Attention | CurrentRace | LinkProblem
+    LinkWelcome
+    | Ack
+    | HandedIn
+    | People
+    | Assignment
+    | Attention
+    | ClassSettings
+    | CurrentRace
+    | LinkProblem
 )
 Result = EpisodeResult | ExerciseResult
 Delivery = Result | HandedInNetwork

@@ -17,14 +17,17 @@ from ai4u_edu.member import ClassMember
 from ai4u_edu.page.server.app import RoomMount
 from ai4u_edu.page.server.class_feed import ROLE_HEADER, SEAT_HEADER
 from ai4u_edu.wire.class_link import (
+    VERSION,
     Assignment,
     Attention,
+    ClassSettings,
     CurrentRace,
     FromClass,
     LinkWelcome,
     People,
     Person,
     RaceRow,
+    Switches,
 )
 from tests.browser.contrast import low_contrasts
 from tests.browser.plain_page import ASKED
@@ -151,7 +154,7 @@ def test_its_controls_can_be_read_in_all_states(school: RoomOfClass, scheme: Any
     page = school.page(color_scheme=scheme)
     # viser is left out, which sets it
     page.evaluate("each => (document.documentElement.dataset.mantineColorScheme = each)", scheme)
-    school.tell(LinkWelcome(1, "", ""), People((FOX, OWL, HARE)))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX, OWL, HARE)))
     bar = page.get_by_role("region", name="Class")
     expect(bar.get_by_role("button").first).to_be_visible()
     assert low_contrasts(page, controls=2, within=OURS) == []
@@ -165,7 +168,7 @@ def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -
     bar = page.get_by_role("region", name="Class")
     expect(bar).to_have_count(0)
     assert not any("/api/" in url for url in school.asked)
-    school.tell(LinkWelcome(1, "", ""), People((FOX, OWL, HARE)))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX, OWL, HARE)))
     expect(bar.locator("strong")).to_have_text("Red Fox")
     expect(bar.get_by_role("listitem")).to_have_text(["<b>Blue</b> Owl", "Green Hare(not here)"])
     assert bar.locator("b").count() == 0
@@ -192,9 +195,19 @@ def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -
     expect(page.get_by_role("dialog")).to_have_count(0)
 
 
+def test_a_page_makes_sounds_once_the_teacher_turns_them_on(school: RoomOfClass) -> None:
+    page = school.page()
+    mute = page.get_by_role("button", name="Turn the sound off")
+    expect(mute).to_have_count(0)
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX,)), ClassSettings(Switches(sound=True)))
+    expect(mute).to_be_visible()
+    school.tell(ClassSettings(Switches()))
+    expect(mute).to_have_count(0)
+
+
 def test_a_blank_screen_keeps_focus_and_keys_whatever_is_pressed(school: RoomOfClass) -> None:
     page = school.page()
-    school.tell(LinkWelcome(1, "", ""), People((FOX,)))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX,)))
     page.keyboard.down("KeyW")
     until(lambda: school.x > 0.1)
     school.tell(Attention("blank", "Listen <u>now</u>", 0.0))
@@ -224,7 +237,7 @@ def test_a_blank_screen_keeps_focus_and_keys_whatever_is_pressed(school: RoomOfC
 
 def test_whoever_else_drives_is_called_by_name(school: RoomOfClass) -> None:
     page = school.page()
-    school.tell(LinkWelcome(1, "", ""), People((FOX, OWL)))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX, OWL)))
     school.entrance.seat = 2
     with RawPage(f"{school.room.url}r/a1/ws/input") as other:
         other.send("take")
@@ -233,7 +246,7 @@ def test_whoever_else_drives_is_called_by_name(school: RoomOfClass) -> None:
 
 def test_the_teachers_own_page_is_not_blanked(school: RoomOfClass) -> None:
     school.entrance.role = "teacher"
-    school.tell(LinkWelcome(1, "", ""), People((FOX,)), Attention("blank", "Listen", 0.0))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX,)), Attention("blank", "Listen", 0.0))
     page = school.page()
     bar = page.get_by_role("region", name="Class")
     expect(bar).to_contain_text("Teacher")
@@ -246,7 +259,7 @@ def test_a_pause_has_a_banner_and_leaves_what_stands_on_the_page_readable(
     school: RoomOfClass,
 ) -> None:
     page = school.page(width=390, height=844)
-    school.tell(LinkWelcome(1, "", ""), People((FOX, OWL, HARE)))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX, OWL, HARE)))
     school.tell(Attention("pause", "Hands off, all of you: look at the board in front", 600.0))
     banner = page.locator(".ai4u-banner")
     expect(banner).to_contain_text("Hands off")
@@ -268,7 +281,7 @@ def test_a_race_counts_down_and_shows_the_own_best_first(school: RoomOfClass) ->
     page = school.page(stands_still=True)
     board = (RaceRow("<b>Blue</b> Owl", "#0072b2", "goal", 3.21, "x"),)
     view = school.member.view
-    school.tell(LinkWelcome(1, "", ""), People((FOX,)))
+    school.tell(LinkWelcome(VERSION, "", ""), People((FOX,)))
     race = CurrentRace("r1", "countdown", 2.0, "maze", 1, ())
     view.set_race(race, school.clock() + 2.0, None)
     countdown = page.locator(".ai4u-countdown")

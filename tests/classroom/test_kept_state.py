@@ -1,4 +1,4 @@
-"""Attention, assignments and races after the class was started again."""
+"""Attention, switches, assignments and races after the class was started again."""
 
 import asyncio
 from collections.abc import Iterator
@@ -15,6 +15,7 @@ from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import RaceResult, Races
 from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.wire.class_link import EpisodeResult
+from tests.classroom.served_class import served_class
 
 MAZE = AssignedScene("Maze", "maze")
 
@@ -37,6 +38,23 @@ def test_attention_has_its_remaining_seconds_by_whatever_clock(store: ClassStore
     assert not later.is_over()
     later.end()
     assert AttentionState(store).kind == ""
+
+
+@pytest.mark.slow
+def test_a_switch_holds_after_a_restart_but_not_after_forget(tmp_path: Path) -> None:
+    with served_class(tmp_path) as served:
+        assert served.command("switch", name="sound", on=True).status_code == 200
+    with served_class(tmp_path) as served:
+        assert served.state()["switches"] == {"sound": True}
+        assert served.command("forget").status_code == 200
+        assert served.state()["switches"] == {"sound": False}
+
+
+def test_a_switch_of_another_version_is_left_out(tmp_path: Path) -> None:
+    with ClassStore(tmp_path) as store:
+        store.set_setting("switches", '{"of_another_version": true, "sound": true}')
+    with served_class(tmp_path) as served:
+        assert served.state()["switches"] == {"sound": True}
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,15 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu import Scene
-from ai4u_edu.wire.class_link import Applied, Assignment, Attention, LinkHello, Work
+from ai4u_edu.wire.class_link import (
+    Applied,
+    Assignment,
+    Attention,
+    ClassSettings,
+    LinkHello,
+    Switches,
+    Work,
+)
 from tests.classroom.link_client import RawLink, TeacherSocket, state
 from tests.classroom.served_class import ServedClass, served_class
 from tests.page.server import http_client
@@ -129,9 +137,27 @@ def test_attention_holds_for_whoever_connects_and_ends_by_itself(served: ServedC
         wall.next("class", lambda e: e["attention"]["kind"] == "")
 
 
+@pytest.mark.parametrize("name", Switches.__struct_fields__)
+def test_a_switch_is_told_to_rooms_and_wall_and_to_whoever_comes_later(
+    served: ServedClass, name: str
+) -> None:
+    with RawLink(served, served.joined()) as link, TeacherSocket(served) as wall:
+        assert link.next(ClassSettings) == ClassSettings(Switches())
+        assert served.command("switch", name=name, on=True).status_code == 200
+        assert getattr(link.next(ClassSettings).switches, name) is True
+        wall.next("class", lambda event: event["switches"][name])
+    with RawLink(served, served.joined()) as late:
+        assert getattr(late.next(ClassSettings).switches, name) is True
+        assert served.command("switch", name=name, on=False).status_code == 200
+        assert late.next(ClassSettings) == ClassSettings(Switches())
+
+
 @pytest.mark.parametrize(
     ("do", "body", "problem"),
     [
+        ("switch", {"name": "souns", "on": True}, "expected one of sound, got 'souns'"),
+        ("switch", {"name": "__class__", "on": True}, "expected one of sound"),
+        ("switch", {"name": "sound", "on": 7}, "on"),
         ("assign", {"rooms": ["nowhere"], "scene": "maze"}, "no room 'nowhere'"),
         ("assign", {"rooms": "all", "scene": "../x"}, "scene of the library"),
         ("assign", {"rooms": "all", "scene": {"lesson": "99"}}, "expected a number from 00 to 20"),

@@ -954,6 +954,12 @@ export interface StateEvent {
   collects: number;
 }
 
+/** What the teacher has turned on for the whole class. Each is off at first. */
+export interface Switches {
+  /** Students' pages may make sounds. */
+  sound: boolean;
+}
+
 /** Position of a stick on the screen or a gamepad. */
 export interface StickPosition {
   /** Deflection ahead, from -1 to 1. */

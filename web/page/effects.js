@@ -23,7 +23,7 @@ export class Effects {
 
   /** @param {HTMLElement} row parent of the button that mutes */
   constructor(row) {
-    this.#button = element("button", { type: "button", className: "ai4u-round-button ai4u-sound", hidden: this.#sounds.isForbidden });
+    this.#button = element("button", { type: "button", className: "ai4u-round-button ai4u-sound" });
     this.#button.addEventListener("click", () => {
       this.#sounds.isOn = !this.#sounds.isOn;
       this.#drawButton();
@@ -58,8 +58,19 @@ export class Effects {
     this.#sounds.motor(isRunning);
   }
 
+  /**
+   * Follow the teacher's switch of a class.
+   * @param {boolean} isOn true if students' pages may make sounds
+   */
+  allowSound(isOn) {
+    this.#sounds.isForbidden = !isOn;
+    if (!isOn) this.#sounds.motor(false);
+    this.#drawButton();
+  }
+
   #drawButton() {
-    const { isOn } = this.#sounds;
+    const { isOn, isForbidden } = this.#sounds;
+    this.#button.hidden = isForbidden;
     this.#button.replaceChildren(icon(isOn ? "sound" : "mute", 18));
     this.#button.ariaLabel = this.#button.title = isOn ? "Turn the sound off" : "Turn the sound on";
   }

@@ -149,6 +149,7 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
     case "class":
       classBar ??= new ClassBar(draw);
       classBar.show(message);
+      effects.allowSound(message.switches.sound);
       noteHandout(message.program);
       break;
     case "error":

@@ -1,7 +1,7 @@
 /**
  * Sounds of a drive, made of a few oscillators: motor, bump, collect, win and fall.
  *
- * They are quiet, and on until somebody mutes them; in a class there are none. Browsers allow sound only after a
+ * They are quiet, and on until somebody mutes them; in a class only if its teacher has turned them on. Browsers allow sound only after a
  * key or a click, which is where the first one comes from.
  */
 
@@ -36,10 +36,8 @@ export class Sounds {
    */
   #playedAt = {};
 
-  /** True in a class, where nobody's world makes sounds. */
-  get isForbidden() {
-    return roomOfPage() !== "";
-  }
+  /** True in a class, unless its teacher has turned sounds on. */
+  isForbidden = roomOfPage() !== "";
 
   get isOn() {
     return !this.isForbidden && recall(STORAGE_KEY, true) !== false;

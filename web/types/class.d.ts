@@ -1,5 +1,7 @@
 /** What a class's server sends to its pages: ai4u_edu/classroom/class_event.py, work_routes.py, join.py. */
 
+import type { Switches } from "../generated/messages.js";
+
 export interface Seat {
   number: number;
   name: string;
@@ -187,6 +189,7 @@ export interface ClassState {
   open: boolean;
   problem: string;
   attention: Attention;
+  switches: Switches;
   shown: { kind: "join" | "room" | "race" | "tournament" | "game" | "board"; room: string; game: number };
   race: Race | null;
   tournament: Tournament | null;
@@ -244,6 +247,7 @@ export interface ClassEvent {
   people: Person[];
   has_teacher: boolean;
   attention: Attention;
+  switches: Switches;
   race: StudentRace | null;
   lesson: string;
   program: StartingProgram | null;

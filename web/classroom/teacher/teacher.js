@@ -1,5 +1,6 @@
 /** The teacher's page: the wall of rooms, progress, misconceptions, and commands for the class. */
 
+/** @import { Switches } from "../../generated/messages.js" */
 /** @import { ClassState } from "../../types/class.js" */
 
 import { showAssign } from "./assign_dialog.js";
@@ -32,6 +33,12 @@ const NOBODY = "Nobody is here yet. A card for each room appears as soon as some
 let state = null;
 /** Sentence while the class can't be reached. */
 let lost = "";
+
+/**
+ * Buttons that turn something on or off in the whole class.
+ * @type {NodeListOf<HTMLButtonElement>}
+ */
+const switches = document.querySelectorAll("[data-switch]");
 
 const realNames = new RealNames();
 const wall = new Wall(find("#wall"), {
@@ -66,6 +73,10 @@ onState("#real-names", () => showNames(realNames));
 onState("#attention", () => {
   return isHeld(state.attention) ? commandOrTell(END_ATTENTION) : showAttention();
 });
+for (const button of switches) {
+  const name = /** @type {keyof Switches} */ (button.dataset.switch);
+  button.addEventListener("click", () => state && commandOrTell({ do: "switch", name, on: !state.switches[name] }));
+}
 openClassSocket(
   "./teacher/socket",
   { class: show, drawing: (message) => wall.setDrawing(message), poses: (message) => wall.setPoses(message) },
@@ -91,6 +102,9 @@ function show(message) {
   header.show(state);
   strips.show(state);
   setText(find("#attention"), isHeld(state.attention) ? "End attention" : "Attention…");
+  for (const button of switches) {
+    button.ariaPressed = String(state.switches[/** @type {keyof Switches} */ (button.dataset.switch)]);
+  }
   find("#attention").toggleAttribute("data-held", isHeld(state.attention));
   wall.show(state);
   controls.update();
