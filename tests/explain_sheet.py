@@ -46,6 +46,7 @@ def main() -> None:
             for scene in SCENES:
                 _take(chromium, scene, PICTURES / f"explain_{scene}.png", DESK, "light")
                 _take_maps(chromium, scene, PICTURES / f"explain_floor_{scene}.png", DESK, "light")
+            _take_watch(chromium, PICTURES / "explain_watch.png")
             for scene, target in SCENES.items():
                 _maps(scene, target)
             return
@@ -67,6 +68,21 @@ def _take(chromium: Browser, scene: str, path: Path, size: tuple[int, int], sche
         page.locator(".ai4u-why-sentence").scroll_into_view_if_needed()
         page.wait_for_timeout(SETTLE_MS)
         _save(Image.open(io.BytesIO(page.screenshot())), path)
+
+
+def _take_watch(chromium: Browser, path: Path) -> None:
+    """Take a picture of the page while a network is watched."""
+    context = chromium.new_context(viewport={"width": DESK[0], "height": DESK[1]})
+    with (
+        played("box_chase", "--seed", "1", waits_for_key=True) as server,
+        context.new_page() as page,
+    ):
+        page.goto(server.url)
+        page.get_by_role("button", name="Watch it think").click()
+        page.get_by_role("button", name="Watch again").click(timeout=60_000)
+        page.wait_for_timeout(SETTLE_MS)
+        _save(Image.open(io.BytesIO(page.screenshot())), path)
+    context.close()
 
 
 def _take_maps(

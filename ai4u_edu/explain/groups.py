@@ -128,21 +128,48 @@ def _parts(
 
 
 def _says(info: SensorInfo, name: str, index: int, percept: Mapping[str, Any]) -> str:
-    """Return in a clause what a direction to a target says at this moment; empty for others."""
-    if name not in ("ahead?", "left?") or len(info.targets) != 1:
-        return ""
+    """Return in a clause what a number says at this moment; empty for one without such words."""
     reading = np.asarray(percept[info.key])
     if reading.size != info.stack * len(info.low):
         return ""
-    value = float(reading.reshape(info.stack, -1)[-1, index])
-    if value < info.low[index] or abs(value) > 1:
-        return ""  # it does not see the target
-    ahead, behind = (
-        ("ahead of it", "behind it") if name == "ahead?" else ("to its left", "to its right")
-    )
-    beside = "beside it" if name == "ahead?" else "neither to its left nor to its right"
-    where = beside if abs(value) < MIN_SIDE else ahead if value > 0 else behind
-    return f"the {info.targets[0].replace('_', ' ')} is {where}"
+    now = [float(each) for each in reading.reshape(info.stack, -1)[-1]]
+    value, high = now[index], float(info.high[index])
+    target = info.targets[0].replace("_", " ") if len(info.targets) == 1 else ""
+    match info.block:
+        case "BearingSensor" | "OrientationSensor" if target and name in _SIDES:
+            is_seen = info.low[index] <= value and abs(value) <= 1
+            return f"the {target} is {_side(name, value)}" if is_seen else ""
+        case "BearingSensor" | "OrientationSensor" if target and name == "distance" and high > 0:
+            return f"the {target} is {_thirds(value / high, 'near', 'not far', 'far away')}"
+        case "PositionSensor" if target and name in ("forward", "left"):
+            length = float(np.hypot(now[0], now[1])) or 1.0
+            side = "ahead?" if name == "forward" else "left?"
+            return f"the {target} is {_side(side, value / length)}"
+        case "HeadingSensor" if name in _SIDES:
+            return f"it faces {_side(name, value)}"
+        case "HomeostaticSensor" if high > info.low[index]:
+            share = (value - info.low[index]) / (high - info.low[index])
+            return f"its {name} is {_thirds(share, 'low', 'in the middle', 'high')}"
+        case _:
+            return ""
+
+
+_SIDES = {
+    "ahead?": ("ahead of it", "behind it", "beside it"),
+    "left?": ("to its left", "to its right", "neither to its left nor to its right"),
+    "east?": ("east", "west", "neither east nor west"),
+    "north?": ("north", "south", "neither north nor south"),
+}
+"""Words for a direction's sine or cosine above 0, below 0 and near 0, by the number's name."""
+
+
+def _side(name: str, value: float) -> str:
+    above, below, neither = _SIDES[name]
+    return neither if abs(value) < MIN_SIDE else above if value > 0 else below
+
+
+def _thirds(share: float, low: str, middle: str, high: str) -> str:
+    return low if share < 1 / 3 else middle if share < 2 / 3 else high
 
 
 def _rays(info: SensorInfo, picture: RayPicture, planes: int) -> list[Group]:

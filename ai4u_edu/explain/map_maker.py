@@ -1,6 +1,7 @@
 """A map over the floor of a running world: what its agent would do at each place, or its worth."""
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from time import monotonic
@@ -18,11 +19,14 @@ from ai4u_edu.explain.policy import Floats
 from ai4u_edu.explain.value_map import source_of, value_at
 from ai4u_edu.explain.world_copy import Poses, WorldCopy
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.world import AreaDescription, BodyDescription
 
 CELLS, ROLLOUT_CELLS = 200, 100
 """Places of a map, about; of one whose values are rollouts, each of which takes long."""
 MAX_COLUMNS = 40
+MAX_FACED = 12
+"""Most things in the list of what an agent can look at."""
 RETRY_S = 1.0
 """Time after which a map that has failed is tried again, if the world has changed."""
 PUBLISH_S = 0.25
@@ -215,6 +219,24 @@ class MapMaker:
                 shown_at = monotonic()
                 self.latest = replace(made, moves=moves.copy(), values=values.copy(), done=done)
             yield None
+
+
+def faced_things(snapshot: Snapshot, agent: AgentState) -> list[str]:
+    """Return the things that the agent could look at from each place.
+
+    These are the targets of its sensors, and things that alone have one of their tags, as a goal
+    has and walls have not.
+    """
+    scene = snapshot.static_scene
+    all_things: tuple[BodyDescription | AreaDescription, ...] = (*scene.bodies, *scene.areas)
+    things = [each for each in all_things if each.name != agent.body]
+    counts = Counter(tag for each in things for tag in each.tags)
+    targets = {name for info in agent.sensor_infos for name in info.targets}
+    return [
+        each.name
+        for each in things
+        if each.name in targets or any(counts[tag] == 1 for tag in each.tags)
+    ][:MAX_FACED]
 
 
 def _grid(copy: WorldCopy, cells: int) -> tuple[Poses, tuple[float, float]]:

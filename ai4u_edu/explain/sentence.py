@@ -45,6 +45,10 @@ SIDES = {
 """Words for a number above 0, below 0 and near 0, by the component's name."""
 
 
+CHOICES = {"GridMoveActuator": ("stays", "goes right", "goes left", "goes up", "goes down")}
+"""Words for choices, by the actuator's class."""
+
+
 class Axis(NamedTuple):
     """One number of an action, for people."""
 
@@ -53,6 +57,8 @@ class Axis(NamedTuple):
     high: float
     is_choice: bool = False
     has_effect: bool = True
+    choices: tuple[str, ...] = ()
+    """Words for the choices, as ``goes right``; empty if they have none."""
 
     @property
     def span(self) -> float:
@@ -76,6 +82,7 @@ def axes_of(infos: Sequence[ActuatorInfo], actuators: Sequence[str]) -> list[Axi
             each.high,
             info.is_choice,
             each.name not in info.without_effect,
+            CHOICES.get(info.block, ()),
         )
         for info in (known[name] for name in actuators if name in known)
         for each in info.components
@@ -189,7 +196,7 @@ def _no_single(told: Occlusion, axes: Sequence[Axis], size: float, row: int) -> 
             without = "both" if len(told.together) == 2 else "all of them"
             return _because(axes[index], now, base, reasons, without, " together")
         return (
-            f"Many slots decide together: each of them alone moves the action by less than "
+            f"Many numbers decide together: each of them alone moves the action by less than "
             f"{MIN_SHARE:.0%} of its range, all of them by {largest:.0%}."
         )
     if told.is_deaf:
@@ -218,16 +225,17 @@ def _because(
         return (
             f"It {words} because {reasons}{how}. Without {without}, it would {_infinitive(other)}."
         )
-    only = ("", "only ") if abs(now) > abs(otherwise) else ("only ", "")
+    more = "more" if abs(now) > abs(otherwise) else "less"
     return (
-        f"It {words} by {only[0]}{number(abs(now))} because {reasons}{how}. Without {without}, it "
-        f"would by {only[1]}{number(abs(otherwise))}."
+        f"It {words} {more} because {reasons}{how}: {number(abs(now))}. "
+        f"Without {without}, it would be {number(abs(otherwise))}."
     )
 
 
 def _reasons(told: Occlusion, rows: Sequence[int]) -> str:
     """Return the reasons of groups, joined; a few of many."""
     named = [_reason(told.groups[row]) for row in rows[:MAX_NAMES]]
+    named.sort(key=lambda reason: reason.startswith("of "))  # a clause does not follow an "of"
     if len(rows) > MAX_NAMES:
         return f"{', '.join(named)} and {len(rows) - MAX_NAMES} more"
     return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
@@ -239,6 +247,8 @@ def _reason(group: Group) -> str:
         return f"{group.name} sees {seen}"
     if group.says:
         return group.says
+    if group.name == f"all of {group.key}":
+        return f"of what its {group.key.replace('_', ' ')} shows"
     return f"of {group.name}"
 
 
@@ -257,6 +267,8 @@ def _share(moved: float, axis: Axis) -> float:
 
 
 def _words(axis: Axis, value: float) -> str:
+    if axis.is_choice and 0 <= value < len(axis.choices):
+        return axis.choices[int(value)]
     if axis.is_choice:
         return f"chooses {axis.name} {value:g}"
     above, below, neither = SIDES.get(

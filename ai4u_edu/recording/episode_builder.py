@@ -98,7 +98,8 @@ class EpisodeBuilder:
 
     def __init__(self, sim: ControlRequestor, scene: SceneDescription) -> None:
         self._sim = sim
-        self._scene = scene
+        self.scene = scene
+        """Description of the world and its agents."""
         self._seed = sim.world.seeds.seed
         self._columns = [_AgentColumns(agent.id) for agent in sim.agents]
         self._index = {agent.id: index for index, agent in enumerate(sim.agents)}
@@ -190,7 +191,7 @@ class EpisodeBuilder:
         while order and order[-1] >= 0 and self._is_unfinished(order[-1], counts):
             counts[order.pop()] -= 1
         return Episode(
-            scene=self._scene,
+            scene=self.scene,
             seed=self._seed,
             agents=tuple(
                 column.record(count) for column, count in zip(self._columns, counts, strict=True)

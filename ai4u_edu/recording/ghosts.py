@@ -110,14 +110,15 @@ class Ghosts:
         self.drives: tuple[GhostDrive, ...] = ()
         """The ghosts that are shown, or will be as soon as their paths are computed."""
 
-    def race(self, episode: Episode | None, name: str = "") -> None:
+    def race(self, episode: Episode | None, name: str = "", label: str = "ghost") -> None:
         """Show an episode's ghost in place of all others.
 
         Args:
             episode: the recorded episode; None removes all ghosts.
             name: the episode's name.
+            label: text at the ghost.
         """
-        self.drives = () if episode is None else (GhostDrive(episode, name),)
+        self.drives = () if episode is None else (GhostDrive(episode, name, label),)
 
     def race_all(self, drives: Sequence[tuple[Episode, str]]) -> None:
         """Show the ghosts of several episodes in place of all others, each under its name.

@@ -138,6 +138,11 @@ class Recorder:
         """Return the present episode so far; None if none is being recorded."""
         return None if self._builder is None else self._builder.episode()
 
+    @property
+    def current_scene(self) -> SceneDescription | None:
+        """The scene of the present episode, as recorded; None if none is being recorded."""
+        return None if self._builder is None else self._builder.scene
+
     def finish(self) -> None:
         """Finish the present episode; the rest of it is not recorded."""
         builder, self._builder = self._builder, None

@@ -191,7 +191,7 @@ def test_many_small_parts_are_told_as_that() -> None:
         lambda percept: [percept["all"].sum() / 30], many, baseline={"all": np.zeros(30)}
     )
     assert sentence(told, []) == (
-        "Many slots decide together: each of them alone moves the action by less than 5% of its "
+        "Many numbers decide together: each of them alone moves the action by less than 5% of its "
         "range, all of them by 50%."
     )
 
@@ -237,16 +237,43 @@ def test_more_and_less_of_the_same() -> None:
         robot_and_box(lambda percept: {"move": [0.2 + 0.5 * percept["bearing"][1], 0, 0, 0]})
     )
     assert more == (
-        "It drives forward by 0.67 because the box is ahead of it. Without that sensor, it would "
-        "by only 0.20."
+        "It drives forward more because the box is ahead of it: 0.67. "
+        "Without that sensor, it would be 0.20."
     )
     less = told_of(
         robot_and_box(lambda percept: {"move": [1 - percept["bearing"][1] / 2, 0, 0, 0]})
     )
     assert less == (
-        "It drives forward by only 0.53 because the box is ahead of it. Without that sensor, it "
-        "would by 1.00."
+        "It drives forward less because the box is ahead of it: 0.53. "
+        "Without that sensor, it would be 1.00."
     )
+
+
+def said_by(scene: str, name: str) -> str:
+    """Return the clause on a number of a library scene's agent at its start."""
+    sim = Scene.load(scene).build()
+    sim.reset(seed=1)
+    return next(each.says for each in groups_of_agent(sim.agents[0]) if each.name == name)
+
+
+def test_numbers_of_a_robot_speak_plainly() -> None:
+    assert said_by("push_block", "block: left") == "the block is to its left"
+    assert said_by("parking", "bay: forward") == "the bay is ahead of it"
+    assert said_by("parking", "heading: east?").startswith("it faces ")
+    assert said_by("forage", "inside: energy").startswith("its energy is ")
+    assert said_by("yardstick", "distance") in (
+        "the target is near",
+        "the target is not far",
+        "the target is far away",
+    )
+    assert said_by("jumper", "position: z") == ""
+
+
+def test_choices_on_a_grid_have_directions() -> None:
+    sim = Scene.load("grid_world").build()
+    (axis,) = axes_of_agent(sim.agents[0], ["move"])
+    told = occlusion(lambda percept: [4.0 * (percept["a"] > 0)], ONE, baseline=ZERO)
+    assert sentence(told, [axis]) == "It goes down because of a. Without it, it would stay."
 
 
 def test_what_has_no_effect_is_not_told() -> None:

@@ -325,6 +325,8 @@ export interface KeptEpisode {
   scene: string;
   /** True if its scene is the one that runs now. */
   is_here: boolean;
+  /** Address of a picture of its start, relative to the page. */
+  picture: string;
   /** Title of the driver, or the file that it was loaded from. */
   driver: string;
   /** True if a person took most decisions, by keys. */
@@ -773,6 +775,42 @@ export interface ViewPart {
   has_trail: boolean;
 }
 
+/** A network that can drive. */
+export interface WatchableNetwork {
+  /** Name of the driver. */
+  name: string;
+  title: string;
+}
+
+/** A race against a ghost, which has finished already. */
+export interface NetworkRace {
+  /** The ghost: the network's, or that of a person's drive against which the network races. */
+  ghost: "drive" | "network";
+  /** Seed of the start, a whole number as text; an episode with another one is no race. */
+  seed: string;
+  /** True if the ghost reached the goal; null in a scene without a goal. */
+  is_won: boolean | null;
+  /** Time (s) of the ghost's episode. */
+  seconds: number;
+  /** Reward of the ghost's agent. */
+  score: number;
+}
+
+/** The networks that can drive the page's agent, and the one that is watched. */
+export interface WatchPart {
+  type: "part";
+  name: "watch";
+  agent: string;
+  /** Networks of the scene, and a person's own; the first one is the usual choice. */
+  networks: WatchableNetwork[];
+  /** Name of the network that drives for a while; empty for none. */
+  watching: string;
+  /** True if a drive of a person is kept against which the network can race. */
+  has_drive: boolean;
+  /** The race that pages see; null for none. */
+  race: NetworkRace | null;
+}
+
 /** A body, floor or area of the scene. */
 export interface SceneThing {
   name: string;
@@ -869,6 +907,7 @@ export interface PanelParts {
   training: TrainingPart;
   tries: TriesPart;
   view: ViewPart;
+  watch: WatchPart;
   world: WorldPart;
 }
 
@@ -1267,6 +1306,12 @@ export interface PutRewards {
 export interface Race {
 }
 
+/** Let a person race against a trained network's ghost, from the same start. */
+export interface RaceNetwork {
+  /** Name of the driver; empty for the usual one. */
+  network?: string;
+}
+
 /** Make the change again that was undone last. */
 export interface Redo {
 }
@@ -1396,6 +1441,10 @@ export interface StopPractising {
 export interface StopTrying {
 }
 
+/** Give the agent back to its own driver, at the same start. */
+export interface StopWatching {
+}
+
 /** Switch a block of the agent on or off. */
 export interface SwitchBlock {
   path: (string | number)[];
@@ -1422,6 +1471,14 @@ export interface TryMany {
 
 /** Take back the last change. */
 export interface Undo {
+}
+
+/** Let a trained network drive for a while, from the same start, and show why it acts so. */
+export interface WatchNetwork {
+  /** Name of the driver; empty for the usual one. */
+  network?: string;
+  /** True to let it race against a person's best or last drive, from the start of that. */
+  against_my_drive?: boolean;
 }
 
 /** The commands by name: what is sent with each of them. */
@@ -1465,6 +1522,7 @@ export interface Commands {
   play: Play;
   play_speed: SetPlaySpeed;
   race: Race;
+  race_network: RaceNetwork;
   redo: Redo;
   reduce_motion: ReduceMotion;
   remove_block: RemoveBlock;
@@ -1483,6 +1541,7 @@ export interface Commands {
   speed: SetSpeed;
   step: GoToStep;
   stop: Stop;
+  stop_watching: StopWatching;
   switch_block: SwitchBlock;
   teach_delete: DeleteNetwork;
   teach_download: DownloadNetwork;
@@ -1504,6 +1563,7 @@ export interface Commands {
   trail: ShowTrail;
   try_again: TryAgain;
   undo: Undo;
+  watch_network: WatchNetwork;
   what_if: AskWhatIf;
   why: ShowWhy;
 }

@@ -1,14 +1,14 @@
 /** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
 
-/** @import { Commands, StateEvent } from "../generated/messages.js" */
+/** @import { Commands, NetworkRace, StateEvent } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
 /** @import { Result } from "./results.js" */
 import { capitalized } from "./driver_status.js";
 import { openNextScene } from "../scenes/next_scene.js";
-import { timeText } from "./results.js";
+import { raceText, timeText } from "./results.js";
 
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
-const NOT_BOLD_KINDS = ["error", "task"];
+const NOT_BOLD_KINDS = ["error", "task", "thought"];
 /**
  * Texts by the outcome that the server sends: said to the driver, and said of another agent by its name.
  * @type {Record<string, string[]>}
@@ -29,6 +29,7 @@ const WINS = ["goal", "won"];
 const COMMANDS = {
   "Play again": "try_again",
   "Try again": "try_again",
+  "Watch again": "try_again",
   "New start": "new_start",
   Reset: "reset",
   Resume: "resume",
@@ -46,6 +47,9 @@ const MIN_TERM = 0.005;
  * @property {string} name the agent's name, if this page can't drive it
  * @property {boolean} isNew true until the person has pressed a key: then the goal is shown
  * @property {Result | null} result of the episode that a person has just won; else null
+ * @property {boolean} isWatching true while a network drives to be watched
+ * @property {string} thought why it acts as it does, in a sentence; empty for none
+ * @property {NetworkRace | null} race the race that the episode is; null for none
  * @property {boolean} isLost true once the connection has been gone for some seconds
  * @property {string} held the text for a world that a teacher holds; empty for none
  * @property {string} howToStart what the person does to start, such as "press a key"; empty if this page can't
@@ -54,8 +58,11 @@ const MIN_TERM = 0.005;
 
 export class Banners {
   #sendCommand;
+  #actions;
   #statusRegion = element("div", { className: "ai4u-banners", role: "status" });
   #alertRegion = element("div", { className: "ai4u-banners", role: "alert" });
+  /** Region of thoughts: no live one, as a screen reader would read out each of them. */
+  #quietRegion = element("section", { className: "ai4u-banners", ariaLabel: "What it thinks" });
   /** The banner that is shown, as JSON: an unchanged one is not read out again. */
   #shown = "";
   #connectionError = "";
@@ -67,10 +74,14 @@ export class Banners {
    */
   #lastDraw = null;
 
-  /** @param {(command: keyof Commands) => void} sendCommand */
-  constructor(sendCommand) {
+  /**
+   * @param {(command: keyof Commands) => void} sendCommand
+   * @param {Record<string, () => void>} actions called by the texts of their buttons
+   */
+  constructor(sendCommand, actions = {}) {
     this.#sendCommand = sendCommand;
-    document.body.append(this.#statusRegion, this.#alertRegion);
+    this.#actions = actions;
+    document.body.append(this.#statusRegion, this.#alertRegion, this.#quietRegion);
   }
 
   /**
@@ -105,9 +116,9 @@ export class Banners {
     const key = JSON.stringify(banner);
     if (key === this.#shown) return;
     this.#shown = key;
-    const regions = [this.#statusRegion, this.#alertRegion];
-    const [used, unused] = banner?.kind === "error" ? regions.reverse() : regions;
-    unused.replaceChildren();
+    const { kind } = banner ?? {};
+    const used = kind === "error" ? this.#alertRegion : kind === "thought" ? this.#quietRegion : this.#statusRegion;
+    for (const region of [this.#statusRegion, this.#alertRegion, this.#quietRegion]) if (region !== used) region.replaceChildren();
     used.replaceChildren(...(banner ? [this.#element(banner)] : []));
   }
 
@@ -124,7 +135,8 @@ export class Banners {
     if (page.held) return { kind: "paused", text: page.held };
     if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to live"] };
     if (state?.outcome) return outcomeBanner(state, page);
-    if (state?.paused) return { kind: "paused", text: "Paused", buttons: ["Resume"] };
+    if (state?.paused) return { kind: "paused", text: "Paused", details: page.thought, buttons: ["Resume"] };
+    if (page.thought) return { kind: "thought", text: page.thought };
     if (state?.waiting === "key") return startBanner(state, page);
     if (state?.goal && page.isNew && !page.name) return { kind: "task", text: state.goal };
     return null;
@@ -151,6 +163,7 @@ export class Banners {
   #carryOut(name) {
     if (name === "Reload") location.reload();
     else if (name === "Next scene") openNextScene();
+    else if (name in this.#actions) this.#actions[name]();
     else this.#sendCommand(COMMANDS[name]);
   }
 }
@@ -159,11 +172,11 @@ export class Banners {
  * @param {StateEvent} state
  * @param {PageState} page
  */
-function outcomeText(state, { name, result }) {
+function outcomeText(state, { name, result, race }) {
   const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
   const text = name && theirs ? `${name} ${theirs}` : mine;
-  if (!WINS.includes(state.outcome)) return text;
-  return result ? text + timeText(result) : text;
+  const timed = WINS.includes(state.outcome) && result ? text + timeText(result) : text;
+  return race ? `${timed}${/[.!]$/.test(timed) ? "" : "."} ${raceText(race, state)}` : timed;
 }
 
 /**
@@ -190,9 +203,9 @@ function outcomeBanner(state, page) {
   return {
     kind: isWin ? "goal" : "over",
     text: outcomeText(state, page),
-    hint: page.restart && ` Press ${page.restart} to ${isWin ? "play" : "try"} again.`,
+    hint: page.restart && !page.isWatching && ` Press ${page.restart} to ${isWin ? "play" : "try"} again.`,
     score: [`Score ${signed(reward)}`, parts.length > 1 && sum].filter(Boolean).join(": "),
-    buttons: isWin ? ["Play again", "New start", "Next scene"] : ["Try again", "New start"],
+    buttons: page.isWatching ? ["Beat it!", "Watch again", "Stop watching"] : isWin ? ["Play again", "New start", "Next scene"] : ["Try again", "New start"],
   };
 }
 

@@ -92,7 +92,12 @@ const effects = new Effects(row);
 const results = new Results();
 /** @param {keyof Commands} command one that needs no arguments */
 const send = (command) => socket.send({ type: "do", id: 0, command });
-const banners = new Banners(send);
+const banners = new Banners(send, {
+  "Beat it!": () => void panel?.watch.beat(),
+  "Stop watching": () => void panel?.watch.stop(),
+});
+/** The episode in which something else than a person has driven: its time is nobody's best. */
+let helpedEpisode = "";
 
 keys.onpress = () => (hasActed = true);
 keys.onotherpress = ({ code, key }) => {
@@ -182,6 +187,9 @@ function draw() {
   panel?.drawDriver(status);
   help.setGoal(state?.goal || "This scene has none: look around.");
   const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
+  if (hello.others && state && !state.waiting && !state.outcome) helpedEpisode = episodeName();
+  const isWatching = Boolean(panel?.watch.isOn && hello.others);
+  const race = panel?.watch.race ?? null;
   const scene = panel?.part("scene");
   const task = HAS_PANEL && !scene ? "" : scene?.key || state?.title;
   const result = results.of(connected ? state : null, task, task ? driverOfEpisode(isDriven) : "");
@@ -189,7 +197,10 @@ function draw() {
   panel?.drawBest(driver ? results.best(task, driver) : null, driver);
   banners.draw(connected ? state : null, {
     restart: dock.hasAttribute("data-touch") ? "" : label(keymap.keys.restart?.[0] ?? ""),
-    name: isDriven ? "" : hello.name,
+    name: isDriven ? "" : isWatching ? "The network" : hello.name,
+    isWatching,
+    thought: isWatching ? panel.watch.thought : "",
+    race: race && (race.ghost === "network") === !isWatching ? race : null,
     isNew: !hasActed,
     isLost,
     result,
@@ -206,8 +217,12 @@ function driverOfEpisode(isDriven) {
   const program = panel?.program;
   const isPrograms = program?.agent === hello.agent && program?.episode === state?.agent_episode;
   if (isPrograms) return program.isTest ? "" : PROGRAM;
-  if (isDriven) return isMyDrive() ? KEYS : ""; // another page may drive it
+  if (isDriven) return isMyDrive() && helpedEpisode !== episodeName() ? KEYS : ""; // another page may drive it
   return otherDriver();
+}
+
+function episodeName() {
+  return `${state?.title} ${state?.episode} ${state?.agent_episode}`;
 }
 
 /** Return true if this page, or its program, drives the agent: others' robots make no sound. */
@@ -259,6 +274,6 @@ watchSharedScene();
 if (HAS_PANEL) {
   const { startPanel } = await import("../panel/panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
-  panel.addEventListener("part:scene", draw);
+  for (const type of ["part:scene", "part:watch", "thought"]) panel.addEventListener(type, draw);
   draw();
 }

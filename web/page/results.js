@@ -1,6 +1,6 @@
 /** A person's results: the time of an episode that reached the goal, and the best times in this browser. */
 
-/** @import { StateEvent } from "../generated/messages.js" */
+/** @import { NetworkRace, StateEvent } from "../generated/messages.js" */
 import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
 
@@ -13,7 +13,7 @@ export const NETWORK = "network";
  * Words for a best time by driver.
  * @type {Record<string, string>}
  */
-const WHOSE = { program: "your program's best", network: "the network's best" };
+const WHOSE = { program: "your program's best" };
 /** Kinds of a time, compared with the best one before. */
 export const FIRST = "first";
 export const BEST = "best";
@@ -101,8 +101,43 @@ export function hasWon() {
  */
 export function timeText({ seconds, best, kind, by }) {
   const [time, whose] = [` ${format(seconds)} s`, WHOSE[by] ?? "your best"];
+  if (by === NETWORK) return time; // it is the same each time, from the same start
   if (kind === BEST) return `${time} – ${whose}`;
   return kind === SLOWER ? `${time} (${whose}: ${format(best)} s)` : time;
+}
+
+/** Difference of two times (s) that counts as none. */
+const SAME_S = 0.05;
+
+/**
+ * Return how a race against a ghost ended, in a sentence.
+ * @param {NetworkRace} race
+ * @param {StateEvent} state of an episode that is over: a person's, or that of a network against a person's ghost
+ */
+export function raceText({ ghost, is_won: ghostHasWon, seconds, score }, state) {
+  const isMine = ghost === "network";
+  if (ghostHasWon === null) return scoreText(isMine, score, state.reward ?? 0);
+  const hasWon = WINS.includes(state.outcome);
+  if (hasWon && ghostHasWon) {
+    const ahead = (isMine ? 1 : -1) * (seconds - state.seconds);
+    if (Math.abs(ahead) < SAME_S) return isMine ? "As fast as the network!" : "As fast as your drive!";
+    if (ahead > 0) return `You beat it by ${format(ahead)} s!`;
+    return isMine ? `The network was ${format(-ahead)} s faster.` : `It beat your drive by ${format(-ahead)} s.`;
+  }
+  if (hasWon) return isMine ? "You beat it: the network did not get there." : "It beat your drive, which did not get there.";
+  if (ghostHasWon) return isMine ? `The network got there in ${format(seconds)} s.` : `You beat it: you got there in ${format(seconds)} s!`;
+  return isMine ? "The network did not get there either." : "Your drive did not get there either.";
+}
+
+/**
+ * @param {boolean} isMine true if a person raced against the network's ghost
+ * @param {number} ghosts score of the ghost
+ * @param {number} drivers score of the driver
+ */
+function scoreText(isMine, ghosts, drivers) {
+  const [mine, its] = isMine ? [drivers, ghosts] : [ghosts, drivers];
+  const scores = `${format(mine)} points, the network ${format(its)}`;
+  return mine > its ? `You beat it: ${scores}.` : `You: ${scores}.`;
 }
 
 /** Students of a class may use one device in turn. */

@@ -205,6 +205,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     return this.#parts[name] ?? null;
   }
 
+  /** The network that is watched, and the race against one. */
+  get watch() {
+    return this.#run.watch;
+  }
+
   /** @param {string} name */
   openTab(name) {
     this.#tabs.choose(name);

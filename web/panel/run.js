@@ -8,6 +8,7 @@ import { button, element, keyed, setAttributes, setText } from "../shared/dom.js
 import { freeId } from "../shared/ids.js";
 import { fact, toggle } from "./widgets/parts.js";
 import { number, seconds } from "../shared/numbers.js";
+import { Watch } from "./why/watch.js";
 
 /** Most characters of a goal, as a scene's file takes. */
 const MAX_GOAL_CHARS = 2000;
@@ -32,6 +33,7 @@ export class RunControls {
   #change = button("", () => this.#changeGoal(), { icon: "text", label: "Change the goal", kind: "quiet" });
   #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }));
   #speed = element("select", { id: freeId() });
+  watch;
   #seed = element("input", { type: "text", inputMode: "numeric", id: freeId(), autocomplete: "off" });
   #lock = toggle("Lock", (on) => this.#panel.send("lock_seed", { on }), { title: "Begin each episode with this seed" });
   element;
@@ -39,6 +41,7 @@ export class RunControls {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
+    this.watch = new Watch(panel);
     this.#goal.append(this.#change);
     this.#goalText.addEventListener("click", () => this.#change.hidden || this.#changeGoal());
     this.drawBest(null, "");
@@ -53,6 +56,7 @@ export class RunControls {
       this.#goal,
       facts,
       element("div", { className: "ai4u-buttons" }, again, fresh, this.#pause),
+      this.watch.element,
       this.#stages,
       this.#details(),
       this.#status,

@@ -240,4 +240,5 @@ export interface PanelEvents extends PartEvents {
   driver: DriverView;
   selected: SelectedMessage;
   stand_in: StandInMessage;
+  thought: null;
 }

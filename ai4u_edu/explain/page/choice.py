@@ -16,6 +16,8 @@ class ExplainChoice(NamedTuple):
     """True if the page shows why its agent acts as it does."""
     maps: MapChoice = MapChoice()
     """The maps over the floor."""
+    watched: MapChoice | None = None
+    """The maps that the page shows while it watches a network; None until it does."""
     elsewhere: Elsewhere | None = None
     """Another place at which the agent is tried; None if it is at none."""
 

@@ -50,6 +50,12 @@ class FieldArrows:
         self.arrows = self._rims = None
         self._count = 0
 
+    def set_opacity(self, share: float) -> None:
+        """Draw the arrows as opaque as that, 0..1."""
+        for handle in (self.arrows, self._rims):
+            if handle is not None:
+                handle.opacity = share if share < 1 else None  # opaque ones are cheaper to draw
+
     def draw(self, told: LiveMap | None, grounds: Array, layers: Layers) -> None:
         """Draw a map's arrows, and remove all others.
 

@@ -60,3 +60,23 @@ class CompareDrivers(PageCommand, tag="compare"):
 
     first: Name
     second: Name
+
+
+class WatchNetwork(PageCommand, tag="watch_network"):
+    """Let a trained network drive for a while, from the same start, and show why it acts so."""
+
+    network: Name = ""
+    """Name of the driver; empty for the usual one."""
+    against_my_drive: bool = False
+    """True to let it race against a person's best or last drive, from the start of that."""
+
+
+class StopWatching(PageCommand, tag="stop_watching"):
+    """Give the agent back to its own driver, at the same start."""
+
+
+class RaceNetwork(PageCommand, tag="race_network"):
+    """Let a person race against a trained network's ghost, from the same start."""
+
+    network: Name = ""
+    """Name of the driver; empty for the usual one."""

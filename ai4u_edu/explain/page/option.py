@@ -1,6 +1,5 @@
 """Explanations of a running world's agents, also in a recorded episode that its pages look at."""
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from typing import Any
@@ -18,14 +17,15 @@ from ai4u_edu.explain.live import (
     NamedBaseline,
     Why,
 )
-from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
 from ai4u_edu.explain.map_colours import CIVIDIS, value_range
-from ai4u_edu.explain.map_maker import LiveMap
+from ai4u_edu.explain.map_maker import LiveMap, faced_things
 from ai4u_edu.explain.page.choice import choice_of
 from ai4u_edu.explain.page.commands import WhyCommands
 from ai4u_edu.explain.page.compare import CompareCommands
 from ai4u_edu.explain.page.policy_maps import PolicyMaps
 from ai4u_edu.explain.page.stand_in import StandIns
+from ai4u_edu.explain.page.watch import Watching
 from ai4u_edu.explain.sentence import MIN_SHARE
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel import PanelContext
@@ -39,12 +39,9 @@ from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import AgentState, Snapshot
-from ai4u_edu.world import AreaDescription, BodyDescription
 
 _TOP_SLOTS = 6
 """Most slots in the list of those that matter most."""
-_MAX_FACED = 12
-"""Most things in the list of what the agent can look at."""
 _SOURCES = {
     "critic": "The colours are the points that its critic expects from there; it may be wrong.",
     "rollouts": "The colours are the points of one try from there; later points count less.",
@@ -96,28 +93,10 @@ def _maps_part(
         "name": "maps",
         "agent": agent.id,
         "problem": next((each.problem for each in found.values() if each.problem), ""),
-        "faced": _faced_things(snapshot, agent),
+        "faced": faced_things(snapshot, agent),
         "field": _progress(found.get("field")),
         "values": _values(found.get("values")),
     }
-
-
-def _faced_things(snapshot: Snapshot, agent: AgentState) -> list[str]:
-    """Return the things that the agent could look at from each place.
-
-    These are the targets of its sensors, and things that alone have one of their tags, as a goal
-    has and walls have not.
-    """
-    scene = snapshot.static_scene
-    all_things: tuple[BodyDescription | AreaDescription, ...] = (*scene.bodies, *scene.areas)
-    things = [each for each in all_things if each.name != agent.body]
-    counts = Counter(tag for each in things for tag in each.tags)
-    targets = {name for info in agent.sensor_infos for name in info.targets}
-    return [
-        each.name
-        for each in things
-        if each.name in targets or any(counts[tag] == 1 for tag in each.tags)
-    ][:_MAX_FACED]
 
 
 def _progress(told: LiveMap | None) -> dict[str, Any] | None:
@@ -147,17 +126,17 @@ class ExplainOption:
     Args:
         runner: runs the world.
         player: plays the recorded episodes that its pages look at.
-        editor: of the scene; it is not needed.
+        editor: of the scene; without one, no network can be watched.
     """
 
-    agent_parts = frozenset({"why", "maps"})
+    agent_parts = frozenset({"why", "maps", "watch"})
     tab = None
 
     def __init__(
         self,
         runner: Runner,
         player: ReplayPlayer,
-        editor: SceneEditor | None = None,  # noqa: ARG002 - it changes nothing
+        editor: SceneEditor | None = None,
     ) -> None:
         def latest() -> Snapshot:
             return runner.latest
@@ -173,18 +152,24 @@ class ExplainOption:
         scenes = SceneSource(runner, player), SceneSource(runner, player)  # one for each thread
         self.maps = LiveMaps(latest, explainer, scenes[0], thrift, lambda: runner.next_tick_at)
         self.pose_trial = PoseTrial(latest, explainer, scenes[1])
+        self.watching = Watching(runner, editor)
         self.commands = {
             **WhyCommands(explainer, self.pose_trial).handlers,
             **CompareCommands(explainer).handlers,
+            **self.watching.handlers,
         }
 
     def panel_parts(self, context: PanelContext, view: PageView) -> Iterator[tuple[str, bytes]]:
         """Yield why the page's agent acts as it does, and its maps, if the page shows them."""
+        yield from self.watching.parts(context, view)
         snapshot, choice = self._runner.latest, choice_of(view)
         agent = next((each for each in snapshot.agents if each.id == view.agent), None)
-        if agent is None or "agent" not in view.show.tabs:
+        is_watched = choice.watched is not None and self.watching.is_on(view.agent)
+        if agent is None or not (is_watched or "agent" in view.show.tabs):
             return
-        if choice.is_why_shown and (why := self.explainer.why(agent.id)) is not None:
+        if (is_watched or choice.is_why_shown) and (
+            why := self.explainer.why(agent.id)
+        ) is not None:
             yield "why", context.cache.of_snapshot(snapshot, ("why", why), lambda: _why_part(why))
         if requests := choice.maps.requests(agent.id):
             maps = [self.maps.ask(request) for request in requests]
@@ -197,14 +182,23 @@ class ExplainOption:
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:
         """Return the maps over the floor, and the stand-ins for agents at other places."""
         return [
-            (PolicyMaps(pages, self.maps), self._rate),
+            (PolicyMaps(pages, self.maps, self._shown_maps), self._rate),
             (StandIns(pages), MAX_FRAMES_PER_S),
         ]
 
     def ray_weights(self, page: ViewerClient) -> Mapping[str, Floats] | None:
         """Return how much each ray matters to the page's agent; None if the page hides it."""
-        why = self.explainer.why(page.agent) if choice_of(page).is_why_shown else None
+        choice = choice_of(page)
+        is_watched = choice.watched is not None and self.watching.is_on(page.agent)
+        why = self.explainer.why(page.agent) if is_watched or choice.is_why_shown else None
         return None if why is None else why.ray_weights
+
+    def _shown_maps(self, page: ViewerClient) -> MapChoice:
+        """Return the maps that a page's picture shows: those chosen, or those of a watch."""
+        choice = choice_of(page)
+        is_watched = choice.watched is not None and self.watching.is_on(page.agent)
+        is_chosen = choice.maps.has_field or choice.maps.has_values
+        return choice.watched if choice.watched and is_watched and not is_chosen else choice.maps
 
     def stop(self) -> None:
         """End the threads; they are not waited for, as a student's function may not return."""

@@ -1,13 +1,15 @@
 """Maps over the floor: arrows for what an agent would do at each place, colours for its worth."""
 
+import time
+from collections.abc import Callable
+
 import numpy as np
 from viser import BatchedMeshHandle, SceneApi
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.explain.live_maps import LiveMaps
+from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap
-from ai4u_edu.explain.page.choice import choice_of
 from ai4u_edu.explain.page.field_arrows import FieldArrows
 from ai4u_edu.page.viewer.scene.geometry import Array, cap
 from ai4u_edu.page.viewer.scene.layers import Layers
@@ -19,6 +21,8 @@ from ai4u_edu.runtime.frame_budget import TRAILS_PER_S, PageTurns
 from ai4u_edu.snapshot import Snapshot, StaticScene
 
 CELL_OPACITY = 0.85
+FADE_S = 1.2
+"""Time in which a map appears on a page, unless its user prefers less motion."""
 
 
 class PolicyMaps:
@@ -27,10 +31,16 @@ class PolicyMaps:
     Args:
         viewer_clients: the pages.
         maps: computes them.
+        shown: returns the maps that a page shows.
     """
 
-    def __init__(self, viewer_clients: ViewerClients, maps: LiveMaps) -> None:
-        self._viewer_clients, self._maps = viewer_clients, maps
+    def __init__(
+        self,
+        viewer_clients: ViewerClients,
+        maps: LiveMaps,
+        shown: Callable[[ViewerClient], MapChoice],
+    ) -> None:
+        self._viewer_clients, self._maps, self._shown = viewer_clients, maps, shown
         self.pages: dict[int, PageMaps] = {}
         self._turns = PageTurns(TRAILS_PER_S)
 
@@ -44,9 +54,11 @@ class PolicyMaps:
         """Draw the maps on the pages whose turn it is."""
         for gone in self.pages.keys() - self._viewer_clients.keys():
             del self.pages[gone]
+        for page in self.pages.values():
+            page.fade()
         for number in self._turns.due(self._viewer_clients.keys()):
             client = self._viewer_clients[number]
-            requests = choice_of(client).maps.requests(client.agent)
+            requests = self._shown(client).requests(client.agent)
             if number not in self.pages and not requests:
                 continue
             if number not in self.pages:
@@ -56,10 +68,25 @@ class PolicyMaps:
 
 
 class PageMaps:
-    """The maps on one page."""
+    """The maps on one page.
 
-    def __init__(self, client: ViewerClient, static_scene: StaticScene) -> None:
-        self._client = client
+    Args:
+        client: the page.
+        static_scene: the world.
+        clock: seconds.
+    """
+
+    def __init__(
+        self,
+        client: ViewerClient,
+        static_scene: StaticScene,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._client, self._clock = client, clock
+        self._began = [0.0, 0.0]
+        """Times (s, of the clock) at which the arrows and the colours began to appear."""
+        self._shares = [1.0, 1.0]
+        """Shares of their opacities that they have now."""
         scene: SceneApi = client.client.scene
         self._arrows, self._cells = FieldArrows(scene, "field"), _Cells(scene)
         self._drawn: tuple[LiveMap | None, LiveMap | None] = (None, None)
@@ -88,11 +115,24 @@ class PageMaps:
         if (field, values) == self._drawn:
             return
         drawn, self._drawn = self._drawn, (field, values)
+        for index, told in enumerate((field, values)):
+            if told is not None and drawn[index] is None:
+                self._began[index], self._shares[index] = self._clock(), -1.0
         with self._client.client.atomic():
             if field is not drawn[0]:
                 self._arrows.draw(field, self._grounds(field), self._layers)
             if values is not drawn[1]:
                 self._cells.draw(values, self._grounds(values), self._layers)
+            self.fade()
+
+    def fade(self) -> None:
+        """Show as much of maps that are appearing as is due now."""
+        for index, part in enumerate((self._arrows, self._cells)):
+            share = min(1.0, max(0.0, self._clock() - self._began[index]) / FADE_S)
+            share = 1.0 if self._client.is_motion_reduced else share
+            if share != self._shares[index]:
+                self._shares[index] = share
+                part.set_opacity(share)
 
     def _grounds(self, told: LiveMap | None) -> Array:
         """Return the heights of the floor at a map's places, (n,)."""
@@ -109,6 +149,10 @@ class _Cells:
         self._scene, self._subtree = scene, Subtree(scene, "values")
         self.cells: BatchedMeshHandle | None = None
         self._shape: tuple[int, tuple[float, float]] = (0, (0.0, 0.0))
+
+    def set_opacity(self, share: float) -> None:
+        if self.cells is not None:
+            self.cells.opacity = share * CELL_OPACITY
 
     def clear(self) -> None:
         self._subtree.remove()

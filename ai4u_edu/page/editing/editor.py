@@ -229,6 +229,10 @@ class SceneEditor:
             driver_of=agent_id,
         )
 
+    def restore_driver(self, agent_id: str) -> "Future[ChangeResult]":
+        """Hand an agent back from a person, a script or another brain to the scene's driver."""
+        return self._submit(lambda: Proposal(self.state, "drive again"), driver_of=agent_id)
+
     def drag(
         self, name: str, x: float, y: float, heading_deg: float | None = None
     ) -> "Future[None]":

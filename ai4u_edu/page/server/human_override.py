@@ -51,9 +51,10 @@ class HumanOverride:
     def next_driver(self) -> str:
         """Title of the driver that continues when the override ends; empty if there is none."""
         original = self._original
-        if original is None or active_brain(self._agent.brain) is not self._replacement:
-            return ""
-        return driver_title(original)
+        is_over = active_brain(self._agent.brain) is not self._replacement
+        return (
+            "" if original is None or is_over or self._is_gone(original) else driver_title(original)
+        )
 
     def is_requested_by(self, codes: Collection[str]) -> bool:
         """Return True if one of these keys asks for control; the key to restart does not."""
@@ -104,7 +105,7 @@ class HumanOverride:
         self._original = self._replacement = None
         if original is None or active_brain(agent.brain) is not replacement:
             return
-        if not self._is_in_world():
+        if not self._is_in_world() or self._is_gone(original):
             return
         agent.keyboard.release()
         if isinstance(original, RemoteBrain):
@@ -113,6 +114,10 @@ class HumanOverride:
             agent.use_brain(original)
         if self._is_new:
             agent.brains[:] = [brain for brain in agent.brains if brain is not replacement]
+
+    def _is_gone(self, brain: Brain) -> bool:
+        """Return True for a brain that was taken from the agent while the person drove."""
+        return not any(brain is each for each in self._agent.brains)
 
     def _is_in_world(self) -> bool:
         return any(agent is self._agent for agent in self._runner.sim.agents)

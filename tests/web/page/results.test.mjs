@@ -4,7 +4,7 @@ import { beforeEach, test } from "node:test";
 import { openWindow } from "../browser.mjs";
 
 const { kept } = openWindow();
-const { BEST, FIRST, KEYS, NETWORK, PROGRAM, Results, SLOWER, hasWon, timesText, timeText } = await import("../../../web/page/results.js");
+const { BEST, FIRST, KEYS, NETWORK, PROGRAM, Results, SLOWER, hasWon, raceText, timesText, timeText } = await import("../../../web/page/results.js");
 const { forget } = await import("../../../web/shared/storage.js");
 let results;
 
@@ -63,4 +63,28 @@ test("the words tell the time and the best one", () => {
   assert.match(about(FIRST), /^ 2[.,][23] s$/);
   assert.match(about(BEST), /s – your best$/);
   assert.match(about(SLOWER, PROGRAM), / \(your program's best: 1[.,]0 s\)$/);
+});
+
+test("a race says by how much it was won or lost, whoever is the ghost", () => {
+  const ghost = (changes = {}) => ({ ghost: "network", seed: "1", is_won: true, seconds: 8, score: 10, ...changes });
+  const end = (seconds, outcome = "goal", reward = 5) => ({ seconds, outcome, reward });
+  assert.equal(raceText(ghost(), end(6.6)), "You beat it by 1.4 s!");
+  assert.equal(raceText(ghost(), end(9.5)), "The network was 1.5 s faster.");
+  assert.equal(raceText(ghost(), end(8.01)), "As fast as the network!");
+  assert.equal(raceText(ghost(), end(3, "fell")), "The network got there in 8.0 s.");
+  assert.equal(raceText(ghost({ is_won: false }), end(9)), "You beat it: the network did not get there.");
+  assert.equal(raceText(ghost({ is_won: false }), end(9, "time")), "The network did not get there either.");
+  // the network drives, and the ghost is the person's drive
+  const drive = (changes = {}) => ghost({ ghost: "drive", ...changes });
+  assert.equal(raceText(drive(), end(9.4)), "You beat it by 1.4 s!");
+  assert.equal(raceText(drive(), end(6)), "It beat your drive by 2.0 s.");
+  assert.equal(raceText(drive(), end(6, "fell")), "You beat it: you got there in 8.0 s!");
+  assert.equal(raceText(drive({ is_won: false }), end(6)), "It beat your drive, which did not get there.");
+});
+
+test("without a goal the points decide", () => {
+  const race = { ghost: "network", seed: "1", is_won: null, seconds: 8, score: 10 };
+  assert.equal(raceText(race, { outcome: "time", seconds: 8, reward: 12 }), "You beat it: 12.0 points, the network 10.0.");
+  assert.equal(raceText(race, { outcome: "time", seconds: 8, reward: 2 }), "You: 2.0 points, the network 10.0.");
+  assert.equal(raceText({ ...race, ghost: "drive" }, { outcome: "time", seconds: 8, reward: 2 }), "You beat it: 10.0 points, the network 2.0.");
 });
