@@ -71,6 +71,7 @@ class ClassEvents:
             "address": address,
             "qr": code,
             "open": live.seats.is_open,
+            "has_sounds": live.has_sounds,
             "problem": live.problem,
             "attention": live.attention.as_event(),
             "shown": live.shown.model_dump(),

@@ -42,6 +42,8 @@ _logger = logging.getLogger(__name__)
 TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
+SOUNDS = "sounds"
+"""Names of settings."""
 PRESENT_ROOM = "present_room_"
 """Beginning of the name of a setting with the room that a seat used last."""
 ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
@@ -92,6 +94,8 @@ class LiveClass:
 
         self.shown = store.setting_as(SHOWN, Shown)
         """Content of the projector page."""
+        self.has_sounds = store.setting(SOUNDS) == "on"
+        """True if the teacher lets students' pages make sounds."""
         self._ticking: asyncio.Task[None] | None = None
 
     def note_change(self) -> None:
@@ -133,6 +137,12 @@ class LiveClass:
         shown = Shown(kind=kind, room=room, game=game)
         self.store.set_setting(SHOWN, shown.model_dump_json())
         self.shown = shown
+
+    def set_sounds(self, on: bool) -> None:
+        """Store whether students' pages may make sounds, and tell them; thirty rooms are loud."""
+        self.store.set_setting(SOUNDS, "on" if on else "off")
+        self.has_sounds = on
+        self.tell_people()
 
     def room_of(self, secret: str) -> LiveRoom | None:
         """Return the room of a link, by a room's secret or a seat's token; None for a wrong one."""
@@ -230,6 +240,7 @@ class LiveClass:
                 ),
                 is_visited=bool(room.seat) or self.host.is_used(room.id),
                 has_teacher=self.looks_in[room.id] > 0,
+                has_sounds=self.has_sounds,
             )
             if people != room.people:
                 room.people = people
@@ -318,7 +329,7 @@ class LiveClass:
         self.stars.read()
         self.races.read()
         self.tournament.read()
-        self.shown = Shown()
+        self.shown, self.has_sounds = Shown(), False
         self.tell_people()
 
     def _note_results(self) -> None:

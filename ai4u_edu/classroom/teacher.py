@@ -139,6 +139,13 @@ class _Attend(_Command):
     seconds: _Seconds = 0.0
 
 
+class _LetSound(_Command):
+    """Let students' pages make sounds, or not."""
+
+    do: Literal["sounds"]
+    on: bool
+
+
 class _StartRace(_Command):
     """Start a race."""
 
@@ -198,6 +205,7 @@ _AnyCommand = (
     | _PlainCommand
     | _Assign
     | _Attend
+    | _LetSound
     | _StartRace
     | _BeginTournament
     | _StartTournament
@@ -269,6 +277,8 @@ class Teacher:
             case _Attend(kind=kind, message=message, seconds=seconds):
                 await asyncio.to_thread(live.attention.set, kind, message.strip(), seconds)
                 live.tell_attention()
+            case _LetSound(on=on):
+                live.set_sounds(on)
             case _StartRace():
                 scene = await asyncio.to_thread(_find_scene, live, wanted.scene)
                 race = live.races.start(scene, wanted.seed, wanted.countdown, wanted.hide_board)

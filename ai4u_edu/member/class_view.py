@@ -19,6 +19,7 @@ class _Shown:
     colour: str = ""
     people: tuple[Person, ...] = ()
     has_teacher: bool = False
+    has_sounds: bool = False
     attention: Attention | None = None
     attention_ends_at: float | None = None
     race: CurrentRace | None = None
@@ -52,8 +53,10 @@ class ClassView:
         self._change(name=message.name, colour=message.colour)
 
     def set_people(self, message: People) -> None:
-        """Show who else has this world, and whether the teacher looks in."""
-        self._change(people=message.people, has_teacher=message.has_teacher)
+        """Show who else has this world, whether the teacher looks in, and who may make sounds."""
+        self._change(
+            people=message.people, has_teacher=message.has_teacher, has_sounds=message.has_sounds
+        )
 
     def set_lesson(self, lesson: str) -> None:
         """Show the lesson that the class is at; empty for none."""
@@ -114,6 +117,7 @@ class ClassView:
                 for each in shown.people
             ],
             "has_teacher": shown.has_teacher and not is_teacher,
+            "has_sounds": shown.has_sounds,
             "attention": {
                 "kind": shown.attention.kind if shown.attention else "",
                 "message": shown.attention.message if shown.attention else "",

@@ -245,6 +245,8 @@ class People(TaggedMessage, frozen=True):
     """False while no page and no script is connected: a room of the class's machine may rest."""
     has_teacher: bool = False
     """True while the teacher has the page of a room of the class's machine open."""
+    has_sounds: bool = False
+    """True if the teacher lets pages make sounds."""
 
 
 class Assignment(TaggedMessage, frozen=True):

@@ -192,6 +192,18 @@ def test_a_bar_says_who_is_here_and_what_the_teacher_says(school: RoomOfClass) -
     expect(page.get_by_role("dialog")).to_have_count(0)
 
 
+def test_a_page_makes_sounds_only_if_the_teacher_allows_them(school: RoomOfClass) -> None:
+    page = school.page()
+    school.tell(LinkWelcome(1, "", ""), People((FOX,)))
+    mute = page.get_by_role("button", name="Turn the sound off")
+    expect(page.get_by_role("region", name="Class")).to_contain_text("Red Fox")
+    expect(page.locator(".ai4u-sound")).to_be_hidden()
+    school.tell(People((FOX,), has_sounds=True))
+    expect(mute).to_be_visible()
+    school.tell(People((FOX,)))
+    expect(mute).to_be_hidden()
+
+
 def test_a_blank_screen_keeps_focus_and_keys_whatever_is_pressed(school: RoomOfClass) -> None:
     page = school.page()
     school.tell(LinkWelcome(1, "", ""), People((FOX,)))

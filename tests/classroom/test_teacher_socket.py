@@ -8,7 +8,14 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu import Scene
-from ai4u_edu.wire.class_link import Applied, Assignment, Attention, LinkHello, Work
+from ai4u_edu.wire.class_link import (
+    Applied,
+    Assignment,
+    Attention,
+    LinkHello,
+    People,
+    Work,
+)
 from tests.classroom.link_client import RawLink, TeacherSocket, state
 from tests.classroom.served_class import ServedClass, served_class
 from tests.page.server import http_client
@@ -127,6 +134,26 @@ def test_attention_holds_for_whoever_connects_and_ends_by_itself(served: ServedC
         assert served.command("attention", kind="pause", message="", seconds=0.3).status_code == 200
         assert link.next(Attention, lambda each: each.kind == "") == Attention("", "", 0)
         wall.next("class", lambda e: e["attention"]["kind"] == "")
+
+
+def test_sounds_are_off_until_the_teacher_allows_them_and_stay_after_a_restart(
+    tmp_path: Path,
+) -> None:
+    with served_class(tmp_path) as served:
+        student = served.joined()
+        with RawLink(served, student) as link, TeacherSocket(served) as wall:
+            assert not link.next(People).has_sounds
+            assert not wall.next("class")["has_sounds"]
+            assert served.command("sounds", on=True).status_code == 200
+            link.next(People, lambda each: each.has_sounds)
+            wall.next("class", lambda event: event["has_sounds"])
+            problem = served.command("sounds", on="loud")
+            assert (problem.status_code, "on" in problem.text) == (400, True)
+    with served_class(tmp_path) as served:
+        with RawLink(served, student) as link:
+            assert link.next(People).has_sounds
+        assert served.command("forget").status_code == 200
+        assert not served.state()["has_sounds"]
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ export class Effects {
 
   /** @param {HTMLElement} row parent of the button that mutes */
   constructor(row) {
-    this.#button = element("button", { type: "button", className: "ai4u-round-button ai4u-sound", hidden: this.#sounds.isForbidden });
+    this.#button = element("button", { type: "button", className: "ai4u-round-button ai4u-sound", hidden: !this.#sounds.isAllowed });
     this.#button.addEventListener("click", () => {
       this.#sounds.isOn = !this.#sounds.isOn;
       this.#drawButton();
@@ -48,6 +48,16 @@ export class Effects {
       } else if (state.outcome === "fell") this.#sounds.fall();
     } else if (isSame && state.collects > before.collects) this.#sounds.collect();
     else if (isSame && state.bumps > before.bumps && !state.outcome) this.#sounds.bump();
+  }
+
+  /**
+   * Follow the teacher's choice.
+   * @param {boolean} isAllowed true if pages of this class may make sounds
+   */
+  allowSounds(isAllowed) {
+    this.#sounds.isAllowed = isAllowed;
+    this.#button.hidden = !isAllowed;
+    this.#drawButton();
   }
 
   /**

@@ -154,6 +154,7 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
     case "class":
       classBar ??= new ClassBar(draw);
       classBar.show(message);
+      effects.allowSounds(message.has_sounds);
       noteHandout(message.program);
       break;
     case "error":

@@ -1,8 +1,8 @@
 /**
  * Sounds of a drive, made of a few oscillators: motor, bump, collect, win and fall.
  *
- * They are quiet, and on until somebody mutes them; in a class there are none. Browsers allow sound only after a
- * key or a click, which is where the first one comes from.
+ * They are quiet, and on until somebody mutes them; in a class there are none unless the teacher allows them.
+ * Browsers allow sound only after a key or a click, which is where the first one comes from.
  */
 
 import { roomOfPage } from "./room.js";
@@ -36,13 +36,20 @@ export class Sounds {
    */
   #playedAt = {};
 
-  /** True in a class, where nobody's world makes sounds. */
-  get isForbidden() {
-    return roomOfPage() !== "";
+  #isAllowed = roomOfPage() === "";
+
+  /** False in a class whose teacher does not let pages make sounds. */
+  get isAllowed() {
+    return this.#isAllowed;
+  }
+
+  set isAllowed(isAllowed) {
+    this.#isAllowed = isAllowed;
+    if (!isAllowed) this.motor(false);
   }
 
   get isOn() {
-    return !this.isForbidden && recall(STORAGE_KEY, true) !== false;
+    return this.#isAllowed && recall(STORAGE_KEY, true) !== false;
   }
 
   set isOn(isOn) {

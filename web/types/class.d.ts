@@ -185,6 +185,7 @@ export interface ClassState {
   /** Address of a picture. */
   qr: string;
   open: boolean;
+  has_sounds: boolean;
   problem: string;
   attention: Attention;
   shown: { kind: "join" | "room" | "race" | "tournament" | "game" | "board"; room: string; game: number };
@@ -243,6 +244,8 @@ export interface ClassEvent {
   role: "teacher" | "student";
   people: Person[];
   has_teacher: boolean;
+  /** True if the teacher lets pages make sounds. */
+  has_sounds: boolean;
   attention: Attention;
   race: StudentRace | null;
   lesson: string;

@@ -63,6 +63,7 @@ onState("#race", () => showRace(state));
 onState("#show", () => showProjector(state));
 onState("#end", () => showEnd(state, () => realNames.forget()));
 onState("#real-names", () => showNames(realNames));
+onState("#sounds", () => commandOrTell({ do: "sounds", on: !state.has_sounds }));
 onState("#attention", () => {
   return isHeld(state.attention) ? commandOrTell(END_ATTENTION) : showAttention();
 });
@@ -92,6 +93,7 @@ function show(message) {
   strips.show(state);
   setText(find("#attention"), isHeld(state.attention) ? "End attention" : "Attention…");
   find("#attention").toggleAttribute("data-held", isHeld(state.attention));
+  find("#sounds").setAttribute("aria-pressed", String(state.has_sounds));
   wall.show(state);
   controls.update();
   sayNobody();
