@@ -85,6 +85,8 @@ export class CodeTab {
   #isBack = false;
   /** True if the world has stood still since the program waits at a breakpoint. */
   #isHeld = false;
+  /** True if the world was paused here for a breakpoint. */
+  #hasPaused = false;
   /** True if the person drove at the latest event about it. */
   #wasPerson = false;
 
@@ -349,8 +351,9 @@ export class CodeTab {
    */
   async #holdAtBreakpoint(on) {
     this.#isHeld = false;
-    if (on && this.#isAlone) await this.#panel.send("pause", {}, { quiet: true });
-    else if (!on) await this.#wake();
+    const isNews = on ? this.#isAlone : this.#hasPaused;
+    this.#hasPaused = on && isNews;
+    if (isNews) await this.#panel.send(on ? "pause" : "resume", {}, { quiet: true });
   }
 
   /**
@@ -459,8 +462,9 @@ export class CodeTab {
     return !agents.some(({ id, is_person: isPerson }) => isPerson && id !== this.#agent.id);
   }
 
-  /** Let a paused world run. */
+  /** Let a paused world run; a network that is watched gives the robot back first. */
   async #wake() {
+    if (this.#panel.watch?.isOn) await this.#panel.watch.stop();
     if (this.#panel.part("run")?.is_paused) await this.#panel.send("resume", {}, { quiet: true });
   }
 

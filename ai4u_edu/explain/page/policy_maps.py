@@ -127,7 +127,8 @@ class PageMaps:
 
     def fade(self) -> None:
         """Show as much of maps that are appearing as is due now."""
-        for index, part in enumerate((self._arrows, self._cells)):
+        parts: tuple[FieldArrows | _Cells, ...] = (self._arrows, self._cells)
+        for index, part in enumerate(parts):
             share = min(1.0, max(0.0, self._clock() - self._began[index]) / FADE_S)
             share = 1.0 if self._client.is_motion_reduced else share
             if share != self._shares[index]:

@@ -261,7 +261,9 @@ class Watching:
             if not each.source and each.episode.changed is None and each.task == self._task
         ]
         won = [each for each in drives if each.success]
-        return min(won, key=lambda each: each.episode.seconds) if won else (drives or [None])[-1]
+        if won:
+            return min(won, key=lambda each: each.episode.seconds)
+        return drives[-1] if drives else None
 
     # -- in the world's thread ---------------------------------------------------------------------
 
