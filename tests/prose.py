@@ -78,6 +78,7 @@ SHOWN_PHRASES = {
     r"[Hh]ang it under": "snap it under",
     r"begins it in the world": "Click a row to try that start.",
     r"let go, and the program": "Press Let go to give the robot back to your program.",
+    r"\(no effect\)": "(leave it out)",
     r"no reading is called|has no actuator [{']": "there is no sensor called, the robot can't do",
 }
 """Phrases in texts that people see, and words for a fourteen-year-old in their place."""

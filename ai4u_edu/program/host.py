@@ -9,11 +9,13 @@ call   takes                                         returns
 load   source, outputs, readings;                    ok
        optional: entry, limit_s
 begin                                                ok
-decide percept, decision                             ok, values, printed, lines, variables
+decide percept, decision; optional: stops            ok, values, printed, lines, variables, moments
 ====== ============================================= ===============================================
 
 A mistake is returned as ``{"ok": false, "text", "line", "kind"}`` with printed, lines and variables
 as far as they are known; it is never raised. ``begin`` and ``load`` return what was printed too.
+``stops`` is a list of lines to stop at, 0 for the first one that runs; from the first of them on,
+``moments`` has each line that ran with the variables before it, as a page shows them one by one.
 ``watch`` takes a function, which is called with a line before it runs.
 
 - ``outputs`` is ``{name: [[low, ...], [high, ...]]}``.
@@ -96,10 +98,9 @@ def decide(text: str) -> str:
     Args:
         text: JSON with the percept.
     """
-    percept = {
-        key: _reading(value, _dtypes.get(key)) for key, value in json.loads(text)["percept"].items()
-    }
-    return _asked(lambda program: program.decide(percept))
+    said = json.loads(text)
+    percept = {key: _reading(value, _dtypes.get(key)) for key, value in said["percept"].items()}
+    return _asked(lambda program: program.decide(percept, frozenset(said.get("stops", ()))))
 
 
 def _asked(ask: Callable[[Program], Any]) -> str:
@@ -121,7 +122,9 @@ def _failed(error: ProgramError, printed: str, program: Program | None = None) -
 def _told(answer: dict[str, Any], printed: str, program: Program | None) -> str:
     lines = program.trace.lines if program is not None else []
     variables = program.variables() if program is not None else {}
-    return json.dumps({**answer, "printed": printed, "lines": lines, "variables": variables})
+    moments = [each._asdict() for each in program.trace.moments] if program is not None else []
+    told = {**answer, "printed": printed, "lines": lines, "variables": variables}
+    return json.dumps({**told, "moments": moments} if moments else told)
 
 
 def _number(value: Any) -> Any:

@@ -215,11 +215,14 @@ class Program:
         self._call_hook("reset")
         self._call_hook("on_reset", None, None)
 
-    def decide(self, percept: Mapping[str, Any]) -> dict[str, list[float]]:
+    def decide(
+        self, percept: Mapping[str, Any], stops: Set[int] = frozenset()
+    ) -> dict[str, list[float]]:
         """Return the program's action for a percept: numbers by the actuator's name.
 
         Args:
             percept: readings by key, as :func:`~ai4u_edu.program.readings_of` takes them.
+            stops: lines from the first of which on the trace keeps the moments.
 
         Raises:
             ProgramError: a mistake, with its line.
@@ -229,8 +232,10 @@ class Program:
         self._is_deciding = True
         try:
             self._call_hook("new_state_event", readings)
+            self.trace.stops = stops
             answer = self._call(self._function, readings)
         finally:
+            self.trace.stops = frozenset()
             self._is_deciding = False
         return _checked_action(answer, self._outputs, self.trace.last_line or self._first_line())
 

@@ -2,9 +2,9 @@
 
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Set
 from types import FrameType, FunctionType, ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 from ai4u_edu.program.endless import line_at
 from ai4u_edu.program.words import shown
@@ -15,6 +15,8 @@ MAX_LINES = 500
 """Lines that a trace keeps of one decision; the first ones."""
 MAX_REPORTED_LINES = 50
 """Lines of a call that are reported before they run; after them, only those not reported yet."""
+MAX_MOMENTS = 60
+"""Lines that a trace shows with their variables, from the first one at which it stops."""
 MAX_VARIABLES = 40
 MAX_VALUE_CHARS = 120
 """Length of a variable's value in a trace."""
@@ -22,6 +24,18 @@ LINES_BETWEEN_CHECKS = 16
 """Lines between two looks at the clock, which costs more than to count a line."""
 ReportLine = Callable[[int], object]
 """Function that takes the number of a line."""
+
+
+FIRST_LINE = 0
+"""Stands among the lines to stop at for the first line that a call runs."""
+
+
+class TracedMoment(NamedTuple):
+    """A moment just before a line ran."""
+
+    line: int
+    variables: dict[str, str]
+    """Names, and beginnings of values."""
 
 
 class EndlessError(BaseException):
@@ -62,6 +76,10 @@ class Trace:
         """Numbers of the lines that ran, in order."""
         self.last_line = 0
         """Line at which the outermost function returned."""
+        self.stops: Set[int] = frozenset()
+        """Lines to stop at, or :data:`FIRST_LINE`; the program runs on, and pages show it there."""
+        self.moments: list[TracedMoment] = []
+        """The moments of the last call, from the first such line on."""
         self._file = file
         self.limit_s = limit_s
         self._keeps_lines = keeps_lines
@@ -80,6 +98,7 @@ class Trace:
             EndlessError: it took too long.
         """
         self.lines = []
+        self.moments = []
         self.last_line = 0
         self._locals = {}
         if sys.gettrace() is not None:
@@ -101,22 +120,7 @@ class Trace:
         Args:
             module: the program's global variables.
         """
-        own = self._locals.get("self")
-        memory = getattr(own, "__dict__", None) if own is not None else None
-        found: dict[str, Any] = {
-            name: value for name, value in self._locals.items() if name not in ("self", "percept")
-        }
-        if type(memory) is dict:
-            found |= {f"self.{name}": value for name, value in memory.items()}
-        found |= {
-            name: value
-            for name, value in module.items()
-            if not name.startswith("_")
-            and name not in found
-            and not issubclass(type(value), type | FunctionType | ModuleType)
-        }
-        kept = list(found.items())[:MAX_VARIABLES]
-        return {name[:MAX_VALUE_CHARS]: shown(value, MAX_VALUE_CHARS) for name, value in kept}
+        return _variables(self._locals, module)
 
     def _on_call(self, frame: FrameType, _event: str, _argument: Any) -> Any:
         if frame.f_code.co_filename != self._file:
@@ -131,6 +135,11 @@ class Trace:
                 self._report(frame.f_lineno, self._report_line)
             if self._keeps_lines and len(self.lines) < MAX_LINES:
                 self.lines.append(frame.f_lineno)
+            if self.stops and len(self.moments) < MAX_MOMENTS:
+                is_stop = frame.f_lineno in self.stops or FIRST_LINE in self.stops
+                if self.moments or is_stop:
+                    variables = _variables(frame.f_locals, frame.f_globals)
+                    self.moments.append(TracedMoment(frame.f_lineno, variables))
             self._left -= 1
             if self._left <= 0:
                 self._left = LINES_BETWEEN_CHECKS
@@ -147,3 +156,23 @@ class Trace:
         if self._reports <= MAX_REPORTED_LINES or line not in self._reported:
             self._reported.add(line)
             report(line)
+
+
+def _variables(local: Mapping[str, Any], module: Mapping[str, Any]) -> dict[str, str]:
+    """Return a function's variables and the program's global ones: names, beginnings of values."""
+    own = local.get("self")
+    memory = getattr(own, "__dict__", None) if own is not None else None
+    found: dict[str, Any] = {
+        name: value for name, value in local.items() if name not in ("self", "percept")
+    }
+    if type(memory) is dict:
+        found |= {f"self.{name}": value for name, value in memory.items()}
+    found |= {
+        name: value
+        for name, value in module.items()
+        if not name.startswith("_")
+        and name not in found
+        and not issubclass(type(value), type | FunctionType | ModuleType)
+    }
+    kept = list(found.items())[:MAX_VARIABLES]
+    return {name[:MAX_VALUE_CHARS]: shown(value, MAX_VALUE_CHARS) for name, value in kept}

@@ -8,7 +8,7 @@ FAKE = """
 const fake = (window.fake ??= {
   calls: [], percepts: [], closed: 0, waits: 0, load: { ok: true }, connectError: null, warm: null,
   connecting: null,
-  decide: (percept, number) => ({
+  decide: (percept, number, stops) => ({
     ok: true, values: { move: [1, 0] }, printed: `decision ${number}\\n`, lines: [2, 3],
     variables: { near: "0.94" },
   }),
@@ -22,9 +22,9 @@ export class CodeEngine {
   async warm() { await fake.warm; }
   async load(source, facts) { fake.calls.push(["load", source, facts]); return fake.load; }
   async begin() { fake.calls.push(["begin"]); return { ok: true }; }
-  async decide(percept, number) {
+  async decide(percept, number, stops) {
     fake.calls.push(["decide", percept, number]);
-    return fake.decide(percept, number);
+    return fake.decide(percept, number, stops);
   }
   finish() { fake.finished = (fake.finished ?? 0) + 1; }
   end() {}

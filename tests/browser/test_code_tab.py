@@ -65,6 +65,41 @@ def test_run_senses_decides_and_acts_until_the_episode_is_over(tab: CodePage) ->
     expect(tab.page.get_by_role("button", name="Stop")).to_be_disabled()
 
 
+def test_a_program_waits_at_a_breakpoint_and_shows_its_variables(tab: CodePage) -> None:
+    tab.write(PROGRAM)
+    tab.page.evaluate(
+        """() => (fake.decide = (_, number, stops) => ({
+          ok: true, values: { move: [1, 0] }, printed: "", lines: [2, 3], variables: { near: "3" },
+          ...(stops.length && { moments: [{ line: 3, variables: { near: String(number) } }] }),
+        }))"""
+    )
+    number = tab.page.locator(".cm-lineNumbers .cm-gutterElement", has_text="3")
+    number.click()
+    expect(tab.page.get_by_text("The program will wait at line 3.")).to_be_visible()
+    expect(tab.page.locator(".ai4u-code-stop-line")).to_have_text(re.compile("return"))
+    tab.sense()
+    tab.press("Run")
+    expect(tab.state).to_contain_text("Waits at line 3")
+    expect(tab.page.locator(".ai4u-code-waiting-line")).to_have_count(1)
+    expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near1")
+    assert tab.calls("act") == []
+    assert tab.sent()[-1] == {"command": "pause"}
+    expect(tab.page.get_by_role("button", name="Run", exact=True)).to_be_hidden()
+    tab.sense(1)
+    tab.press("Next line")  # the last one of this decision
+    expect(tab.page.locator(".ai4u-code-variables")).to_have_text("near2")
+    assert tab.calls("act") == [[{"move": [1, 0]}]]
+    # without the breakpoint it goes on; F9 removes it at the cursor's line
+    tab.editor.click()
+    tab.page.keyboard.press("ControlOrMeta+End")
+    tab.page.keyboard.press("ArrowUp")
+    tab.page.keyboard.press("F9")
+    expect(tab.page.locator(".ai4u-code-stop-line")).to_have_count(0)
+    tab.page.keyboard.press("ControlOrMeta+Enter")
+    expect(tab.state).to_contain_text("Runs")
+    expect(tab.page.locator(".ai4u-code-waiting-line")).to_have_count(0)
+
+
 def test_ctrl_enter_runs_and_stop_gives_the_agent_back(tab: CodePage) -> None:
     tab.sense()
     tab.editor.click()

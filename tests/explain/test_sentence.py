@@ -257,7 +257,7 @@ def said_by(scene: str, name: str) -> str:
 
 
 def test_numbers_of_a_robot_speak_plainly() -> None:
-    assert said_by("push_block", "block: left") == "the block is to its left"
+    assert said_by("push_block", "block: left") == "the block is to its right"
     assert said_by("parking", "bay: forward") == "the bay is ahead of it"
     assert said_by("parking", "heading: east?").startswith("it faces ")
     assert said_by("forage", "inside: energy").startswith("its energy is ")

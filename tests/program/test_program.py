@@ -8,6 +8,7 @@ import pytest
 
 from ai4u_edu.program import PrintedOutput, Program, Reading, host, obstacle_in, readings_of
 from ai4u_edu.program.output import MAX_DECISION_CHARS, MAX_TOTAL_CHARS
+from ai4u_edu.program.tracing import MAX_MOMENTS
 
 COUNTER = """
 count = 0
@@ -148,6 +149,42 @@ def test_what_ran() -> None:
     seen = told["variables"].pop("self.seen")
     assert len(seen) < 200
     assert told["variables"] == {"turn": "0.5", "gain": "2"}
+
+
+def test_moments_from_a_breakpoint_on() -> None:
+    source = """
+def sign(value):
+    return 1 if value > 0 else -1
+
+def decide(percept):
+    far = percept["eyes"].max()
+    side = sign(far - 1)
+    return {"move": [far, side]}
+"""
+    said = {"source": source, "outputs": {"move": [[-1, -1], [1, 1]]}, "readings": ["eyes"]}
+    assert json.loads(host.load(json.dumps(said)))["ok"]
+
+    def moments(*stops: int) -> list[tuple[int, dict[str, str]]]:
+        percept = {"percept": {"eyes": [0.5, 0.25]}, "decision": 1, "stops": stops}
+        told = json.loads(host.decide(json.dumps(percept)))
+        assert told["values"] == {"move": [0.5, -1]}
+        return [(each["line"], each["variables"]) for each in told.get("moments", ())]
+
+    assert moments() == []
+    assert moments(99) == []
+    # each line with the variables before it, those of a function that is called too
+    assert moments(7) == [
+        (7, {"far": "0.5"}),
+        (3, {"value": "-0.5"}),
+        (8, {"far": "0.5", "side": "-1"}),
+    ]
+    assert [line for line, _ in moments(0)] == [6, 7, 3, 8]  # the first line that runs
+    loop = (
+        "def decide(percept):\n    for i in range(1000):\n        pass\n    return {'move': [0, 0]}"
+    )
+    assert json.loads(host.load(json.dumps({**said, "source": loop})))["ok"]
+    told = json.loads(host.decide(json.dumps({"percept": {}, "decision": 1, "stops": [3]})))
+    assert len(told["moments"]) == MAX_MOMENTS
 
 
 def test_a_trace_is_bounded_and_runs_no_code_of_the_program() -> None:

@@ -5,6 +5,7 @@
 
 import { blocksTheme } from "./theme.js";
 import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
+import { setAttributes } from "../shared/dom.js";
 import { Blockly } from "../vendor/blockly.js?v=e631db10";
 
 /** Place of a block that nobody has moved (pixels of the workspace). */
@@ -68,7 +69,10 @@ export class BlocksWorkspace {
     this.#workspace.registerButtonCallback("AI4U_NEW_VARIABLE", () => Blockly.Variables.createVariableButtonHandler(this.#workspace));
     this.#workspace.addChangeListener(Blockly.Events.disableOrphans);
     this.#workspace.addChangeListener((/** @type {{isUiEvent: boolean}} */ event) => this.#onEvent(event));
-    parent.querySelector("svg.blocklySvg, .blocklySvg")?.setAttribute("aria-label", label);
+    const svg = parent.querySelector(".blocklySvg");
+    if (svg) setAttributes(svg, { role: "group", "aria-label": label }); // its own role says that it has no name
+    // it measures texts, and stands beside all landmarks
+    for (const canvas of document.querySelectorAll(".blocklyComputeCanvas")) setAttributes(canvas, { "aria-hidden": "true" });
     new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
     keepFocus(parent);
     // the panel scrolls, which Blockly does not notice

@@ -47,9 +47,15 @@ const HANG_CHARS = 2;
 const setMistake = StateEffect.define();
 /** @type {EffectType<number[]>} */
 const setRan = StateEffect.define();
+/** @type {EffectType<number[]>} */
+const setStops = StateEffect.define();
+/** @type {EffectType<number[]>} */
+const setWaiting = StateEffect.define();
 /** @type {EffectType<boolean>} */
 const setReadOnly = StateEffect.define();
 const mistakes = lineMarks(setMistake, Decoration.line({ class: "ai4u-code-mistake-line" }));
+const stops = lineMarks(setStops, Decoration.line({ class: "ai4u-code-stop-line" }));
+const waiting = lineMarks(setWaiting, Decoration.line({ class: "ai4u-code-waiting-line" }));
 const ran = lineMarks(setRan, Decoration.line({ class: "ai4u-code-ran-line" }));
 
 const readOnly = StateField.define({
@@ -70,6 +76,11 @@ export class CodeEditor {
    * @type {(text: string) => void}
    */
   onChange = () => {};
+  /**
+   * Called with the lines that have a breakpoint after each change of them, and with the one that was set or null.
+   * @type {(lines: number[], added: number | null) => void}
+   */
+  onStops = () => {};
   #view;
   /** @type {{readings: string[], outputs: string[]}} */
   #names = { readings: [], outputs: [] };
@@ -85,8 +96,8 @@ export class CodeEditor {
   constructor(parent, { label, describedBy = "", keys = [] }) {
     const attributes = { "aria-label": label, "aria-describedby": describedBy, spellcheck: "false", autocapitalize: "off", tabindex: "0" };
     const extensions = [
-      keymap.of(keys),
-      lineNumbers(),
+      keymap.of([...keys, { key: "F9", run: () => this.#toggleStop(this.#view.state.selection.main.head) }]),
+      lineNumbers({ domEventHandlers: { mousedown: (_, { from }) => this.#toggleStop(from) } }),
       history(),
       indentOnInput(),
       indentUnit.of("    "),
@@ -104,7 +115,9 @@ export class CodeEditor {
       EditorView.contentAttributes.compute([readOnly], (state) => ({ "aria-readonly": String(state.field(readOnly)) })),
       EditorView.updateListener.of((update) => this.#onUpdate(update)),
       mistakes,
+      stops,
       ran,
+      waiting,
       hanging,
     ];
     this.#view = new EditorView({ parent, extensions });
@@ -119,8 +132,13 @@ export class CodeEditor {
   set text(text) {
     if (text === this.text) return;
     this.#isSetting = true;
-    this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert: text }, selection: { anchor: 0 } });
+    this.#view.dispatch({
+      changes: { from: 0, to: this.#view.state.doc.length, insert: text },
+      selection: { anchor: 0 },
+      effects: setStops.of([]),
+    });
     this.#isSetting = false;
+    this.onStops([], null);
   }
 
   /**
@@ -159,6 +177,39 @@ export class CodeEditor {
    */
   markRan(lines) {
     this.#view.dispatch({ effects: setRan.of(this.#lines(lines)) });
+  }
+
+  /** The lines with a breakpoint. */
+  get stops() {
+    const { doc } = this.#view.state;
+    /** @type {Set<number>} */
+    const found = new Set();
+    this.#view.state.field(stops).between(0, doc.length, (from) => void found.add(doc.lineAt(from).number));
+    return [...found];
+  }
+
+  /**
+   * Mark the line at which the program waits, and scroll to it; null removes the mark.
+   * @param {number | null} line
+   */
+  markWaiting(line) {
+    const lines = this.#lines([line]);
+    const scrolls = lines.map((from) => EditorView.scrollIntoView(from, { y: "nearest" }));
+    this.#view.dispatch({ effects: [setWaiting.of(lines), ...scrolls] });
+  }
+
+  /**
+   * Set a breakpoint at the line of a position, or remove it. Returns true: the key or the click is used.
+   * @param {number} at
+   */
+  #toggleStop(at) {
+    const { number } = this.#view.state.doc.lineAt(at);
+    const before = this.stops;
+    const isThere = before.includes(number);
+    const lines = isThere ? before.filter((line) => line !== number) : [...before, number];
+    this.#view.dispatch({ effects: setStops.of(this.#lines(lines)) });
+    this.onStops(this.stops, isThere ? null : number);
+    return true;
   }
 
   /**
@@ -202,6 +253,7 @@ export class CodeEditor {
   /** @param {Transaction} update */
   #onUpdate(update) {
     if (!update.docChanged || this.#isSetting) return;
+    this.onStops(this.stops, null); // they have moved with the text
     this.onChange(this.text);
   }
 

@@ -25,8 +25,10 @@ const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan
  * @property {string} [printed]
  * @property {number[]} [lines] that ran
  * @property {Record<string, string>} [variables]
+ * @property {TracedMoment[]} [moments] from a line on at which it was to stop
  * @property {Record<string, number[]>} [values] the action, by actuator
  */
+/** @typedef {{line: number, variables: Record<string, string>}} TracedMoment a line that ran, and the variables before it */
 /** @typedef {{wasm: WebAssembly.Module, library: Uint8Array<ArrayBuffer>, program: Uint8Array<ArrayBuffer>}} Parts */
 /** @typedef {{outputs: Record<string, [low: number[], high: number[]]>, readings: Pick<Reading, "key" | "dtype">[]}} Facts of an agent */
 
@@ -147,9 +149,10 @@ export class CodeEngine {
    *
    * @param {Record<string, Value>} percept readings by key
    * @param {number} number of the decision, which stands beside what the program prints
+   * @param {number[]} [stops] lines at which to stop; 0 for the first one that runs
    */
-  decide(percept, number) {
-    return this.#callLoaded("decide", json({ percept, decision: number }));
+  decide(percept, number, stops = []) {
+    return this.#callLoaded("decide", json({ percept, decision: number, ...(stops.length ? { stops } : {}) }));
   }
 
   /** End all workers. */

@@ -3,7 +3,7 @@
 /** @import { EmitterClass } from "../types/events.js" */
 /** @import { Percept, Value, Welcome } from "../types/remote.js" */
 /** @import { RemoteClient } from "../remote/client.js" */
-/** @import { Answer, CodeEngine, Facts } from "./engine.js" */
+/** @import { Answer, CodeEngine, Facts, TracedMoment } from "./engine.js" */
 /** @import { Told } from "./timeline.js" */
 
 /** @typedef {Told & {episode: number, number: number, source: string}} Decision */
@@ -23,6 +23,8 @@
 const WAIT_MS = 400;
 const NO_STEPS =
   "Step would make the other robots of this world wait, too. Whoever runs the world may allow it (ai4u-edu play --lockstep); Run works anyway.";
+/** @type {(isStep: boolean) => void} */
+const NOBODY_WAITS = () => {};
 /** Thrown where a run goes on after it was stopped. */
 export const STOPPED = Symbol("stopped");
 
@@ -38,8 +40,22 @@ export class ProgramMistake extends Error {
 
 /** Its event "change" is of phase and decision. */
 export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget) {
-  /** "off", "loading" (Python), "joining" (the world gives the agent), "running", or "stepping". */
+  /** "off", "loading" (Python), "joining" (the world gives the agent), "running", "stepping", or "waiting" (at a breakpoint). */
   phase = "off";
+  /**
+   * Lines with a breakpoint.
+   * @type {number[]}
+   */
+  stops = [];
+  /**
+   * The line at which the program waits, and the variables before it; null while it waits at none.
+   * @type {TracedMoment | null}
+   */
+  moment = null;
+  /** Ends the wait at a breakpoint. */
+  #passOn = NOBODY_WAITS;
+  /** True if the next decision waits at its first line. */
+  #isStepping = false;
   /** Number of the latest decision in its episode; 0 before the first one of a run. */
   decision = 0;
   /** Name of the reward's term that is paid at the goal; empty if there is none. */
@@ -72,11 +88,12 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
    * @param {() => Promise<CodeEngine>} [parts.makeEngine]
    * @param {(options: Connecting) => Promise<RemoteClient>} [parts.connect]
    * @param {() => Promise<void>} [parts.prepare] called before each start; lets a paused world run
+   * @param {(on: boolean) => Promise<void>} [parts.hold] lets the world wait while the program waits at a breakpoint, or go on
    * @param {() => Promise<boolean>} [parts.beginAgain] begins another episode while nobody drives; returns false if it can't
    */
   constructor(parts = {}) {
     super();
-    this.#parts = { makeEngine, connect, prepare: async () => {}, beginAgain: async () => false, ...parts };
+    this.#parts = { makeEngine, connect, prepare: async () => {}, hold: async () => {}, beginAgain: async () => false, ...parts };
   }
 
   get isOn() {
@@ -134,6 +151,14 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
     });
   }
 
+  /**
+   * Go on from a breakpoint.
+   * @param {boolean} isStep true to run one line, and wait again
+   */
+  goOn(isStep) {
+    this.#passOn(isStep);
+  }
+
   /** Give the agent back; a text tells why, if it was not the person who wanted it. */
   stop(text = "") {
     if (this.isOn) this.#end({ reason: text ? "lost" : "stopped", text });
@@ -145,6 +170,7 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
    */
   async #guarded(work) {
     const ticket = ++this.#ticket;
+    this.#passOn(false); // the run before may wait at a breakpoint
     try {
       await work(ticket);
     } catch (error) {
@@ -248,8 +274,11 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
   async #decide(percept, ticket) {
     const engine = await this.#engine;
     const number = percept.step + 1;
-    const answer = await this.#until(engine.decide(percept.values, number), ticket);
+    const stops = this.#isStepping ? [0] : this.stops;
+    this.#isStepping = false;
+    const answer = await this.#until(engine.decide(percept.values, number, stops), ticket);
     this.decision = number;
+    if (answer.moments?.length) await this.#waitAt(answer.moments, ticket);
     const did = { percept: percept.values, action: answer.values ?? null };
     this.#emit("decision", { ...toldBy(answer), ...did, episode: percept.episode, number, source: this.#source });
     this.#checked(answer, number);
@@ -261,6 +290,36 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
     }
     if (next.episode !== percept.episode) this.#checked(await this.#until(engine.begin(), ticket));
     return next;
+  }
+
+  /**
+   * Wait at a breakpoint while the world waits, too. The program has run on already: what it did after the line is shown
+   * line by line, and its action is kept back.
+   * @param {TracedMoment[]} moments
+   * @param {number} ticket
+   */
+  async #waitAt(moments, ticket) {
+    const { phase } = this;
+    const client = this.#client;
+    const asking = phase === "running" ? 0 : setInterval(() => client.wait().catch(() => {}), WAIT_MS);
+    await this.#until(this.#parts.hold(true), ticket);
+    try {
+      let isStep = true;
+      for (const [index, moment] of moments.entries()) {
+        const isStop = index === 0 || this.stops.includes(moment.line);
+        if (!isStep && !isStop) continue;
+        this.moment = moment;
+        this.#set("waiting");
+        isStep = await this.#until(new Promise((resolve) => (this.#passOn = resolve)), ticket);
+      }
+      this.#isStepping = isStep;
+    } finally {
+      clearInterval(asking);
+      this.moment = null;
+      this.#passOn = NOBODY_WAITS;
+      await this.#parts.hold(false);
+    }
+    this.#set(phase);
   }
 
   /**
@@ -289,6 +348,8 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
   /** @param {Partial<RunEnd> & Pick<RunEnd, "reason">} detail */
   #end(detail) {
     this.#ticket += 1;
+    this.#isStepping = false;
+    this.#passOn(false); // whoever waits finds that it is over
     this.#leave();
     this.#endProgram();
     this.#source = null;

@@ -83,11 +83,18 @@ export class CodeTab {
   #isDue = false;
   /** True while the world shows a moment of the past. */
   #isBack = false;
+  /** True if the world has stood still since the program waits at a breakpoint. */
+  #isHeld = false;
+  /** True if the world was paused here for a breakpoint. */
+  #hasPaused = false;
   /** True if the person drove at the latest event about it. */
   #wasPerson = false;
 
   #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
   #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
+  #goOn = button("Go on", () => this.#run.goOn(false), { icon: "play", kind: "main", title: `Go on to the next breakpoint (${COMMAND_KEY}+Enter)` });
+  #nextLine = button("Next line", () => this.#run.goOn(true), { icon: "forward", title: `Run this line, and wait again (${COMMAND_KEY}+Shift+Enter)` });
+  #stopsText = element("p", { className: "ai4u-soft", role: "status" });
   #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
   #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
   #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 new starts, as fast as possible" });
@@ -106,7 +113,7 @@ export class CodeTab {
   constructor(root, panel, parts = {}) {
     this.#root = root;
     this.#panel = panel;
-    this.#run = new CodeRun({ prepare: () => this.#wake(), beginAgain: () => this.#tryAgain(), ...parts });
+    this.#run = new CodeRun({ prepare: () => this.#wake(), hold: (on) => this.#holdAtBreakpoint(on), beginAgain: () => this.#tryAgain(), ...parts });
     this.#test = new CodeTest({
       warm: () => this.#run.warm(),
       speed: new WorldSpeed(panel),
@@ -120,7 +127,7 @@ export class CodeTab {
     this.#active = this.#run;
     this.#moment = new CodeMoment(panel);
     const help = element("p", { className: "ai4u-soft", id: freeId() });
-    help.textContent = `${COMMAND_KEY}+Enter runs the program. Tab indents; Escape, then Tab leaves the editor.`;
+    help.textContent = `${COMMAND_KEY}+Enter runs the program. A click on a line's number, or F9, lets it wait there. Tab indents; Escape, then Tab leaves the editor.`;
     const frame = element("div", { className: "ai4u-code-editor" });
     const keys = [
       { key: "Ctrl-Enter", mac: "Cmd-Enter", run: () => this.#go("run") },
@@ -128,6 +135,7 @@ export class CodeTab {
     ];
     this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
     this.#editor.onChange = () => this.#onChange();
+    this.#editor.onStops = (lines, added) => this.#setStops(lines, added);
     this.#blocks = new BlocksMode(panel, {
       editor: this.#editor,
       changed: () => this.#onChange(),
@@ -140,13 +148,13 @@ export class CodeTab {
       show: (text) => this.#showProgram(text),
       isBusy: () => this.#run.isOn,
     });
-    const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#here, this.#step, this.#tryOut, this.#stop);
+    const buttons = element("div", { className: "ai4u-code-buttons" }, this.#start, this.#here, this.#step, this.#tryOut, this.#goOn, this.#nextLine, this.#stop);
     const lists = [this.#testTable.element, this.#console.element, this.#variables.element, this.#examples.element];
     const sections = [...lists, stars.element, this.#nameList.element, this.#program.element];
     root.classList.add("ai4u-code");
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
     const way = element("div", { className: "ai4u-code-way" }, this.#program.bar, this.#blocks.bar);
-    const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
+    const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help, this.#stopsText));
     const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, way, this.#blocks.steps, body, this.#mistake];
     root.append(head, ...both, ...sections);
     this.#listen();
@@ -210,6 +218,7 @@ export class CodeTab {
     this.#panel.addEventListener("part:scene", () => this.#examples.update(this.#panel.part("scene")));
     this.#examples.update(this.#panel.part("scene"));
     this.#panel.addEventListener("part:run", () => this.#noteOutcome());
+    this.#panel.addEventListener("part:run", ({ detail }) => this.#followPause(detail.is_paused));
     for (const type of ["driver", "part:run", "part:past"]) this.#panel.addEventListener(type, () => this.#drawSoon());
     addEventListener("pagehide", () => this.#stopAll());
     document.addEventListener("freeze", () => this.#stopAll(FROZEN)); // else the world would wait for it in vain
@@ -310,6 +319,10 @@ export class CodeTab {
    */
   #go(way, from = {}) {
     if (this.#agent === null) return true;
+    if (this.#run.phase === "waiting") {
+      this.#run.goOn(way === "step");
+      return true;
+    }
     this.#test.stop();
     this.#active = this.#run;
     const source = this.#editor.text;
@@ -318,6 +331,39 @@ export class CodeTab {
     if (way === "run") this.#run.run(source, this.#agent.id, from);
     else this.#run.step(source, this.#agent.id);
     return true;
+  }
+
+  /**
+   * Take other breakpoints, also while a program runs.
+   * @param {number[]} lines
+   * @param {number | null} added the one that was set; null for none
+   */
+  #setStops(lines, added) {
+    this.#run.stops = lines;
+    const words = added === null ? "" : `The program will wait at line ${added}. `;
+    const all = [...lines].sort((a, b) => a - b).join(", ");
+    setText(this.#stopsText, lines.length ? `${words}Breakpoints: line ${all}` : "");
+  }
+
+  /**
+   * Let the world wait with the program, unless that disturbs another person, or go on.
+   * @param {boolean} on
+   */
+  async #holdAtBreakpoint(on) {
+    this.#isHeld = false;
+    const isNews = on ? this.#isAlone : this.#hasPaused;
+    this.#hasPaused = on && isNews;
+    if (isNews) await this.#panel.send(on ? "pause" : "resume", {}, { quiet: true });
+  }
+
+  /**
+   * Go on if the person lets the world go on while the program waits.
+   * @param {boolean} isPaused
+   */
+  #followPause(isPaused) {
+    if (this.#run.phase !== "waiting") return;
+    if (this.#isHeld && !isPaused) this.#run.goOn(false);
+    this.#isHeld = isPaused;
   }
 
   #runTest() {
@@ -416,8 +462,9 @@ export class CodeTab {
     return !agents.some(({ id, is_person: isPerson }) => isPerson && id !== this.#agent.id);
   }
 
-  /** Let a paused world run. */
+  /** Let a paused world run; a network that is watched gives the robot back first. */
   async #wake() {
+    if (this.#panel.watch?.isOn) await this.#panel.watch.stop();
     if (this.#panel.part("run")?.is_paused) await this.#panel.send("resume", {}, { quiet: true });
   }
 
@@ -446,6 +493,13 @@ export class CodeTab {
     const playing = past?.is_showing ? past.playing : null;
     const isBack = this.#isBack;
     this.#isBack = playing !== null;
+    const { moment } = this.#run;
+    this.#editor.markWaiting(moment?.line ?? null);
+    if (moment !== null) {
+      this.#moment.update(null);
+      this.#drawTold({ lines: [], printed: "", variables: moment.variables }, false);
+      return;
+    }
     if (playing === null) {
       this.#moment.update(null);
       if (this.#latest !== null) this.#drawTold(this.#latest, this.#latest.source === this.#editor.text);
@@ -483,7 +537,11 @@ export class CodeTab {
     const { phase, decision, isOn } = this.#active;
     const [{ success }, { start }] = [this.#run, this.#test];
     const isPaused = Boolean(this.#panel.part("run")?.is_paused);
-    const shown = { phase, decision, success, start, isPerson: this.#isPerson, isPaused, python: this.#python, end: this.#end };
+    const waitsAt = this.#run.moment?.line ?? null;
+    const isWaiting = phase === "waiting";
+    for (const each of [this.#start, this.#here, this.#step, this.#tryOut]) each.hidden = isWaiting;
+    this.#goOn.hidden = this.#nextLine.hidden = !isWaiting;
+    const shown = { phase, waitsAt, decision, success, start, isPerson: this.#isPerson, isPaused, python: this.#python, end: this.#end };
     const { kind, text, count } = runWords(shown);
     setText(this.#state, text);
     setAttributes(this.#state, { title: text }); // it may be cut

@@ -8,6 +8,7 @@ const LOADING = "Getting Python ready (first time only) …";
  * Return {kind, text, count}: kind is "off", "busy", "on", "done" or "bad"; count changes too often to be announced.
  * @param {object} run
  * @param {string} run.phase as of CodeRun
+ * @param {number | null} [run.waitsAt] line of the breakpoint at which the program waits
  * @param {number} run.decision number of the latest one
  * @param {number} run.start the number of the start that is tested
  * @param {string} run.success the world's word for reaching the goal
@@ -17,7 +18,7 @@ const LOADING = "Getting Python ready (first time only) …";
  * @param {(RunEnd & {summary?: string, outcome?: string}) | null} run.end null while there is none; of a test it has a summary, and
  *   of an episode the world's word for its end, such as "fell"
  */
-export function runWords({ phase, decision, start, success, isPerson, isPaused, python, end }) {
+export function runWords({ phase, waitsAt = null, decision, start, success, isPerson, isPaused, python, end }) {
   if (phase === "loading") return line("busy", LOADING);
   if (phase === "joining") return line("busy", "The program gets the robot …");
   if (phase === "testing" && isPaused) return line("busy", "The world is paused", startWords(start));
@@ -25,6 +26,7 @@ export function runWords({ phase, decision, start, success, isPerson, isPaused, 
   if (phase === "running" && isPerson) return line("busy", "You're driving. Press Let go to give the robot back to your program.");
   if (phase === "running" && isPaused) return line("busy", "The world is paused", `decision ${decision}`);
   if (phase === "running") return line("on", "Runs", `decision ${decision}`);
+  if (phase === "waiting") return line("on", `Waits at line ${waitsAt}`, `decision ${decision}`);
   if (phase === "stepping") return line("on", "Waits for the next step", `decision ${decision}`);
   if (end !== null) return endWords(end, decision, success, isPaused);
   if (python === "loading") return line("off", LOADING);

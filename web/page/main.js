@@ -11,7 +11,7 @@ import { Banners } from "./banners.js";
 import { ClassBar } from "../classroom/student/bar.js";
 import { noteHandout } from "../classroom/student/handout.js";
 import { showLeft } from "../classroom/student/overlay.js";
-import { element } from "../shared/dom.js";
+import { element, setAttributes } from "../shared/dom.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
 import { Effects, flyStars } from "./effects.js";
@@ -269,6 +269,7 @@ stars.addEventListener("change", (event) => event instanceof CustomEvent && flyS
 draw();
 loadLayout().then(arrange);
 socket.open();
+setAttributes(document.getElementById("root"), { role: "main", "aria-label": "World" });
 trackCanvasEdges();
 watchSharedScene();
 if (HAS_PANEL) {

@@ -7,7 +7,7 @@
  * @import { AnswerTo, PanelEvents, PanelMessage, Parts, TabsPart } from "../types/panel.js"
  * @import { NoticeAction } from "./notices.js"
  */
-import { button, element, setAttributes } from "../shared/dom.js";
+import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
 import { DriveTab } from "./drive/tab.js";
 import { focusWorld, returnFocus } from "./focus.js";
@@ -97,6 +97,8 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   ], (mode) => this.#setDetails(mode === "details"));
   #more = button("", () => this.#foldTop(!this.#isTopFolded), { icon: "down", label: "Goal, score and camera", kind: "quiet" });
   #top = element("div", { className: "ai4u-panel-top" });
+  /** Headings for screen readers: the scene, and what can be done with it. */
+  #heading = element("h1", { className: "ai4u-hidden-text" });
   #undo = button("", () => this.send("undo"), { icon: "undo", label: "Undo", kind: "quiet" });
   #redo = button("", () => this.send("redo"), { icon: "redo", label: "Redo", kind: "quiet" });
   #tabs = new Tabs(TABS, (name, root) => this.#openTab(name, root));
@@ -118,13 +120,13 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     this.#socket.onconnected = (isConnected) => this.#onConnected(isConnected);
     this.#socket.onmessage = (message) => this.#receive(message);
     const scenes = new ScenePicker(this);
-    const head = element("header", { className: "ai4u-panel-head" }, scenes.element, this.#modes.element, this.#fold);
+    const head = element("header", { className: "ai4u-panel-head" }, this.#heading, scenes.element, this.#modes.element, this.#fold);
     const history = element("div", { className: "ai4u-history" }, this.#undo, this.#redo);
     this.#run = new RunControls(this);
     this.#top.append(this.#run.element, new ViewControls(this, history).element, this.#more);
     this.#body.append(
       this.#top,
-      element("div", { className: "ai4u-panel-rest" }, ...this.#tabs.elements),
+      element("div", { className: "ai4u-panel-rest" }, element("h2", { className: "ai4u-hidden-text", textContent: "Tabs" }), ...this.#tabs.elements),
     );
     this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
     returnFocus(this.element);
@@ -298,6 +300,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
 
   /** @param {ScenePart} scene */
   #onScene(scene) {
+    setText(this.#heading, scene.title || document.title);
     this.#tabs.setVisible("build", scene.can_edit);
     this.#tabs.setVisible("world", scene.can_edit);
     this.#tabs.setVisible("code", scene.agents.length > 0);

@@ -45,12 +45,14 @@ declare module "*/codemirror.js?v=b595b00f" {
     readonly length: number;
     readonly lines: number;
     line(number: number): { from: number; text: string };
+    lineAt(position: number): { number: number };
   }
   export class EditorState {
     static readonly readOnly: Facet<boolean>;
     static readonly tabSize: Facet<number>;
     readonly doc: Doc;
     readonly readOnly: boolean;
+    readonly selection: { main: { head: number } };
     field<Value>(field: Field<Value>): Value;
     replaceSelection(text: string): object;
   }
@@ -71,6 +73,7 @@ declare module "*/codemirror.js?v=b595b00f" {
   type MarkRange = object;
   interface Marks {
     map(changes: object): Marks;
+    between(from: number, to: number, take: (from: number) => void): void;
   }
   interface Mark {
     range(from: number): MarkRange;
@@ -109,6 +112,8 @@ declare module "*/codemirror.js?v=b595b00f" {
   export function highlightActiveLine(): Extension;
   export function history(): Extension;
   export function indentOnInput(): Extension;
-  export function lineNumbers(): Extension;
+  export function lineNumbers(config?: {
+    domEventHandlers?: Record<string, (view: EditorView, line: { from: number }, event: Event) => boolean>;
+  }): Extension;
   export function python(): Extension;
 }

@@ -17,7 +17,7 @@ from ai4u_edu.explain.live import (
     NamedBaseline,
     Why,
 )
-from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
+from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.explain.map_colours import CIVIDIS, value_range
 from ai4u_edu.explain.map_maker import LiveMap, faced_things
 from ai4u_edu.explain.page.choice import choice_of
@@ -164,7 +164,7 @@ class ExplainOption:
         yield from self.watching.parts(context, view)
         snapshot, choice = self._runner.latest, choice_of(view)
         agent = next((each for each in snapshot.agents if each.id == view.agent), None)
-        is_watched = choice.watched is not None and self.watching.is_on(view.agent)
+        is_watched = self.watching.is_watched_by(view)
         if agent is None or not (is_watched or "agent" in view.show.tabs):
             return
         if (is_watched or choice.is_why_shown) and (
@@ -182,23 +182,15 @@ class ExplainOption:
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:
         """Return the maps over the floor, and the stand-ins for agents at other places."""
         return [
-            (PolicyMaps(pages, self.maps, self._shown_maps), self._rate),
+            (PolicyMaps(pages, self.maps, self.watching), self._rate),
             (StandIns(pages), MAX_FRAMES_PER_S),
         ]
 
     def ray_weights(self, page: ViewerClient) -> Mapping[str, Floats] | None:
         """Return how much each ray matters to the page's agent; None if the page hides it."""
-        choice = choice_of(page)
-        is_watched = choice.watched is not None and self.watching.is_on(page.agent)
-        why = self.explainer.why(page.agent) if is_watched or choice.is_why_shown else None
+        is_shown = choice_of(page).is_why_shown or self.watching.is_watched_by(page)
+        why = self.explainer.why(page.agent) if is_shown else None
         return None if why is None else why.ray_weights
-
-    def _shown_maps(self, page: ViewerClient) -> MapChoice:
-        """Return the maps that a page's picture shows: those chosen, or those of a watch."""
-        choice = choice_of(page)
-        is_watched = choice.watched is not None and self.watching.is_on(page.agent)
-        is_chosen = choice.maps.has_field or choice.maps.has_values
-        return choice.watched if choice.watched and is_watched and not is_chosen else choice.maps
 
     def stop(self) -> None:
         """End the threads; they are not waited for, as a student's function may not return."""

@@ -7,10 +7,11 @@ import numpy as np
 from viser import BatchedMeshHandle, SceneApi
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.explain.live_maps import LiveMaps, MapChoice
+from ai4u_edu.explain.live_maps import LiveMaps
 from ai4u_edu.explain.map_colours import value_colours
 from ai4u_edu.explain.map_maker import LiveMap
 from ai4u_edu.explain.page.field_arrows import FieldArrows
+from ai4u_edu.explain.page.watch import Watching
 from ai4u_edu.page.viewer.scene.geometry import Array, cap
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours
@@ -31,16 +32,16 @@ class PolicyMaps:
     Args:
         viewer_clients: the pages.
         maps: computes them.
-        shown: returns the maps that a page shows.
+        watching: knows the pages that watch a network, which show its maps.
     """
 
     def __init__(
         self,
         viewer_clients: ViewerClients,
         maps: LiveMaps,
-        shown: Callable[[ViewerClient], MapChoice],
+        watching: Watching,
     ) -> None:
-        self._viewer_clients, self._maps, self._shown = viewer_clients, maps, shown
+        self._viewer_clients, self._maps, self._watching = viewer_clients, maps, watching
         self.pages: dict[int, PageMaps] = {}
         self._turns = PageTurns(TRAILS_PER_S)
 
@@ -58,7 +59,7 @@ class PolicyMaps:
             page.fade()
         for number in self._turns.due(self._viewer_clients.keys()):
             client = self._viewer_clients[number]
-            requests = self._shown(client).requests(client.agent)
+            requests = self._watching.shown_maps(client).requests(client.agent)
             if number not in self.pages and not requests:
                 continue
             if number not in self.pages:
@@ -127,7 +128,8 @@ class PageMaps:
 
     def fade(self) -> None:
         """Show as much of maps that are appearing as is due now."""
-        for index, part in enumerate((self._arrows, self._cells)):
+        parts: tuple[FieldArrows | _Cells, ...] = (self._arrows, self._cells)
+        for index, part in enumerate(parts):
             share = min(1.0, max(0.0, self._clock() - self._began[index]) / FADE_S)
             share = 1.0 if self._client.is_motion_reduced else share
             if share != self._shares[index]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, Protocol
 
 from msgspec import Struct
 
@@ -12,7 +12,7 @@ from ai4u_edu.blocks import Brain, LocalBrain, NeuralNetController, RemoteBrain
 from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.explain.map_maker import faced_things
 from ai4u_edu.explain.page import messages as m
-from ai4u_edu.explain.page.choice import OPTION, choice_of
+from ai4u_edu.explain.page.choice import OPTION, HasChoices, choice_of
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.drivers import Driver
 from ai4u_edu.page.editing.dry_run import IdleBrain
@@ -78,6 +78,14 @@ class WatchPart(PanelPart, frozen=True, kw_only=True):
     """The race that pages see; null for none."""
 
 
+class ShowsAgent(HasChoices, Protocol):
+    """A page's panel or its picture, which shows an agent."""
+
+    @property
+    def agent(self) -> str:
+        """Id of the agent."""
+
+
 @dataclass(eq=False)
 class _Watch:
     """A network that drives an agent in place of its own brain."""
@@ -132,6 +140,17 @@ class Watching:
         """Return True while a network that is watched drives an agent."""
         watch = self._watches.get(agent_id)
         return watch is not None and self._drives(watch)
+
+    def is_watched_by(self, page: ShowsAgent) -> bool:
+        """Return True while a page watches the network that drives its agent."""
+        return choice_of(page).watched is not None and self.is_on(page.agent)
+
+    def shown_maps(self, page: ShowsAgent) -> MapChoice:
+        """Return the maps that a page's picture shows: those chosen there, or those of a watch."""
+        choice = choice_of(page)
+        if choice.watched is None or choice.maps.has_field or choice.maps.has_values:
+            return choice.maps
+        return choice.watched if self.is_on(page.agent) else choice.maps
 
     def parts(self, context: PanelContext, view: PageView) -> Iterator[tuple[str, bytes]]:
         """Yield what the page's agent can be watched with."""
@@ -261,7 +280,9 @@ class Watching:
             if not each.source and each.episode.changed is None and each.task == self._task
         ]
         won = [each for each in drives if each.success]
-        return min(won, key=lambda each: each.episode.seconds) if won else (drives or [None])[-1]
+        if won:
+            return min(won, key=lambda each: each.episode.seconds)
+        return drives[-1] if drives else None
 
     # -- in the world's thread ---------------------------------------------------------------------
 

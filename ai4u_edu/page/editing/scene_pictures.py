@@ -10,6 +10,7 @@ from typing import NamedTuple
 from PIL import Image
 
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
+from ai4u_edu.page.editing.dry_run import IdleBrain
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.scenes.scene import LIBRARY
@@ -48,7 +49,7 @@ class LibraryScene(NamedTuple):
     """Key of its task, under which a page keeps best times."""
 
 
-def scene_picture(scene: Scene, longest_px: int) -> bytes:
+def scene_picture(scene: Scene, longest_px: int, seed: int = 1) -> bytes:
     """Return a picture of a scene at the start of an episode, as a PNG file.
 
     It has no rays of sensors, which would hide a small scene.
@@ -56,9 +57,10 @@ def scene_picture(scene: Scene, longest_px: int) -> bytes:
     Args:
         scene: the scene.
         longest_px: longer side of the picture.
+        seed: of the episode.
     """
-    sim = scene.build()
-    sim.reset(1)
+    sim = scene.build(brains=lambda _: IdleBrain())
+    sim.reset(seed)
     snapshot = capture_snapshot(sim)
     agents = tuple(each._replace(rays={}) for each in snapshot.agents)
     picture = Image.fromarray(draw_snapshot(replace(snapshot, agents=agents), longest=longest_px))

@@ -5,6 +5,17 @@ import re
 from ai4u_edu.page.editing.forms import ParameterField
 from ai4u_edu.page.panel.block_words import BLOCK_WORDS
 
+FIELD_LABELS = {
+    "vision_max_distance": "how far it sees",
+    "max_distance": "how far it sees",
+    "return_code": "say what each ray hits",
+    "return_distance": "say how far away it is",
+    "group_code": "number for each group",
+    "move_amount": "speed",
+    "turn_amount": "turning speed",
+    "only_one_time": "only once",
+}
+"""Labels of fields whose names say too little, by the parameter's name; Details shows the name."""
 FIELD_HINTS = {
     "perception_key": "The sensor's name.",
     "stacked_observations": "How many of the latest readings are kept.",
@@ -80,6 +91,16 @@ _REPLACED = (
     (r"\b[Bb]od(y|ies)\b", lambda found: {"y": "thing", "ies": "things"}[found[1]]),
     (r"\b[Aa]gent\b", "robot"),
 )
+
+
+def plain_label(field: ParameterField) -> str:
+    """Return a field's label for people, with its unit.
+
+    >>> plain_label(ParameterField("move_amount", "move amount", "number", 4, "", unit="m/s"))
+    'speed (m/s)'
+    """
+    known = FIELD_LABELS.get(field.name)
+    return field.label if known is None else f"{known} ({field.unit})" if field.unit else known
 
 
 def plain_hint(field: ParameterField, block: str = "") -> str:

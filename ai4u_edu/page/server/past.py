@@ -11,6 +11,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response, StreamingResponse
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.page.editing.scene_pictures import scene_picture
 from ai4u_edu.page.server.api import Number
 from ai4u_edu.page.server.exports import RETRY_AFTER_S, BusyError, Exports
 from ai4u_edu.recording import ArchiveEntry, Episode, Replay
@@ -18,7 +19,9 @@ from ai4u_edu.recording.episode import encode
 from ai4u_edu.recording.exports.csv_file import write_csv
 from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.exports.movie import write_gif, write_mp4
+from ai4u_edu.recording.scene_export import without_unknown_brains
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import Scene
 
 WRITERS: dict[str, tuple[str, Callable[[Replay, Path], Path]]] = {
     "html": ("text/html; charset=utf-8", write_html),
@@ -29,6 +32,11 @@ WRITERS: dict[str, tuple[str, Callable[[Replay, Path], Path]]] = {
 """Media type and writer by file extension."""
 RECORDING = "episode"
 RECORDING_KIND = "application/octet-stream"
+PICTURE = "png"
+PICTURE_PX = 160
+"""Longer side of the picture of an episode's start."""
+MAX_PICTURES = 200
+"""Most pictures that are kept."""
 PART_BYTES = 64 * 2**10
 """Size of the parts in which a file is sent; a slow client holds one of them in memory."""
 HEADERS = {
@@ -89,6 +97,8 @@ class Past:
         self._runner = runner
         # replaying and drawing keep a core busy: one file at a time. Recordings need not wait
         self._recordings, self._files = Exports(_recording), Exports(_file)
+        self._pictures: dict[int, bytes] = {}
+        self._drawing = asyncio.Lock()
         self._listed: tuple[tuple[ArchiveEntry, ...], str] = ((), "")
 
     def list(self, _: Request) -> Response:
@@ -105,7 +115,7 @@ class Past:
         """Return an episode as a file: ``3.episode``, ``3.html``, ..."""
         name = str(request.path_params["file"])
         number, _, ending = name.partition(".")
-        known = (RECORDING, *WRITERS)
+        known = (RECORDING, PICTURE, *WRITERS)
         if ending not in known or not (number.isdecimal() and number.isascii()):
             expected = ", ".join(f"NUMBER.{each}" for each in known)
             return PlainTextResponse(f"expected one of {expected}, got {name[:80]!r}\n", 404)
@@ -113,6 +123,8 @@ class Past:
         if entry is None:
             kept = ", ".join(str(each.number) for each in self._entries()) or "none"
             return PlainTextResponse(f"no episode {number[:20]} is kept; there are {kept}\n", 404)
+        if ending == PICTURE:
+            return await self._picture(entry)
         try:
             data = await self._made(entry.episode, ending, request)
         except BusyError as error:
@@ -124,6 +136,20 @@ class Past:
         attached = f'attachment; filename="{_plain(entry)}.{ending}"'
         about = {"Content-Disposition": attached, "Content-Length": str(len(data))}
         return StreamingResponse(_parts(data), media_type=kind, headers=HEADERS | about)
+
+    async def _picture(self, entry: ArchiveEntry) -> Response:
+        """Return a picture of an episode's start; one is drawn at a time, and once."""
+        async with self._drawing:
+            if entry.number not in self._pictures:
+                if len(self._pictures) >= MAX_PICTURES:
+                    self._pictures.clear()
+                try:
+                    data = await asyncio.to_thread(_drawn, entry.episode)
+                except AI4UError as error:
+                    return PlainTextResponse(f"{error}\n", 409)
+                self._pictures[entry.number] = data
+        headers = {"Cache-Control": "private, max-age=3600"}
+        return Response(self._pictures[entry.number], media_type="image/png", headers=headers)
 
     async def _made(self, episode: Episode, ending: str, request: Request) -> bytes:
         """Wait for a file until the client disconnects."""
@@ -158,6 +184,10 @@ async def _parts(data: bytes) -> AsyncIterator[bytes]:
 def _recording(episode: Episode, _: str, check: Callable[[], None]) -> bytes:
     check()
     return encode(episode)
+
+
+def _drawn(episode: Episode) -> bytes:
+    return scene_picture(Scene(without_unknown_brains(episode.scene)), PICTURE_PX, episode.seed)
 
 
 def _file(episode: Episode, ending: str, check: Callable[[], None]) -> bytes:

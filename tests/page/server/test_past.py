@@ -89,6 +89,15 @@ def test_the_other_files_are_what_they_say(address: str) -> None:
         assert getattr(picture, "n_frames", 1) > 5
 
 
+def test_a_picture_shows_where_an_episode_began(address: str) -> None:
+    answers = [get(address, f"/{number}.png") for number in (1, 2)]
+    for answer in answers:
+        assert answer.headers["content-type"] == "image/png"
+        assert max(Image.open(io.BytesIO(answer.content)).size) == 160
+    assert answers[0].content != answers[1].content  # other starts
+    assert get(address, "/9.png").status_code == 404
+
+
 def test_unknown_episodes_and_formats_get_404(address: str) -> None:
     answer = get(address, "/7.html")
     assert (answer.status_code, answer.text) == (404, "no episode 7 is kept; there are 1, 2\n")

@@ -117,3 +117,47 @@ test("Python that could not be loaded is tried again", async () => {
   await assert.rejects(run.warm(), /no network/);
   assert.equal(await run.warm(), world.engine);
 });
+
+test("a program waits at a breakpoint, and so does the world, until it goes on", async () => {
+  const moments = [{ line: 2, variables: { near: "1" } }, { line: 3, variables: { near: "2" } }, { line: 4, variables: {} }];
+  const world = fakeWorld([percept(), percept({ step: 1 }), percept({ step: 2, terminated: true })], { answers: { 1: { moments } } });
+  const held = [];
+  const run = running(world, { hold: async (on) => void held.push(on) });
+  run.stops = [2, 4];
+  const end = endOf(run);
+  const whole = run.run("pass", "0");
+  await settle();
+  assert.deepEqual([run.phase, run.moment, run.decisions.length, held], ["waiting", moments[0], 0, [true]]);
+  assert.equal(world.calls.includes("act 1"), false);
+  run.goOn(true); // one line
+  await settle();
+  assert.equal(run.moment, moments[1]);
+  run.goOn(false); // to the next breakpoint
+  await settle();
+  assert.equal(run.moment, moments[2]);
+  run.goOn(false);
+  await whole;
+  assert.equal((await end).reason, "over");
+  assert.deepEqual([held, run.moment], [[true, false], null]);
+  assert.deepEqual(world.calls.filter((call) => /^(decide|act)/.test(call)), ["decide 1 until 2,4", "act 1", "decide 2 until 2,4", "act 2"]);
+});
+
+test("a step over the last line waits at the first one of the next decision, and Stop ends a wait", async () => {
+  const moments = [{ line: 2, variables: {} }];
+  const world = fakeWorld([percept(), percept({ step: 1 }), percept({ step: 2 })], { answers: { 1: { moments }, 2: { moments } } });
+  const held = [];
+  const run = running(world, { hold: async (on) => void held.push(on) });
+  run.stops = [2];
+  const end = endOf(run);
+  const whole = run.run("pass", "0");
+  await settle();
+  run.goOn(true);
+  await settle();
+  assert.deepEqual(world.calls.filter((call) => /^(decide|act)/.test(call)), ["decide 1 until 2", "act 1", "decide 2 until 0"]);
+  assert.equal(run.phase, "waiting");
+  run.stop();
+  await whole;
+  assert.equal((await end).reason, "stopped");
+  await settle();
+  assert.deepEqual([held, run.moment, run.phase], [[true, false, true, false], null, "off"]);
+});

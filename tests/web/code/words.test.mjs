@@ -12,6 +12,7 @@ test("a run is told by its phase", () => {
   assert.equal(words({ phase: "loading" }), "busy|Getting Python ready (first time only) …|");
   assert.equal(words({ phase: "joining" }), "busy|The program gets the robot …|");
   assert.equal(words({ phase: "running", decision: 4 }), "on|Runs|decision 4");
+  assert.equal(words({ phase: "waiting", waitsAt: 7, decision: 4 }), "on|Waits at line 7|decision 4");
   assert.equal(words({ phase: "running", isPaused: true, decision: 4 }), "busy|The world is paused|decision 4");
   assert.equal(words({ phase: "running", isPerson: true, isPaused: true }), "busy|You're driving. Press Let go to give the robot back to your program.|");
   assert.equal(words({ phase: "stepping", decision: 4 }), "on|Waits for the next step|decision 4");

@@ -12,7 +12,7 @@ export function fakeWorld(percepts, { welcome = {}, answers = {} } = {}) {
     warm: async () => calls.push("warm"),
     load: async (source, facts) => (calls.push(`load ${source} ${JSON.stringify(facts.outputs)}`), { ok: true, ...answers.load }),
     begin: async () => (calls.push("begin"), { ok: true, ...answers.begin }),
-    decide: async (_, number) => (calls.push(`decide ${number}`), { ok: true, values: { move: [number] }, ...answers[number] }),
+    decide: async (_, number, stops = []) => (calls.push(`decide ${number}${stops.length ? ` until ${stops}` : ""}`), { ok: true, values: { move: [number] }, ...answers[number] }),
     finish: () => calls.push("finish"),
   };
   const client = {

@@ -39,10 +39,22 @@ export async function openGallery(panel, { title, kind, parent = [kind] }) {
  * @param {(type: string) => void} add
  */
 function groups(items, add) {
+  const left = items.filter(({ reason }) => reason);
+  const fitting = byQuestion(items.filter(({ reason }) => !reason), add);
+  if (!left.length) return fitting;
+  const summary = element("summary", { textContent: `Not for this robot (${left.length})` });
+  return [...fitting, element("details", { open: !fitting.length }, summary, ...byQuestion(left, add))];
+}
+
+/**
+ * @param {GalleryBlock[]} items
+ * @param {(type: string) => void} add
+ */
+function byQuestion(items, add) {
   /** @type {Map<string, GalleryBlock[]>} */
-  const byQuestion = new Map();
-  for (const item of items) byQuestion.set(item.question, [...(byQuestion.get(item.question) ?? []), item]);
-  return [...byQuestion].flatMap(([question, group]) => [
+  const groups = new Map();
+  for (const item of items) groups.set(item.question, [...(groups.get(item.question) ?? []), item]);
+  return [...groups].flatMap(([question, group]) => [
     element("h3", { textContent: question }),
     tiles(...group.map((item) => blockTile(item, () => add(item.class)))),
   ]);

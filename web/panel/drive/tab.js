@@ -9,7 +9,7 @@
 import { DriverStatus } from "../../page/driver_status.js";
 import { hasWon } from "../../page/results.js";
 import { button, element, keyed, setText } from "../../shared/dom.js";
-import { Bars } from "../widgets/bars.js";
+import { Bars, hasEffect } from "../widgets/bars.js";
 import { Elsewhere } from "../why/elsewhere.js";
 import { Maps } from "../why/maps.js";
 import { number } from "../../shared/numbers.js";
@@ -110,7 +110,7 @@ export class DriveTab {
     this.#latest = agent;
     this.#drawSensors(agent);
     this.#sections.sensors.hidden = agent.sensors.length === 0;
-    this.#action.update((agent.action ?? []).map(actionRow));
+    this.#action.update((agent.action ?? []).filter(hasEffect).map(actionRow));
     setText(this.#phases, phaseWords(agent.phases));
     this.#rewards.update(agent.rewards ?? [], agent.paid ?? []);
     setText(this.#script, scriptWords(agent.script));
@@ -222,9 +222,8 @@ function needRow({ name, level, low, high, comfort, state }) {
  * @param {ActionNumber} number of the action
  * @returns {Bar}
  */
-function actionRow({ actuator, title, name, value, low, high, has_effect: hasEffect = true }) {
-  const words = (name || title || actuator).replaceAll("_", " ");
-  return { name: hasEffect ? words : `${words} (no effect)`, value, low, high };
+function actionRow({ actuator, title, name, value, low, high }) {
+  return { name: (name || title || actuator).replaceAll("_", " "), value, low, high };
 }
 
 /** @param {DecisionPhases} phases */

@@ -6,7 +6,7 @@
  */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
-import { Bars, changedRow } from "../widgets/bars.js";
+import { Bars, changedRow, hasEffect } from "../widgets/bars.js";
 import { Curve } from "../widgets/curve.js";
 import { choice, section } from "../widgets/parts.js";
 
@@ -155,7 +155,7 @@ export class Comparison {
         element("dd", { textContent: text }),
       ]),
     );
-    this.#action.update(action.map(changedRow));
+    this.#action.update(action.filter(hasEffect).map(changedRow));
   }
 
   #goTo() {

@@ -6,6 +6,7 @@
  */
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { Card } from "../widgets/card.js";
+import { scenePicture } from "../../scenes/picture.js";
 import { fact } from "../widgets/parts.js";
 
 /** Time that "Copied" stands on a button (ms). */
@@ -43,6 +44,7 @@ export class EpisodeCard {
    * @param {DownloadLink[]} downloads of the chosen episode
    */
   update(episode, isOpen, downloads = []) {
+    if (this.#episode === null) this.#card.element.firstElementChild.prepend(scenePicture(episode.picture, episode.scene));
     this.#episode = episode;
     const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;
     this.#card.update({

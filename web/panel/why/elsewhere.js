@@ -7,7 +7,7 @@
  */
 import { button, element, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
-import { Bars, changedRow } from "../widgets/bars.js";
+import { Bars, changedRow, hasEffect } from "../widgets/bars.js";
 import { toggle } from "../widgets/parts.js";
 
 /** Time without a change after which the action is asked for. */
@@ -126,7 +126,7 @@ export class Elsewhere {
     this.#body.hidden = false;
     setText(this.#says, answer.can_stand ? "There it would do:" : "It can't stand there: no floor, or something is in the way.");
     this.#action.element.hidden = !answer.can_stand;
-    this.#action.update(answer.action.map(changedRow));
+    this.#action.update(answer.action.filter(hasEffect).map(changedRow));
   }
 }
 

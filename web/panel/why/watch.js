@@ -16,7 +16,11 @@ const STOP = "Stop watching";
 
 export class Watch {
   #panel;
-  #isBusy = false;
+  /**
+   * The end of the latest command: the next one waits for it, as the world shows its effect before its answer comes.
+   * @type {Promise<void>}
+   */
+  #last = Promise.resolve();
   /** Name of the chosen network; empty for the usual one. */
   #network = "";
   #saidAt = -SENTENCE_MS;
@@ -77,12 +81,11 @@ export class Watch {
    * @param {Name} command
    * @param {import("../../generated/messages.js").Commands[Name]} [args]
    */
-  async #ask(command, args) {
-    if (this.#isBusy) return;
-    this.#isBusy = true;
-    await this.#panel.send(command, args, { quiet: true });
-    this.#isBusy = false;
-    this.#panel.focusWorld();
+  #ask(command, args) {
+    this.#last = this.#last.then(async () => {
+      await this.#panel.send(command, args, { quiet: true });
+    });
+    return this.#last;
   }
 
   /** @param {WatchPart} part */

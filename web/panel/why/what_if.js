@@ -7,7 +7,7 @@
  */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
-import { Bars, changedRow } from "../widgets/bars.js";
+import { Bars, changedRow, hasEffect } from "../widgets/bars.js";
 import { number } from "../../shared/numbers.js";
 import { choice } from "../widgets/parts.js";
 
@@ -104,7 +104,7 @@ export class WhatIf {
     if (!this.#dial()) this.#chosen = this.#dials.length ? idOf(this.#dials[0]) : "";
     this.#slot.set(this.#dials.map((dial) => ({ value: idOf(dial), text: dial.name })), this.#chosen);
     this.#drawDial();
-    this.#action.update(answer.action.map(changedRow));
+    this.#action.update(answer.action.filter(hasEffect).map(changedRow));
   }
 
   #dial() {

@@ -32,13 +32,21 @@ export class Bars {
 }
 
 /**
+ * Return true for a number of an action that does something; a jump of a robot that can't jump is left out.
+ * @param {{has_effect?: boolean}} number
+ */
+export function hasEffect({ has_effect: has = true }) {
+  return has;
+}
+
+/**
  * Return the row of a number of an action that would be another one.
  * @param {ChangedNumber} number
  * @returns {Bar}
  */
-export function changedRow({ name, low, high, has_effect: hasEffect, now, then }) {
+export function changedRow({ name, low, high, now, then }) {
   const text = now === then ? number(now) : `${number(now)} → ${number(then)}`;
-  return { name: hasEffect ? name : `${name} (no effect)`, value: then, low, high, text };
+  return { name, value: then, low, high, text };
 }
 
 function makeRow() {

@@ -77,7 +77,9 @@ export function choice(label, onChange) {
     const key = JSON.stringify(options);
     if (key !== shown) {
       shown = key;
-      select.replaceChildren(...options.map(optionElement));
+      const left = options.filter(({ reason }) => reason).map(optionElement);
+      select.replaceChildren(...options.filter(({ reason }) => !reason).map(optionElement));
+      if (left.length) select.append(element("optgroup", { label: "Not for this robot" }, ...left));
     }
     if (select.value !== value) select.value = value;
   };
@@ -86,7 +88,7 @@ export function choice(label, onChange) {
 
 /** @param {Option} option */
 function optionElement({ value, text, reason }) {
-  const words = reason ? `${text} – ${reason}` : text;
+  const words = reason ? `${text} – ${reason.replace(/^Not for this robot: (.)/, (_, first) => first.toUpperCase())}` : text;
   return element("option", { value, textContent: words, disabled: Boolean(reason) });
 }
 

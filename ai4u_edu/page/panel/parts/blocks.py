@@ -15,6 +15,7 @@ from ai4u_edu.page.editing.scene_names import SceneNames, name_of
 from ai4u_edu.page.editing.settings import agent_form
 from ai4u_edu.page.editing.suggestion import NAMED
 from ai4u_edu.page.messages import Kind
+from ai4u_edu.page.panel.field_hints import plain_label
 from ai4u_edu.page.panel.gallery import first_fields, first_sentence, hint_of, words_of
 from ai4u_edu.page.panel.labels import change_label
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
@@ -29,6 +30,9 @@ PARTS: Mapping[str, tuple[str, Kind | UnsetType, str | UnsetType]] = {
 """Parts of which a block may have several, by the parameter that holds them: title, and the kind of
 the gallery or the one class."""
 MAX_READS_CHARS = 80
+
+YES_NO = {"True": "yes", "False": "no"}
+"""Words for the value of a switch."""
 
 
 class UndoLabel(Struct, frozen=True):
@@ -215,7 +219,9 @@ def _reads(block: Plain, names: SceneNames) -> str:
     fields = block_form(block, names)
     first = first_fields(str(block["type"]), fields)
     texts = [
-        f"{f.label}: {f.shown}" for f in fields if f.name in first and f.shown not in {"", "{}"}
+        f"{plain_label(f)}: {YES_NO.get(f.shown, f.shown)}"
+        for f in fields
+        if f.name in first and f.shown not in {"", "{}"}
     ]
     text = ", ".join(texts)
     return text if len(text) <= MAX_READS_CHARS else text[: MAX_READS_CHARS - 1] + "…"

@@ -6,7 +6,7 @@ from typing import Any
 from msgspec import Struct
 
 from ai4u_edu.page.editing.forms import Kind, ParameterField
-from ai4u_edu.page.panel.field_hints import detail, plain_hint
+from ai4u_edu.page.panel.field_hints import detail, plain_hint, plain_label
 
 
 class FormField(Struct, frozen=True):
@@ -49,7 +49,7 @@ def form_field(field: ParameterField, first: Collection[str] = (), block: str = 
     """
     return FormField(
         name=field.name,
-        label=field.label,
+        label=plain_label(field),
         kind=field.kind,
         value=field.value,
         shown=field.shown,

@@ -37,6 +37,8 @@ class KeptEpisode(Struct, frozen=True):
     """Title of its scene."""
     is_here: bool
     """True if its scene is the one that runs now."""
+    picture: str
+    """Address of a picture of its start, relative to the page."""
     driver: str
     """Title of the driver, or the file that it was loaded from."""
     is_person: bool
@@ -163,6 +165,7 @@ def _episode(entry: ArchiveEntry, *, is_best: bool, is_here: bool) -> KeptEpisod
         number=entry.number,
         scene=episode.scene.title or episode.scene.name,
         is_here=is_here,
+        picture=f"api/past/{entry.number}.png?v={episode.seed}-{episode.ticks}",
         driver=entry.source or driver_words(entry.first.driver),
         is_person=entry.is_person,
         end=_end(entry),

@@ -1,0 +1,66 @@
+"""axe-core finds nothing of any kind on whole pages: play with its tabs, blocks, and start."""
+
+from collections.abc import Iterator
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, expect
+
+from tests.browser.test_panel_accessibility import NO_TRANSITION
+from tests.browser.whole import button, open_tab, press, whole_page
+from tests.playing import Played, played
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Played]:
+    with played("maze", "--seed", "1", waits_for_key=True) as server:
+        yield server
+
+
+def findings(page: Page) -> list[str]:
+    """Return all findings of axe-core in a page."""
+    page.wait_for_function(NO_TRANSITION)  # a colour that is still on its way can be any
+    return [
+        f"{each['impact']} {each['id']}: {[node['html'][:160] for node in each['nodes']]}"
+        for each in Axe().run(page).response["violations"]
+    ]
+
+
+def test_the_page_of_a_world_has_no_finding(
+    server: Played, chromium: Browser, subtests: pytest.Subtests
+) -> None:
+    with whole_page(chromium, server) as page:
+        for tab in ("Drive", "Build", "World", "Past", "Teach"):
+            with subtests.test(tab=tab):
+                open_tab(page, tab)
+                assert findings(page) == []
+        with subtests.test(tab="Drive", network="watched"):
+            open_tab(page, "Drive")
+            press(page, "Watch it think")
+            expect(button(page, "Stop watching")).to_be_visible()
+            expect(page.locator(".ai4u-banner").filter(has_text="because").first).to_be_visible()
+            assert findings(page) == []
+
+
+def test_the_tab_code_has_no_finding(
+    server: Played, chromium: Browser, subtests: pytest.Subtests
+) -> None:
+    with whole_page(chromium, server) as page:
+        open_tab(page, "Code")
+        expect(page.locator(".cm-content")).to_be_visible()
+        for way in ("Python", "Blocks"):
+            with subtests.test(way=way):
+                press(page, way)
+                shown = ".blocklySvg" if way == "Blocks" else ".cm-content"
+                expect(page.locator(shown).first).to_be_visible()
+                assert findings(page) == []
+
+
+def test_the_start_page_has_no_finding(server: Played, chromium: Browser) -> None:
+    page = chromium.new_page()
+    page.goto(f"{server.url}start")
+    expect(page.get_by_role("heading", level=1)).to_be_visible()
+    assert findings(page) == []
+    page.context.close()
