@@ -71,8 +71,6 @@ export class BlocksWorkspace {
     this.#workspace.addChangeListener((/** @type {{isUiEvent: boolean}} */ event) => this.#onEvent(event));
     const svg = parent.querySelector(".blocklySvg");
     if (svg) setAttributes(svg, { role: "group", "aria-label": label }); // its own role says that it has no name
-    // it measures texts, and stands beside all landmarks
-    for (const canvas of document.querySelectorAll(".blocklyComputeCanvas")) setAttributes(canvas, { "aria-hidden": "true" });
     new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
     keepFocus(parent);
     // the panel scrolls, which Blockly does not notice
