@@ -55,10 +55,12 @@ from typing import NamedTuple
 
 from ai4u_edu.agent.agent import BasicAgent, Numbers
 from ai4u_edu.agent.error_context import add_context
+from ai4u_edu.agent.state import AgentMoment, DecisionState, SimState, block_states, restore_blocks
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
 from ai4u_edu.world import World
+from ai4u_edu.world.state import capture_world, restore_world
 
 HOLD_LIMIT_S = 660.0
 """Time (s) for which a step waits for another agent's brain; a script may be silent for 600 s."""
@@ -245,6 +247,32 @@ class ControlRequestor:
         """Return True if no decision is under way, so that blocks and bodies may be changed."""
         return not any(cycle.under_way for cycle in self._cycles)
 
+    def get_state(self, *, with_motions: bool = True) -> SimState:
+        """Return all that has changed since the world was built, but for held keys.
+
+        Args:
+            with_motions: False leaves out the bodies' poses and speeds, which a snapshot has.
+        """
+        return SimState(
+            self.episode,
+            capture_world(self.world, with_motions=with_motions),
+            {cycle.agent.id: cycle.get_state() for cycle in self._cycles},
+        )
+
+    def set_state(self, state: SimState) -> None:
+        """Go on from the state of another world of the same scene.
+
+        Contacts are found again by the physics, so what touches something then moves on a little
+        differently (by rounding) than in the other world. A brain keeps its own state if it is of
+        another class, and so does an agent that the other world does not have.
+        """
+        self.reset(state.world.seed)
+        restore_world(self.world, state.world)
+        self.episode = state.episode
+        for cycle in self._cycles:
+            if cycle.agent.id in state.agents:
+                cycle.set_state(state.agents[cycle.agent.id])
+
     def _decide(self) -> bool:
         """Ask the brains of agents that are due; return True if the tick takes place."""
         self._respawning = []
@@ -358,6 +386,30 @@ class _DecisionCycle:
         self.under_way = True
         agent.begin_step()
         return None
+
+    def get_state(self) -> AgentMoment:
+        """Return all that changes in the agent and its blocks."""
+        numbers = tuple((actuator.action_name, values) for actuator, values in self._action)
+        phase = Phase(self._tick, self._ticks, self._repeat)
+        return AgentMoment(
+            self.agent.get_state(),
+            self.agent.ledger.get_state(),
+            DecisionState(self.under_way, phase, numbers),
+            block_states(self._bound),
+        )
+
+    def set_state(self, state: AgentMoment) -> None:
+        """Go on from the state of the same agent in another copy of the world."""
+        agent, decision = self.agent, state.decision
+        restore_blocks(self._bound, state.blocks)
+        agent.ledger.set_state(state.ledger)
+        agent.set_state(state.values)
+        actuators = self._bound.actuators
+        self.under_way = decision.under_way
+        self._tick, self._ticks, self._repeat = decision.phase
+        self._action = [
+            (actuators[name], numbers) for name, numbers in decision.action if name in actuators
+        ]
 
     def refresh_binding(self) -> None:
         """Use the agent's present blocks.

@@ -16,12 +16,14 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
+from ai4u_edu.world.ink import Ink
 from ai4u_edu.world.native import IS_NATIVE, contact_distances
 from ai4u_edu.world.physics import Physics
 from ai4u_edu.world.placement import MAX_OVERLAP_M, Places, Thing, ThingT, is_overlap, randomize
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.registry import Rectangle, Registry
 from ai4u_edu.world.shapes import BodyShape, RegionShape
+from ai4u_edu.world.state import Motion
 
 
 class World:
@@ -50,6 +52,8 @@ class World:
         """Ticks since the reset."""
         self._registry = Registry()
         self._physics = Physics(self.settings)
+        self.ink = Ink(self._registry.floors)
+        """What pens have drawn on the floors since the world's reset."""
         self.contacts = self._physics.contacts
         self._ticks_per_second = self.settings.ticks_per_second
         self.rebuild()
@@ -175,6 +179,36 @@ class World:
         physics.height.set_height(body, body.sampled.z)
         physics.height.update_support(body)
 
+    def place_as(self, name: str, sampled: BodyDescription) -> None:
+        """Put a body to the place that was sampled for it in another copy of this world."""
+        body, physics = self[name], self._physics
+        physics.remove(body)
+        body.sampled = sampled
+        physics.add(body)
+        physics.height.set_height(body, sampled.z)
+        physics.height.update_support(body)
+
+    def set_motion(self, name: str, motion: Motion) -> None:
+        """Put a body where it is in another copy of this world, with the same speeds."""
+        body, physics = self[name], self._physics
+        if motion.fallen or not math.isfinite(motion.x + motion.y + motion.z):
+            if not body.fallen:
+                physics.drop(body)
+            body.on_ground = motion.on_ground
+            if math.isfinite(motion.x + motion.y + motion.z):
+                body._pm.position, body._pm.angle = (motion.x, motion.y), motion.heading
+                body.z = motion.z
+            return
+        here = (*body._pm.position, body.z, body._pm.angle)
+        if body.fallen or here != (motion.x, motion.y, motion.z, motion.heading):
+            physics.place(body, motion.x, motion.y, motion.heading, motion.z)
+        if body.description.kind != "static":
+            body._pm.velocity = motion.vx, motion.vy
+            body._pm.angular_velocity = motion.angular_velocity
+        if body.moves and body.on_ground != motion.on_ground:
+            physics.height.set_on_ground(body, motion.on_ground)
+        body.vz = motion.vz
+
     def rebuild(self) -> None:
         """Build the physics anew, with all bodies in their places of this episode.
 
@@ -185,6 +219,7 @@ class World:
         if registry.has_random:
             self._sample_all()
         self.ticks = 0
+        self.ink.clear()
         self._physics.start_over()
         for body in registry.bodies.values():
             if not registry.has_random:
@@ -331,8 +366,8 @@ class World:
         physics.step()
         if physics.height.movers:
             physics.height.step(physics.dt)
-        if contacts.error is not None or ticks % self._ticks_per_second == 0:
-            contacts.raise_error()
+        if contacts.has_news or ticks % self._ticks_per_second == 0:
+            contacts.settle()
             if ticks % self._ticks_per_second == 0:
                 self._check_finite()
 

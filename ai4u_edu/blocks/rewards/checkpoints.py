@@ -1,6 +1,6 @@
 """A reward for touching targets in their order."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -35,6 +35,8 @@ class CheckpointsReward(RewardFunc):
     """Amount that the last target pays in addition."""
     loop: bool = False
     """True for a lap that may begin at any target and ends where it began."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_under_way", "_ahead", "_due", "_is_done", "_finished")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the targets."""
