@@ -23,6 +23,7 @@ from ai4u_edu.blocks import CellSensor as CellSensor
 from ai4u_edu.blocks import CheckpointsReward as CheckpointsReward
 from ai4u_edu.blocks import CollectActuator as CollectActuator
 from ai4u_edu.blocks import CollisionWithRewardFunc as CollisionWithRewardFunc
+from ai4u_edu.blocks import ColourSensor as ColourSensor
 from ai4u_edu.blocks import Command as Command
 from ai4u_edu.blocks import ContinuousActuator as ContinuousActuator
 from ai4u_edu.blocks import Controller as Controller
@@ -36,6 +37,7 @@ from ai4u_edu.blocks import EvalBoolValue as EvalBoolValue
 from ai4u_edu.blocks import EvalFloatValue as EvalFloatValue
 from ai4u_edu.blocks import EvalIntValue as EvalIntValue
 from ai4u_edu.blocks import FallReward as FallReward
+from ai4u_edu.blocks import FigureReward as FigureReward
 from ai4u_edu.blocks import FleeController as FleeController
 from ai4u_edu.blocks import FloatArrayCompositeSensor as FloatArrayCompositeSensor
 from ai4u_edu.blocks import ForceMoveActuator as ForceMoveActuator
@@ -62,6 +64,7 @@ from ai4u_edu.blocks import NeuralNetController as NeuralNetController
 from ai4u_edu.blocks import OrientationSensor as OrientationSensor
 from ai4u_edu.blocks import OrRewardFunc as OrRewardFunc
 from ai4u_edu.blocks import ParkedRewardFunc as ParkedRewardFunc
+from ai4u_edu.blocks import PenActuator as PenActuator
 from ai4u_edu.blocks import Percept as Percept
 from ai4u_edu.blocks import PositionSensor as PositionSensor
 from ai4u_edu.blocks import PresenceSensor as PresenceSensor

@@ -2,14 +2,18 @@
 
 from collections.abc import Iterable
 
-from ai4u_edu.base.colors import rgb
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.base.colors import FLOOR_RGB, rgb
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.ink import INK_COLOURS, Tile
 
 Rgb = tuple[int, int, int]
 
 VOID: Rgb = (50, 58, 69)
-FLOOR: Rgb = (228, 232, 236)
+FLOOR: Rgb = FLOOR_RGB
 FLOOR_EDGE: Rgb = (128, 139, 150)
 GRID: Rgb = (204, 210, 216)
 WALL: Rgb = (84, 93, 104)
@@ -24,6 +28,19 @@ SPOT_UNLIT: Rgb = (120, 129, 138)
 """Colour of a point at which a sensor detects nothing."""
 SPOT_RADIUS_M = 0.06
 """Radius of a point that a sensor reads."""
+
+
+_INK_RGBA = np.array([(0, 0, 0, 0)] + [(*rgb(each), 255) for each in INK_COLOURS], np.uint8)
+
+
+def ink_pixels(tile: Tile) -> npt.NDArray[np.uint8]:
+    """Return a tile of ink as a picture, its top row first.
+
+    Returns:
+        (rows, columns, 4): red, green, blue, opacity.
+    """
+    pixels: npt.NDArray[np.uint8] = _INK_RGBA[tile[::-1]]
+    return pixels
 
 
 def mix_colours(a: Rgb, b: Rgb, share: float) -> Rgb:

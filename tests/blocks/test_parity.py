@@ -10,18 +10,18 @@ SENSORS = (
     "FloatArrayCompositeSensor OrientationSensor BearingSensor PositionSensor RayCastingSensor "
     "LinearRayCastingSensor TouchSensor GroupTouchSensor GroundStatusSensor AreaOrientationSensor "
     "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor "
-    "LineSensor GridSensor CellSensor PresenceSensor LightSensor"
+    "LineSensor GridSensor CellSensor PresenceSensor LightSensor ColourSensor"
 )
 ACTUATORS = (
     "RBMoveActuator CBMoveActuator DifferentialDriveActuator DiscreteActuator ContinuousActuator "
     "RespawnActuator GrabActuator CarActuator CollectActuator GridMoveActuator "
-    "ForceMoveActuator"
+    "ForceMoveActuator PenActuator"
 )
 REWARDS = (
     "TouchRewardFunc CollisionWithRewardFunc MinDistReward DistanceToTargetRewardFunc FallReward "
     "DynamicFallReward RestlessnessRewardFunc EvalBoolValue EvalIntValue EvalFloatValue "
     "AndRewardFunc OrRewardFunc HomeostaticReward CheckpointsReward BodyInAreaRewardFunc "
-    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward"
+    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward FigureReward"
 )
 CONTROLLERS = (
     "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "

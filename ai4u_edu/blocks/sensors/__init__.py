@@ -4,6 +4,7 @@ from ai4u_edu.blocks.sensors.agent_array import AgentArraySensor
 from ai4u_edu.blocks.sensors.area_orientation import AreaOrientationSensor
 from ai4u_edu.blocks.sensors.bearing import BearingSensor
 from ai4u_edu.blocks.sensors.cell import CellSensor
+from ai4u_edu.blocks.sensors.colour import ColourSensor
 from ai4u_edu.blocks.sensors.composite import FloatArrayCompositeSensor
 from ai4u_edu.blocks.sensors.grid import GridSensor
 from ai4u_edu.blocks.sensors.ground_status import GroundStatusSensor
@@ -36,6 +37,7 @@ __all__ = [
     "AreaOrientationSensor",
     "BearingSensor",
     "CellSensor",
+    "ColourSensor",
     "DoneSensor",
     "FloatArrayCompositeSensor",
     "GridSensor",

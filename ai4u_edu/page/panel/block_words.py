@@ -92,6 +92,12 @@ _SENSORS = {
     "VelocitySensor": BlockWords(
         "Speed", _FAST, "speed", "Tells how fast the robot drives and turns."
     ),
+    "ColourSensor": BlockWords(
+        "Colour of the ground",
+        _AROUND,
+        "eye",
+        "Tells the colour and brightness of one point of the ground: ink, paint or floor.",
+    ),
     "HomeostaticSensor": BlockWords(
         "Needs: energy, water", _BODY, "need", "Tells how hungry or thirsty the robot is."
     ),
@@ -147,6 +153,9 @@ _ACTUATORS = {
     "CollectActuator": BlockWords(
         "Collect things", _THINGS, "collect", "Takes things away that the robot touches."
     ),
+    "PenActuator": BlockWords(
+        "Draw with a pen", _THINGS, "pen", "Draws a line on the floor wherever the robot goes."
+    ),
     "RespawnActuator": BlockWords(
         "Start somewhere else", _START, "position", "Starts each episode at one of several places."
     ),
@@ -174,6 +183,12 @@ _REWARDS = {
         _REACH,
         "route",
         "A reward for each target that is touched in order.",
+    ),
+    "FigureReward": BlockWords(
+        "Draw a figure",
+        _REACH,
+        "pen",
+        "A reward for ink that covers a figure, and no ink beside it.",
     ),
     "GoneReward": BlockWords(
         "Make things go away",
