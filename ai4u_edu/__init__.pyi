@@ -9,6 +9,7 @@ from ai4u_edu.blocks import ActionSensor as ActionSensor
 from ai4u_edu.blocks import Actuator as Actuator
 from ai4u_edu.blocks import AgentArraySensor as AgentArraySensor
 from ai4u_edu.blocks import AndRewardFunc as AndRewardFunc
+from ai4u_edu.blocks import AntController as AntController
 from ai4u_edu.blocks import AreaOrientationSensor as AreaOrientationSensor
 from ai4u_edu.blocks import ArrowController as ArrowController
 from ai4u_edu.blocks import AStarController as AStarController

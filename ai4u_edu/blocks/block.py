@@ -48,9 +48,10 @@ class Block(Parameterized):
         These are the attributes that its class declares in :attr:`carried`. A class that is not of
         this package need not: of such a class, it is all plain data that its methods name.
         """
-        own, carried = vars(self), _carried_by(type(self))
-        state = {name: _copied(own[name]) for name in carried if name in own}
-        for name in _named_in_methods(type(self)):
+        own = vars(self)
+        cls: type = type(self)  # mypy believes that a class of blocks has no hash
+        state = {name: _copied(own[name]) for name in _carried_by(cls) if name in own}
+        for name in _named_in_methods(cls):
             if name in own and name not in state and _is_plain(own[name]):
                 state[name] = deepcopy(own[name])
         return state
@@ -80,13 +81,13 @@ def _copied(value: Any) -> Any:
 
 
 @cache
-def _carried_by(cls: type[Block]) -> tuple[str, ...]:
+def _carried_by(cls: type) -> tuple[str, ...]:
     """Return the attributes that a class and its bases declare."""
     return tuple(name for base in cls.__mro__ for name in vars(base).get("carried", ()))
 
 
 @cache
-def _named_in_methods(cls: type[Block]) -> tuple[str, ...]:
+def _named_in_methods(cls: type) -> tuple[str, ...]:
     """Return the names that methods use in classes that are not of this package."""
     names: dict[str, None] = {}
     for base in cls.__mro__:

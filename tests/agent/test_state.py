@@ -52,7 +52,9 @@ class Wanderer(Controller):
         for actuator in self.actuators:
             low, high = actuator.limits()
             if isinstance(actuator.space(), Discrete):
-                action[actuator.action_name] = [float(self.random.integers(low[0], high[0] + 1))]
+                action[actuator.action_name] = [
+                    float(self.random.integers(int(low[0]), int(high[0]) + 1))
+                ]
             else:  # a little out of range, which it counts
                 action[actuator.action_name] = list(self.random.uniform(low, high) * 1.1)
         self.latest = [*self.latest[-3:], action]

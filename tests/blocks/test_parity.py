@@ -26,7 +26,7 @@ REWARDS = (
 CONTROLLERS = (
     "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "
     "ScriptController WASDController FleeController KeeperController PushOutController "
-    "StrikerController TrainController"
+    "StrikerController TrainController AntController"
 )
 OTHERS = "BasicAgent ControlRequestor Brain LocalBrain Controller HomeostaticVariable"
 

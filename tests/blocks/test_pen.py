@@ -85,7 +85,7 @@ def test_colour_and_width_are_chosen_with_each_action() -> None:
 
 def test_a_colour_that_is_unknown() -> None:
     with pytest.raises(ParameterError, match="colours"):
-        PenActuator(colours=["crimson"])
+        PenActuator(colours=["crimson"])  # type: ignore[list-item]  # on purpose
 
 
 def test_it_draws_nothing_in_the_air_and_on_a_box() -> None:

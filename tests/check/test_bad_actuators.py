@@ -133,6 +133,6 @@ def test_an_actuator_without_an_effect_is_a_warning() -> None:
     assert report.ok
     assert outcome(report, "has an effect") == (
         Outcome.WARNING,
-        "expected bodies at other places than without it, got all at the same; if it needs "
+        "expected bodies at other places than without it, or ink, got all the same; if it needs "
         "something that is not here, check it in another scene, by scene=...",
     )

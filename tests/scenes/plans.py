@@ -328,6 +328,18 @@ def cross_platforms(sim: ControlRequestor) -> Plan:
     return plan
 
 
+def fetch(_sim: ControlRequestor) -> Plan:
+    """Drive to the food, which a person sees from above, and from there to the nest."""
+    has_food = False
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal has_food
+        has_food = has_food or math.dist(sight.own, sight.at["food"]) < 0.95
+        return towards(sight, sight.at["nest"] if has_food else sight.at["food"])
+
+    return plan
+
+
 HOUSE: list[Point] = [(-2, -2), (2, -2), (2, 1), (0, 3), (-2, 1)]
 
 
@@ -355,6 +367,7 @@ LINE: list[Point] = [
 ]  # fmt: skip
 
 PLANS: dict[str, Planner] = {
+    "ants": fetch,
     "box_chase": go_to("box"),
     "donut": ring,
     "draw_figure": draw_house,

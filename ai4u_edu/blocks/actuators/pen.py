@@ -50,7 +50,7 @@ class PenActuator(Actuator):
 
     action_name: str = "pen"
     colours: Annotated[list[PenColour], Field(min_length=1, max_length=12)] = Field(
-        default_factory=lambda: ["black"]
+        default_factory=lambda: list[PenColour](["black"])
     )
     """Colours to choose from."""
     width: Annotated[float, quantity("m", gt=0, le=2)] = 0.1

@@ -263,6 +263,7 @@ _BRAINS = {
     "ReplayController": BlockWords("Recorded actions", _PROGRAM, "memory"),
     "AStarController": BlockWords("Shortest path (A*)", _PROGRAM, "route"),
     "BreadthFirstController": BlockWords("Shortest path (breadth first)", _PROGRAM, "route"),
+    "AntController": BlockWords("Ant that follows trails", _PROGRAM, "route"),
     "FleeController": BlockWords("Run away", _PROGRAM, "speed"),
     "KeeperController": BlockWords("Goalkeeper", _PROGRAM, "area"),
     "StrikerController": BlockWords("Striker", _PROGRAM, "target"),

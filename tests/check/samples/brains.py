@@ -3,6 +3,7 @@
 from typing import Any
 
 from ai4u_edu import (
+    AntController,
     AStarController,
     BreadthFirstController,
     DiscreteActuator,
@@ -48,6 +49,7 @@ def trained() -> TrainController:
 SAMPLES = (
     LocalBrain(controller=WASDRBMoveController()),
     Sample(RemoteBrain(port=9), always_same="it waits: nobody listens on this port"),
+    Sample(AntController(), scene="ants"),
     Sample(AStarController(), scene="grid_world"),
     Sample(BreadthFirstController(), scene="grid_world"),
     Sample(DiscreteArrowController(), actuators=(DiscreteActuator(),)),

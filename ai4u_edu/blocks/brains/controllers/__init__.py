@@ -1,6 +1,7 @@
 """The controllers, which a LocalBrain asks for actions: one idea a file."""
 
 from ai4u_edu.blocks.brains.controllers.a_star import AStarController, a_star
+from ai4u_edu.blocks.brains.controllers.ant import AntController
 from ai4u_edu.blocks.brains.controllers.arrow import ArrowController
 from ai4u_edu.blocks.brains.controllers.breadth_first import BreadthFirstController, breadth_first
 from ai4u_edu.blocks.brains.controllers.controller import Controller
@@ -18,6 +19,7 @@ from ai4u_edu.blocks.brains.controllers.wasd_drive import WASDController
 
 __all__ = [
     "AStarController",
+    "AntController",
     "ArrowController",
     "BreadthFirstController",
     "Controller",
