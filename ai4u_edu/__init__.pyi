@@ -18,6 +18,7 @@ from ai4u_edu.blocks import Block as Block
 from ai4u_edu.blocks import BodyInAreaRewardFunc as BodyInAreaRewardFunc
 from ai4u_edu.blocks import Brain as Brain
 from ai4u_edu.blocks import BreadthFirstController as BreadthFirstController
+from ai4u_edu.blocks import CallController as CallController
 from ai4u_edu.blocks import CarActuator as CarActuator
 from ai4u_edu.blocks import CBMoveActuator as CBMoveActuator
 from ai4u_edu.blocks import CellSensor as CellSensor
@@ -49,6 +50,7 @@ from ai4u_edu.blocks import GridSensor as GridSensor
 from ai4u_edu.blocks import GroundStatusSensor as GroundStatusSensor
 from ai4u_edu.blocks import GroupTouchSensor as GroupTouchSensor
 from ai4u_edu.blocks import HeadingSensor as HeadingSensor
+from ai4u_edu.blocks import HearSensor as HearSensor
 from ai4u_edu.blocks import HomeostaticReward as HomeostaticReward
 from ai4u_edu.blocks import HomeostaticSensor as HomeostaticSensor
 from ai4u_edu.blocks import HomeostaticVariable as HomeostaticVariable
@@ -81,6 +83,7 @@ from ai4u_edu.blocks import RewardFunc as RewardFunc
 from ai4u_edu.blocks import RewardSensor as RewardSensor
 from ai4u_edu.blocks import ScriptController as ScriptController
 from ai4u_edu.blocks import Sensor as Sensor
+from ai4u_edu.blocks import SpeakActuator as SpeakActuator
 from ai4u_edu.blocks import StepSensor as StepSensor
 from ai4u_edu.blocks import StrikerController as StrikerController
 from ai4u_edu.blocks import TargetFallReward as TargetFallReward

@@ -56,7 +56,7 @@ class RolloutStep(NamedTuple):
     poses: dict[str, Pose]
     """Poses by body name."""
     traces: object
-    """What is left in the world besides poses: a checksum of the ink."""
+    """What is left in the world besides poses: a checksum of the ink, and messages."""
     answer: Answer | None
     """The answer of the first agent's brain in this decision."""
     done: bool
@@ -131,7 +131,7 @@ class Rollout:
             percepts={agent.id: agent.percept for agent in agents},
             terms={agent.id: agent.reward_terms for agent in agents},
             poses={name: body.pose for name, body in self.sim.world.bodies.items()},
-            traces=self.sim.world.ink.digest,
+            traces=(self.sim.world.ink.digest, self.sim.world.messages.get_state()),
             answer=self._answer,
             done=self.agent.done,
         )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 from ai4u_edu.world.contacts import ContactState
 from ai4u_edu.world.descriptions import BodyDescription
 from ai4u_edu.world.ink import InkImage
+from ai4u_edu.world.messages import Message
 
 if TYPE_CHECKING:
     from ai4u_edu.world.world import World
@@ -86,6 +87,8 @@ class WorldState(NamedTuple):
     """Descriptions of bodies that a restart has put to another random place than the seed's."""
     contacts: ContactState
     ink: InkImage
+    messages: Mapping[str, Message]
+    """The last message of each speaker, by its body's name."""
     motions: Mapping[str, Motion]
     """The bodies' motions by name; empty where a snapshot has them."""
 
@@ -107,6 +110,7 @@ def capture_world(world: "World", *, with_motions: bool = True) -> WorldState:
         },
         contacts=world.contacts.get_state(),
         ink=world.ink.image(),
+        messages=world.messages.get_state(),
         motions=motions_of(world) if with_motions else {},
     )
 
@@ -157,5 +161,6 @@ def restore_world(world: "World", state: WorldState) -> None:
             bodies[holder].hold(bodies[held])
     world.ticks = world.contacts.tick = state.ticks
     world.ink.set_image(state.ink)
+    world.messages.set_state(state.messages)
     world.contacts.set_state(state.contacts)
     world.seeds.set_state(state.generators)

@@ -10,6 +10,7 @@ from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
 from ai4u_edu.world.ink import Ink
+from ai4u_edu.world.messages import Messages
 from ai4u_edu.world.rays import GROUND_TAGS, CodeOf, RayFan, RayGrid
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.world import World
@@ -114,6 +115,11 @@ class WorldView:
     def ink(self) -> Ink:
         """What pens have drawn on the floors."""
         return self._world.ink
+
+    @property
+    def messages(self) -> Messages:
+        """What agents say to each other."""
+        return self._world.messages
 
     def touching(self, body: BodyView, target: str) -> bool:
         """Return True if an agent's body touches another body, or its centre is in an area."""

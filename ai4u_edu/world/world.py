@@ -17,6 +17,7 @@ from ai4u_edu.world.descriptions import (
     WorldSettings,
 )
 from ai4u_edu.world.ink import Ink
+from ai4u_edu.world.messages import Messages
 from ai4u_edu.world.native import IS_NATIVE, contact_distances
 from ai4u_edu.world.physics import Physics
 from ai4u_edu.world.placement import MAX_OVERLAP_M, Places, Thing, ThingT, is_overlap, randomize
@@ -55,6 +56,8 @@ class World:
         self.ink = Ink(self._registry.floors)
         """What pens have drawn on the floors since the world's reset."""
         self.contacts = self._physics.contacts
+        self.messages = Messages(self)
+        """What agents have said since the world's reset."""
         self._ticks_per_second = self.settings.ticks_per_second
         self.rebuild()
 
@@ -220,6 +223,7 @@ class World:
             self._sample_all()
         self.ticks = 0
         self.ink.clear()
+        self.messages.clear()
         self._physics.start_over()
         for body in registry.bodies.values():
             if not registry.has_random:

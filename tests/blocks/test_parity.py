@@ -10,12 +10,12 @@ SENSORS = (
     "FloatArrayCompositeSensor OrientationSensor BearingSensor PositionSensor RayCastingSensor "
     "LinearRayCastingSensor TouchSensor GroupTouchSensor GroundStatusSensor AreaOrientationSensor "
     "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor "
-    "LineSensor GridSensor CellSensor PresenceSensor LightSensor ColourSensor"
+    "LineSensor GridSensor CellSensor PresenceSensor LightSensor ColourSensor HearSensor"
 )
 ACTUATORS = (
     "RBMoveActuator CBMoveActuator DifferentialDriveActuator DiscreteActuator ContinuousActuator "
     "RespawnActuator GrabActuator CarActuator CollectActuator GridMoveActuator "
-    "ForceMoveActuator PenActuator"
+    "ForceMoveActuator PenActuator SpeakActuator"
 )
 REWARDS = (
     "TouchRewardFunc CollisionWithRewardFunc MinDistReward DistanceToTargetRewardFunc FallReward "
@@ -26,7 +26,7 @@ REWARDS = (
 CONTROLLERS = (
     "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "
     "ScriptController WASDController FleeController KeeperController PushOutController "
-    "StrikerController TrainController AntController"
+    "StrikerController TrainController AntController CallController"
 )
 OTHERS = "BasicAgent ControlRequestor Brain LocalBrain Controller HomeostaticVariable"
 

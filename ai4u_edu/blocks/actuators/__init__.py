@@ -13,6 +13,7 @@ from ai4u_edu.blocks.actuators.grid_move import GridMoveActuator
 from ai4u_edu.blocks.actuators.pen import PenActuator
 from ai4u_edu.blocks.actuators.rb_move import RBMoveActuator
 from ai4u_edu.blocks.actuators.respawn import RespawnActuator
+from ai4u_edu.blocks.actuators.speak import SpeakActuator
 
 __all__ = [
     "Actuator",
@@ -28,4 +29,5 @@ __all__ = [
     "PenActuator",
     "RBMoveActuator",
     "RespawnActuator",
+    "SpeakActuator",
 ]

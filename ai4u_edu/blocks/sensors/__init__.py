@@ -10,6 +10,7 @@ from ai4u_edu.blocks.sensors.grid import GridSensor
 from ai4u_edu.blocks.sensors.ground_status import GroundStatusSensor
 from ai4u_edu.blocks.sensors.group_touch import GroupTouchSensor
 from ai4u_edu.blocks.sensors.heading import HeadingSensor
+from ai4u_edu.blocks.sensors.hear import HearSensor
 from ai4u_edu.blocks.sensors.homeostatic import HomeostaticSensor
 from ai4u_edu.blocks.sensors.light import LightSensor
 from ai4u_edu.blocks.sensors.line import LineSensor
@@ -44,6 +45,7 @@ __all__ = [
     "GroundStatusSensor",
     "GroupTouchSensor",
     "HeadingSensor",
+    "HearSensor",
     "HomeostaticSensor",
     "IDSensor",
     "LightSensor",

@@ -98,6 +98,9 @@ _SENSORS = {
         "eye",
         "Tells the colour and brightness of one point of the ground: ink, paint or floor.",
     ),
+    "HearSensor": BlockWords(
+        "Hear others", _AROUND, "sound", "Tells what the nearest robots have just said."
+    ),
     "HomeostaticSensor": BlockWords(
         "Needs: energy, water", _BODY, "need", "Tells how hungry or thirsty the robot is."
     ),
@@ -155,6 +158,12 @@ _ACTUATORS = {
     ),
     "PenActuator": BlockWords(
         "Draw with a pen", _THINGS, "pen", "Draws a line on the floor wherever the robot goes."
+    ),
+    "SpeakActuator": BlockWords(
+        "Speak to others",
+        "What can I tell others?",
+        "sound",
+        "Says a few numbers to all robots that are near enough.",
     ),
     "RespawnActuator": BlockWords(
         "Start somewhere else", _START, "position", "Starts each episode at one of several places."
@@ -263,6 +272,7 @@ _BRAINS = {
     "ReplayController": BlockWords("Recorded actions", _PROGRAM, "memory"),
     "AStarController": BlockWords("Shortest path (A*)", _PROGRAM, "route"),
     "BreadthFirstController": BlockWords("Shortest path (breadth first)", _PROGRAM, "route"),
+    "CallController": BlockWords("Partner that calls", _PROGRAM, "sound"),
     "AntController": BlockWords("Ant that follows trails", _PROGRAM, "route"),
     "FleeController": BlockWords("Run away", _PROGRAM, "speed"),
     "KeeperController": BlockWords("Goalkeeper", _PROGRAM, "area"),

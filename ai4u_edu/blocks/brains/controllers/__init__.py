@@ -4,6 +4,7 @@ from ai4u_edu.blocks.brains.controllers.a_star import AStarController, a_star
 from ai4u_edu.blocks.brains.controllers.ant import AntController
 from ai4u_edu.blocks.brains.controllers.arrow import ArrowController
 from ai4u_edu.blocks.brains.controllers.breadth_first import BreadthFirstController, breadth_first
+from ai4u_edu.blocks.brains.controllers.call import CallController
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.discrete_arrow import DiscreteArrowController
 from ai4u_edu.blocks.brains.controllers.flee import FleeController
@@ -22,6 +23,7 @@ __all__ = [
     "AntController",
     "ArrowController",
     "BreadthFirstController",
+    "CallController",
     "Controller",
     "DiscreteArrowController",
     "FleeController",
