@@ -132,21 +132,17 @@ class BoundBlocks:
     def places(self) -> list[tuple[str, Block]]:
         """Return all active blocks and those inside them, each with a name for its place."""
         if self._places is None or self._places[0] is not self.brain:
-            kinds: dict[str, Iterable[Block]] = {
-                "reward": self.rewards,
-                "sensor": self.sensors,
-                "actuator": self.actuators.values(),
-                "brain": [self.brain],
-            }
-            self._places = (
-                self.brain,
-                [
-                    (f"{kind} {_name_of(block)}/{number} {type(part).__name__}", part)
-                    for kind, blocks in kinds.items()
-                    for block in blocks
-                    for number, part in enumerate(walk_blocks([block]))
-                ],
-            )
+            found = []
+            for block in self.blocks:
+                own = vars(block)
+                name = "".join(
+                    own.get(each, "") for each in ("perception_key", "action_name", "name")
+                )
+                for number, part in enumerate(walk_blocks([block])):
+                    found.append(
+                        (f"{type(block).__name__} {name}/{number} {type(part).__name__}", part)
+                    )
+            self._places = self.brain, found
         return self._places[1]
 
     def array_sensors(self) -> list[AgentArraySensor]:
@@ -447,13 +443,6 @@ class _LostBrain(Brain):
     def title(self) -> str:
         """Return the title of the brain that it replaces."""
         return self._title
-
-
-def _name_of(block: Block) -> str:
-    """Return the name that tells a block from others of its kind in an agent; of a brain none."""
-    values = vars(block)
-    names = (values.get(name, "") for name in ("perception_key", "action_name", "name"))
-    return "".join(names)
 
 
 def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:

@@ -50,17 +50,16 @@ episode's first one does, is shorter: it ends at its own agent's slot.
 """
 
 import time
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 from ai4u_edu.agent.agent import BasicAgent, Numbers
 from ai4u_edu.agent.error_context import add_context
-from ai4u_edu.agent.state import AgentMoment, DecisionState, SimState, block_states, restore_blocks
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
 from ai4u_edu.world import World
-from ai4u_edu.world.state import capture_world, restore_world
+from ai4u_edu.world.state import WorldState
 
 HOLD_LIMIT_S = 660.0
 """Time (s) for which a step waits for another agent's brain; a script may be silent for 600 s."""
@@ -75,6 +74,38 @@ class Phase(NamedTuple):
     """Ticks that the decision takes."""
     repeats: bool = True
     """True if the actuators act at every tick, False if only at the first."""
+
+
+BlockStates = Mapping[str, Mapping[str, Any]]
+
+
+class DecisionState(NamedTuple):
+    """An agent's present decision."""
+
+    under_way: bool
+    phase: Phase
+    action: tuple[tuple[str, tuple[float, ...]], ...]
+    """Numbers by action name, in the order in which the actuators act."""
+
+
+class AgentMoment(NamedTuple):
+    """Everything that changes in an agent while its world runs."""
+
+    values: Mapping[str, Any]
+    """The agent's own attributes."""
+    ledger: Mapping[str, Any]
+    decision: DecisionState
+    blocks: BlockStates
+    """Results of :meth:`Block.get_state`, by the block's place in the agent."""
+
+
+class SimState(NamedTuple):
+    """Everything that changes in a world and its agents while it runs, but for held keys."""
+
+    episode: int
+    world: WorldState
+    agents: Mapping[str, AgentMoment]
+    """States of the agents, by id."""
 
 
 class ControlRequestor:
@@ -255,7 +286,7 @@ class ControlRequestor:
         """
         return SimState(
             self.episode,
-            capture_world(self.world, with_motions=with_motions),
+            self.world.get_state(with_motions=with_motions),
             {cycle.agent.id: cycle.get_state() for cycle in self._cycles},
         )
 
@@ -267,7 +298,7 @@ class ControlRequestor:
         another class, and so does an agent that the other world does not have.
         """
         self.reset(state.world.seed)
-        restore_world(self.world, state.world)
+        self.world.set_state(state.world)
         self.episode = state.episode
         for cycle in self._cycles:
             if cycle.agent.id in state.agents:
@@ -395,13 +426,15 @@ class _DecisionCycle:
             self.agent.get_state(),
             self.agent.ledger.get_state(),
             DecisionState(self.under_way, phase, numbers),
-            block_states(self._bound),
+            {place: block.get_state() for place, block in self._bound.places()},
         )
 
     def set_state(self, state: AgentMoment) -> None:
         """Go on from the state of the same agent in another copy of the world."""
         agent, decision = self.agent, state.decision
-        restore_blocks(self._bound, state.blocks)
+        for place, block in self._bound.places():
+            if place in state.blocks:
+                block.set_state(state.blocks[place])
         agent.ledger.set_state(state.ledger)
         agent.set_state(state.values)
         actuators = self._bound.actuators

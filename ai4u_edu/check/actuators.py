@@ -60,7 +60,7 @@ def check_actuator(
         make,
         options,
         of=_effects,
-        words="places of all bodies, and ink",
+        words="places of all bodies and traces",
     )
     run_static_checks(report, actuator, "what it does")
     if checks.run():

@@ -56,7 +56,7 @@ class RolloutStep(NamedTuple):
     poses: dict[str, Pose]
     """Poses by body name."""
     traces: object
-    """What is left in the world besides poses: a checksum of the ink, and messages."""
+    """Traces in the world besides poses: a checksum of the ink, and messages."""
     answer: Answer | None
     """The answer of the first agent's brain in this decision."""
     done: bool

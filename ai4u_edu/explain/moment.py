@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from typing import Self
 
-from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.agent.state import SimState
+from ai4u_edu.agent.cycle import ControlRequestor, SimState
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Brain
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains

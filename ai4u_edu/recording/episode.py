@@ -30,7 +30,7 @@ HEADER = b"ai4u-edu episode 2\n"
 EARLIER_HEADERS = (b"ai4u-edu episode 1\n",)
 """Headers of earlier versions, which are read as well: the first one has no inputs."""
 MAX_INPUTS = 20_000
-"""Inputs of an episode; what happens after so many is not recorded."""
+"""Most inputs of an episode; what happens later is not recorded."""
 MAX_FILE_BYTES = 16 * 2**20
 """Size of a file."""
 MAX_UNPACKED_MB = 24
@@ -183,7 +183,7 @@ class Episode:
     versions: dict[str, str]
     """Versions of the packages that ran, by name."""
     inputs: tuple[Input, ...] = ()
-    """What scripts gave to the agents besides actions, in order."""
+    """Numbers that scripts gave to the agents besides actions, in order."""
 
     def agent(self, agent_id: str | None = None) -> AgentRecord:
         """Return the record of an agent; by default of the one that acts first."""

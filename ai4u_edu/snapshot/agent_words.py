@@ -2,8 +2,7 @@
 
 from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
 from ai4u_edu.blocks.brains.remote import RemoteBrain
-from ai4u_edu.snapshot.types import AgentState, Snapshot
-from ai4u_edu.world.messages import Message
+from ai4u_edu.snapshot.types import AgentState
 
 DRIVERS = {
     NeuralNetController: "A network",
@@ -21,30 +20,6 @@ SCRIPT_PROBLEMS = {
 
 WITHOUT_EFFECT = "⚠ its script sends what has no effect"
 """Text for agents whose script makes mistakes."""
-
-
-SAID_S = 0.6
-"""World time (s) for which a message is shown after it was said."""
-
-
-def said(snapshot: Snapshot) -> dict[str, str]:
-    """Return the texts of speech bubbles, by the speaker's body.
-
-    >>> from ai4u_edu.world.messages import Message
-    >>> bubble(Message(0, 10.0, (0.5, -1.0))), bubble(Message(0, 10.0, ()))
-    ('“0.5  -1”', '“!”')
-    """
-    ticks = SAID_S * snapshot.static_scene.settings.ticks_per_second
-    return {
-        name: bubble(message)
-        for name, message in snapshot.state.world.messages.items()
-        if snapshot.tick - message.tick <= ticks
-    }
-
-
-def bubble(message: Message) -> str:
-    """Return the text of a message; one without numbers is a call."""
-    return f"“{'  '.join(f'{number:.3g}' for number in message.numbers) or '!'}”"
 
 
 def title(agent_id: str, body: str) -> str:

@@ -10,7 +10,6 @@ from PIL import Image, ImageChops, ImageDraw, ImageFont
 
 from ai4u_edu.blocks import RayPicture, SpotPicture
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene, theme
-from ai4u_edu.snapshot.agent_words import said
 from ai4u_edu.snapshot.marks import (
     DARK,
     EYES,
@@ -201,7 +200,7 @@ class _Canvas:
                 x, y = outline.mean(axis=0)
                 reach = np.linalg.norm(outline - (x, y), axis=1).max()
                 self._label(text, x, y - 1.08 * reach, is_below=True)
-        for name, text in said(snapshot).items():
+        for name, text in theme.said(snapshot).items():
             state = states.get(name)
             if state is not None and not state.fallen:
                 self._label(text, state.x, state.y + 0.9)

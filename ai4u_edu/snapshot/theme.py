@@ -6,9 +6,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.base.colors import FLOOR_RGB, rgb
-from ai4u_edu.snapshot import StaticScene
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.ink import INK_COLOURS, Tile
+from ai4u_edu.world.messages import Message
 
 Rgb = tuple[int, int, int]
 
@@ -67,6 +68,30 @@ def body_colour(body: BodyDescription, is_agent: bool) -> Rgb:
 def label_text(static_scene: StaticScene, body: BodyDescription) -> str:
     """Return a body's label, for agents by default their name; empty if it has none."""
     return body.label or (body.name if body.name in static_scene.agent_of else "")
+
+
+SAID_S = 0.6
+"""World time (s) for which a message is shown after it was said."""
+
+
+def said(snapshot: Snapshot) -> dict[str, str]:
+    """Return the texts of speech bubbles, by the speaker's body.
+
+    >>> from ai4u_edu.world.messages import Message
+    >>> bubble(Message(0, 10.0, (0.5, -1.0))), bubble(Message(0, 10.0, ()))
+    ('“0.5  -1”', '“!”')
+    """
+    ticks = SAID_S * snapshot.static_scene.settings.ticks_per_second
+    return {
+        name: bubble(message)
+        for name, message in snapshot.state.world.messages.items()
+        if snapshot.tick - message.tick <= ticks
+    }
+
+
+def bubble(message: Message) -> str:
+    """Return the text of a message; one without numbers is a call."""
+    return f"“{'  '.join(f'{number:.3g}' for number in message.numbers) or '!'}”"
 
 
 def floor_colour(floor: FloorDescription) -> Rgb:

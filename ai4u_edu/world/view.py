@@ -113,12 +113,12 @@ class WorldView:
 
     @property
     def ink(self) -> Ink:
-        """What pens have drawn on the floors."""
+        """The ink that pens have drawn on the floors."""
         return self._world.ink
 
     @property
     def messages(self) -> Messages:
-        """What agents say to each other."""
+        """The messages that agents say to each other."""
         return self._world.messages
 
     def touching(self, body: BodyView, target: str) -> bool:

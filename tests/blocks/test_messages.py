@@ -18,7 +18,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.snapshot.agent_words import said
+from ai4u_edu.snapshot.theme import said
 from tests.scenes.solvers import solver_of
 
 

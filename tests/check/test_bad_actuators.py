@@ -124,7 +124,7 @@ def test_an_actuator_that_does_not_forget() -> None:
     found = failed(check_actuator(Wearing(), **SHORT))
     assert list(found) == ["forgets"]
     assert found["forgets"].startswith(
-        "expected the same places of all bodies again after a reset, got {'robot': ("
+        "expected the same places of all bodies and traces again after a reset, got ({'robot': ("
     )
 
 

@@ -13,7 +13,7 @@ from ai4u_edu.world import BodyView, WorldView
 
 
 class HearSensor(Sensor):
-    """What the nearest speakers have said since the last reading: [heard, ...] of each of them.
+    """Messages of the nearest speakers since the last reading: [heard, ...] of each of them.
 
     ``heard`` is 1 if somebody spoke, and 0 for silence; then all its numbers are 0. The nearest of
     those that spoke comes first. A message with fewer numbers than ``size`` is filled with 0; of a

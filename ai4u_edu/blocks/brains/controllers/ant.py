@@ -45,7 +45,7 @@ class AntController(SteeringController):
     """Perception key of a LinearRayCastingSensor in front, with ``return_distance``."""
     pen: str = "pen"
     """Action name of its PenActuator."""
-    food_code: Code = 2.0
+    food_code: Code = 2
     """Code of the food among the rays."""
     home: PositiveMetres = 0.8
     """Distance from the nest's centre at which it is at home."""

@@ -16,8 +16,8 @@ from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
-from ai4u_edu.snapshot.agent_words import said, script_problem
-from ai4u_edu.snapshot.theme import label_text
+from ai4u_edu.snapshot.agent_words import script_problem
+from ai4u_edu.snapshot.theme import label_text, said
 
 HIDDEN_AFTER_DRIVING_S = 1.0
 """World time (s) for which the label of an agent stays hidden after the last key is released: who
@@ -122,7 +122,7 @@ class Labels:
 
 
 class SpeechBubbles:
-    """What agents say, for a moment, above their bodies."""
+    """Speech bubbles: messages, shown for a moment above the speaker."""
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
