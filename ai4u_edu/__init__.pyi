@@ -9,6 +9,7 @@ from ai4u_edu.blocks import ActionSensor as ActionSensor
 from ai4u_edu.blocks import Actuator as Actuator
 from ai4u_edu.blocks import AgentArraySensor as AgentArraySensor
 from ai4u_edu.blocks import AndRewardFunc as AndRewardFunc
+from ai4u_edu.blocks import AntController as AntController
 from ai4u_edu.blocks import AreaOrientationSensor as AreaOrientationSensor
 from ai4u_edu.blocks import ArrowController as ArrowController
 from ai4u_edu.blocks import AStarController as AStarController
@@ -17,12 +18,14 @@ from ai4u_edu.blocks import Block as Block
 from ai4u_edu.blocks import BodyInAreaRewardFunc as BodyInAreaRewardFunc
 from ai4u_edu.blocks import Brain as Brain
 from ai4u_edu.blocks import BreadthFirstController as BreadthFirstController
+from ai4u_edu.blocks import CallController as CallController
 from ai4u_edu.blocks import CarActuator as CarActuator
 from ai4u_edu.blocks import CBMoveActuator as CBMoveActuator
 from ai4u_edu.blocks import CellSensor as CellSensor
 from ai4u_edu.blocks import CheckpointsReward as CheckpointsReward
 from ai4u_edu.blocks import CollectActuator as CollectActuator
 from ai4u_edu.blocks import CollisionWithRewardFunc as CollisionWithRewardFunc
+from ai4u_edu.blocks import ColourSensor as ColourSensor
 from ai4u_edu.blocks import Command as Command
 from ai4u_edu.blocks import ContinuousActuator as ContinuousActuator
 from ai4u_edu.blocks import Controller as Controller
@@ -36,6 +39,7 @@ from ai4u_edu.blocks import EvalBoolValue as EvalBoolValue
 from ai4u_edu.blocks import EvalFloatValue as EvalFloatValue
 from ai4u_edu.blocks import EvalIntValue as EvalIntValue
 from ai4u_edu.blocks import FallReward as FallReward
+from ai4u_edu.blocks import FigureReward as FigureReward
 from ai4u_edu.blocks import FleeController as FleeController
 from ai4u_edu.blocks import FloatArrayCompositeSensor as FloatArrayCompositeSensor
 from ai4u_edu.blocks import ForceMoveActuator as ForceMoveActuator
@@ -46,6 +50,7 @@ from ai4u_edu.blocks import GridSensor as GridSensor
 from ai4u_edu.blocks import GroundStatusSensor as GroundStatusSensor
 from ai4u_edu.blocks import GroupTouchSensor as GroupTouchSensor
 from ai4u_edu.blocks import HeadingSensor as HeadingSensor
+from ai4u_edu.blocks import HearSensor as HearSensor
 from ai4u_edu.blocks import HomeostaticReward as HomeostaticReward
 from ai4u_edu.blocks import HomeostaticSensor as HomeostaticSensor
 from ai4u_edu.blocks import HomeostaticVariable as HomeostaticVariable
@@ -62,6 +67,7 @@ from ai4u_edu.blocks import NeuralNetController as NeuralNetController
 from ai4u_edu.blocks import OrientationSensor as OrientationSensor
 from ai4u_edu.blocks import OrRewardFunc as OrRewardFunc
 from ai4u_edu.blocks import ParkedRewardFunc as ParkedRewardFunc
+from ai4u_edu.blocks import PenActuator as PenActuator
 from ai4u_edu.blocks import Percept as Percept
 from ai4u_edu.blocks import PositionSensor as PositionSensor
 from ai4u_edu.blocks import PresenceSensor as PresenceSensor
@@ -77,6 +83,7 @@ from ai4u_edu.blocks import RewardFunc as RewardFunc
 from ai4u_edu.blocks import RewardSensor as RewardSensor
 from ai4u_edu.blocks import ScriptController as ScriptController
 from ai4u_edu.blocks import Sensor as Sensor
+from ai4u_edu.blocks import SpeakActuator as SpeakActuator
 from ai4u_edu.blocks import StepSensor as StepSensor
 from ai4u_edu.blocks import StrikerController as StrikerController
 from ai4u_edu.blocks import TargetFallReward as TargetFallReward

@@ -28,6 +28,7 @@ MAX_FILM_BYTES = 1_500_000
 PROGRAMS = {
     "build-an-agent.md": ["touched the lamp: True"],
     "python.md": ["'touch': 1.0", "watch it at http://127.0.0.1:"],
+    "traces.md": ["under me: [0."],
     "explain.md": ["(19, 4)", "It turns left because ray "],
     "training.md": ["(126,) {'touch': 0.0", "['blue_striker', 'blue_keeper', 'orange_striker'"],
 }

@@ -1,7 +1,8 @@
 """An agent: a body, the blocks on it, and one brain."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from copy import copy
 from typing import Annotated, Any
 from weakref import ReferenceType, ref
 
@@ -29,6 +30,7 @@ from ai4u_edu.blocks import (
     Sensor,
     TruncatedSensor,
 )
+from ai4u_edu.blocks.agent_view import AgentInput
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Accepted
 from ai4u_edu.blocks.parameterized import Parameterized
@@ -38,6 +40,18 @@ Numbers = tuple[float, ...]
 
 _DEFAULT_ACTION = "defaultAction"
 """AI4U's name for the action that goes to ``agent.action_handler``."""
+CARRIED = (
+    "episode",
+    "steps",
+    "terminated",
+    "truncated",
+    "paused",
+    "stopped",
+    "last_action",
+    "_done_requested",
+    "_status_read",
+)
+"""Attributes of an agent that an episode changes; a copy of the world at one moment gets them."""
 
 
 class BasicAgent(Parameterized):
@@ -103,6 +117,8 @@ class BasicAgent(Parameterized):
         self.paused = False
         self.stopped = False
         self.last_action: dict[str, Numbers] = {}
+        self.latest_input: AgentInput | None = None
+        """The last numbers that a script gave to one of its sensors."""
         self._action_handler: Callable[..., None] | None = None
         self._requestor: ReferenceType[object] | None = None
         self.bound_blocks_or_none: BoundBlocks | None = None
@@ -124,6 +140,8 @@ class BasicAgent(Parameterized):
         self.percept_ready: Event[BasicAgent] = Event("percept_ready")
         """Our own event, for recorders and connections: percept, reward and end of a decision are
         final. It also comes once after each reset."""
+        self.input_given: Event[BasicAgent] = Event("input_given")
+        """Our own event, for recorders: a script gave numbers (``latest_input``) to a sensor."""
 
     # -- state -----------------------------------------------------------------------------------
 
@@ -304,6 +322,12 @@ class BasicAgent(Parameterized):
         """
         self.bound_blocks.swap_brain(_as_brain(brain))
 
+    def note_input(self, given: AgentInput) -> None:
+        """Tell recorders that a script gave numbers to the agent."""
+        self.latest_input = given
+        if self.input_given.handlers:
+            self.input_given.fire(self)
+
     # -- steps of a decision, called by ControlRequestor -----------------------------------------
 
     def begin_episode(self) -> None:
@@ -326,6 +350,16 @@ class BasicAgent(Parameterized):
         if self.end_of_update_state.handlers:
             self.end_of_update_state.fire(self)
         return self._percept
+
+    def get_state(self) -> dict[str, Any]:
+        """Return all that an episode changes in the agent itself, by attribute."""
+        return {name: copy(getattr(self, name)) for name in CARRIED}
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Take over the state of this agent in another copy of its world, after its blocks have."""
+        for name, value in state.items():
+            setattr(self, name, copy(value))
+        self._percept = self.bound_blocks.percept()
 
     def replace_percept(self, percept: Percept) -> None:
         """Replace the last percept, after blocks or the world were changed by hand."""

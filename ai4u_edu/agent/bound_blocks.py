@@ -24,6 +24,7 @@ from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
 from ai4u_edu.blocks import (
     Actuator,
+    AgentArraySensor,
     Answer,
     Brain,
     DoneSensor,
@@ -34,7 +35,7 @@ from ai4u_edu.blocks import (
     Sensor,
 )
 from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.blocks.block import Block
+from ai4u_edu.blocks.block import Block, walk_blocks
 from ai4u_edu.blocks.percept import TEXTS, Texts
 from ai4u_edu.blocks.sensors.sensor_state import depends_on_status, read_status_again
 from ai4u_edu.world import BodyView, World, WorldView
@@ -98,6 +99,7 @@ class BoundBlocks:
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
         ]
         self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
+        self._places: tuple[Brain, list[tuple[str, Block]]] | None = None
         _claim(agent, self.blocks)
 
     def set_up(self, *, ready_brain: Brain | None = None) -> None:
@@ -126,6 +128,26 @@ class BoundBlocks:
     def blocks(self) -> list[Block]:
         """All active blocks and the brain, without the blocks inside them."""
         return [*self.rewards, *self.sensors, *self.actuators.values(), self.brain]
+
+    def places(self) -> list[tuple[str, Block]]:
+        """Return all active blocks and those inside them, each with a name for its place."""
+        if self._places is None or self._places[0] is not self.brain:
+            found = []
+            for block in self.blocks:
+                own = vars(block)
+                name = "".join(
+                    own.get(each, "") for each in ("perception_key", "action_name", "name")
+                )
+                for number, part in enumerate(walk_blocks([block])):
+                    found.append(
+                        (f"{type(block).__name__} {name}/{number} {type(part).__name__}", part)
+                    )
+            self._places = self.brain, found
+        return self._places[1]
+
+    def array_sensors(self) -> list[AgentArraySensor]:
+        """Return the sensors of numbers that a script sets, also those inside others."""
+        return [each for each in walk_blocks(self.sensors) if isinstance(each, AgentArraySensor)]
 
     def swap_brain(self, brain: Brain) -> None:
         """Set up another brain and enable it in place of the present one.
@@ -250,7 +272,7 @@ class BoundBlocks:
                 )
 
     def _remember_fixed(self) -> None:
-        self._fixed = [(block, block.fixed_at_setup()) for block in _walk_blocks(self.blocks)]
+        self._fixed = [(block, block.fixed_at_setup()) for block in walk_blocks(self.blocks)]
 
     def _check_fixed(self) -> None:
         for block, before in self._fixed:
@@ -398,7 +420,7 @@ class _LostBrain(Brain):
     def replace_brain(self, brain: Brain, block: Block, problem: str) -> None:
         """Set the brain that it replaces and the reason."""
         self._title = brain.title()
-        self.is_replaceable = any(block is each for each in _walk_blocks([brain]))
+        self.is_replaceable = any(block is each for each in walk_blocks([brain]))
         """True if only the brain was lost, so that another brain can replace it."""
         self.problem = problem
 
@@ -423,13 +445,6 @@ class _LostBrain(Brain):
         return self._title
 
 
-def _walk_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield blocks, each followed by the blocks inside it."""
-    for block in blocks:
-        yield block
-        yield from _walk_blocks(block.inner_blocks())
-
-
 def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:
     """Check that no block, nor a block inside one, occurs in an agent twice.
 
@@ -437,7 +452,7 @@ def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:
         SetupError: one does.
     """
     known: set[int] = set()
-    for block in _walk_blocks(blocks):
+    for block in walk_blocks(blocks):
         if id(block) in known:
             raise SetupError(
                 f"agent {agent.id!r}: the same {block_label(block)} stands in it twice; "
@@ -452,7 +467,7 @@ def _claim(agent: _Owner, blocks: Iterable[Block]) -> None:
     Raises:
         SetupError: another agent of the same ControlRequestor owns one of them.
     """
-    claimed = list(_walk_blocks(blocks))
+    claimed = list(walk_blocks(blocks))
     for block in claimed:
         owner = _owner_of(block)
         if owner is None or owner is agent:
@@ -472,7 +487,7 @@ def _owner_of(block: Block) -> _Owner | None:
     reference: Any = getattr(block, _OWNER, None)
     owner: _Owner | None = reference() if reference is not None else None
     bound = owner.bound_blocks_or_none if owner is not None else None
-    if bound is None or not any(each is block for each in _walk_blocks(bound.blocks)):
+    if bound is None or not any(each is block for each in walk_blocks(bound.blocks)):
         return None
     return owner
 

@@ -50,8 +50,8 @@ episode's first one does, is shorter: it ends at its own agent's slot.
 """
 
 import time
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 from ai4u_edu.agent.agent import BasicAgent, Numbers
 from ai4u_edu.agent.error_context import add_context
@@ -59,6 +59,7 @@ from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError,
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
 from ai4u_edu.world import World
+from ai4u_edu.world.state import WorldState
 
 HOLD_LIMIT_S = 660.0
 """Time (s) for which a step waits for another agent's brain; a script may be silent for 600 s."""
@@ -73,6 +74,38 @@ class Phase(NamedTuple):
     """Ticks that the decision takes."""
     repeats: bool = True
     """True if the actuators act at every tick, False if only at the first."""
+
+
+BlockStates = Mapping[str, Mapping[str, Any]]
+
+
+class DecisionState(NamedTuple):
+    """An agent's present decision."""
+
+    under_way: bool
+    phase: Phase
+    action: tuple[tuple[str, tuple[float, ...]], ...]
+    """Numbers by action name, in the order in which the actuators act."""
+
+
+class AgentMoment(NamedTuple):
+    """Everything that changes in an agent while its world runs."""
+
+    values: Mapping[str, Any]
+    """The agent's own attributes."""
+    ledger: Mapping[str, Any]
+    decision: DecisionState
+    blocks: BlockStates
+    """Results of :meth:`Block.get_state`, by the block's place in the agent."""
+
+
+class SimState(NamedTuple):
+    """Everything that changes in a world and its agents while it runs, but for held keys."""
+
+    episode: int
+    world: WorldState
+    agents: Mapping[str, AgentMoment]
+    """States of the agents, by id."""
 
 
 class ControlRequestor:
@@ -245,6 +278,32 @@ class ControlRequestor:
         """Return True if no decision is under way, so that blocks and bodies may be changed."""
         return not any(cycle.under_way for cycle in self._cycles)
 
+    def get_state(self, *, with_motions: bool = True) -> SimState:
+        """Return all that has changed since the world was built, but for held keys.
+
+        Args:
+            with_motions: False leaves out the bodies' poses and speeds, which a snapshot has.
+        """
+        return SimState(
+            self.episode,
+            self.world.get_state(with_motions=with_motions),
+            {cycle.agent.id: cycle.get_state() for cycle in self._cycles},
+        )
+
+    def set_state(self, state: SimState) -> None:
+        """Go on from the state of another world of the same scene.
+
+        Contacts are found again by the physics, so what touches something then moves on a little
+        differently (by rounding) than in the other world. A brain keeps its own state if it is of
+        another class, and so does an agent that the other world does not have.
+        """
+        self.reset(state.world.seed)
+        self.world.set_state(state.world)
+        self.episode = state.episode
+        for cycle in self._cycles:
+            if cycle.agent.id in state.agents:
+                cycle.set_state(state.agents[cycle.agent.id])
+
     def _decide(self) -> bool:
         """Ask the brains of agents that are due; return True if the tick takes place."""
         self._respawning = []
@@ -358,6 +417,32 @@ class _DecisionCycle:
         self.under_way = True
         agent.begin_step()
         return None
+
+    def get_state(self) -> AgentMoment:
+        """Return all that changes in the agent and its blocks."""
+        numbers = tuple((actuator.action_name, values) for actuator, values in self._action)
+        phase = Phase(self._tick, self._ticks, self._repeat)
+        return AgentMoment(
+            self.agent.get_state(),
+            self.agent.ledger.get_state(),
+            DecisionState(self.under_way, phase, numbers),
+            {place: block.get_state() for place, block in self._bound.places()},
+        )
+
+    def set_state(self, state: AgentMoment) -> None:
+        """Go on from the state of the same agent in another copy of the world."""
+        agent, decision = self.agent, state.decision
+        for place, block in self._bound.places():
+            if place in state.blocks:
+                block.set_state(state.blocks[place])
+        agent.ledger.set_state(state.ledger)
+        agent.set_state(state.values)
+        actuators = self._bound.actuators
+        self.under_way = decision.under_way
+        self._tick, self._ticks, self._repeat = decision.phase
+        self._action = [
+            (actuators[name], numbers) for name, numbers in decision.action if name in actuators
+        ]
 
     def refresh_binding(self) -> None:
         """Use the agent's present blocks.

@@ -2,13 +2,26 @@
 
 from collections import deque
 from collections.abc import Mapping
-from typing import NamedTuple
+from copy import copy
+from typing import Any, NamedTuple
 
 HANDLERS = "handlers"
 """Default term of ``agent.add_reward``."""
 
 NOTHING: tuple[float, Mapping[str, float]] = (0.0, {})
 """Total and terms before the first decision of an episode is over."""
+CARRIED = (
+    "terms",
+    "episode_terms",
+    "total",
+    "episode_total",
+    "carried",
+    "brought",
+    "_is_closed",
+    "_is_sealed",
+    "_finished",
+)
+"""Attributes of a ledger that a copy of the world at one moment gets; the history stays."""
 
 
 class LedgerEntry(NamedTuple):
@@ -132,6 +145,16 @@ class Ledger:
         self.episode_terms = {}
         self.episode_total = 0.0
         self.history.clear()
+        self._latest = None
+
+    def get_state(self) -> dict[str, Any]:
+        """Return the amounts of this episode, by attribute."""
+        return {name: copy(getattr(self, name)) for name in CARRIED}
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Take over the amounts of a ledger in another copy of the world."""
+        for name, value in state.items():
+            setattr(self, name, copy(value))
         self._latest = None
 
     def latest(self) -> tuple[LedgerEntry, ...]:

@@ -20,6 +20,8 @@ PALETTE = {
     "light grey": "#c9ced4",
     "white": "#ffffff",
 }
+FLOOR_RGB = (228, 232, 236)
+"""Colour of a floor that has none of its own."""
 
 
 def rgb(colour: str) -> tuple[int, int, int]:

@@ -1,5 +1,6 @@
 """Seeds: all random numbers of an episode follow from one seed."""
 
+from collections.abc import Mapping
 from operator import index
 from typing import Any
 from zlib import crc32
@@ -93,6 +94,15 @@ class Seeds:
             sequence = np.random.SeedSequence(entropy)
             child = self._children[name] = np.random.Generator(np.random.PCG64(sequence))
         return child
+
+    def get_state(self) -> dict[str, Mapping[str, Any]]:
+        """Return the states of all generators that were used, by name."""
+        return {name: child.bit_generator.state for name, child in self._children.items()}
+
+    def set_state(self, state: Mapping[str, Mapping[str, Any]]) -> None:
+        """Let the generators go on as those of another episode of the same seed would."""
+        for name, numbers in state.items():
+            self.child(name).bit_generator.state = numbers
 
     def next(self) -> "Seeds":
         """Return the seeds of the next episode, for a reset without a seed."""

@@ -1,7 +1,7 @@
 """The part of an agent that its blocks may use."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 from gymnasium import spaces
 
@@ -71,6 +71,16 @@ class EventView(Protocol):
         """Stop calling the handler."""
 
 
+class AgentInput(NamedTuple):
+    """Numbers that a script gave to an agent, besides the actions of its brain."""
+
+    name: str
+    """Perception key of the sensor that reads them."""
+    moment: int
+    """Count of that sensor's readings and resets in the world's episode before."""
+    values: tuple[float, ...]
+
+
 class AgentView(Protocol):
     """An agent as its blocks see it (:class:`~ai4u_edu.agent.BasicAgent` is one)."""
 
@@ -81,6 +91,9 @@ class AgentView(Protocol):
     other_agents: int
     """Number of other agents in its world."""
     paused: bool
+
+    def note_input(self, given: AgentInput) -> None:
+        """Tell recorders that a script gave numbers to the agent."""
 
     @property
     def sensors(self) -> Sequence[SensorView]:

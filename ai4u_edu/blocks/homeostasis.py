@@ -1,6 +1,7 @@
 """Internal variables that an agent has to keep in a comfort zone."""
 
 import math
+from typing import ClassVar
 
 from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.base.parameters import Name, Number
@@ -51,6 +52,8 @@ class HomeostaticVariable(Block):
     """Change per second while the body moves on the ground; left out: as at rest."""
     airborne_drift_per_second: Number | None = None
     """Change per second while the body is in the air; left out: as while it moves."""
+
+    carried: ClassVar[tuple[str, ...]] = ("level", "comfort_min", "comfort_max")
 
     def __post_init__(self) -> None:
         ends = self.range_min, self.comfort_min, self.comfort_max, self.range_max

@@ -14,7 +14,7 @@ from ai4u_edu.check.block_check import (
     warn_of_groups,
 )
 from ai4u_edu.check.report import Outcome, Report
-from ai4u_edu.check.rollout import Pose, Rollout, Script, fresh, title_of
+from ai4u_edu.check.rollout import Pose, Rollout, RolloutStep, Script, fresh, title_of
 from ai4u_edu.scenes import Scene
 
 
@@ -59,17 +59,21 @@ def check_actuator(
         report,
         make,
         options,
-        of=lambda record: record.poses,
-        words="places of all bodies",
+        of=_effects,
+        words="places of all bodies and traces",
     )
     run_static_checks(report, actuator, "what it does")
     if checks.run():
         warn_of_groups(report, [("", actuator)], checks.view)
-        report.add("finite", _not_finite(checks.values()))
+        report.add("finite", _not_finite([poses for poses, _ in checks.values()]))
         _refuses(report, copies[0])
         without = checks.drive(Rollout(the_scene, without=actuator, script=script))
-        _has_effect(report, checks.values(), [record.poses for record in without])
+        _has_effect(report, checks.values(), [_effects(record) for record in without])
     return report
+
+
+def _effects(record: RolloutStep) -> tuple[dict[str, Pose], object]:
+    return record.poses, record.traces
 
 
 def _not_finite(values: list[dict[str, Pose]]) -> str:
@@ -110,7 +114,7 @@ def _has_effect(report: Report, values: list[Any], without: list[Any]) -> None:
     idle = values == without
     report.add(
         "has an effect",
-        "expected bodies at other places than without it, got all at the same; if it needs "
+        "expected bodies at other places than without it, or ink, got all the same; if it needs "
         "something that is not here, check it in another scene, by scene=..."
         if idle
         else "",

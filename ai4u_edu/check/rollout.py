@@ -55,6 +55,8 @@ class RolloutStep(NamedTuple):
     """Rewards by agent id and term name."""
     poses: dict[str, Pose]
     """Poses by body name."""
+    traces: object
+    """Traces in the world besides poses: a checksum of the ink, and messages."""
     answer: Answer | None
     """The answer of the first agent's brain in this decision."""
     done: bool
@@ -129,6 +131,7 @@ class Rollout:
             percepts={agent.id: agent.percept for agent in agents},
             terms={agent.id: agent.reward_terms for agent in agents},
             poses={name: body.pose for name, body in self.sim.world.bodies.items()},
+            traces=(self.sim.world.ink.digest, self.sim.world.messages.get_state()),
             answer=self._answer,
             done=self.agent.done,
         )

@@ -1,26 +1,14 @@
 """A world as it stands at one moment, as data: so any thread can build a copy of it."""
 
-import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Self
+from typing import Self
 
-from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.cycle import ControlRequestor, SimState
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Brain
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import Snapshot
-
-
-class Place(NamedTuple):
-    """Pose of one body: metres and radians; fallen bodies are out of the world."""
-
-    x: float
-    y: float
-    z: float
-    heading: float
-    is_fallen: bool
 
 
 @dataclass(frozen=True)
@@ -29,10 +17,8 @@ class Moment:
 
     scene: SceneDescription
     """The world and its agents; brains that no file can hold are left out."""
-    seed: int
-    """Seed of the episode: what is random in the world was drawn from it."""
-    places: Mapping[str, Place]
-    """The bodies' poses by name."""
+    state: SimState
+    """Everything that has changed in it since it was built."""
     agent: str
     """Id of the agent."""
     brain: Brain
@@ -49,8 +35,7 @@ class Moment:
         agent = agent or sim.agents[0].id
         return cls(
             without_unknown_brains(export_scene(sim)),
-            sim.world.seeds.seed,
-            places_in(sim),
+            sim.get_state(),
             agent,
             sim.agent(agent).brain,
         )
@@ -73,25 +58,5 @@ class Moment:
         ids = [str(each.get("id", "0")) for each in scene.agents]
         if agent not in ids:
             raise NameNotFoundError(f"no agent has the id {agent!r}; {suggest(agent, ids)}")
-        places = {
-            each.name: Place(
-                each.x,
-                each.y,
-                each.z,
-                each.heading,
-                each.fallen or not math.isfinite(each.x + each.y + each.z),
-            )
-            for each in snapshot.bodies
-        }
-        return cls(scene, snapshot.seed, places, agent, brain)
-
-
-def places_in(sim: ControlRequestor) -> dict[str, Place]:
-    """Return the poses of a world's bodies by name."""
-    return {name: _place(body) for name, body in sim.world.bodies.items()}
-
-
-def _place(body: Any) -> Place:
-    x, y, z, heading = body.pose
-    is_fallen = body.fallen or not math.isfinite(x + y + z)
-    return Place(x, y, z, heading, is_fallen)
+        world = snapshot.state.world._replace(motions={body.name: body for body in snapshot.bodies})
+        return cls(scene, snapshot.state._replace(world=world), agent, brain)

@@ -1,16 +1,17 @@
 """Copies of a world in which an agent is put somewhere else, while the world itself stays."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.cycle import ControlRequestor, SimState
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.blocks import Brain, LocalBrain, Percept
-from ai4u_edu.explain.moment import Moment, Place, places_in
+from ai4u_edu.blocks import Brain, HomeostaticVariable, LocalBrain, Percept, Sensor
+from ai4u_edu.blocks.block import walk_blocks
+from ai4u_edu.explain.moment import Moment
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.scenes import Scene
 
@@ -25,6 +26,10 @@ WorldLike = Scene | ControlRequestor | Moment | str
 
 class WorldCopy:
     """A copy of a world, in which one agent is put at any pose while all else stays.
+
+    All else is everything that has changed since the world was built: poses and speeds, what
+    others hold, their blocks and decisions, the random generators. The agent's own episode begins
+    at the pose, and its internal variables (energy) have their present levels.
 
     Other agents stand still if a script elsewhere drives them, or what no file can hold, such as a
     Python function.
@@ -41,11 +46,11 @@ class WorldCopy:
     ) -> None:
         if isinstance(world, str):
             world = Scene.load(world)
-        places: Mapping[str, Place] = {}
+        state: SimState | None = None
         if isinstance(world, ControlRequestor):
             world = Moment.of_sim(world, agent)
         if isinstance(world, Moment):
-            seed, places = world.seed, world.places
+            state, seed = world.state, world.state.world.seed
             self.sim = Scene(world.scene).build(brains=partial(_brain_in_copy, world.agent))
             self.agent = self.sim.agent(world.agent)
             rhythm = world.brain
@@ -54,14 +59,15 @@ class WorldCopy:
             self.agent = self.sim.agents[0] if agent is None else self.sim.agent(agent)
             rhythm = self.agent.brain
         self.policy = policy
-        self._seed = seed
         self.agent.use_brain(_brain_of(policy, rhythm))
         self.sim.reset(seed)
-        self._places = places or places_in(self.sim)
+        beginning = self.sim.get_state()
+        self._first = beginning.agents[self.agent.id]
+        self._state = beginning if state is None else state
 
     def take_over(self, moment: Moment) -> None:
         """Stand as the same scene stood at another moment."""
-        self._seed, self._places = moment.seed, moment.places
+        self._state = moment.state
 
     def grid(self, columns: int = DEFAULT_COLUMNS, heading: float | None = None) -> Poses:
         """Return poses on a grid over the floor, row by row from below, (n, 3): x, y, heading.
@@ -89,7 +95,7 @@ class WorldCopy:
     @property
     def home(self) -> tuple[float, float, float]:
         """The agent's pose in the world that was copied: x, y, heading."""
-        place = self._places[self.agent.body_name]
+        place = self._state.world.motions[self.agent.body_name]
         return place.x, place.y, place.heading
 
     def towards(self, poses: Poses, target: str) -> Poses:
@@ -114,31 +120,39 @@ class WorldCopy:
         Returns:
             None if it can't stand there: there is no floor, or something else.
         """
-        self.sim.reset(self._seed)
-        for name, place in self._places.items():
-            body = self.sim.world[name]
-            if place.is_fallen:
-                body.leave()
-            elif body.moves:
-                body.move_to(place.x, place.y, heading=place.heading, z=place.z)
+        self.sim.set_state(self._with_episode_of_its_own(self._state))
         x, y, heading = map(float, pose)
         if self.sim.world.ground(x, y) is None:
             return None
         self.agent.body.move_to(x, y, heading=heading)
+        self.sim.world.contacts.forget(self.agent.body)
         if self.sim.world.find_overlap(self.agent.body) is not None:
             return None
         self._begin_here()
         return self.agent.sense()
 
+    def _with_episode_of_its_own(self, state: SimState) -> SimState:
+        """Return a state in which the agent has not decided yet; its blocks are as they are."""
+        now = state.agents.get(self.agent.id)
+        if now is None:
+            return state
+        first = self._first._replace(blocks=now.blocks)
+        return state._replace(agents={**state.agents, self.agent.id: first})
+
     def _begin_here(self) -> None:
-        """Let rewards and sensors begin again; an actuator could put the body somewhere else."""
+        """Let rewards, stacks and delays begin again; an actuator's reset could move the body."""
         bound, view = self.agent.bound_blocks, self.agent.view
+        inner = [
+            each for each in walk_blocks(bound.rewards) if isinstance(each, HomeostaticVariable)
+        ]
+        levels = [variable.get_state() for variable in inner]
         for reward in bound.rewards:
             reward.on_reset(self.agent, view)
-        for sensor in bound.sensors:
-            if sensor.resetable:
-                sensor.on_reset(self.agent, view)
-            sensor.restart()
+        for variable, level in zip(inner, levels, strict=True):
+            variable.set_state(level)
+        for sensor in walk_blocks(bound.sensors):
+            if isinstance(sensor, Sensor):
+                sensor.restart()
 
     def step(self) -> Percept:
         """Run one decision of the agent from where it was put."""

@@ -22,12 +22,14 @@ def percept_checksum(percept: Percept) -> int:
 
 
 def world_checksum(world: World) -> int:
-    """Return the checksum of the poses and velocities of all bodies that are not static."""
-    return crc32(
+    """Return the checksum of what moves: poses and velocities of bodies, and ink."""
+    number = crc32(
         b"".join(
             [_state(body) for body in world.bodies.values() if body.description.kind != "static"]
         )
     )
+    # without ink it is what it was before there were pens
+    return crc32(b"%d" % world.ink.digest, number) if world.ink.digest else number
 
 
 def editable_state(world: World) -> tuple[object, ...]:

@@ -5,6 +5,7 @@ nothing, limits the decompressed size, and validates everything before it is use
 """
 
 import json
+import math
 import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -25,7 +26,11 @@ from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.table import MAX_FORMS, Table, check_finite, pack_column, unpack_column
 from ai4u_edu.scenes import Scene, SceneDescription
 
-HEADER = b"ai4u-edu episode 1\n"
+HEADER = b"ai4u-edu episode 2\n"
+EARLIER_HEADERS = (b"ai4u-edu episode 1\n",)
+"""Headers of earlier versions, which are read as well: the first one has no inputs."""
+MAX_INPUTS = 20_000
+"""Most inputs of an episode; what happens later is not recorded."""
 MAX_FILE_BYTES = 16 * 2**20
 """Size of a file."""
 MAX_UNPACKED_MB = 24
@@ -141,6 +146,19 @@ class Restart(NamedTuple):
     """Indices of the agents, in the order in which they act."""
 
 
+class Input(NamedTuple):
+    """Numbers that a script gave to an agent's sensor, besides the actions of its brain."""
+
+    tick: int
+    agent: int
+    """Index of the agent, in the order in which they act."""
+    name: str
+    """Perception key of the sensor."""
+    moment: int
+    """Count of the sensor's readings and resets in this episode before."""
+    values: tuple[float, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Episode:
     """A recorded episode of a world, from one reset to the next.
@@ -164,6 +182,8 @@ class Episode:
     """True if it was too long to be recorded completely."""
     versions: dict[str, str]
     """Versions of the packages that ran, by name."""
+    inputs: tuple[Input, ...] = ()
+    """Numbers that scripts gave to the agents besides actions, in order."""
 
     def agent(self, agent_id: str | None = None) -> AgentRecord:
         """Return the record of an agent; by default of the one that acts first."""
@@ -281,6 +301,7 @@ class _File(BaseModel):
     agents: list[_Agent] = Field(min_length=1, max_length=64)
     order: bytes
     restarts: list[tuple[int, list[int]]]
+    inputs: list[tuple[int, int, str, int, list[float]]] = Field(default=[], max_length=MAX_INPUTS)
 
 
 def encode(episode: Episode) -> bytes:
@@ -315,6 +336,7 @@ def encode(episode: Episode) -> bytes:
         ],
         "order": pack_column(episode.order),
         "restarts": episode.restarts,
+        "inputs": episode.inputs,
     }
     return HEADER + zlib.compress(msgpack.packb(plain), 9)
 
@@ -337,7 +359,7 @@ def decode(cls: type[E], data: bytes, name: str) -> E:
 
 
 def _read(cls: type[E], data: bytes) -> E:
-    if not data.startswith(HEADER):
+    if not data.startswith((HEADER, *EARLIER_HEADERS)):
         if data.startswith(HEADER[:16]):
             raise RecordingError(
                 "an episode of another version of this package; expected "
@@ -359,6 +381,7 @@ def _read(cls: type[E], data: bytes) -> E:
         changed=file.changed,
         cut=file.cut,
         versions=file.versions,
+        inputs=tuple(Input(*parts[:-1], tuple(parts[-1])) for parts in file.inputs),
     )
     _validate(episode)
     return episode
@@ -407,6 +430,7 @@ def _tuples(data: Any) -> Any:
     return {
         **data,
         "restarts": _each_tuple(data.get("restarts")),
+        "inputs": _each_tuple(data.get("inputs", [])),
         "agents": [_agent_tuples(agent) for agent in agents]
         if isinstance(agents, list)
         else agents,
@@ -491,6 +515,12 @@ def _validate(episode: Episode) -> None:
         _check_agent(record, episode.ticks)
     _check_order(episode)
     _check_time(episode)
+    for given in episode.inputs:
+        known = 0 <= given.agent < len(episode.agents) and given.moment >= 0
+        if not known or not 0 <= given.tick <= 2 * MAX_TICK or not math.isfinite(sum(given.values)):
+            raise RecordingError(
+                f"inputs: expected an agent's number, a moment and finite numbers, got {given}"
+            )
 
 
 def _check_agent(record: AgentRecord, ticks: int) -> None:

@@ -11,11 +11,13 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import active_brain, has_driving_keys
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import Brain
+from ai4u_edu.blocks.agent_view import AgentInput
 from ai4u_edu.recording.checksum import percept_checksum, world_checksum
 from ai4u_edu.recording.episode import (
     DONE_REQUESTED,
     ENDED,
     MAX_DRIVER_CHARS,
+    MAX_INPUTS,
     MAX_TICK,
     NO_ROWS,
     PERSON,
@@ -24,6 +26,7 @@ from ai4u_edu.recording.episode import (
     TRUNCATED,
     AgentRecord,
     Episode,
+    Input,
     Restart,
 )
 from ai4u_edu.recording.table import Table
@@ -106,10 +109,20 @@ class EpisodeBuilder:
         self._order: list[int] = []
         self._restarts: list[tuple[int, list[int]]] = []
         self._restarting: list[int] | None = None
+        self._inputs: list[Input] = []
         self._ticks = 0
         self._size = 0
         self.changed: int | None = None
         self.cut = False
+
+    def add_input(self, agent: BasicAgent, given: AgentInput) -> None:
+        """Record numbers that a script gave to an agent's sensor."""
+        self._size += 40 + 8 * len(given.values)
+        if len(self._inputs) >= MAX_INPUTS:
+            self.cut = True
+        if not self.cut:
+            index = self._index[agent.id]
+            self._inputs.append(Input(self._sim.world.ticks, index, *given))
 
     @property
     def restarts(self) -> int:
@@ -202,6 +215,7 @@ class EpisodeBuilder:
             changed=self.changed,
             cut=self.cut,
             versions=dict(VERSIONS),
+            inputs=tuple(self._inputs),
         )
 
     def _is_unfinished(self, index: int, counts: list[int]) -> bool:

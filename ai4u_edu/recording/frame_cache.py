@@ -1,6 +1,7 @@
 """Cache of an episode's snapshots, for looking at them in any order."""
 
 import threading
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -19,6 +20,7 @@ from ai4u_edu.snapshot import (
     capture_snapshot,
     capture_static_scene,
 )
+from ai4u_edu.world.ink import Tile, TileKey
 
 MAX_CACHE_BYTES = 96 * 2**20
 """Approximate memory of cached snapshots."""
@@ -89,6 +91,7 @@ class FrameCache:
         self._frames: dict[int, _Frame] = {}
         self._static_scene: tuple[int, StaticScene] | None = None
         self._bodies: dict[str, BodyState] = {}
+        self._tiles: Mapping[TileKey, Tile] = {}
         self._on_request: set[int] = set()
         self._results: list[dict[int, dict[str, Any]]] = [{} for _ in episode.agents]
         self._asked: int | None = None
@@ -258,13 +261,18 @@ class FrameCache:
         )
         moved = sum(one is not bodies.get(one.name) for one in shared)
         bodies.update((each.name, each) for each in shared)
-        self._size += _size(frame.snapshot, moved)
+        self._size += _size(frame.snapshot, moved) + self._new_ink(frame.snapshot)
         frame = replace(frame, snapshot=replace(frame.snapshot, bodies=shared))
         with self._changed:
             self._frames[step] = frame
             if self._size > self._largest:
                 self._double_stride()
             self._changed.notify_all()
+
+    def _new_ink(self, snapshot: Snapshot) -> int:
+        """Return the memory (bytes) of tiles of ink that the snapshot before it does not have."""
+        before, self._tiles = self._tiles, snapshot.state.world.ink.tiles
+        return sum(tile.nbytes for key, tile in self._tiles.items() if before.get(key) is not tile)
 
     def _double_stride(self) -> None:
         self.stride *= 2

@@ -1,6 +1,6 @@
 """Player of an episode: a world in which the recorded actions are taken again."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import cast
 
@@ -8,7 +8,7 @@ from ai4u_edu.agent.block_errors import may_be_kept, sentence_of
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
-from ai4u_edu.recording.episode import DONE_REQUESTED, REPEAT, Episode
+from ai4u_edu.recording.episode import DONE_REQUESTED, REPEAT, Episode, Input
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.scenes import Scene
@@ -79,6 +79,10 @@ class Player:
         """Number of replayed decisions of each agent."""
         self.restarted = 0
         """Number of replayed restarts."""
+        self._set_inputs(self.episode.inputs)
+        for agent in self.sim.agents:
+            for sensor in agent.bound_blocks.array_sensors():
+                sensor.numbers[:] = 0.0
         self._guard(partial(self.sim.reset, self.episode.seed))
 
     def advance(self, *, tick_by_tick: bool = False) -> None:
@@ -121,6 +125,7 @@ class Player:
             brains: brains by agent id. Other agents get a new brain as in the scene if the player
                 made the world, and otherwise the brain that they had before.
         """
+        self._set_inputs(())
         for index, agent in enumerate(self.sim.agents):
             before = agent.bound_blocks.brain = self._before[index]
             if agent.id in brains:
@@ -150,6 +155,16 @@ class Player:
         if ahead is not None and self.episode.restarts[self.restarted].tick == ticks:
             return Command.HOLD
         return Command.WAIT
+
+    def _set_inputs(self, inputs: Sequence[Input]) -> None:
+        """Let the sensors that a script sets read what it set then, and nothing else."""
+        scripts: dict[tuple[int, str], dict[int, list[tuple[float, ...]]]] = {}
+        for given in inputs:
+            script = scripts.setdefault((given.agent, given.name), {})
+            script.setdefault(given.moment, []).append(given.values)
+        for index, agent in enumerate(self.sim.agents):
+            for sensor in agent.bound_blocks.array_sensors():
+                sensor.script = scripts.get((index, sensor.perception_key), {})
 
     def _guard(self, step: Callable[[], None]) -> None:
         """Run a step, and turn errors of blocks into a RecordingError.

@@ -13,6 +13,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.blocks import Block
+from ai4u_edu.blocks.agent_view import AgentInput
 from ai4u_edu.recording.archive import Archive
 from ai4u_edu.recording.checksum import editable_state
 from ai4u_edu.recording.episode import Episode, encode
@@ -78,6 +79,7 @@ class Recorder:
         """Called in the same way with the episode so far when all its agents are done; it is over
         when the next one begins, and some of them may restart before."""
         self._builder: EpisodeBuilder | None = None
+        self._early_inputs: list[tuple[BasicAgent, AgentInput]] = []
         self.world_episode = sim.episode
         """Number by which the world counts the present episode."""
         self._listening = False
@@ -131,6 +133,7 @@ class Recorder:
                 (agent.begin_of_episode, self._on_episode_begin),
                 (agent.begin_of_step, self._on_decision),
                 (agent.percept_ready, self._on_percept),
+                (agent.input_given, self._on_input),
             ):
                 (event.connect if enabled else event.disconnect)(handler)
 
@@ -189,9 +192,22 @@ class Recorder:
             for agent in self.sim.agents:
                 self._on_episode_begin(agent)
 
-    def _on_reset(self, _agent: BasicAgent) -> None:
+    def _on_reset(self, agent: BasicAgent) -> None:
+        self._early_inputs = [each for each in self._early_inputs if each[0] is not agent]
+        for sensor in agent.bound_blocks.array_sensors():
+            if not sensor.resetable and sensor.numbers.any():  # it keeps them through the reset
+                kept = AgentInput(sensor.perception_key, 0, tuple(sensor.numbers.tolist()))
+                self._early_inputs.append((agent, kept))
         if self._builder is not None:
             self._builder.end_restart()
+
+    def _on_input(self, agent: BasicAgent) -> None:
+        if agent.latest_input is None:
+            return
+        if self._builder is not None and self.sim.episode == self.world_episode:
+            self._builder.add_input(agent, agent.latest_input)
+        elif self.sim.world.ticks == 0:  # the reset is under way
+            self._early_inputs.append((agent, agent.latest_input))
 
     def _on_episode_begin(self, agent: BasicAgent) -> None:
         if self.sim.episode != self.world_episode:
@@ -216,6 +232,9 @@ class Recorder:
         self.problem = ""
         try:
             self._builder = EpisodeBuilder(self.sim, export_scene(self.sim, self.scene))
+            for early in self._early_inputs:
+                self._builder.add_input(*early)
+            self._early_inputs = []
         except RecordingError as error:  # must not stop the world
             self.problem = str(error)
 

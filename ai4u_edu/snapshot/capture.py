@@ -74,6 +74,7 @@ def capture_snapshot(
             )
             for agent in sim.agents
         ),
+        state=sim.get_state(with_motions=False),
         slow_tick=slow_tick,
         episode_time=world.time if episode_time is None else episode_time,
         waiting=waiting,

@@ -22,6 +22,7 @@ from ai4u_edu.snapshot.marks import (
     half_width,
 )
 from ai4u_edu.world import BodyDescription, RegionDescription, RingShape
+from ai4u_edu.world.ink import TILE_M, InkImage
 
 Points = npt.NDArray[np.float64]
 
@@ -84,6 +85,7 @@ class _Canvas:
             ground = _last_ground = key, self.image.copy()
         else:
             self.image.paste(ground[1])
+        self._ink(snapshot.state.world.ink)
         for agent in snapshot.agents:
             self._rays(agent.rays.values())
         described = {body.name: body for body in self.static_scene.bodies}
@@ -110,6 +112,19 @@ class _Canvas:
             self._grid(inside, theme.mix_colours(colour, theme.VOID, 0.12))
         for area in self.static_scene.areas:
             self._region(area, theme.area_fill(area), theme.area_colour(area))
+
+    def _ink(self, ink: InkImage) -> None:
+        """Draw ink, each tile as a picture; on high floors last."""
+        tops = {floor.name: floor.top for floor in self.static_scene.floors}
+        for key in sorted(ink.tiles, key=lambda key: (tops.get(key.floor, 0.0), key)):
+            corners = np.array([(key.column, key.row + 1), (key.column + 1, key.row)]) * TILE_M
+            (left, top), (right, bottom) = self._pixels(corners)
+            place = round(left), round(top)
+            size = max(round(right) - place[0], 1), max(round(bottom) - place[1], 1)
+            picture = Image.fromarray(theme.ink_pixels(ink.tiles[key])).resize(
+                size, Image.Resampling.BOX
+            )
+            self.image.paste(picture, place, picture)
 
     def _grid(self, inside: Image.Image, colour: theme.Rgb) -> None:
         """Draw lines 1 m apart, more in large arenas, where the mask ``inside`` is 255."""
@@ -185,6 +200,10 @@ class _Canvas:
                 x, y = outline.mean(axis=0)
                 reach = np.linalg.norm(outline - (x, y), axis=1).max()
                 self._label(text, x, y - 1.08 * reach, is_below=True)
+        for name, text in theme.said(snapshot).items():
+            state = states.get(name)
+            if state is not None and not state.fallen:
+                self._label(text, state.x, state.y + 0.9)
 
     def _label(self, text: str, x: float, y: float, *, is_below: bool = False) -> None:
         if not text.strip():

@@ -2,14 +2,19 @@
 
 from collections.abc import Iterable
 
-from ai4u_edu.base.colors import rgb
-from ai4u_edu.snapshot import StaticScene
+import numpy as np
+import numpy.typing as npt
+
+from ai4u_edu.base.colors import FLOOR_RGB, rgb
+from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.ink import INK_COLOURS, Tile
+from ai4u_edu.world.messages import Message
 
 Rgb = tuple[int, int, int]
 
 VOID: Rgb = (50, 58, 69)
-FLOOR: Rgb = (228, 232, 236)
+FLOOR: Rgb = FLOOR_RGB
 FLOOR_EDGE: Rgb = (128, 139, 150)
 GRID: Rgb = (204, 210, 216)
 WALL: Rgb = (84, 93, 104)
@@ -24,6 +29,19 @@ SPOT_UNLIT: Rgb = (120, 129, 138)
 """Colour of a point at which a sensor detects nothing."""
 SPOT_RADIUS_M = 0.06
 """Radius of a point that a sensor reads."""
+
+
+_INK_RGBA = np.array([(0, 0, 0, 0)] + [(*rgb(each), 255) for each in INK_COLOURS], np.uint8)
+
+
+def ink_pixels(tile: Tile) -> npt.NDArray[np.uint8]:
+    """Return a tile of ink as a picture, its top row first.
+
+    Returns:
+        (rows, columns, 4): red, green, blue, opacity.
+    """
+    pixels: npt.NDArray[np.uint8] = _INK_RGBA[tile[::-1]]
+    return pixels
 
 
 def mix_colours(a: Rgb, b: Rgb, share: float) -> Rgb:
@@ -50,6 +68,30 @@ def body_colour(body: BodyDescription, is_agent: bool) -> Rgb:
 def label_text(static_scene: StaticScene, body: BodyDescription) -> str:
     """Return a body's label, for agents by default their name; empty if it has none."""
     return body.label or (body.name if body.name in static_scene.agent_of else "")
+
+
+SAID_S = 0.6
+"""World time (s) for which a message is shown after it was said."""
+
+
+def said(snapshot: Snapshot) -> dict[str, str]:
+    """Return the texts of speech bubbles, by the speaker's body.
+
+    >>> from ai4u_edu.world.messages import Message
+    >>> bubble(Message(0, 10.0, (0.5, -1.0))), bubble(Message(0, 10.0, ()))
+    ('“0.5  -1”', '“!”')
+    """
+    ticks = SAID_S * snapshot.static_scene.settings.ticks_per_second
+    return {
+        name: bubble(message)
+        for name, message in snapshot.state.world.messages.items()
+        if snapshot.tick - message.tick <= ticks
+    }
+
+
+def bubble(message: Message) -> str:
+    """Return the text of a message; one without numbers is a call."""
+    return f"“{'  '.join(f'{number:.3g}' for number in message.numbers) or '!'}”"
 
 
 def floor_colour(floor: FloorDescription) -> Rgb:

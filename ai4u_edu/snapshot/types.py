@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ai4u_edu.agent import LedgerEntry
-from ai4u_edu.agent.cycle import Phase
+from ai4u_edu.agent.cycle import Phase, SimState
 from ai4u_edu.blocks import (
     Legend,
     Percept,
@@ -211,6 +211,8 @@ class Snapshot:
     """Sentence about the error that stopped the world; empty if none did."""
     bodies: tuple[BodyState, ...]
     agents: tuple[AgentState, ...]
+    state: SimState
+    """All else that a copy of the world needs to go on from here; :attr:`bodies` has the poses."""
     slow_tick: SlowTick | None = None
     """Slowest tick of the last seconds, if it took too long."""
     episode_time: float = 0.0

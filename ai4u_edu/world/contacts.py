@@ -5,7 +5,7 @@ callbacks, so a pile of boxes that no block asks about costs nothing.
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import pymunk
 
@@ -18,6 +18,17 @@ TOUCH_GAP_M = 1e-6
 """Bodies with a smaller vertical gap than this (metres) touch."""
 
 
+class ContactState(NamedTuple):
+    """Contacts of watched bodies, by names."""
+
+    touching: dict[str, tuple[str, ...]]
+    """The bodies that each body touches, in the order of first touch."""
+    last: dict[tuple[str, str], int]
+    """The last tick of each contact that has ended."""
+    begun: dict[str, int]
+    """Contacts of each body that have begun."""
+
+
 class Contacts:
     """The contacts of one world, and the pairs that pass each other at different heights."""
 
@@ -25,6 +36,9 @@ class Contacts:
         self.tick = 0
         """The last tick, or the one under way."""
         self.error: BaseException | None = None
+        self.has_news = False
+        """True if :meth:`settle` has something to do after this tick."""
+        self._unconfirmed: dict[tuple[str, str], None] = {}
         self._space: pymunk.Space | None = None
         self._owners: dict[pymunk.Shape, Body] = {}
         self._watched: dict[str, None] = {}
@@ -35,7 +49,8 @@ class Contacts:
 
     def attach(self, space: pymunk.Space, owners: dict[pymunk.Shape, Body]) -> None:
         """Start over on a new space."""
-        self.tick, self.error = 0, None
+        self.tick, self.error, self.has_news = 0, None, False
+        self._unconfirmed.clear()
         self._space, self._owners = space, owners
         self._touching.clear()
         self._last.clear()
@@ -45,8 +60,35 @@ class Contacts:
         space.on_collision(WATCHED, None, begin=compare, separate=separate)
         space.on_collision(RAISED, None, begin=compare, pre_solve=compare, separate=separate)
 
-    def raise_error(self) -> None:
-        """Raise the first error of a callback since the last call, if there is one."""
+    def get_state(self) -> ContactState:
+        """Return the contacts of watched bodies."""
+        touching = {name: tuple(others) for name, others in self._touching.items()}
+        return ContactState(touching, dict(self._last), dict(self._begun))
+
+    def set_state(self, state: ContactState) -> None:
+        """Take over the contacts of another copy of this world, whose bodies stand alike.
+
+        A new space reports contacts with its first step. One that ends in that very step it never
+        reports, so that :meth:`settle` ends it.
+        """
+        self._touching = {name: dict.fromkeys(names) for name, names in state.touching.items()}
+        self._last, self._begun = dict(state.last), dict(state.begun)
+        self._unconfirmed = {
+            (name, other): None for name, others in self._touching.items() for other in others
+        }
+        self.has_news = bool(self._unconfirmed)
+
+    def settle(self) -> None:
+        """Finish a tick: end contacts that were taken over and are none, and raise an error.
+
+        Raises:
+            Exception: the first error of a callback since the last call.
+        """
+        self.has_news = False
+        if self._unconfirmed:
+            for name, other in self._unconfirmed:
+                self._end(name, other, self.tick - 1)
+            self._unconfirmed.clear()
         if self.error is not None:
             error, self.error = self.error, None
             raise error
@@ -134,6 +176,7 @@ class Contacts:
     def _touch(self, a: Body, b: Body) -> None:
         for one, other in ((a.name, b.name), (b.name, a.name)):
             if one in self._watched:
+                self._unconfirmed.pop((one, other), None)
                 touching = self._touching.setdefault(one, {})
                 if other not in touching:
                     touching[other] = None
@@ -155,6 +198,6 @@ class Contacts:
             try:
                 handle(arbiter)
             except Exception as error:  # whatever it is, World.tick raises it
-                self.error = self.error or error
+                self.error, self.has_news = self.error or error, True
 
         return guarded

@@ -195,7 +195,7 @@ class Height:
 
     def update_support(self, body: Body) -> None:
         """Find out whether a body that was put somewhere stands there or is in the air."""
-        self._set_on_ground(body, not body.moves or self._is_supported(body))
+        self.set_on_ground(body, not body.moves or self._is_supported(body))
 
     def forget(self, body: Body) -> None:
         """Stop moving a body that was taken out of the space."""
@@ -206,7 +206,7 @@ class Height:
         if body.fallen or not body.moves:
             return
         if body.on_ground:
-            self._set_on_ground(body, False)
+            self.set_on_ground(body, False)
         body.vz = speed
 
     def step(self, dt: float) -> None:
@@ -222,10 +222,10 @@ class Height:
                 if self._is_supported(body):
                     self.movers[body] = self._ground.inside(x, y, body.z)
                     continue
-                self._set_on_ground(body, False)
+                self.set_on_ground(body, False)
             self._fly(body, dt)
 
-    def _set_on_ground(self, body: Body, on_ground: bool) -> None:
+    def set_on_ground(self, body: Body, on_ground: bool) -> None:
         """Put a body on the ground or into the air, and among the movers if necessary."""
         body.on_ground = on_ground
         moved_by = pymunk.Body.update_velocity if on_ground else _update_velocity_in_air
@@ -248,7 +248,7 @@ class Height:
         support = self._highest_support(body, before)
         if support is not None and z <= support:
             body.z, body.vz = support, 0.0
-            self._set_on_ground(body, True)
+            self.set_on_ground(body, True)
             return
         body.z = z
         if z < settings.fall_threshold:

@@ -9,6 +9,8 @@ import numpy as np
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
+from ai4u_edu.world.ink import Ink
+from ai4u_edu.world.messages import Messages
 from ai4u_edu.world.rays import GROUND_TAGS, CodeOf, RayFan, RayGrid
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.world import World
@@ -108,6 +110,16 @@ class WorldView:
     def ground(self, x: float, y: float) -> float | None:
         """Return the height of the highest floor at a place (metres); None over the void."""
         return self._world.ground(x, y)
+
+    @property
+    def ink(self) -> Ink:
+        """The ink that pens have drawn on the floors."""
+        return self._world.ink
+
+    @property
+    def messages(self) -> Messages:
+        """The messages that agents say to each other."""
+        return self._world.messages
 
     def touching(self, body: BodyView, target: str) -> bool:
         """Return True if an agent's body touches another body, or its centre is in an area."""

@@ -16,12 +16,15 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
+from ai4u_edu.world.ink import Ink
+from ai4u_edu.world.messages import Messages
 from ai4u_edu.world.native import IS_NATIVE, contact_distances
 from ai4u_edu.world.physics import Physics
 from ai4u_edu.world.placement import MAX_OVERLAP_M, Places, Thing, ThingT, is_overlap, randomize
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.registry import Rectangle, Registry
 from ai4u_edu.world.shapes import BodyShape, RegionShape
+from ai4u_edu.world.state import BodyMotion, Motion, WorldState
 
 
 class World:
@@ -50,7 +53,11 @@ class World:
         """Ticks since the reset."""
         self._registry = Registry()
         self._physics = Physics(self.settings)
+        self.ink = Ink(self._registry.floors)
+        """What pens have drawn on the floors since the world's reset."""
         self.contacts = self._physics.contacts
+        self.messages = Messages(self)
+        """What agents have said since the world's reset."""
         self._ticks_per_second = self.settings.ticks_per_second
         self.rebuild()
 
@@ -185,6 +192,8 @@ class World:
         if registry.has_random:
             self._sample_all()
         self.ticks = 0
+        self.ink.clear()
+        self.messages.clear()
         self._physics.start_over()
         for body in registry.bodies.values():
             if not registry.has_random:
@@ -331,10 +340,88 @@ class World:
         physics.step()
         if physics.height.movers:
             physics.height.step(physics.dt)
-        if contacts.error is not None or ticks % self._ticks_per_second == 0:
-            contacts.raise_error()
+        if contacts.has_news or ticks % self._ticks_per_second == 0:
+            contacts.settle()
             if ticks % self._ticks_per_second == 0:
                 self._check_finite()
+
+    # -- its state, for a copy -------------------------------------------------------------------
+
+    def get_state(self, *, with_motions: bool = True) -> WorldState:
+        """Return everything that changes while the world runs; call it between two ticks.
+
+        Args:
+            with_motions: False leaves out the bodies' motions, which take most of the time.
+        """
+        bodies = self._registry.bodies
+        holders = bodies.values() if self.space.constraints else ()
+        return WorldState(
+            seed=self.seeds.seed,
+            ticks=self.ticks,
+            generators=self.seeds.get_state(),
+            held=tuple((body.name, body.held.name) for body in holders if body.held is not None),
+            sampled={
+                body.name: body.sampled for body in bodies.values() if body.description.random
+            },
+            contacts=self.contacts.get_state(),
+            ink=self.ink.image(),
+            messages=self.messages.get_state(),
+            motions={name: _motion(body) for name, body in bodies.items()} if with_motions else {},
+        )
+
+    def set_state(self, state: WorldState) -> None:
+        """Go on from the state of another world of the same description.
+
+        Bodies that only one of the two has are as after a reset.
+
+        Args:
+            state: of :meth:`get_state`; this world has just been reset to its seed.
+        """
+        bodies = self._registry.bodies
+        for name, sampled in state.sampled.items():
+            if name in bodies and bodies[name].sampled != sampled:
+                self._place_as(name, sampled)
+        for name, motion in state.motions.items():
+            if name in bodies:
+                self._set_motion(name, motion)
+        for holder, held in state.held:
+            if holder in bodies and held in bodies:
+                bodies[holder].hold(bodies[held])
+        self.ticks = self.contacts.tick = state.ticks
+        self.ink.set_image(state.ink)
+        self.messages.set_state(state.messages)
+        self.contacts.set_state(state.contacts)
+        self.seeds.set_state(state.generators)
+
+    def _place_as(self, name: str, sampled: BodyDescription) -> None:
+        """Put a body to the place that was sampled for it in another copy of this world."""
+        body, physics = self[name], self._physics
+        physics.remove(body)
+        body.sampled = sampled
+        physics.add(body)
+        physics.height.set_height(body, sampled.z)
+        physics.height.update_support(body)
+
+    def _set_motion(self, name: str, motion: Motion) -> None:
+        """Put a body where it is in another copy of this world, with the same speeds."""
+        body, physics = self[name], self._physics
+        if motion.fallen or not math.isfinite(motion.x + motion.y + motion.z):
+            if not body.fallen:
+                physics.drop(body)
+            body.on_ground = motion.on_ground
+            if math.isfinite(motion.x + motion.y + motion.z):
+                body._pm.position, body._pm.angle = (motion.x, motion.y), motion.heading
+                body.z = motion.z
+            return
+        here = (*body._pm.position, body.z, body._pm.angle)
+        if body.fallen or here != (motion.x, motion.y, motion.z, motion.heading):
+            physics.place(body, motion.x, motion.y, motion.heading, motion.z)
+        if body.description.kind != "static":
+            body._pm.velocity = motion.vx, motion.vy
+            body._pm.angular_velocity = motion.angular_velocity
+        if body.moves and body.on_ground != motion.on_ground:
+            physics.height.set_on_ground(body, motion.on_ground)
+        body.vz = motion.vz
 
     # -- queries ---------------------------------------------------------------------------------
 
@@ -405,6 +492,21 @@ class World:
                     f"body {body.name!r} is at ({x}, {y}): the physics went out of range; "
                     "are masses or speeds extreme?"
                 )
+
+
+def _motion(body: Body) -> BodyMotion:
+    x, y = body._pm.position
+    return BodyMotion(
+        x,
+        y,
+        body.z,
+        body._pm.angle,
+        *body.velocity,
+        body.vz,
+        body.angular_velocity,
+        body.on_ground,
+        body.fallen,
+    )
 
 
 def _clearance(described: Thing) -> float:

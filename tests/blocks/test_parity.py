@@ -10,23 +10,23 @@ SENSORS = (
     "FloatArrayCompositeSensor OrientationSensor BearingSensor PositionSensor RayCastingSensor "
     "LinearRayCastingSensor TouchSensor GroupTouchSensor GroundStatusSensor AreaOrientationSensor "
     "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor "
-    "LineSensor GridSensor CellSensor PresenceSensor LightSensor"
+    "LineSensor GridSensor CellSensor PresenceSensor LightSensor ColourSensor HearSensor"
 )
 ACTUATORS = (
     "RBMoveActuator CBMoveActuator DifferentialDriveActuator DiscreteActuator ContinuousActuator "
     "RespawnActuator GrabActuator CarActuator CollectActuator GridMoveActuator "
-    "ForceMoveActuator"
+    "ForceMoveActuator PenActuator SpeakActuator"
 )
 REWARDS = (
     "TouchRewardFunc CollisionWithRewardFunc MinDistReward DistanceToTargetRewardFunc FallReward "
     "DynamicFallReward RestlessnessRewardFunc EvalBoolValue EvalIntValue EvalFloatValue "
     "AndRewardFunc OrRewardFunc HomeostaticReward CheckpointsReward BodyInAreaRewardFunc "
-    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward"
+    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward FigureReward"
 )
 CONTROLLERS = (
     "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "
     "ScriptController WASDController FleeController KeeperController PushOutController "
-    "StrikerController TrainController"
+    "StrikerController TrainController AntController CallController"
 )
 OTHERS = "BasicAgent ControlRequestor Brain LocalBrain Controller HomeostaticVariable"
 

@@ -124,7 +124,7 @@ def test_an_actuator_that_does_not_forget() -> None:
     found = failed(check_actuator(Wearing(), **SHORT))
     assert list(found) == ["forgets"]
     assert found["forgets"].startswith(
-        "expected the same places of all bodies again after a reset, got {'robot': ("
+        "expected the same places of all bodies and traces again after a reset, got ({'robot': ("
     )
 
 
@@ -133,6 +133,6 @@ def test_an_actuator_without_an_effect_is_a_warning() -> None:
     assert report.ok
     assert outcome(report, "has an effect") == (
         Outcome.WARNING,
-        "expected bodies at other places than without it, got all at the same; if it needs "
+        "expected bodies at other places than without it, or ink, got all the same; if it needs "
         "something that is not here, check it in another scene, by scene=...",
     )

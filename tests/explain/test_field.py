@@ -6,9 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ai4u_edu import RespawnActuator
+from ai4u_edu import RespawnActuator, Scene
 from ai4u_edu.base.errors import NameNotFoundError, SetupError
 from ai4u_edu.explain import field, value_map
+from ai4u_edu.explain.policy import Policy
+from ai4u_edu.explain.world_copy import WorldCopy
 from tests.explain.planted import linear_network
 from tests.explain.worlds import robot_and_box
 
@@ -126,3 +128,20 @@ def test_values_by_rollouts_grow_towards_the_goal() -> None:
         value_map(turns_to_box, "box_chase", poses, source="critic")
     with pytest.raises(SetupError, match="expected 'critic' or 'rollouts', got 'guess'"):
         value_map(turns_to_box, "box_chase", poses, source="guess")
+
+
+def test_a_copy_of_the_present_moment_has_levels_and_speeds() -> None:
+    sim = Scene.load("forage").build()
+    sim.reset(2)
+    for _ in range(40):
+        sim.step()
+    energy = sim.agents[0].percept["inside"].tolist()
+    apple = sim.world["food 1"]
+    apple.leave()
+    copy = WorldCopy(sim, Policy(lambda _: {}))
+    percept = copy.percept_at(copy.home)
+    assert percept is not None
+    assert percept["inside"].tolist() == energy
+    assert copy.sim.world[apple.name].fallen
+    assert copy.sim.world.ticks == sim.world.ticks
+    assert copy.agent.steps == 0

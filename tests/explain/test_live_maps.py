@@ -221,7 +221,8 @@ def test_in_a_copy_an_agent_of_a_script_stands_still() -> None:
     remote = BasicAgent(body="other", id="1", brains=[RemoteBrain()])
     both = ControlRequestor(sim.world, [*sim.agents, remote])
     both.reset(0)
-    assert Moment.of_sim(both).places["other"][:2] == (-4, -4)
+    there = Moment.of_sim(both).state.world.motions["other"]
+    assert (there.x, there.y) == (-4, -4)
     copy = WorldCopy(both, Policy(turns_to_box))
     # a second brain would ask the script for actions of its own
     assert isinstance(copy.sim.agent("1").brain, LocalBrain)

@@ -141,7 +141,7 @@ def make_recording(rng: random.Random) -> bytes:
     whole, tree = rng.choice(_episodes())
     match rng.randrange(5):
         case 0:
-            return mangled(whole, rng, (HEADER, b"\x78\xda", b"ai4u-edu episode 2\n"))
+            return mangled(whole, rng, (HEADER, b"\x78\xda", b"ai4u-edu episode 3\n"))
         case 1:
             plain = mangled(zlib.decompress(whole[len(HEADER) :]), rng)
         case 2:

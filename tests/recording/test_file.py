@@ -73,9 +73,9 @@ def test_something_else() -> None:
     assert error(b"GIF89a") == (
         "mine.episode: expected a recorded episode, as ai4u-edu record writes it, and this is none"
     )
-    assert error(b"ai4u-edu episode 2\nabc") == (
+    assert error(b"ai4u-edu episode 3\nabc") == (
         "mine.episode: an episode of another version of this package; expected "
-        "'ai4u-edu episode 1', got b'2'"
+        "'ai4u-edu episode 2', got b'3'"
     )
 
 

@@ -328,6 +328,38 @@ def cross_platforms(sim: ControlRequestor) -> Plan:
     return plan
 
 
+def fetch(_sim: ControlRequestor) -> Plan:
+    """Drive to the food, which a person sees from above, and from there to the nest."""
+    has_food = False
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal has_food
+        has_food = has_food or math.dist(sight.own, sight.at["food"]) < 0.95
+        return towards(sight, sight.at["nest"] if has_food else sight.at["food"])
+
+    return plan
+
+
+HOUSE: list[Point] = [(-2, -2), (2, -2), (2, 1), (0, 3), (-2, 1)]
+
+
+def draw_house(_sim: ControlRequestor) -> Plan:
+    """Drive to the nearest corner of the house, and from there round it with the pen down."""
+    corner: int | None = None
+    passed = 0
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal corner, passed
+        if corner is None:
+            corner = min(range(len(HOUSE)), key=lambda each: math.dist(sight.own, HOUSE[each]))
+        if math.dist(sight.own, HOUSE[corner]) < 0.35:
+            corner, passed = (corner + 1) % len(HOUSE), passed + 1
+        pen: Keys = frozenset({"Space"}) if passed else NONE
+        return towards(sight, HOUSE[corner]) | pen
+
+    return plan
+
+
 LINE: list[Point] = [
     (-4, -3.5), (-0.5, -3.5), (3, -3.5), (4.5, -2), (5, -1.2), (5, 0), (5, 1.5), (4.2, 2.4),
     (3.4, 3), (1.6, 3), (0.75, 2.25), (0, 1.5), (-1.4, 1.5), (-2.25, 2.25), (-3, 3),
@@ -335,8 +367,10 @@ LINE: list[Point] = [
 ]  # fmt: skip
 
 PLANS: dict[str, Planner] = {
+    "ants": fetch,
     "box_chase": go_to("box"),
     "donut": ring,
+    "draw_figure": draw_house,
     "forage": forage,
     "grid_world": clean,
     "jumper": jump_blocks,

@@ -10,8 +10,10 @@ from ai4u_edu.blocks.actuators.discrete import DiscreteActuator
 from ai4u_edu.blocks.actuators.force_move import ForceMoveActuator
 from ai4u_edu.blocks.actuators.grab import GrabActuator
 from ai4u_edu.blocks.actuators.grid_move import GridMoveActuator
+from ai4u_edu.blocks.actuators.pen import PenActuator
 from ai4u_edu.blocks.actuators.rb_move import RBMoveActuator
 from ai4u_edu.blocks.actuators.respawn import RespawnActuator
+from ai4u_edu.blocks.actuators.speak import SpeakActuator
 
 __all__ = [
     "Actuator",
@@ -24,6 +26,8 @@ __all__ = [
     "ForceMoveActuator",
     "GrabActuator",
     "GridMoveActuator",
+    "PenActuator",
     "RBMoveActuator",
     "RespawnActuator",
+    "SpeakActuator",
 ]

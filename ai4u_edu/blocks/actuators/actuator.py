@@ -45,6 +45,8 @@ class Actuator(Block):
 
     is_continuous: ClassVar[bool] = True
 
+    carried: ClassVar[tuple[str, ...]] = ("clipped",)
+
     def __post_init__(self) -> None:
         self.action_name = self.action_name or default_name(type(self), "Actuator")
 

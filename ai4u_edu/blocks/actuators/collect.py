@@ -1,6 +1,6 @@
 """An actuator that collects what the agent touches: food, water, coins."""
 
-from typing import cast
+from typing import ClassVar, cast
 
 from gymnasium.spaces import Box
 from pydantic import Field
@@ -48,6 +48,8 @@ class CollectActuator(Actuator):
     """Time after which a collected body comes back; left out: not in this episode."""
     source: str = "homeostatic"
     """Name of the HomeostaticReward that has the variables."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_due", "_count")
 
     def __post_init__(self) -> None:
         super().__post_init__()

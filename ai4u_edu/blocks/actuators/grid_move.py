@@ -40,6 +40,8 @@ class GridMoveActuator(OnGrid, ChoiceActuator):
 
     looks_at: ClassVar[tuple[str, ...]] = ("bodies",)
 
+    carried: ClassVar[tuple[str, ...]] = ("_way",)
+
     def space(self) -> Discrete:
         """Return the five choices: stay, right, left, up, down."""
         return Discrete(len(STEPS))

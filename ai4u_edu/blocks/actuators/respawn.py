@@ -1,7 +1,7 @@
 """An actuator that moves its body to a random pose at each reset."""
 
 import math
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -39,6 +39,8 @@ class RespawnActuator(Actuator):
     """True moves the body before the first reading of the episode, False after it."""
     randomise_heading: bool = False
     """True draws a random heading instead of the pose's own."""
+
+    carried: ClassVar[tuple[str, ...]] = ("last_selected",)
 
     @field_validator("poses", mode="before")
     @classmethod

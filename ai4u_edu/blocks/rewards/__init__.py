@@ -8,6 +8,7 @@ from ai4u_edu.blocks.rewards.distance_to_target import DistanceToTargetRewardFun
 from ai4u_edu.blocks.rewards.dynamic_fall import DynamicFallReward
 from ai4u_edu.blocks.rewards.eval_value import EvalBoolValue, EvalFloatValue, EvalIntValue
 from ai4u_edu.blocks.rewards.fall import FallReward
+from ai4u_edu.blocks.rewards.figure import FigureReward
 from ai4u_edu.blocks.rewards.gone import GoneReward
 from ai4u_edu.blocks.rewards.homeostatic import HomeostaticReward
 from ai4u_edu.blocks.rewards.min_dist import MinDistReward
@@ -29,6 +30,7 @@ __all__ = [
     "EvalFloatValue",
     "EvalIntValue",
     "FallReward",
+    "FigureReward",
     "GoneReward",
     "HomeostaticReward",
     "MinDistReward",

@@ -1,5 +1,7 @@
 """A reward for a body in an area."""
 
+from typing import ClassVar
+
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
@@ -24,6 +26,8 @@ class BodyInAreaRewardFunc(RewardFunc):
     """Amount that is paid."""
     only_one_time: bool = True
     """True pays once an episode, False for each decision after which the body lies there."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_paid", "_inside")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the body and the area."""

@@ -1,6 +1,6 @@
 """A reward for touching targets in their order."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -35,6 +35,11 @@ class CheckpointsReward(RewardFunc):
     """Amount that the last target pays in addition."""
     loop: bool = False
     """True for a lap that may begin at any target and ends where it began."""
+    repeats: bool = False
+    """True begins the route again at its first target when the last one was touched, as for loads
+    that are fetched and brought home."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_under_way", "_ahead", "_due", "_is_done", "_finished")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the targets."""
@@ -83,3 +88,5 @@ class CheckpointsReward(RewardFunc):
         if not self._ahead:
             self._due += self.lap_reward
             self._is_done = True
+            if self.repeats:
+                self._ahead, self._under_way = list(self.targets), not self.loop

@@ -1,5 +1,7 @@
 """A cost of contact."""
 
+from typing import ClassVar
+
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
@@ -19,6 +21,8 @@ class CollisionWithRewardFunc(RewardFunc):
     """Tag of the bodies that must not be touched; left out: any body."""
     reward: Number = -0.1
     """Amount for each tick in contact; below 0 for a cost."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_ticks", "_touched")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the group."""

@@ -1,7 +1,7 @@
 """Rewards that combine conditions by "and" and "or"."""
 
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -26,6 +26,8 @@ class CombinedRewardFunc(RewardFunc):
     """Amount for each decision after which it holds."""
     update_children: bool = False
     """True also pays what the children pay, under this one's name."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_held",)
 
     def __post_init__(self) -> None:
         super().__post_init__()

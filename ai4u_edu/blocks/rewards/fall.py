@@ -1,6 +1,6 @@
 """A reward, or cost, for falling."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -29,6 +29,8 @@ class FallReward(RewardFunc):
     """Amount for every other decision."""
     max_rewards: Annotated[int, Field(ge=1, le=MAX_COUNT)] = 1
     """Maximum number of payments of success_reward in an episode."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_paid",)
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forget past payments."""

@@ -1,5 +1,7 @@
 """A reward for bodies that leave the world."""
 
+from typing import ClassVar
+
 from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc, Stages
@@ -26,6 +28,8 @@ class GoneReward(RewardFunc):
     """Amount for each body that leaves."""
     only_last: bool = False
     """True pays only when none of the group is left."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_there", "_gone", "_went")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the group."""

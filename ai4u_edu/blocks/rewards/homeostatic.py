@@ -1,7 +1,7 @@
 """A reward for keeping internal variables in their comfort zones."""
 
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -34,6 +34,8 @@ class HomeostaticReward(RewardFunc):
     """Internal variables of the agent; at least one, with different names."""
     reward: Number = 1.0
     """Amount for a decrease of discomfort by 1."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_before",)
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -1,7 +1,7 @@
 """A reward for a new smallest distance to a target."""
 
 import math
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
@@ -23,6 +23,8 @@ class MinDistReward(RewardFunc):
     """Amount for a decision that came closer than ever in this episode."""
     step_reward: Annotated[float, quantity("")] = -0.001
     """Amount for every other decision but the first; below 0 for a cost."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_best", "_is_best")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the target."""

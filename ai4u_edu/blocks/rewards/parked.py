@@ -1,7 +1,7 @@
 """A reward for parking."""
 
 import math
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from ai4u_edu.base.parameters import Number, quantity
 from ai4u_edu.blocks.agent_view import AgentView
@@ -35,6 +35,8 @@ class ParkedRewardFunc(RewardFunc):
     """Largest speed of a car that counts as parked."""
     either_way: bool = True
     """True also accepts the opposite heading."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_paid",)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the area."""

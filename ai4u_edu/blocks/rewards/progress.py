@@ -1,5 +1,7 @@
 """A reward for every metre towards a target."""
 
+from typing import ClassVar
+
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
@@ -20,6 +22,8 @@ class ProgressReward(RewardFunc):
     """Name of the body to approach."""
     reward: Number = 1.0
     """Amount for each metre towards the target."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_distance", "_came_closer")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the target."""

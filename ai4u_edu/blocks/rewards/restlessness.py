@@ -1,7 +1,7 @@
 """A cost of standing still."""
 
 import math
-from typing import Literal
+from typing import ClassVar, Literal
 
 from ai4u_edu.base.parameters import NonNegativeMetres, Number
 from ai4u_edu.blocks.agent_view import AgentView
@@ -30,6 +30,8 @@ class RestlessnessRewardFunc(RewardFunc):
     """Amount for each decision without moving; below 0 for a cost."""
     ignored_axis: Literal[-1, 0, 1] = -1
     """0 ignores motion along the world's x axis, 1 along y; -1 ignores none."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_place", "_stood_still")
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forget the position."""

@@ -1,7 +1,7 @@
 """A reward for touching a target."""
 
 import math
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from ai4u_edu.base.parameters import Seconds, quantity
 from ai4u_edu.blocks.agent_view import AgentView
@@ -32,6 +32,8 @@ class TouchRewardFunc(RewardFunc):
     """True pays once an episode, False at every decision with contact."""
     cool_down: Seconds = 0.0
     """Time after a payment in which nothing is paid; 0 pays at every decision with contact."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_since", "_paid_at", "_touched")
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the target."""

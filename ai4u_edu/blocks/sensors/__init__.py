@@ -4,11 +4,13 @@ from ai4u_edu.blocks.sensors.agent_array import AgentArraySensor
 from ai4u_edu.blocks.sensors.area_orientation import AreaOrientationSensor
 from ai4u_edu.blocks.sensors.bearing import BearingSensor
 from ai4u_edu.blocks.sensors.cell import CellSensor
+from ai4u_edu.blocks.sensors.colour import ColourSensor
 from ai4u_edu.blocks.sensors.composite import FloatArrayCompositeSensor
 from ai4u_edu.blocks.sensors.grid import GridSensor
 from ai4u_edu.blocks.sensors.ground_status import GroundStatusSensor
 from ai4u_edu.blocks.sensors.group_touch import GroupTouchSensor
 from ai4u_edu.blocks.sensors.heading import HeadingSensor
+from ai4u_edu.blocks.sensors.hear import HearSensor
 from ai4u_edu.blocks.sensors.homeostatic import HomeostaticSensor
 from ai4u_edu.blocks.sensors.light import LightSensor
 from ai4u_edu.blocks.sensors.line import LineSensor
@@ -36,12 +38,14 @@ __all__ = [
     "AreaOrientationSensor",
     "BearingSensor",
     "CellSensor",
+    "ColourSensor",
     "DoneSensor",
     "FloatArrayCompositeSensor",
     "GridSensor",
     "GroundStatusSensor",
     "GroupTouchSensor",
     "HeadingSensor",
+    "HearSensor",
     "HomeostaticSensor",
     "IDSensor",
     "LightSensor",

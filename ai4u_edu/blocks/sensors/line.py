@@ -20,8 +20,8 @@ class LineSensor(Sensor):
 
     ``points`` eyes sit on a bar, ``ahead`` of the body's centre and square to its heading. The bar
     is ``width`` long, with the first eye at its left end and the last at its right. Each eye looks
-    straight down at one point. The line consists of the areas with the tag ``group``; bodies on it
-    do not hide it.
+    straight down at one point. The line consists of the areas with the tag ``group``, and of all
+    ink that pens have drawn; bodies on it do not hide it.
 
     A robot that drives along a line reads [0, 0, 1, 0, 0]; when it reads [0, 1, 0, 0, 0], the line
     is a bit to the left. Far from the line all numbers are 0, on either side: to find it again, an
@@ -32,7 +32,7 @@ class LineSensor(Sensor):
     """
 
     group: Name = "line"
-    """The tag of the areas that are the line."""
+    """The tag of the areas that are the line; there need be none for a line of ink."""
     points: Annotated[int, Field(ge=1, le=64)] = 5
     """Number of eyes on the bar."""
     ahead: Metres = 0.4
@@ -47,7 +47,7 @@ class LineSensor(Sensor):
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the areas of the line."""
         tags = {tag: None for area in view.areas.values() for tag in area.tags}
-        if self.group not in tags:
+        if self.group not in tags and self.group != LineSensor.group:  # a misspelt one
             raise NameNotFoundError(
                 f"no area carries the tag {self.group!r}; {suggest(self.group, tags)}"
             )
@@ -70,6 +70,9 @@ class LineSensor(Sensor):
         # a line has many areas, of which one or two are near
         for index in np.flatnonzero(np.hypot(self._x - x, self._y - y) <= self._far):
             on_it |= self._line[index].contains_each(xs, ys)
+        ink = view.ink
+        if ink:
+            on_it |= np.fromiter(map(ink.at, xs, ys), np.bool_, self.points)
         self._seen = xs, ys, body.z, on_it
         return on_it
 

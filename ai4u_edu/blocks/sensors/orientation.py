@@ -1,7 +1,7 @@
 """A sensor of the direction and distance of a target."""
 
 import math
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -46,6 +46,8 @@ class OrientationSensor(Sensor):
     visibility_test: bool = False
     """True hides a target behind any other body."""
     normalized: bool = True
+
+    carried: ClassVar[tuple[str, ...]] = ("target",)
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -2,7 +2,7 @@
 
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from operator import truediv
 from struct import Struct
 from typing import Annotated, Any, ClassVar
@@ -97,6 +97,13 @@ class Sensor(Block):
     reads_status: ClassVar[bool] = False
     """True for a sensor that reads its agent's reward or the end of its episode: it reads again if
     other sensors or handlers change these while the agent senses."""
+    carried: ClassVar[tuple[str, ...]] = (
+        "_raw",
+        "_past",
+        "_fresh",
+        "_ever_read",
+        "_is_range_checked",
+    )
     is_held = False
     """True on a sensor inside another one while only the others inside it read again."""
 
@@ -279,6 +286,19 @@ class Sensor(Block):
     def restart(self) -> None:
         """Begin an episode: the next reading fills stack and delay."""
         self._fresh = self.resetable or not self._ever_read
+
+    def get_state(self) -> dict[str, Any]:
+        """Return the readings that it keeps, besides all else that an episode changes."""
+        state = super().get_state()
+        if "_out" in vars(self):
+            state["_out"] = self._out.copy()
+        return state
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Take over the state of an equal sensor; its place in its agent's memory stays its own."""
+        super().set_state({name: value for name, value in state.items() if name != "_out"})
+        if "_out" in state:
+            self._out[...] = state["_out"]
 
     def blank(self) -> None:
         """Replace the reading by zeros: the sensor is switched off."""

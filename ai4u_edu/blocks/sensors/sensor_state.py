@@ -12,22 +12,15 @@ from ai4u_edu.world import BodyView, WorldView
 
 @dataclass(frozen=True)
 class SensorState:
-    """Stack, delayed readings and flags of a sensor and of the sensors inside it."""
+    """State of a sensor and of the sensors inside it."""
 
-    out: Array
     state: dict[str, Any]
     children: "tuple[SensorState, ...]"
 
     @classmethod
     def capture(cls, sensor: Sensor) -> "SensorState":
         """Copy the present state of a sensor."""
-        state = {
-            "_raw": sensor._raw.copy(),
-            "_past": sensor._past.copy(),
-            "_fresh": sensor._fresh,
-            "_ever_read": sensor._ever_read,
-        }
-        return cls(sensor._out.copy(), state, tuple(map(cls.capture, _children(sensor))))
+        return cls(sensor.get_state(), tuple(map(cls.capture, _children(sensor))))
 
     def restore(self, sensor: Sensor) -> bool:
         """Put the state into a sensor that was set up again.
@@ -35,16 +28,15 @@ class SensorState:
         Returns:
             False if the reading of the sensor, or of one inside it, has another shape or type now.
         """
-        same = self.out.shape == sensor._out.shape and self.out.dtype == sensor._out.dtype
+        out: Array = self.state["_out"]
+        same = out.shape == sensor._out.shape and out.dtype == sensor._out.dtype
         children = _children(sensor)
         if not same or len(children) != len(self.children):
             return False
         pairs = zip(self.children, children, strict=True)
         if not all(memory.restore(each) for memory, each in pairs):
             return False
-        sensor._out[...] = self.out
-        for name, value in self.state.items():
-            setattr(sensor, name, value)
+        sensor.set_state(self.state)
         return True
 
 

@@ -92,6 +92,15 @@ _SENSORS = {
     "VelocitySensor": BlockWords(
         "Speed", _FAST, "speed", "Tells how fast the robot drives and turns."
     ),
+    "ColourSensor": BlockWords(
+        "Colour of the ground",
+        _AROUND,
+        "eye",
+        "Tells the colour and brightness of one point of the ground: ink, paint or floor.",
+    ),
+    "HearSensor": BlockWords(
+        "Hear others", _AROUND, "sound", "Tells what the nearest robots have just said."
+    ),
     "HomeostaticSensor": BlockWords(
         "Needs: energy, water", _BODY, "need", "Tells how hungry or thirsty the robot is."
     ),
@@ -147,6 +156,15 @@ _ACTUATORS = {
     "CollectActuator": BlockWords(
         "Collect things", _THINGS, "collect", "Takes things away that the robot touches."
     ),
+    "PenActuator": BlockWords(
+        "Draw with a pen", _THINGS, "pen", "Draws a line on the floor wherever the robot goes."
+    ),
+    "SpeakActuator": BlockWords(
+        "Speak to others",
+        "What can I tell others?",
+        "sound",
+        "Says a few numbers to all robots that are near enough.",
+    ),
     "RespawnActuator": BlockWords(
         "Start somewhere else", _START, "position", "Starts each episode at one of several places."
     ),
@@ -174,6 +192,12 @@ _REWARDS = {
         _REACH,
         "route",
         "A reward for each target that is touched in order.",
+    ),
+    "FigureReward": BlockWords(
+        "Draw a figure",
+        _REACH,
+        "pen",
+        "A reward for ink that covers a figure, and no ink beside it.",
     ),
     "GoneReward": BlockWords(
         "Make things go away",
@@ -248,6 +272,8 @@ _BRAINS = {
     "ReplayController": BlockWords("Recorded actions", _PROGRAM, "memory"),
     "AStarController": BlockWords("Shortest path (A*)", _PROGRAM, "route"),
     "BreadthFirstController": BlockWords("Shortest path (breadth first)", _PROGRAM, "route"),
+    "CallController": BlockWords("Partner that calls", _PROGRAM, "sound"),
+    "AntController": BlockWords("Ant that follows trails", _PROGRAM, "route"),
     "FleeController": BlockWords("Run away", _PROGRAM, "speed"),
     "KeeperController": BlockWords("Goalkeeper", _PROGRAM, "area"),
     "StrikerController": BlockWords("Striker", _PROGRAM, "target"),

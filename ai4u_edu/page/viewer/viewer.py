@@ -13,9 +13,9 @@ from ai4u_edu.page.viewer.scene.arena import camera_bounds
 from ai4u_edu.page.viewer.scene.bodies import Bodies
 from ai4u_edu.page.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.page.viewer.scene.ghost_bodies import GhostBodies
-from ai4u_edu.page.viewer.scene.ground import DrawnGround
+from ai4u_edu.page.viewer.scene.ground import DrawnGround, DrawnInk
 from ai4u_edu.page.viewer.scene.handles import PageHandles
-from ai4u_edu.page.viewer.scene.labels import Labels
+from ai4u_edu.page.viewer.scene.labels import Labels, SpeechBubbles
 from ai4u_edu.page.viewer.scene.light import set_up_lights
 from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption, SenseOverlay
 from ai4u_edu.page.viewer.scene.trails import Trails
@@ -70,8 +70,10 @@ class Viewer:
         parts: list[tuple[Part, float]] = [
             (viewer_clients, MAX_FRAMES_PER_S),
             (DrawnGround(server), TEXTS_PER_S),
+            (DrawnInk(server), TEXTS_PER_S),
             (bodies, MAX_FRAMES_PER_S),
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
+            (SpeechBubbles(server), TEXTS_PER_S),
             (GhostBodies(server, ghosts or Ghosts()), senses_per_s),
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),

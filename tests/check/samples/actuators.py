@@ -12,6 +12,7 @@ from ai4u_edu import (
     ForceMoveActuator,
     GrabActuator,
     GridMoveActuator,
+    PenActuator,
     RespawnActuator,
 )
 
@@ -37,5 +38,6 @@ SAMPLES = (
     ForceMoveActuator(force=20),
     GrabActuator(angle=360),
     GridMoveActuator(rows=7, columns=7),
+    PenActuator(colours=["blue", "none"], max_width=0.5, ahead=0.2),
     RespawnActuator(poses=[(0, 0, 0), (2, -2, 90)], randomise_heading=True),
 )

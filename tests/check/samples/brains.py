@@ -3,8 +3,10 @@
 from typing import Any
 
 from ai4u_edu import (
+    AntController,
     AStarController,
     BreadthFirstController,
+    CallController,
     DiscreteActuator,
     DiscreteArrowController,
     FleeController,
@@ -48,8 +50,10 @@ def trained() -> TrainController:
 SAMPLES = (
     LocalBrain(controller=WASDRBMoveController()),
     Sample(RemoteBrain(port=9), always_same="it waits: nobody listens on this port"),
+    Sample(AntController(), scene="ants"),
     Sample(AStarController(), scene="grid_world"),
     Sample(BreadthFirstController(), scene="grid_world"),
+    Sample(CallController(), scene="call"),
     Sample(DiscreteArrowController(), actuators=(DiscreteActuator(),)),
     Sample(FleeController(pursuer="runner 1"), scene="tag"),
     Sample(KeeperController(), scene="soccer"),

@@ -82,4 +82,5 @@ def picture(sim: ControlRequestor) -> Snapshot:
         error="",
         bodies=capture_bodies(sim),
         agents=tuple(capture_agent(agent) for agent in sim.agents),
+        state=sim.get_state(with_motions=False),
     )

@@ -1,8 +1,10 @@
 """The controllers, which a LocalBrain asks for actions: one idea a file."""
 
 from ai4u_edu.blocks.brains.controllers.a_star import AStarController, a_star
+from ai4u_edu.blocks.brains.controllers.ant import AntController
 from ai4u_edu.blocks.brains.controllers.arrow import ArrowController
 from ai4u_edu.blocks.brains.controllers.breadth_first import BreadthFirstController, breadth_first
+from ai4u_edu.blocks.brains.controllers.call import CallController
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.discrete_arrow import DiscreteArrowController
 from ai4u_edu.blocks.brains.controllers.flee import FleeController
@@ -18,8 +20,10 @@ from ai4u_edu.blocks.brains.controllers.wasd_drive import WASDController
 
 __all__ = [
     "AStarController",
+    "AntController",
     "ArrowController",
     "BreadthFirstController",
+    "CallController",
     "Controller",
     "DiscreteArrowController",
     "FleeController",

@@ -1,6 +1,6 @@
 """A controller that replays recorded actions."""
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -30,6 +30,8 @@ class ReplayController(Controller):
     """Actions in order: for each decision, numbers by the actuator's name."""
     ending: Literal["stop", "repeat"] = "stop"
     """After the last action: ``stop`` takes no more decisions, ``repeat`` starts again."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_turn",)
 
     def __post_init__(self) -> None:
         self._turn = 0

@@ -52,6 +52,13 @@ class SteeringController(Controller):
     reads: ClassVar[tuple[str, ...]] = ()
     """Names of the parameters that hold perception keys."""
 
+    carried: ClassVar[tuple[str, ...]] = (
+        "_speed_factor",
+        "_error",
+        "_backward",
+        "_decisions_to_wait",
+    )
+
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up its sensors."""
         self._sensors = {name: _sensor_of(agent, name, getattr(self, name)) for name in self.reads}

@@ -1,8 +1,10 @@
 """The static ground: the void, floors with their edges and shadows, areas."""
 
 import math
+from collections.abc import Collection
 
 import numpy as np
+from viser import ImageHandle
 
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.arena import arena_size, region_outlines
@@ -27,9 +29,11 @@ from ai4u_edu.snapshot.theme import (
     Rgb,
     area_colour,
     floor_colour,
+    ink_pixels,
     mix_colours,
 )
 from ai4u_edu.world import AreaDescription, FloorDescription
+from ai4u_edu.world.ink import ENDLESS, TILE_M, Tile, TileKey
 
 RIM_WIDTH = 0.0025
 """Width of a floor's drawn edge, as a share of the arena's size."""
@@ -46,6 +50,8 @@ HIDDEN_MARGIN = 0.057
 PAINT_OVERLAP_M = 0.01
 """Overlap (m) of painted areas, so that no gap shows between two of them."""
 BLACK: Rgb = (0, 0, 0)
+INK_PIXELS = 4
+"""Pixels of a cell of ink, along each side."""
 
 
 class DrawnGround:
@@ -77,6 +83,59 @@ class DrawnGround:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Do nothing: the ground does not move."""
+
+
+class DrawnInk:
+    """Ink on the floors: a picture a tile, sent only when the tile has changed."""
+
+    def __init__(self, server: LocalServer) -> None:
+        self._scene = server.scene
+        self._drawn: dict[TileKey, tuple[Tile, ImageHandle]] = {}
+        self._heights: dict[str, float] = {}
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Note the floors' heights; where one has moved, its ink is drawn again."""
+        lift = Layers.of(static_scene).ink
+        heights = {floor.name: floor.top + lift for floor in static_scene.floors}
+        heights = heights or {ENDLESS: lift}
+        if heights != self._heights:
+            self._heights = heights
+            self._keep(())
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Draw the tiles that have changed since the last time."""
+        tiles = snapshot.state.world.ink.tiles
+        if not tiles and not self._drawn:
+            return
+        self._keep(tiles)
+        for key, tile in tiles.items():
+            drawn = self._drawn.get(key)
+            if key.floor not in self._heights or (drawn is not None and drawn[0] is tile):
+                continue
+            # enlarged, since a browser blurs the edges between pixels
+            picture = ink_pixels(tile).repeat(INK_PIXELS, axis=0).repeat(INK_PIXELS, axis=1)
+            if drawn is None:
+                centre = ((key.column + 0.5) * TILE_M, (key.row + 0.5) * TILE_M)
+                image = self._scene.add_image(
+                    f"/ink/{list(self._heights).index(key.floor)}/{key.column}/{key.row}",
+                    picture,
+                    TILE_M,
+                    TILE_M,
+                    format="png",
+                    cast_shadow=False,
+                    receive_shadow=False,
+                    wxyz=(0.0, 1.0, 0.0, 0.0),  # viser's pictures hang upside down
+                    position=(*centre, self._heights[key.floor]),
+                )
+            else:
+                image = drawn[1]
+                image.image = picture
+            self._drawn[key] = tile, image
+
+    def _keep(self, keys: Collection[TileKey]) -> None:
+        """Remove all other tiles from the pages."""
+        for key in [key for key in self._drawn if key not in keys]:
+            self._drawn.pop(key)[1].remove()
 
 
 def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene) -> None:

@@ -17,7 +17,7 @@ from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.agent_words import script_problem
-from ai4u_edu.snapshot.theme import label_text
+from ai4u_edu.snapshot.theme import label_text, said
 
 HIDDEN_AFTER_DRIVING_S = 1.0
 """World time (s) for which the label of an agent stays hidden after the last key is released: who
@@ -119,6 +119,37 @@ class Labels:
                 (x, y, body.z + label.height),
                 is_visible=not body.fallen and (not is_driven or bool(problem)),
             )
+
+
+class SpeechBubbles:
+    """Speech bubbles: messages, shown for a moment above the speaker."""
+
+    def __init__(self, server: LocalServer) -> None:
+        self._scene = server.scene
+        self._handles: dict[str, LabelHandle] = {}
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Do nothing: most agents never say anything."""
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Show the latest messages, and remove older ones."""
+        texts = said(snapshot) if snapshot.state.world.messages else {}
+        for name in [name for name in self._handles if name not in texts]:
+            self._handles.pop(name).remove()
+        if not texts:
+            return
+        reaches = {body.name: body.shape.reach for body in snapshot.static_scene.bodies}
+        for index, body in enumerate(snapshot.bodies):
+            text = texts.get(body.name)
+            if text is None or body.name not in reaches:
+                continue
+            position = (body.x, body.y + 1.1 * reaches[body.name], body.z + 1.0)
+            handle = self._handles.get(body.name)
+            if handle is None:
+                drawer = MeshDrawer(self._scene, "/speech")
+                handle = drawer.label(str(index), text, position, anchor="bottom-center")
+                self._handles[body.name] = handle
+            handle.text, handle.position = text, position
 
 
 @dataclass

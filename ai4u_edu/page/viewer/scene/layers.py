@@ -62,6 +62,11 @@ class Layers:
         return 1.5 * self.unit
 
     @property
+    def ink(self) -> float:
+        """Ink on a floor; below areas, which are translucent."""
+        return 1.75 * self.unit
+
+    @property
     def area(self) -> float:
         """The fill of an area."""
         return 2 * self.unit

@@ -78,7 +78,7 @@ class MeshDrawer:
         name: str,
         text: str,
         offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
-        anchor: Literal["center-center", "top-center"] = "center-center",
+        anchor: Literal["center-center", "top-center", "bottom-center"] = "center-center",
     ) -> LabelHandle:
         """Add a text with a constant size on the screen."""
         return self._scene.add_label(f"{self._parent}/{name}", text, position=offset, anchor=anchor)
