@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from threading import Semaphore
 from typing import Any
 
+import numpy as np
 import pytest
 
 from ai4u_edu import BoxShape
@@ -11,7 +12,7 @@ from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.bodies import Bodies
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
-from tests.page.viewer.pages import page, publish
+from tests.page.viewer.pages import page, publish, shown
 from tests.page.viewer.worlds import busy_sim
 from tests.waiting import LIMIT_S, until
 
@@ -42,6 +43,9 @@ def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
         "/ground1/lines",
         "/bodies1/0/body",
         "/bodies1/0/face",
+        "/bodies1/0/base",
+        "/bodies1/0/pupils",
+        "/bodies1/0/treads",
         "/bodies1/0 shadow/shadow",
         "/bodies1/1/rings",
         "/bodies1/0/action",
@@ -54,6 +58,27 @@ def test_bodies_that_look_alike_share_a_batch(viewer: Viewer) -> None:
     twins: Any = viewer.server.scene.get_handle_by_name("/bodies1/2/body")
     assert twins.batched_positions[:, :2].tolist() == [[-3.0, -1.0], [-3.0, 1.0]]
     assert twins.batched_colors[0].tolist() != twins.batched_colors[1].tolist()
+
+
+def test_wheels_roll_ahead_and_pupils_turn_to_the_target(viewer: Viewer, runner: Runner) -> None:
+    scene = viewer.server.scene
+    treads: Any = scene.get_handle_by_name("/bodies1/0/treads")
+    eyes: Any = scene.get_handle_by_name("/bodies1/0/pupils")
+    ahead = eyes.position.tolist()
+    assert treads.batched_wxyzs.tolist() == [[1, 0, 0, 0]] * 2
+    assert ahead == pytest.approx([0.04, 0, 0], abs=2e-4)  # the box is right ahead of the robot
+    robot = runner.sim.agents[0].body
+    robot.move_to(0.05, 0.0)
+    publish(runner)
+    shown(viewer)
+    rolled = 2 * np.arcsin(treads.batched_wxyzs[:, 2])  # the top of a wheel moves ahead
+    assert rolled == pytest.approx(0.05 / (0.42 * 0.4), rel=0.01)
+    robot.move_to(0.05, 0.0, heading=-np.pi / 2)
+    publish(runner)
+    shown(viewer)
+    left, right = 2 * np.arcsin(treads.batched_wxyzs[:, 2]) - rolled
+    assert left > 0 > right
+    assert eyes.position.tolist() == pytest.approx([0, 0.04, 0], abs=2e-4)
 
 
 def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:

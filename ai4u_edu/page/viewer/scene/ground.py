@@ -19,7 +19,7 @@ from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.marks import half_width, round_floor
 from ai4u_edu.snapshot.theme import (
     FLOOR,
     GRID,
@@ -68,7 +68,7 @@ class DrawnGround:
             else:
                 _endless_floor(drawer, layers, static_scene)
             for floor in static_scene.floors:
-                _floor(drawer, layers, floor, arena_size(static_scene))
+                _floor(drawer, layers, floor, static_scene)
             for area in static_scene.areas:
                 top = static_scene.floor_under(*area.position)
                 _area(drawer, layers, area, static_scene.lowest_floor if top is None else top)
@@ -86,28 +86,46 @@ def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene
     )
 
 
-def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: float) -> None:
-    outline, hole = region_outlines(floor)
+def _floor(
+    drawer: MeshDrawer, layers: Layers, floor: FloorDescription, static_scene: StaticScene
+) -> None:
+    scale = arena_size(static_scene)
+    sharp, hole = region_outlines(floor)
+
+    def rounded(outline: Array) -> Array:
+        return round_floor(static_scene, floor, outline)
+
+    outline = rounded(sharp)
     name, top, colour = f"floor {floor.name}", floor.top, floor_colour(floor)
     dark = mix_colours(colour, VOID, 0.55)
-    edge = grow(outline, RIM_WIDTH * scale)
-    edge_hole = grow(hole, -RIM_WIDTH * scale) if hole is not None else _hidden_part(outline, scale)
-    side = flat_mesh(edge, edge_hole).moved(0, -SIDE_HEIGHT * scale)
-    shadow = _shadow(outline, hole, layers, scale)
+    edge = rounded(grow(sharp, RIM_WIDTH * scale))
+    hidden = _hidden_part(sharp, scale) if hole is None else grow(hole, -RIM_WIDTH * scale)
+    inner = rounded(hidden) if hole is None and hidden is not None else hidden
+    side = flat_mesh(edge, inner).moved(0, -SIDE_HEIGHT * scale)
+    outer = soft_shadow(sharp, SHADOW_BLUR * scale, 8 * layers.unit, SHADOW_LAYERS)
+    shadow = _shadow([(rounded(each), z) for each, z in outer], hole, inner, scale)
     drawer.mesh(f"{name}/shadow", shadow, top + layers.floor_shadow, BLACK, opacity=0.08)
     drawer.mesh(f"{name}/side", side, top + layers.floor_side, dark)
-    drawer.mesh(f"{name}/rim", flat_mesh(edge, edge_hole), top + layers.rim, dark)
+    drawer.mesh(f"{name}/rim", flat_mesh(edge, inner), top + layers.rim, dark)
     drawer.mesh(f"{name}/top", flat_mesh(outline, hole), top, colour)
     drawer.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
     if floor.label:
         drawer.label(f"{name}/label", floor.label, (*floor.position, top))
 
 
-def _shadow(outline: Array, hole: Array | None, layers: Layers, scale: float) -> Mesh:
-    outer = soft_shadow(outline, SHADOW_BLUR * scale, 8 * layers.unit, SHADOW_LAYERS)
-    if hole is None:
-        inner = len(outer) * [_hidden_part(outline, scale)]
-    else:
+def _shadow(
+    outer: list[tuple[Array, float]], hole: Array | None, hidden: Array | None, scale: float
+) -> Mesh:
+    """Return a floor's shadow, without its part that is never visible.
+
+    Args:
+        outer: outline and height of each layer.
+        hole: of the floor, if it has one.
+        hidden: outline of the part that is never visible, if it is large.
+        scale: the arena's size.
+    """
+    inner = len(outer) * [hidden]
+    if hole is not None:
         inner = [each for each, _ in soft_shadow(hole, -SHADOW_BLUR * scale, 0.0, SHADOW_LAYERS)]
     meshes = [flat_mesh(each, rest, z) for (each, z), rest in zip(outer, inner, strict=True)]
     return join_meshes(meshes).moved(SHADOW_OFFSET[0] * scale, SHADOW_OFFSET[1] * scale)
