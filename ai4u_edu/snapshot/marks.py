@@ -235,7 +235,7 @@ def rounded(outline: npt.ArrayLike, radius: float, is_round: npt.ArrayLike = Tru
     Args:
         outline: counter-clockwise.
         radius: distance from a corner at which its arc begins; less beside a short edge.
-        is_round: for each corner, True if it is to be rounded.
+        is_round: for each corner, True if it gets an arc.
 
     >>> len(rounded([(1, 1), (-1, 1), (-1, -1), (1, -1)], 0.1))
     20

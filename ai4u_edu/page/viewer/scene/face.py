@@ -99,7 +99,7 @@ def rings(radius: float, z: float) -> Mesh:
 
 
 class MovingParts:
-    """What moves on a robot whose body is a node: wheels that roll, pupils that look at its target.
+    """The parts that move on a robot whose body is a node: wheels that roll, pupils that look.
 
     Args:
         drawer: adds the parts below the body's node.
