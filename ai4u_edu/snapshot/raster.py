@@ -93,6 +93,10 @@ class _Canvas:
             ground = _last_ground = key, self.image.copy()
         else:
             self.image.paste(ground[1])
+        passed = snapshot.passed_stages
+        for area in static_scene.areas:
+            if area.name in passed and not area.paint:
+                self._region(area, theme.area_fill(area, is_passed=True), theme.area_colour(area))
         for agent in snapshot.agents:
             self._rays(agent.rays.values())
         described = {body.name: body for body in self.static_scene.bodies}

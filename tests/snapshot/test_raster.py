@@ -8,7 +8,7 @@ import numpy.typing as npt
 import pytest
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot, Stages
 from ai4u_edu.snapshot.marks import CHASSIS, DARK, LIGHT, TREAD
 from ai4u_edu.snapshot.raster import MARGIN_M, draw_snapshot
 from ai4u_edu.snapshot.theme import FLOOR, VOID, mix_colours
@@ -53,6 +53,15 @@ def test_the_floor_has_a_grid_and_the_void_has_none(snapshot: Snapshot) -> None:
     assert colour_at(drawn, snapshot, -4.3, -4.5) == FLOOR
     (left, low), _ = snapshot.static_scene.bounds
     assert colour_at(drawn, snapshot, left - 0.5, low - 0.5) == VOID
+
+
+def test_an_area_that_was_passed_is_filled(snapshot: Snapshot) -> None:
+    names = ("goal", "box")
+    agent = snapshot.agents[0]._replace(stages=(Stages(1, 2, names, names[1:], names[1:]),))
+    passed = replace(snapshot, agents=(agent,))
+    before, after = (draw_snapshot(each, longest=2000) for each in (snapshot, passed))
+    assert colour_at(before, snapshot, 3.0, 3.7) != colour_at(after, passed, 3.0, 3.7)
+    assert (draw_snapshot(snapshot, longest=2000) == before).all()
 
 
 def test_labels_are_half_transparent_and_small_pictures_have_none(snapshot: Snapshot) -> None:

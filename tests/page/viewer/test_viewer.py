@@ -1,6 +1,7 @@
 import threading
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from threading import Semaphore
 from typing import Any
 
@@ -11,7 +12,7 @@ from ai4u_edu import BoxShape
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.bodies import Bodies
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot, Stages
 from tests.page.viewer.pages import page, publish, shown
 from tests.page.viewer.worlds import busy_sim
 from tests.waiting import LIMIT_S, until
@@ -144,6 +145,20 @@ def test_paint_is_opaque_and_has_neither_outline_nor_label(viewer: Viewer, runne
     assert (fill.opacity, goal.opacity) == (None, 0.28)
     assert "/ground0/area line/label" not in nodes(viewer)
     assert len(lines.points) == strokes
+
+
+def test_an_area_that_was_passed_is_filled_until_a_new_start(
+    viewer: Viewer, runner: Runner
+) -> None:
+    fill: Any = viewer.server.scene.get_handle_by_name("/ground1/area goal/fill")
+    names = ("goal", "box")
+    for passed, ahead, opacity in ((0, names, 0.28), (1, names[1:], 0.7), (0, names, 0.28)):
+        stages = (Stages(passed, 2, names, ahead, ahead[:1]),)
+        agent = runner.latest.agents[0]._replace(stages=stages)
+        for part in viewer.parts:
+            part.make_due()
+        viewer.draw(replace(runner.latest, agents=(agent,)))
+        assert fill.opacity == opacity
 
 
 def test_a_reset_builds_nothing_anew(viewer: Viewer, runner: Runner) -> None:

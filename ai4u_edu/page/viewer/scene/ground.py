@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from viser import BatchedMeshHandle
 
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.arena import arena_size, region_outlines
@@ -21,8 +22,10 @@ from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import half_width, round_floor
 from ai4u_edu.snapshot.theme import (
+    AREA_OPACITY,
     FLOOR,
     GRID,
+    PASSED_OPACITY,
     VOID,
     Rgb,
     area_colour,
@@ -55,12 +58,16 @@ class DrawnGround:
         self._scene = server.scene
         self._subtree = Subtree(server.scene, "ground")
         self._built_for: object = None
+        self._areas: dict[str, BatchedMeshHandle] = {}
+        """Fills of areas that are not paint, by name."""
+        self._passed: frozenset[str] = frozenset()
 
     def build(self, static_scene: StaticScene) -> None:
         """Draw the ground, if it has changed."""
         wanted = (static_scene.floors, static_scene.areas, static_scene.bounds)
         if wanted == self._built_for:
             return
+        self._areas, self._passed = {}, frozenset()
         with self._subtree.rebuild() as parent:
             drawer, layers = MeshDrawer(self._scene, parent), Layers.of(static_scene)
             if static_scene.floors:
@@ -71,12 +78,19 @@ class DrawnGround:
                 _floor(drawer, layers, floor, static_scene)
             for area in static_scene.areas:
                 top = static_scene.floor_under(*area.position)
-                _area(drawer, layers, area, static_scene.lowest_floor if top is None else top)
+                fill = _area(
+                    drawer, layers, area, static_scene.lowest_floor if top is None else top
+                )
+                if not area.paint:
+                    self._areas[area.name] = fill
             drawer.finish()
         self._built_for = wanted
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Do nothing: the ground does not move."""
+        """Fill the areas that were passed; nothing else of the ground changes."""
+        before, self._passed = self._passed, snapshot.passed_stages & self._areas.keys()
+        for name in before ^ self._passed:
+            self._areas[name].opacity = PASSED_OPACITY if name in self._passed else AREA_OPACITY
 
 
 def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene) -> None:
@@ -137,19 +151,23 @@ def _hidden_part(outline: Array, scale: float) -> Array | None:
     return grow(outline, -margin) if half_width(outline) > 1.2 * margin else None
 
 
-def _area(drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float) -> None:
+def _area(
+    drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float
+) -> BatchedMeshHandle:
+    """Draw an area on a floor with a top (m), and return its fill."""
     outline, hole = region_outlines(area)
     name, colour = f"area {area.name}", area_colour(area)
     if area.paint:
         edge = grow(outline, PAINT_OVERLAP_M)
-        drawer.mesh(f"{name}/fill", flat_mesh(edge, hole), top + layers.paint, colour)
-        return
-    drawer.mesh(f"{name}/fill", flat_mesh(outline, hole), top + layers.area, colour, opacity=0.28)
+        return drawer.mesh(f"{name}/fill", flat_mesh(edge, hole), top + layers.paint, colour)
+    mesh = flat_mesh(outline, hole)
+    fill = drawer.mesh(f"{name}/fill", mesh, top + layers.area, colour, opacity=AREA_OPACITY)
     for edge in (outline,) if hole is None else (outline, hole):
         drawer.line(segments(edge, top + layers.outline), colour)
     text = area.label or area.name
     if not text.isspace():
         drawer.label(f"{name}/label", text, (*area.position, top))
+    return fill
 
 
 def _rectangle_around(static_scene: StaticScene, times: float) -> Mesh:
