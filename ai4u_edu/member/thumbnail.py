@@ -6,14 +6,19 @@ from collections.abc import Iterable, Sequence
 from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.snapshot.marks import (
+    CHASSIS,
     DARK,
     EYES,
     LIGHT,
     NOSE,
-    PUPILS,
     RING,
     RING_CENTRE,
+    TREAD,
+    floor_outline,
     half_width,
+    pupils,
+    robot_parts,
+    tread_bars,
 )
 from ai4u_edu.snapshot.theme import FLOOR, Rgb, area_fill, body_colour, floor_colour
 from ai4u_edu.wire.class_link import BodyDrawing, Drawing, DrawnShape, Poses
@@ -81,7 +86,12 @@ def drawing_of(static_scene: StaticScene, number: int) -> Drawing:
         corners = [(left, low), (right, low), (right, high), (left, high)]
         ground.append(_polygon(corners, FLOOR))
     floors = sorted(static_scene.floors, key=lambda floor: floor.top)
-    ground += [_region(floor, floor_colour(floor)) for floor in floors]
+    for floor in floors:
+        shape, colour = floor.shape, floor_colour(floor)
+        if isinstance(shape, CircleShape | RingShape):
+            ground.append(_region(floor, colour))
+        else:
+            ground.append(_polygon(floor_outline(static_scene, floor).tolist(), colour))
     ground += [_region(area, area_fill(area)) for area in static_scene.areas]
     bounds = _rounded(left), _rounded(low), _rounded(right), _rounded(high)
     bodies = tuple(
@@ -126,26 +136,35 @@ def _region(region: RegionDescription, colour: Rgb) -> DrawnShape:
 
 def _body(body: BodyDescription, is_agent: bool) -> BodyDrawing:
     colour = body_colour(body, is_agent)
+    if is_agent:
+        return BodyDrawing(body.name, is_agent, tuple(_robot(body, colour)))
     shape = body.shape
     if isinstance(shape, CircleShape):
         shapes = [_disc((0.0, 0.0, shape.radius), colour)]
     else:
         shapes = [_polygon(shape.outline(), colour)]
-    if is_agent or "target" in body.tags:
-        shapes += _marks(half_width(shape.outline()), colour, is_agent)
+    if "target" in body.tags:
+        radius, (outer, inner) = half_width(shape.outline()), RING
+        for size, mark in ((outer, LIGHT), (inner, colour), (RING_CENTRE, LIGHT)):
+            shapes.append(_disc((0.0, 0.0, size * radius), mark))
     return BodyDrawing(body.name, is_agent, tuple(shapes))
 
 
-def _marks(radius: float, colour: Rgb, is_agent: bool) -> Iterable[DrawnShape]:
-    if is_agent:
-        yield _polygon([(x * radius, y * radius) for x, y in NOSE], LIGHT)
-        for discs, mark in ((EYES, LIGHT), (PUPILS, DARK)):
-            for x, y, size in discs:
-                yield _disc((x * radius, y * radius, size * radius), mark)
-        return
-    outer, inner = RING
-    for size, mark in ((outer, LIGHT), (inner, colour), (RING_CENTRE, LIGHT)):
-        yield _disc((0.0, 0.0, size * radius), mark)
+def _robot(body: BodyDescription, colour: Rgb) -> Iterable[DrawnShape]:
+    """Yield a robot's parts, from below; its eyes look ahead, as only its pose is sent later."""
+    parts, radius = robot_parts(body), half_width(body.shape.outline())
+    if isinstance(body.shape, CircleShape):
+        yield _disc((0.0, 0.0, body.shape.radius), CHASSIS)
+    else:
+        yield _polygon(body.shape.outline(), CHASSIS)
+    for wheel in parts.wheels:
+        for bar in tread_bars(wheel):
+            yield _polygon(bar.tolist(), TREAD)
+    yield _polygon(parts.shell.tolist(), colour)
+    yield _polygon([(x * radius, y * radius) for x, y in NOSE], LIGHT)
+    for discs, mark in ((EYES, LIGHT), (pupils(), DARK)):
+        for x, y, size in discs:
+            yield _disc((x * radius, y * radius, size * radius), mark)
 
 
 def _disc(disc: tuple[float, float, float], colour: Rgb) -> DrawnShape:

@@ -11,17 +11,24 @@ from PIL import Image, ImageChops, ImageDraw, ImageFont
 from ai4u_edu.blocks import RayPicture, SpotPicture
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene, theme
 from ai4u_edu.snapshot.marks import (
+    CHASSIS,
     DARK,
     EYES,
     LIGHT,
     NOSE,
-    PUPILS,
     RING,
     RING_CENTRE,
+    SHELL_TOP,
+    TREAD,
     Disc,
+    floor_outline,
     half_width,
+    look_direction,
+    pupils,
+    robot_parts,
+    tread_bars,
 )
-from ai4u_edu.world import BodyDescription, RegionDescription, RingShape
+from ai4u_edu.world import BodyDescription, FloorDescription, RegionDescription, RingShape
 from ai4u_edu.world.ink import TILE_M, InkImage
 
 Points = npt.NDArray[np.float64]
@@ -39,6 +46,8 @@ LABEL_ALPHA = 150
 MAX_LABEL_CHARS = 40
 MIN_GRID_PX = 8
 """Least distance between two lines of the grid."""
+EDGE_DARKNESS = 0.2
+"""Share of black in the edge of a robot's shell, which gets less light than its top."""
 SHADOW_OFFSET_M = (0.12, -0.12)
 """Offset of a body's shadow for each metre of height."""
 
@@ -85,13 +94,21 @@ class _Canvas:
             ground = _last_ground = key, self.image.copy()
         else:
             self.image.paste(ground[1])
+        passed = snapshot.passed_stages
+        for area in static_scene.areas:
+            if area.name in passed and not area.paint:
+                self._region(area, theme.area_fill(area, is_passed=True), theme.area_colour(area))
         self._ink(snapshot.state.world.ink)
         for agent in snapshot.agents:
             self._rays(agent.rays.values())
         described = {body.name: body for body in self.static_scene.bodies}
+        states = {body.name: body for body in snapshot.bodies}
+        directions = {
+            agent.body: look_direction(static_scene, agent, states) for agent in snapshot.agents
+        }
         for state in sorted(snapshot.bodies, key=lambda state: state.z):
             if not state.fallen and state.name in described:
-                self._body(described[state.name], state)
+                self._body(described[state.name], state, directions)
         for agent in snapshot.agents:
             self._spots(agent.spots.values())
         if max(self.size) >= MIN_LABELLED_PX:
@@ -150,14 +167,19 @@ class _Canvas:
         pen: ImageDraw.ImageDraw | None = None,
     ) -> None:
         heading = math.radians(region.heading_deg)
-        outline = _placed(region.shape.outline(), *region.position, heading)
+        outline = (
+            floor_outline(self.static_scene, region)
+            if isinstance(region, FloorDescription)
+            else _placed(region.shape.outline(), *region.position, heading)
+        )
         self._polygon(outline, fill, edge, pen)
         if isinstance(region.shape, RingShape):
             hole = _placed(region.shape.hole(), *region.position, heading)
             self._polygon(hole, 0 if isinstance(fill, int) else theme.VOID, edge, pen)
 
-    def _body(self, body: BodyDescription, state: BodyState) -> None:
-        colour = theme.body_colour(body, body.name in self.static_scene.agent_of)
+    def _body(self, body: BodyDescription, state: BodyState, directions: dict[str, float]) -> None:
+        is_agent = body.name in self.static_scene.agent_of
+        colour = theme.body_colour(body, is_agent)
         if state.z < 0:  # falling: the deeper, the darker
             colour = theme.mix_colours(colour, theme.VOID, min(1.0, -state.z / 2))
         outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
@@ -165,18 +187,32 @@ class _Canvas:
         if state.z >= 0:
             shade = theme.mix_colours(theme.FLOOR, theme.VOID, 0.35)
             self._polygon(outline + np.multiply(SHADOW_OFFSET_M, lift), shade, None)
+        if is_agent:
+            self._robot(body, state, colour, directions.get(body.name, 0.0))
+            return
         self._polygon(outline, colour, theme.mix_colours(colour, (0, 0, 0), 0.45))
-        radius = half_width(body.shape.outline())
-        if body.name in self.static_scene.agent_of:
-            nose = radius * np.array(NOSE)
-            self._polygon(_placed(nose, state.x, state.y, state.heading), LIGHT, None)
-            self._discs(EYES, radius, state, LIGHT)
-            self._discs(PUPILS, radius, state, DARK)
-        elif "target" in body.tags:
-            outer, inner = RING
+        if "target" in body.tags:
+            radius, (outer, inner) = half_width(body.shape.outline()), RING
             self._discs(((0.0, 0.0, outer),), radius, state, LIGHT)
             self._discs(((0.0, 0.0, inner),), radius, state, colour)
             self._discs(((0.0, 0.0, RING_CENTRE),), radius, state, LIGHT)
+
+    def _robot(
+        self, body: BodyDescription, state: BodyState, colour: theme.Rgb, direction: float
+    ) -> None:
+        parts, radius = robot_parts(body), half_width(body.shape.outline())
+        edge = theme.mix_colours(colour, (0, 0, 0), EDGE_DARKNESS)
+        bars = [bar for wheel in parts.wheels for bar in tread_bars(wheel)]
+        for outline, fill in (
+            (parts.outline, CHASSIS),
+            *((bar, TREAD) for bar in bars),
+            (parts.shell, edge),
+            (SHELL_TOP * parts.shell, colour),
+            (radius * np.array(NOSE), LIGHT),
+        ):
+            self._polygon(_placed(outline, state.x, state.y, state.heading), fill, None)
+        self._discs(EYES, radius, state, LIGHT)
+        self._discs(pupils(direction), radius, state, DARK)
 
     def _discs(
         self, discs: Iterable[Disc], radius: float, state: BodyState, colour: theme.Rgb

@@ -106,10 +106,16 @@ def area_colour(area: AreaDescription) -> Rgb:
     return rgb("orange" if "target" in area.tags else "green")
 
 
-def area_fill(area: AreaDescription) -> Rgb:
-    """Return the opaque fill colour of an area: pale, unless the area is paint."""
+AREA_OPACITY = 0.28
+"""Opacity of an area that is not paint."""
+PASSED_OPACITY = 0.7
+"""Opacity of an area that an agent has passed on the way to its goal."""
+
+
+def area_fill(area: AreaDescription, *, is_passed: bool = False) -> Rgb:
+    """Return the opaque fill colour of an area: pale, unless it is paint or was passed."""
     colour = area_colour(area)
-    return colour if area.paint else mix_colours(colour, FLOOR, 0.65)
+    return colour if area.paint else mix_colours(colour, FLOOR, 0.2 if is_passed else 0.65)
 
 
 def group_colours(static_scene: StaticScene) -> dict[str, Rgb]:

@@ -224,3 +224,9 @@ class Snapshot:
     """True if a reset without a seed repeats the present seed."""
     past: str = ""
     """Label of a moment of the past; empty for the present."""
+
+    @property
+    def passed_stages(self) -> frozenset[str]:
+        """Names of the bodies and areas that some agent has passed on the way to its goal."""
+        stages = [stages for agent in self.agents for stages in agent.stages if stages.passed]
+        return frozenset(name for each in stages for name in each.targets if name not in each.ahead)

@@ -119,7 +119,13 @@ def test_a_speed_that_is_not_in_the_list_is_shown(desk: PanelPage) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "mode"), [("Follow", "follow"), ("Turn along", "turn"), ("Through its eyes", "eyes")]
+    ("name", "mode"),
+    [
+        ("Tilted", "tilted"),
+        ("Follow", "follow"),
+        ("Turn along", "turn"),
+        ("Through its eyes", "eyes"),
+    ],
 )
 def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
     def show_camera(sent: Json) -> Json:

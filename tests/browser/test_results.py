@@ -116,5 +116,5 @@ def test_after_a_win_the_next_scene_is_one_click_away(chromium: Browser) -> None
         server.restart(5)
         page.get_by_role("button", name="Next scene").click()
         page.keyboard.up("KeyS")
-        until(lambda: server.health()["scene"] not in ("", "Box chase, as in AI4U"))
+        until(lambda: server.health()["scene"] not in ("", "Box chase, hard start"))
         page.context.close()

@@ -67,7 +67,7 @@ def test_a_card_of_the_start_page_opens_its_scene(page: Page, server: Played) ->
     page.locator("#scenes").get_by_role("button", name="Donut", exact=True).click()
     page.locator(".ai4u-panel .ai4u-scene-button", has_text="Donut").wait_for()
     press(page, "Donut")
-    page.locator("dialog[open] .ai4u-tile", has_text="Box chase, as in AI4U").click()
+    page.locator("dialog[open] .ai4u-tile", has_text="Box chase, hard start").click()
     until(lambda: body(server, "box"))
     expect(page.locator("dialog[open]")).to_have_count(0)
     page.locator(".ai4u-goal-text", has_text="Reach the box and touch it.").wait_for()

@@ -133,6 +133,19 @@ def test_the_time_stands_still_goes_on_by_ticks_and_as_fast_as_wanted(
     assert server.snapshot()["seed"] == 77
 
 
+def test_the_picture_begins_with_the_resolution_that_suited_this_browser(
+    chromium: Browser, server: Played
+) -> None:
+    kept = [{"name": "ai4u-resolution", "value": "0.6"}]
+    origin = {"origin": server.url.rstrip("/"), "localStorage": kept}
+    state = {"cookies": [], "origins": [origin]}
+    with whole_page(chromium, server, storage_state=state) as page:
+        canvas = page.locator("canvas[data-engine]")
+        ratio = "canvas => canvas.width / canvas.clientWidth"
+        until_on(page, lambda: abs(canvas.evaluate(ratio) - 0.6) < 0.01)
+        until_on(page, lambda: "fixedDpr" not in page.url)
+
+
 def test_the_camera_is_where_it_is_wanted(page: Page) -> None:
     def has_sky(picture: Picture) -> bool:
         return share(picture, SKY) > 0.1

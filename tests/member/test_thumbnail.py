@@ -35,7 +35,8 @@ def test_bodies_are_drawn_in_their_frames_and_placed_by_their_poses() -> None:
     drawing = drawing_of(picture.static_scene, 3)
     robot, box = drawing.bodies
     assert (robot.name, robot.is_agent, box.is_agent) == ("robot", True, False)
-    disc, nose = robot.shapes[:2]
+    disc, (nose, *eyes) = robot.shapes[0], robot.shapes[-5:]
+    assert len({eye.colour for eye in eyes}) == 2
     assert (disc.radius, disc.points) == (0.5, (0.0, 0.0))
     assert nose.points[0] > 0.4  # it points ahead
     assert box.shapes[0].points == (0.5, 0.5, -0.5, 0.5, -0.5, -0.5, 0.5, -0.5)

@@ -8,8 +8,8 @@ import numpy.typing as npt
 import pytest
 
 from ai4u_edu.base.colors import rgb
-from ai4u_edu.snapshot import Snapshot
-from ai4u_edu.snapshot.marks import DARK, LIGHT
+from ai4u_edu.snapshot import Snapshot, Stages
+from ai4u_edu.snapshot.marks import CHASSIS, DARK, LIGHT, TREAD
 from ai4u_edu.snapshot.raster import MARGIN_M, draw_snapshot
 from ai4u_edu.snapshot.theme import FLOOR, VOID, mix_colours
 from tests.page.viewer.worlds import busy_sim, picture
@@ -36,8 +36,11 @@ def test_faces_and_rings_are_those_of_the_page(snapshot: Snapshot) -> None:
     drawn = draw_snapshot(snapshot, longest=2000)
     robot, box = snapshot.bodies[:2]
     assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.8, robot.y) == LIGHT
-    assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.44, robot.y + 0.4 * 0.48) == DARK
+    assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.48, robot.y + 0.4 * 0.29) == DARK
+    assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.22, robot.y + 0.4 * 0.29) == LIGHT
     assert colour_at(drawn, snapshot, robot.x - 0.2, robot.y) == rgb("blue")
+    assert colour_at(drawn, snapshot, robot.x - 0.4 * 0.97, robot.y) == CHASSIS
+    assert colour_at(drawn, snapshot, robot.x, robot.y + 0.4 * 0.8) == TREAD
     assert colour_at(drawn, snapshot, box.x + 0.5 * 0.6, box.y) == LIGHT
     assert colour_at(drawn, snapshot, box.x + 0.5 * 0.35, box.y) == rgb("orange")
     assert colour_at(drawn, snapshot, box.x, box.y) == LIGHT
@@ -50,6 +53,15 @@ def test_the_floor_has_a_grid_and_the_void_has_none(snapshot: Snapshot) -> None:
     assert colour_at(drawn, snapshot, -4.3, -4.5) == FLOOR
     (left, low), _ = snapshot.static_scene.bounds
     assert colour_at(drawn, snapshot, left - 0.5, low - 0.5) == VOID
+
+
+def test_an_area_that_was_passed_is_filled(snapshot: Snapshot) -> None:
+    names = ("goal", "box")
+    agent = snapshot.agents[0]._replace(stages=(Stages(1, 2, names, names[1:], names[1:]),))
+    passed = replace(snapshot, agents=(agent,))
+    before, after = (draw_snapshot(each, longest=2000) for each in (snapshot, passed))
+    assert colour_at(before, snapshot, 3.0, 3.7) != colour_at(after, passed, 3.0, 3.7)
+    assert (draw_snapshot(snapshot, longest=2000) == before).all()
 
 
 def test_labels_are_half_transparent_and_small_pictures_have_none(snapshot: Snapshot) -> None:

@@ -15,12 +15,14 @@ def test_marks_that_were_passed_are_counted_once_though_two_rewards_count_them()
     sim = Scene.load("donut").build()
     sim.reset(1)
     marks = tuple(f"mark {number}" for number in range(1, 9))
-    assert first_of(sim).stages == (Stages(0, 9, marks),)
-    for passed, number in enumerate([8, 1, 2, 3, 4, 5, 6, 7, 8], 1):
+    assert first_of(sim).stages == (Stages(0, 9, marks, marks, marks),)
+    lap = [8, 1, 2, 3, 4, 5, 6, 7, 8]
+    for passed, number in enumerate(lap, 1):
         place = sim.world.areas[f"mark {number}"].description.position
         sim.agents[0].body.move_to(*place)
         sim.step()
-        assert first_of(sim).stages == (Stages(passed, 9, marks),)
+        ahead = tuple(f"mark {each}" for each in lap[passed:])
+        assert first_of(sim).stages == (Stages(passed, 9, marks, ahead, ahead[:1]),)
     assert first_of(sim).succeeded
     sim.reset(2)
     assert first_of(sim).stages[0].passed == 0
@@ -38,10 +40,11 @@ def test_bodies_to_collect_are_stages() -> None:
     sim = Scene.load("tag").build()
     sim.reset(1)
     runners = ("runner 1", "runner 2", "runner 3")
-    assert first_of(sim).stages == (Stages(0, 3, runners),)
+    assert first_of(sim).stages == (Stages(0, 3, runners, runners, runners),)
     sim.agents[0].body.move_to(*sim.world["runner 2"].position)
     sim.step()
-    assert first_of(sim).stages == (Stages(1, 3, runners),)
+    left = ("runner 1", "runner 3")
+    assert first_of(sim).stages == (Stages(1, 3, runners, left, left),)
 
 
 def test_a_scene_without_them_has_none() -> None:

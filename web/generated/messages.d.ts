@@ -770,7 +770,7 @@ export interface ViewPart {
   type: "part";
   name: "view";
   /** Position of the camera. */
-  camera: "arena" | "eyes" | "follow" | "turn";
+  camera: "arena" | "eyes" | "follow" | "tilted" | "turn";
   /** True if the trail of the agent that is shown is drawn. */
   has_trail: boolean;
 }
@@ -1088,7 +1088,7 @@ export interface BackToLive {
 
 /** Put the camera somewhere. */
 export interface Camera {
-  mode: "arena" | "eyes" | "follow" | "turn";
+  mode: "arena" | "eyes" | "follow" | "tilted" | "turn";
 }
 
 /** Change parameters of the agent itself. */

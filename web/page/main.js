@@ -25,6 +25,7 @@ import { label, loadLayout } from "./labels.js";
 import { trackCanvasEdges } from "./canvas_edges.js";
 import { watchSharedScene } from "../scenes/share.js";
 import { stars } from "../scenes/stars.js";
+import { PictureRate } from "./resolution.js";
 import { KEYS, NETWORK, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "../shared/socket.js";
 
@@ -60,7 +61,9 @@ addEventListener("focus", setAgentCookie);
 
 const socket = new JsonSocket("ws/input" + (agent === null ? "" : `?agent=${encodeURIComponent(agent)}`));
 const keymap = new KeyMap();
+const pictureRate = new PictureRate();
 const keys = new HeldKeys(() => {
+  pictureRate.follow(keys.held.length > 0);
   if (!isHeld()) socket.send({ type: "keys", held: keys.held, stick: keys.stick });
   followMotor();
   draw();

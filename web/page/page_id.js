@@ -8,6 +8,8 @@
  */
 (() => {
   const PARAMETER = "websocket";
+  /** viser's parameter for a resolution of the picture that does not change. */
+  const RESOLUTION = "fixedDpr";
   const CHECK_PERIOD_MS = 1000;
   /** Checks after which the parameter stays where it is. */
   const MAX_CHECKS = 30;
@@ -22,6 +24,9 @@
   window.ai4uPageId = id;
   document.documentElement.dataset.ai4uPanel = "open"; // styles/panel/layout.css makes room for it
   url.searchParams.set(PARAMETER, `${location.origin.replace(/^http/, "ws")}${location.pathname}?page=${id}`);
+  const resolution = rememberedResolution();
+  const isResolutionOurs = resolution > 0 && !url.searchParams.has(RESOLUTION);
+  if (isResolutionOurs) url.searchParams.set(RESOLUTION, String(resolution));
   history.replaceState(history.state, "", url);
 
   // viser's canvas is there after viser has read the parameter, and viser may write it again
@@ -30,9 +35,20 @@
     const now = new URL(location.href);
     if (now.searchParams.has(PARAMETER) && document.querySelector("canvas")) {
       now.searchParams.delete(PARAMETER);
+      if (isResolutionOurs) now.searchParams.delete(RESOLUTION);
       history.replaceState(history.state, "", now);
     }
     checks += 1;
     if (checks === MAX_CHECKS) clearInterval(timer);
   }, CHECK_PERIOD_MS);
+
+  /** Return the resolution that page/resolution.js found for this browser; 0 for viser's own. */
+  function rememberedResolution() {
+    try {
+      const value = Number(JSON.parse(localStorage.getItem("ai4u-resolution") ?? "0"));
+      return value >= 0.25 && value <= 4 ? value : 0;
+    } catch {
+      return 0; // storage is blocked, or holds something else
+    }
+  }
 })();

@@ -10,6 +10,7 @@ import { segments, toggle } from "./widgets/parts.js";
 /** @type {{value: ViewPart["camera"], text: string, title: string}[]} */
 const CAMERAS = [
   { value: "arena", text: "Arena", title: "See everything from above" },
+  { value: "tilted", text: "Tilted", title: "See everything at an angle, with depth" },
   { value: "follow", text: "Follow", title: "Stay above the robot" },
   { value: "turn", text: "Turn along", title: "Stay above the robot and turn with it" },
   { value: "eyes", text: "Through its eyes", title: "See what the robot would see" },

@@ -76,7 +76,10 @@ class CheckpointsReward(RewardFunc):
         """Return how many targets were touched; a lap ends at its first one, which counts twice."""
         total = len(self.targets) + self.loop
         passed = total - len(self._ahead) if self._under_way else 0
-        return Stages(passed, total, tuple(self.targets))
+        ahead = tuple(self._ahead)
+        return Stages(
+            passed, total, tuple(self.targets), ahead, ahead[:1] if self._under_way else ahead
+        )
 
     def _pass(self, target: str) -> None:
         if self._under_way:

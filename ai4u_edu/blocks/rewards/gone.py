@@ -60,7 +60,8 @@ class GoneReward(RewardFunc):
     def stages(self) -> Stages:
         """Return how many bodies of the group are gone now."""
         total = len(self._targets)
-        return Stages(total - len(self._there), total, self._targets)
+        there = self._there
+        return Stages(total - len(there), total, self._targets, there, there)
 
     def _look(self, view: WorldView) -> tuple[str, ...]:
         return tuple(name for name in view.named(self.group) if not view[name].fallen)

@@ -15,6 +15,10 @@ class Stages(NamedTuple):
     total: int
     targets: tuple[str, ...]
     """Names of the bodies and areas that they stand for, in order if the order counts."""
+    ahead: tuple[str, ...] = ()
+    """Names of those that are not passed."""
+    next: tuple[str, ...] = ()
+    """Names of those that count now: one if the order counts, else all that are ahead."""
 
 
 class RewardFunc(Block):

@@ -15,8 +15,9 @@ MAX_SENSOR_CHOICES = 200
 """Most sensors that a page has switched on or off and that are remembered."""
 
 
-CameraMode = Literal["arena", "follow", "turn", "eyes"]
-"""Position of a page's camera: over the arena, over the agent, turning with it, in its eye."""
+CameraMode = Literal["arena", "tilted", "follow", "turn", "eyes"]
+"""Position of a page's camera: over the arena, tilted before it, over the agent, turning with it,
+in its eye."""
 Tab = Literal["agent", "blocks", "world", "past"]
 
 

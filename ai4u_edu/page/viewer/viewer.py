@@ -10,7 +10,7 @@ from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.backend.part import Part, RatedPart
 from ai4u_edu.page.viewer.scene.actions import Actions
 from ai4u_edu.page.viewer.scene.arena import camera_bounds
-from ai4u_edu.page.viewer.scene.bodies import Bodies
+from ai4u_edu.page.viewer.scene.bodies import Bodies, RobotMotion
 from ai4u_edu.page.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.page.viewer.scene.ghost_bodies import GhostBodies
 from ai4u_edu.page.viewer.scene.ground import DrawnGround, DrawnInk
@@ -75,6 +75,7 @@ class Viewer:
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
             (SpeechBubbles(server), TEXTS_PER_S),
             (GhostBodies(server, ghosts or Ghosts()), senses_per_s),
+            (RobotMotion(bodies), senses_per_s),
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
         ]

@@ -87,7 +87,7 @@ class ViewerClient:
             self.agent = ids[0]
 
     @property
-    def camera(self) -> Literal["arena", "follow", "turn", "eyes"]:
+    def camera(self) -> Literal["arena", "tilted", "follow", "turn", "eyes"]:
         """Position of its camera."""
         return self.view.mode.value
 

@@ -5,10 +5,12 @@ import pytest
 from ai4u_edu.page.viewer.scene.framing import (
     FIELD_OF_VIEW_RAD,
     PORTRAIT_UNCOVERED_SHARE,
+    TALL_M,
     Bounds,
     Frame,
     frame_arena,
     frame_point,
+    frame_tilted,
     uncovered_share,
     visible_height,
 )
@@ -35,6 +37,23 @@ def test_all_of_the_arena_is_in_the_free_part_of_the_window(bounds: Bounds, aspe
         across, down = on_screen(shown, aspect, x, y)
         assert 0.02 < across < 0.98
         assert 0.02 * free < down < 0.98 * free
+
+
+@pytest.mark.parametrize("bounds", [SQUARE, WIDE, TALL])
+@pytest.mark.parametrize("aspect", [0.46, 0.75, 1.0, 1.2, 2.2])
+def test_a_tilted_arena_is_in_the_free_part_of_the_window(bounds: Bounds, aspect: float) -> None:
+    frame, covered = frame_tilted(bounds, aspect), 1 - uncovered_share(aspect)
+    (left, low), (right, high) = bounds
+    corners = [(x, y, z) for x in (left, right) for y in (low, high) for z in (0.0, TALL_M)]
+    places = [frame.on_screen(corner, aspect) for corner in corners]
+    for across, up in places:
+        assert -0.9 < across < 0.9
+        assert 2 * covered - 1 < up < 1
+    spread = (
+        max(u for u, _ in places) - min(u for u, _ in places),
+        (max(v for _, v in places) - min(v for _, v in places)) / (1 - covered),
+    )
+    assert max(spread) > 1.6  # it is as near as can be
 
 
 @pytest.mark.parametrize("aspect", [0.46, 1.2])

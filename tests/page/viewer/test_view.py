@@ -7,7 +7,7 @@ from viser import CameraHandle
 
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.arena import camera_bounds
-from ai4u_edu.page.viewer.scene.framing import Frame, frame_arena, frame_point
+from ai4u_edu.page.viewer.scene.framing import Frame, frame_arena, frame_point, frame_tilted
 from ai4u_edu.page.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
@@ -220,3 +220,28 @@ def test_through_its_eyes_the_camera_is_where_the_rays_begin(
     assert watched.camera.fov < 0.1
     left = watched.client.scene._handle_from_node_name
     assert not [name for name in left if name in lamps]
+
+
+def test_a_tilted_camera_sees_the_whole_arena_before_a_sky(
+    watched: Watched, runner: Runner
+) -> None:
+    view, camera = watched.view, watched.camera
+    view.choose(Mode.TILTED)
+    view.update(runner.latest, "0")
+    wanted = frame_tilted(camera_bounds(runner.latest.static_scene), 1.2)
+    assert camera.position == pytest.approx(wanted.position)
+    assert camera.look_at == pytest.approx(wanted.target)
+    assert camera.up_direction == pytest.approx((0, 0, 1))
+    assert camera.fov > 0.5
+    before = watched.sent()
+    view.update(runner.latest, "0")
+    assert watched.sent() == before
+    watched.report(wanted.position)
+    watched.report(PLACE)  # a person moves it
+    watched.report(PLACE, size=(500, 800))
+    view.update(runner.latest, "0")
+    assert camera.position == pytest.approx(PLACE)
+    view.choose(Mode.ARENA)
+    view.update(runner.latest, "0")
+    assert camera.fov < 0.1
+    assert camera.up_direction == pytest.approx((0, 1, 0))

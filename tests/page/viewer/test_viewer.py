@@ -1,17 +1,19 @@
 import threading
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from threading import Semaphore
 from typing import Any
 
+import numpy as np
 import pytest
 
 from ai4u_edu import BoxShape
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.bodies import Bodies
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot
-from tests.page.viewer.pages import page, publish
+from ai4u_edu.snapshot import Snapshot, Stages
+from tests.page.viewer.pages import page, publish, shown
 from tests.page.viewer.worlds import busy_sim
 from tests.waiting import LIMIT_S, until
 
@@ -42,6 +44,9 @@ def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
         "/ground1/lines",
         "/bodies1/0/body",
         "/bodies1/0/face",
+        "/bodies1/0/base",
+        "/bodies1/0/pupils",
+        "/bodies1/0/treads",
         "/bodies1/0 shadow/shadow",
         "/bodies1/1/rings",
         "/bodies1/0/action",
@@ -54,6 +59,27 @@ def test_bodies_that_look_alike_share_a_batch(viewer: Viewer) -> None:
     twins: Any = viewer.server.scene.get_handle_by_name("/bodies1/2/body")
     assert twins.batched_positions[:, :2].tolist() == [[-3.0, -1.0], [-3.0, 1.0]]
     assert twins.batched_colors[0].tolist() != twins.batched_colors[1].tolist()
+
+
+def test_wheels_roll_ahead_and_pupils_turn_to_the_target(viewer: Viewer, runner: Runner) -> None:
+    scene = viewer.server.scene
+    treads: Any = scene.get_handle_by_name("/bodies1/0/treads")
+    eyes: Any = scene.get_handle_by_name("/bodies1/0/pupils")
+    ahead = eyes.position.tolist()
+    assert treads.batched_wxyzs.tolist() == [[1, 0, 0, 0]] * 2
+    assert ahead == pytest.approx([0.04, 0, 0], abs=2e-4)  # the box is right ahead of the robot
+    robot = runner.sim.agents[0].body
+    robot.move_to(0.05, 0.0)
+    publish(runner)
+    shown(viewer)
+    rolled = 2 * np.arcsin(treads.batched_wxyzs[:, 2])  # the top of a wheel moves ahead
+    assert rolled == pytest.approx(0.05 / (0.42 * 0.4), rel=0.01)
+    robot.move_to(0.05, 0.0, heading=-np.pi / 2)
+    publish(runner)
+    shown(viewer)
+    left, right = 2 * np.arcsin(treads.batched_wxyzs[:, 2]) - rolled
+    assert left > 0 > right
+    assert eyes.position.tolist() == pytest.approx([0, 0.04, 0], abs=2e-4)
 
 
 def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:
@@ -119,6 +145,20 @@ def test_paint_is_opaque_and_has_neither_outline_nor_label(viewer: Viewer, runne
     assert (fill.opacity, goal.opacity) == (None, 0.28)
     assert "/ground0/area line/label" not in nodes(viewer)
     assert len(lines.points) == strokes
+
+
+def test_an_area_that_was_passed_is_filled_until_a_new_start(
+    viewer: Viewer, runner: Runner
+) -> None:
+    fill: Any = viewer.server.scene.get_handle_by_name("/ground1/area goal/fill")
+    names = ("goal", "box")
+    for passed, ahead, opacity in ((0, names, 0.28), (1, names[1:], 0.7), (0, names, 0.28)):
+        stages = (Stages(passed, 2, names, ahead, ahead[:1]),)
+        agent = runner.latest.agents[0]._replace(stages=stages)
+        for part in viewer.parts:
+            part.make_due()
+        viewer.draw(replace(runner.latest, agents=(agent,)))
+        assert fill.opacity == opacity
 
 
 def test_a_reset_builds_nothing_anew(viewer: Viewer, runner: Runner) -> None:

@@ -18,14 +18,37 @@ from viser import BatchedMeshHandle, SceneApi, SceneNodePointerEvent
 
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.backend.reporting import report_errors
-from ai4u_edu.page.viewer.scene.face import face, pupils, rings
-from ai4u_edu.page.viewer.scene.geometry import Array, cap, circle, join_meshes, prism, soft_shadow
+from ai4u_edu.page.viewer.scene.face import (
+    EYE_RISE,
+    MovingParts,
+    chassis,
+    face,
+    pupils,
+    rings,
+    shell,
+)
+from ai4u_edu.page.viewer.scene.geometry import (
+    Array,
+    cap,
+    circle,
+    join_meshes,
+    prism,
+    soft_shadow,
+)
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import surface_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
-from ai4u_edu.snapshot.marks import DARK, LIGHT, half_width
+from ai4u_edu.snapshot.marks import (
+    CHASSIS,
+    DARK,
+    LIGHT,
+    PUPIL_SHIFT,
+    half_width,
+    look_direction,
+    robot_parts,
+)
 from ai4u_edu.snapshot.theme import RAY_MISS, VOID, Rgb, body_colour, label_text, mix_colours
 from ai4u_edu.world import CircleShape
 
@@ -331,6 +354,15 @@ class Bodies:
                     group.listen(self._on_agent)
         self._built_for = wanted
 
+    @property
+    def moving_parts(self) -> dict[str, MovingParts]:
+        """Parts that move on robots that are nodes, by the name of the body."""
+        return {
+            group.names[0]: group.moving_parts
+            for group in self._groups
+            if group.moving_parts is not None
+        }
+
     def draw(self, snapshot: Snapshot) -> None:
         """Move all bodies to their current poses."""
         drawn = replace(snapshot, bodies=self._slow_fall.drawn(snapshot))
@@ -370,6 +402,32 @@ class Bodies:
         self._puff.batched_scales = np.full(_PUFF_BALLS, 0.45 * reach * (1 - share), np.float32)
 
 
+class RobotMotion:
+    """Rolls the wheels of robots and turns their pupils, less often than bodies move.
+
+    Robots that share a batch have wheels without bars, and look ahead.
+
+    Args:
+        bodies: the drawn bodies, which are built before.
+    """
+
+    def __init__(self, bodies: Bodies) -> None:
+        self._bodies = bodies
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Do nothing: the parts are built with their bodies."""
+
+    def draw(self, snapshot: Snapshot) -> None:
+        """Show how far robots have driven, and where their targets are."""
+        moving_parts = self._bodies.moving_parts
+        states = {body.name: body for body in snapshot.bodies}
+        for agent in snapshot.agents:
+            if agent.body in moving_parts:
+                body = states[agent.body]
+                direction = look_direction(snapshot.static_scene, agent, states)
+                moving_parts[agent.body].move((body.x, body.y, body.heading), direction)
+
+
 class _BodyGroup:
     """Bodies that differ only in colour and pose, or one body whose meshes are moved as nodes."""
 
@@ -406,13 +464,24 @@ class _BodyGroup:
         self._shadow = MeshDrawer(scene, f"{name} shadow").batch(
             "shadow", shadow_mesh, [BLACK] * count, opacity=0.05
         )
-        body = prism(outline, height, min(MAX_RIM_M, 0.16 * radius))
+        parts = robot_parts(bodies[0]) if is_agent else None
+        body = (
+            prism(outline, height, min(MAX_RIM_M, 0.16 * radius))
+            if parts is None
+            else shell(parts, height)
+        )
         self._body = drawer.batch("body", body, colours)
         self._marks = []
-        if is_agent:
-            eyes = pupils(radius, top + layers.unit)
-            self._marks.append(drawer.batch("face", face(radius, top), [LIGHT] * count))
-            self._marks.append(drawer.batch("pupils", eyes, [DARK] * count))
+        self.moving_parts: MovingParts | None = None
+        if parts is not None:
+            self._marks.append(drawer.batch("base", chassis(parts, height), [CHASSIS] * count))
+            eyes = drawer.batch("face", face(radius, top + EYE_RISE * radius), [LIGHT] * count)
+            self._marks.append(eyes)
+            if is_node:
+                self.moving_parts = MovingParts(drawer, parts, radius, top)
+            else:
+                at_rest = pupils(radius, top).moved(PUPIL_SHIFT * radius, 0)
+                self._marks.append(drawer.batch("pupils", at_rest, [DARK] * count))
         elif "target" in bodies[0].tags:
             self._marks.append(drawer.batch("rings", rings(radius, top), [LIGHT] * count))
 

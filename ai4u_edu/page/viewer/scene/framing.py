@@ -45,6 +45,61 @@ class Frame:
         return self.distance * 8
 
 
+TILTED_FIELD_OF_VIEW_RAD = math.radians(38)
+"""Vertical field of view of the tilted camera."""
+TILT_RAD = math.radians(52)
+"""Angle at which it looks down, from the horizon."""
+TALL_M = 1.5
+"""Height (m) above the arena that it shows, too."""
+
+
+@dataclass(frozen=True)
+class TiltedFrame:
+    """The pose of a camera that looks at the arena from the south, tilted."""
+
+    target: tuple[float, float, float]
+    distance: float
+    """From the target (m)."""
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """Place of the camera."""
+        x, y, z = self.target
+        south, up = self.distance * math.cos(TILT_RAD), self.distance * math.sin(TILT_RAD)
+        return x, y - south, z + up
+
+    def on_screen(self, point: tuple[float, float, float], aspect: float) -> tuple[float, float]:
+        """Return a point's place in the window: -1 to 1 to the right, and up."""
+        x, y, z = (a - b for a, b in zip(point, self.target, strict=True))
+        depth = self.distance + y * math.cos(TILT_RAD) - z * math.sin(TILT_RAD)
+        half = math.tan(TILTED_FIELD_OF_VIEW_RAD / 2) * max(depth, 1e-6)
+        return x / half / aspect, (y * math.sin(TILT_RAD) + z * math.cos(TILT_RAD)) / half
+
+
+def frame_tilted(bounds: Bounds, aspect: float) -> TiltedFrame:
+    """Return the tilted frame that shows the whole arena in the uncovered part of a window.
+
+    Args:
+        bounds: ((left, low), (right, high)) of the arena, in metres.
+        aspect: the window's width / height.
+    """
+    (left, low), (right, high) = bounds
+    corners = [(x, y, z) for x in (left, right) for y in (low, high) for z in (0.0, TALL_M)]
+    free, size = uncovered_share(aspect), max(right - left, high - low, 1.0)
+    middle, limit = 1.0 - free, 1.0 - 2 * MARGIN
+    y, distance = (low + high) / 2, 2.0 * size
+    frame = TiltedFrame(((left + right) / 2, y, 0.0), distance)
+    for _ in range(12):  # nearer or farther, and up or down, until it fits
+        places = [frame.on_screen(corner, aspect) for corner in corners]
+        top, bottom = max(v for _, v in places), min(v for _, v in places)
+        wide = max(abs(u) for u, _ in places)
+        distance *= max(wide / limit, (top - bottom) / (2 * free * limit))
+        off = (top + bottom) / 2 - middle
+        y += off * distance * math.tan(TILTED_FIELD_OF_VIEW_RAD / 2) / math.sin(TILT_RAD)
+        frame = TiltedFrame(((left + right) / 2, y, 0.0), distance)
+    return frame
+
+
 def visible_height(distance: float) -> float:
     """Return the height of the visible part of the world, from a camera's distance (both in m)."""
     return 2 * distance * math.tan(FIELD_OF_VIEW_RAD / 2)

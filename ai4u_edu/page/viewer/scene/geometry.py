@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -101,6 +102,62 @@ def prism(outline: Outline, height: float, rim: float) -> Mesh:
     side = band(outline, 0.0, outline, shoulder)
     edge = band(outline, shoulder, inner, height)
     return join_meshes([side, edge, cap(inner, height)])
+
+
+def dome(outline: Outline, low: float, high: float, top: float) -> Mesh:
+    """Return a solid over a convex outline around the origin, open below, whose top is rounded.
+
+    Args:
+        outline: outline of its lower edge.
+        low: height of that edge.
+        high: height of its flat top.
+        top: size of the flat top, as a share of the outline's.
+    """
+    corners = np.asarray(outline, np.float64)
+    shoulder = high - min(DOME_RATIO * (1.0 - top) * float(np.abs(corners).max()), high - low)
+    angles = np.linspace(0.0, math.pi / 2, DOME_STEPS + 1)
+    sizes = 1.0 - (1.0 - top) * (1.0 - np.cos(angles))
+    levels = shoulder + (high - shoulder) * np.sin(angles)
+    steps = list(zip(sizes.tolist(), levels.tolist(), strict=True))
+    bands = [
+        band(corners * size, z, corners * next_size, next_z)
+        for (size, z), (next_size, next_z) in pairwise([(1.0, low), *steps])
+    ]
+    return join_meshes([*bands, cap(corners * top, high)])
+
+
+def cylinder(radius: float, width: float, corners: int = 20) -> Mesh:
+    """Return a closed cylinder around the origin, whose axis is along y."""
+    edge = circle(radius, corners=corners)
+    end = cap(edge, width / 2)
+    other = Mesh(end.vertices * (1, 1, -1), end.faces[:, ::-1])
+    return _laid(join_meshes([band(edge, -width / 2, edge, width / 2), end, other]))
+
+
+def cylinder_bars(radius: float, width: float, count: int, angle: float) -> Mesh:
+    """Return bars around such a cylinder: flat strips along its axis, each an angle (rad) wide."""
+    turns = np.arange(count) * (2 * math.pi / count)
+    bars = []
+    for turn in turns.tolist():
+        ends = radius * np.array(
+            [(math.sin(turn + by), math.cos(turn + by)) for by in (angle / 2, -angle / 2)]
+        )
+        (x, z), (far_x, far_z) = ends.tolist()
+        half = width / 2
+        corners = [(x, half, z), (far_x, half, far_z), (far_x, -half, far_z), (x, -half, z)]
+        bars.append(Mesh(np.array(corners), np.array([[0, 1, 2], [0, 2, 3]])))
+    return join_meshes(bars)
+
+
+def _laid(mesh: Mesh) -> Mesh:
+    """Return a mesh with its z axis laid along y."""
+    return Mesh(mesh.vertices[:, [0, 2, 1]] * (1, -1, 1), mesh.faces)
+
+
+DOME_STEPS = 4
+"""Bands of a rounded top."""
+DOME_RATIO = 1.5
+"""Height of a rounded top for each metre of its width."""
 
 
 def soft_shadow(

@@ -4,14 +4,14 @@ from viser import FrameHandle, LabelHandle, SceneApi
 
 from ai4u_edu.base.colors import rgb
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
-from ai4u_edu.page.viewer.scene.face import face
-from ai4u_edu.page.viewer.scene.geometry import heading_wxyz, prism
+from ai4u_edu.page.viewer.scene.face import face, shell
+from ai4u_edu.page.viewer.scene.geometry import heading_wxyz
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.recording.ghosts import GhostDrive, Ghosts
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.marks import half_width, robot_parts
 from ai4u_edu.snapshot.theme import Rgb, body_colour, mix_colours
 from ai4u_edu.world import BodyDescription
 
@@ -124,7 +124,7 @@ class _Body:
         self.frame: FrameHandle = scene.add_frame(node, show_axes=False, visible=False)
         drawer = MeshDrawer(scene, node)
         # a bit lower than a real body, against z-fighting between the two
-        shape = prism(outline, body.height, 0.16 * radius)
+        shape = shell(robot_parts(body), body.height)
         drawer.mesh("body", shape, -layers.unit, colour, OPACITY)
         drawer.mesh("face", face(radius, body.height), 0.0, PALE, OPACITY)
         self.label: LabelHandle = MeshDrawer(scene, f"{node}-name").label("label", "")

@@ -4,7 +4,7 @@ import math
 from collections.abc import Collection
 
 import numpy as np
-from viser import ImageHandle
+from viser import BatchedMeshHandle, ImageHandle
 
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.arena import arena_size, region_outlines
@@ -21,10 +21,12 @@ from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.snapshot import Snapshot, StaticScene
-from ai4u_edu.snapshot.marks import half_width
+from ai4u_edu.snapshot.marks import half_width, round_floor
 from ai4u_edu.snapshot.theme import (
+    AREA_OPACITY,
     FLOOR,
     GRID,
+    PASSED_OPACITY,
     VOID,
     Rgb,
     area_colour,
@@ -61,12 +63,16 @@ class DrawnGround:
         self._scene = server.scene
         self._subtree = Subtree(server.scene, "ground")
         self._built_for: object = None
+        self._areas: dict[str, BatchedMeshHandle] = {}
+        """Fills of areas that are not paint, by name."""
+        self._passed: frozenset[str] = frozenset()
 
     def build(self, static_scene: StaticScene) -> None:
         """Draw the ground, if it has changed."""
         wanted = (static_scene.floors, static_scene.areas, static_scene.bounds)
         if wanted == self._built_for:
             return
+        self._areas, self._passed = {}, frozenset()
         with self._subtree.rebuild() as parent:
             drawer, layers = MeshDrawer(self._scene, parent), Layers.of(static_scene)
             if static_scene.floors:
@@ -74,15 +80,22 @@ class DrawnGround:
             else:
                 _endless_floor(drawer, layers, static_scene)
             for floor in static_scene.floors:
-                _floor(drawer, layers, floor, arena_size(static_scene))
+                _floor(drawer, layers, floor, static_scene)
             for area in static_scene.areas:
                 top = static_scene.floor_under(*area.position)
-                _area(drawer, layers, area, static_scene.lowest_floor if top is None else top)
+                fill = _area(
+                    drawer, layers, area, static_scene.lowest_floor if top is None else top
+                )
+                if not area.paint:
+                    self._areas[area.name] = fill
             drawer.finish()
         self._built_for = wanted
 
     def draw(self, snapshot: Snapshot) -> None:
-        """Do nothing: the ground does not move."""
+        """Fill the areas that were passed; nothing else of the ground changes."""
+        before, self._passed = self._passed, snapshot.passed_stages & self._areas.keys()
+        for name in before ^ self._passed:
+            self._areas[name].opacity = PASSED_OPACITY if name in self._passed else AREA_OPACITY
 
 
 class DrawnInk:
@@ -145,28 +158,46 @@ def _endless_floor(drawer: MeshDrawer, layers: Layers, static_scene: StaticScene
     )
 
 
-def _floor(drawer: MeshDrawer, layers: Layers, floor: FloorDescription, scale: float) -> None:
-    outline, hole = region_outlines(floor)
+def _floor(
+    drawer: MeshDrawer, layers: Layers, floor: FloorDescription, static_scene: StaticScene
+) -> None:
+    scale = arena_size(static_scene)
+    sharp, hole = region_outlines(floor)
+
+    def rounded(outline: Array) -> Array:
+        return round_floor(static_scene, floor, outline)
+
+    outline = rounded(sharp)
     name, top, colour = f"floor {floor.name}", floor.top, floor_colour(floor)
     dark = mix_colours(colour, VOID, 0.55)
-    edge = grow(outline, RIM_WIDTH * scale)
-    edge_hole = grow(hole, -RIM_WIDTH * scale) if hole is not None else _hidden_part(outline, scale)
-    side = flat_mesh(edge, edge_hole).moved(0, -SIDE_HEIGHT * scale)
-    shadow = _shadow(outline, hole, layers, scale)
+    edge = rounded(grow(sharp, RIM_WIDTH * scale))
+    hidden = _hidden_part(sharp, scale) if hole is None else grow(hole, -RIM_WIDTH * scale)
+    inner = rounded(hidden) if hole is None and hidden is not None else hidden
+    side = flat_mesh(edge, inner).moved(0, -SIDE_HEIGHT * scale)
+    outer = soft_shadow(sharp, SHADOW_BLUR * scale, 8 * layers.unit, SHADOW_LAYERS)
+    shadow = _shadow([(rounded(each), z) for each, z in outer], hole, inner, scale)
     drawer.mesh(f"{name}/shadow", shadow, top + layers.floor_shadow, BLACK, opacity=0.08)
     drawer.mesh(f"{name}/side", side, top + layers.floor_side, dark)
-    drawer.mesh(f"{name}/rim", flat_mesh(edge, edge_hole), top + layers.rim, dark)
+    drawer.mesh(f"{name}/rim", flat_mesh(edge, inner), top + layers.rim, dark)
     drawer.mesh(f"{name}/top", flat_mesh(outline, hole), top, colour)
     drawer.line(grid_in(outline, hole, top + layers.grid), mix_colours(colour, VOID, 0.12))
     if floor.label:
         drawer.label(f"{name}/label", floor.label, (*floor.position, top))
 
 
-def _shadow(outline: Array, hole: Array | None, layers: Layers, scale: float) -> Mesh:
-    outer = soft_shadow(outline, SHADOW_BLUR * scale, 8 * layers.unit, SHADOW_LAYERS)
-    if hole is None:
-        inner = len(outer) * [_hidden_part(outline, scale)]
-    else:
+def _shadow(
+    outer: list[tuple[Array, float]], hole: Array | None, hidden: Array | None, scale: float
+) -> Mesh:
+    """Return a floor's shadow, without its part that is never visible.
+
+    Args:
+        outer: outline and height of each layer.
+        hole: of the floor, if it has one.
+        hidden: outline of the part that is never visible, if it is large.
+        scale: the arena's size.
+    """
+    inner = len(outer) * [hidden]
+    if hole is not None:
         inner = [each for each, _ in soft_shadow(hole, -SHADOW_BLUR * scale, 0.0, SHADOW_LAYERS)]
     meshes = [flat_mesh(each, rest, z) for (each, z), rest in zip(outer, inner, strict=True)]
     return join_meshes(meshes).moved(SHADOW_OFFSET[0] * scale, SHADOW_OFFSET[1] * scale)
@@ -178,19 +209,23 @@ def _hidden_part(outline: Array, scale: float) -> Array | None:
     return grow(outline, -margin) if half_width(outline) > 1.2 * margin else None
 
 
-def _area(drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float) -> None:
+def _area(
+    drawer: MeshDrawer, layers: Layers, area: AreaDescription, top: float
+) -> BatchedMeshHandle:
+    """Draw an area on a floor with a top (m), and return its fill."""
     outline, hole = region_outlines(area)
     name, colour = f"area {area.name}", area_colour(area)
     if area.paint:
         edge = grow(outline, PAINT_OVERLAP_M)
-        drawer.mesh(f"{name}/fill", flat_mesh(edge, hole), top + layers.paint, colour)
-        return
-    drawer.mesh(f"{name}/fill", flat_mesh(outline, hole), top + layers.area, colour, opacity=0.28)
+        return drawer.mesh(f"{name}/fill", flat_mesh(edge, hole), top + layers.paint, colour)
+    mesh = flat_mesh(outline, hole)
+    fill = drawer.mesh(f"{name}/fill", mesh, top + layers.area, colour, opacity=AREA_OPACITY)
     for edge in (outline,) if hole is None else (outline, hole):
         drawer.line(segments(edge, top + layers.outline), colour)
     text = area.label or area.name
     if not text.isspace():
         drawer.label(f"{name}/label", text, (*area.position, top))
+    return fill
 
 
 def _rectangle_around(static_scene: StaticScene, times: float) -> Mesh:

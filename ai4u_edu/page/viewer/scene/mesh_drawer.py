@@ -26,7 +26,7 @@ class MeshDrawer:
 
     def mesh(
         self, name: str, mesh: Mesh, z: float, colour: Rgb, opacity: float | None = None
-    ) -> None:
+    ) -> BatchedMeshHandle:
         """Add a static mesh at a height.
 
         It is a batch of one mesh: single meshes would need shaders of their own, and compiling
@@ -35,6 +35,7 @@ class MeshDrawer:
         batch = self.batch(name, mesh, [colour], opacity)
         batch.position = (0.0, 0.0, z)  # on the node itself: the page sorts nodes by distance
         batch.batched_scales = np.ones(1, np.float32)
+        return batch
 
     def batch(
         self, name: str, mesh: Mesh, colours: list[Rgb], opacity: float | None = None

@@ -1,4 +1,4 @@
-"""One page's camera: over the whole arena, over an agent, or in its eye."""
+"""One page's camera: over the whole arena, before it and tilted, over an agent, or in its eye."""
 
 import math
 import time
@@ -12,15 +12,18 @@ from viser import CameraHandle, ClientHandle, SceneApi
 from ai4u_edu.page.viewer.scene.arena import arena_size, camera_bounds
 from ai4u_edu.page.viewer.scene.framing import (
     FIELD_OF_VIEW_RAD,
+    TILTED_FIELD_OF_VIEW_RAD,
     Bounds,
     Frame,
     frame_arena,
     frame_point,
+    frame_tilted,
     visible_height,
 )
 from ai4u_edu.page.viewer.scene.geometry import Array
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
+from ai4u_edu.snapshot.theme import Rgb
 
 _EYE_FIELD_OF_VIEW_RAD = math.radians(65)
 """Vertical field of view."""
@@ -36,6 +39,11 @@ _SKY = np.linspace((132, 170, 206), (226, 235, 242), 64).astype(np.uint8)[:, Non
 _SIDE_LIGHTS = (((1.0, 0.55, 0.0), 2.6), ((-1.0, -0.55, 0.0), 1.6), ((-0.55, 1.0, 0.0), 2.0))
 """Horizontal lights as (direction, intensity): they light walls, which the light from above does
 not, and add nothing to surfaces that face up."""
+
+_HAZE: Rgb = (150, 170, 190)
+"""Colour of the sky behind a tilted arena, into which the void fades far away."""
+_HAZE_NEAR, _HAZE_FAR = 1.4, 4.0
+"""Distances at which the void begins to fade and has faded, in distances of the target."""
 
 _Position = tuple[float, float, float]
 
@@ -62,6 +70,25 @@ class _Daylight:
         self._scene.set_background_image(None)
         for light in self._lights:
             light.remove()
+
+
+class _Haze:
+    """A sky on one page into which what is far away fades, while its camera is tilted.
+
+    Args:
+        scene: viser's scene of the page.
+        distance: of the camera from its target (m).
+    """
+
+    def __init__(self, scene: SceneApi, distance: float) -> None:
+        self._scene = scene
+        scene.set_background_image(np.array([[_HAZE]], np.uint8), format="png")
+        scene.configure_fog(_HAZE_NEAR * distance, _HAZE_FAR * distance, color=_HAZE)
+
+    def remove(self) -> None:
+        """Remove the sky and the fading."""
+        self._scene.set_background_image(None)
+        self._scene.configure_fog(1.0, 2.0, enabled=False)
 
 
 def _eye_pose(
@@ -98,6 +125,8 @@ class Mode(StrEnum):
 
     ARENA = "arena"
     """Over the whole arena."""
+    TILTED = "tilted"
+    """Before the whole arena and above it, with perspective."""
     FOLLOW = "follow"
     """Over the agent that the page shows."""
     TURN = "turn"
@@ -125,7 +154,9 @@ class View:
         self._has_arrived = False
         self._is_moved_by_user = False
         self._followed = ""
-        self._daylight: _Daylight | None = None
+        self._sky: _Daylight | _Haze | None = None
+        self._sent: Array = np.zeros(3)
+        """Place where the camera was put last."""
         self._moved_at = 0.0
         client.camera.on_update(self._on_report)
 
@@ -141,7 +172,7 @@ class View:
             agent_id: of the agent that the page shows.
         """
         agent = next((each for each in snapshot.agents if each.id == agent_id), None)
-        if self.mode is Mode.ARENA or agent is None:
+        if self.mode in (Mode.ARENA, Mode.TILTED) or agent is None:
             self._show_all(snapshot)
             return
         (body,) = (each for each in snapshot.bodies if each.name == agent.body)
@@ -163,7 +194,33 @@ class View:
         reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_moved_by_user
         if bounds != self._bounds or reshaped:
             self._bounds, self._aspect = bounds, aspect
-            self._put(frame_arena(bounds, aspect))
+            if self.mode is Mode.TILTED:
+                self._tilt(bounds, aspect)
+            else:
+                self._put(frame_arena(bounds, aspect))
+
+    def _tilt(self, bounds: Bounds, aspect: float) -> None:
+        """Put the camera before the arena, tilted."""
+        camera, frame = self._client.camera, frame_tilted(bounds, aspect)
+        self._note_sent(frame.position)
+        with self._client.atomic():
+            self._clear_sky()
+            self._sky = _Haze(self._client.scene, frame.distance)
+            camera.up_direction = (0.0, 0.0, 1.0)
+            camera.position = frame.position
+            camera.look_at = frame.target
+            camera.fov = TILTED_FIELD_OF_VIEW_RAD
+            camera.near, camera.far = frame.distance / 40, frame.distance * 16
+            camera.min_orbit_distance, camera.max_orbit_distance = (
+                frame.distance / 8,
+                frame.distance * 3,
+            )
+
+    def _note_sent(self, position: _Position) -> None:
+        """Note that the camera is put somewhere, for it to be told from where a user puts it."""
+        self._known.append(self._client.camera.position)
+        self._sent = np.array(position)
+        self._has_arrived = self._is_moved_by_user = False
 
     def _begin(self, snapshot: Snapshot, body: BodyState) -> None:
         aspect = self._shape()
@@ -180,7 +237,8 @@ class View:
         place, ahead = _eye_pose(snapshot.static_scene, agent, body)
         with self._client.atomic():
             if is_new:
-                self._daylight = _Daylight(self._client.scene)
+                self._clear_sky()
+                self._sky = _Daylight(self._client.scene)
                 camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
                 camera.up_direction = (0.0, 0.0, 1.0)
                 camera.fov = _EYE_FIELD_OF_VIEW_RAD
@@ -203,24 +261,23 @@ class View:
         A slow page may report an older position: until a pose that we sent has come back and, since
         a report may be read while we move the camera, for a while after that.
         """
-        ours = np.array([self.frame.x, self.frame.y, self.frame.distance])
-        if _same(camera.position, ours):
+        if _same(camera.position, self._sent):
             self._has_arrived = True
         elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
             self._is_moved_by_user = True
 
-    def _leave_eye(self) -> None:
-        if self._daylight is not None:
-            self._daylight.remove()
-            self._daylight = None
+    def _clear_sky(self) -> None:
+        if self._sky is not None:
+            self._sky.remove()
+            self._sky = None
 
     def _put(self, wanted: Frame, up: tuple[float, float, float] = NORTH) -> None:
         camera, distance = self._client.camera, wanted.distance
-        self._known.append(camera.position)
-        self.frame, self._has_arrived, self._is_moved_by_user = wanted, False, False
+        self._note_sent((wanted.x, wanted.y, distance))
+        self.frame = wanted
         self._moved_at = self._clock()
-        self._leave_eye()
         with self._client.atomic():
+            self._clear_sky()
             camera.up_direction = up
             camera.position = (wanted.x, wanted.y, distance)
             camera.look_at = (wanted.x, wanted.y, 0.0)
@@ -245,6 +302,7 @@ class View:
             return
         self.frame = Frame(self.frame.x + dx, self.frame.y + dy, goal.height)
         centre = np.array([self.frame.x, self.frame.y, 0.0])
+        self._sent = centre + offset
         with self._client.atomic():
             if self.mode is Mode.TURN:
                 camera.up_direction = up
