@@ -52,6 +52,8 @@ FORMS = {
     "change_settings": "scene settings",
 }
 """Forms whose values the commands send."""
+LISTS = {"drivers": "driver", "scenes": "scene", "gallery": "class", "palette": "template"}
+"""Kinds of the names that a command lists."""
 
 
 class Known:
@@ -80,7 +82,6 @@ class Known:
                 self._note_form("block", part["form"], "path")
             case "world":
                 self.names["body"] = [body["name"] for body in part["bodies"]]
-                self.names["template"] = [each["name"] for each in part["templates"]]
                 self.forms["scene settings"] = part["settings"]
                 self._note_form("thing", part["form"], "name")
             case "past":
@@ -91,8 +92,8 @@ class Known:
         command = asked["command"]
         if command == "download":
             self.scene_file = answer["content"]
-        elif command in {"drivers", "scenes", "gallery"}:
-            kind = {"drivers": "driver", "scenes": "scene", "gallery": "class"}[command]
+        elif command in LISTS:
+            kind = LISTS[command]
             key = "class" if kind == "class" else "name"
             self.listed = asked.get("kind", self.listed)
             self.names[kind] = [each[key] for each in answer["items"]]

@@ -45,10 +45,6 @@ PART: dict[str, Any] = {
     "bodies": [ROBOT, BOX, PLATE],
     "form": None,
     "settings": SETTINGS,
-    "templates": [
-        {"name": name, "title": name.capitalize(), "icon": name}
-        for name in ("wall", "box", "ball", "floor", "area", "lamp", "agent")
-    ],
     "unsaved": None,
     "can_save": True,
     "undo": {"label": ""},
@@ -64,7 +60,6 @@ MOVING = {**PART, "is_move_mode": True, "form": FORM}
 def tab(chromium: Browser) -> Iterator[TabPage]:
     tab = TabPage(chromium, "panel/world/tab", "WorldTab", "world")
     tab.give(PART)
-    assert tab.sent() == [{"command": "snap", "distance": 0.5}]
     yield tab
     tab.close()
     assert tab.errors == []
@@ -108,19 +103,6 @@ def test_a_thing_that_is_clicked_in_the_picture_opens(tab: TabPage) -> None:
     )
     expect(tab.head("plate")).to_have_attribute("aria-expanded", "true")
     assert tab.shown["body"] == "plate"
-
-
-def test_things_are_added_and_can_be_moved_then(tab: TabPage) -> None:
-    tab.answer("add_body", body="lamp")
-    for name in ("Wall", "Box", "Ball", "Floor", "Area", "Lamp", "Agent"):
-        expect(tab.page.get_by_role("button", name=name, exact=True)).to_be_visible()
-    tab.page.get_by_role("button", name="Lamp", exact=True).click()
-    assert tab.sent() == [
-        {"command": "add_body", "template": "lamp"},
-        {"command": "select", "body": "lamp"},
-        {"command": "move_mode", "on": True},
-    ]
-    assert tab.shown["body"] == "lamp"
 
 
 def test_moving_and_the_grid_are_switched(tab: TabPage) -> None:

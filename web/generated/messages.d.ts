@@ -805,14 +805,6 @@ export interface ThingForm {
   fields: FormField[];
 }
 
-/** A thing that can be added. */
-export interface ThingTemplate {
-  name: string;
-  title: string;
-  /** Name of its icon, as in `web/shared/icons.js`. */
-  icon: string;
-}
-
 /** A scene that somebody changed and did not save. */
 export interface UnsavedScene {
   name: string;
@@ -832,8 +824,6 @@ export interface WorldPart {
   form: ThingForm | null;
   /** Form of the scene itself. */
   settings: FormField[];
-  /** Things that can be added. */
-  templates: ThingTemplate[];
   /** A scene that can be restored; null if there is none. */
   unsaved: UnsavedScene | null;
   /** The reason why the scene is not kept while it is changed; empty if it is. */
@@ -1007,7 +997,7 @@ export interface AddBlock {
   index?: number | null;
 }
 
-/** Add a thing, by default where there is room in the picture (m). */
+/** Add a thing at a place (m), or beside it if it is taken; by default where there is room. */
 export interface AddBody {
   template: string;
   x?: number | null;
@@ -1138,6 +1128,10 @@ export interface GoToStep {
   step: number;
 }
 
+/** Return the map from the page's picture to the ground, 3 x 3, row by row. It takes (across, down, 1), shares of the picture's width and height, to (w x, w y, w): metres. */
+export interface Ground {
+}
+
 /** Show no other pose any more. */
 export interface HideElsewhere {
 }
@@ -1163,6 +1157,10 @@ export interface ListRivals {
 
 /** List the scenes that can be opened. */
 export interface ListScenes {
+}
+
+/** List the things that can be added, each with its picture from above. */
+export interface ListThings {
 }
 
 /** Open the scene file that was sent in binary messages before. */
@@ -1442,6 +1440,7 @@ export interface Commands {
   elsewhere: AskElsewhere;
   episode: OpenEpisode;
   gallery: ListBlocks;
+  ground: Ground;
   hide_elsewhere: HideElsewhere;
   load_text: LoadText;
   lock_seed: LockSeed;
@@ -1454,6 +1453,7 @@ export interface Commands {
   open_recording: OpenRecording;
   open_scene: OpenScene;
   paid: AskPaid;
+  palette: ListThings;
   pause: Pause;
   pin: Pin;
   play: Play;

@@ -29,7 +29,7 @@ addEventListener(
     if (panel === null || isTextInput(event.target) || event.isComposing) return;
     if (document.querySelector("dialog[open]")) return;
     const body = (panel.shown.tabs.includes("world") ? panel.shown.body : null) ?? null;
-    const run = commandOf(event, body);
+    const run = panel.palette?.commandOf(event) ?? commandOf(event, body);
     if (run === null) return;
     event.preventDefault();
     event.stopImmediatePropagation();

@@ -56,6 +56,16 @@ export interface Rival {
   steps: number | null;
 }
 
+/** A thing that can be added to the world, with its picture from above. */
+export interface PaletteThing {
+  name: string;
+  title: string;
+  /** The picture as a data: address. */
+  url: string;
+  /** Length of its sides in the world (m). */
+  side_m: number;
+}
+
 export interface SceneCard {
   name: string;
   title: string;
@@ -117,8 +127,10 @@ export interface AnswerFields {
   duplicate_body: { body: string };
   elsewhere: StandingPose & { can_stand: boolean; action: ChangedNumber[] };
   gallery: { items: GalleryBlock[] };
+  ground: { matrix: number[] };
   move_block: { path: (string | number)[] };
   open_recording: { number: number };
+  palette: { items: PaletteThing[] };
   paid: { terms: PaidCurve[]; moments: PaidMoment[] };
   rivals: { rivals: Rival[] };
   scenes: { items: SceneCard[] };

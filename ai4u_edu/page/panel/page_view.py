@@ -74,6 +74,12 @@ class Picture(Protocol):
     def ground_center(self) -> tuple[float, float]:
         """Point (x, y) of the ground in the middle of the picture (m)."""
 
+    def ground_matrix(self, z: float) -> tuple[float, ...]:
+        """Return the map from the picture to the ground at a height (m), 3 x 3, row by row.
+
+        It takes (across, down, 1), shares of the picture's width and height, to (w x, w y, w).
+        """
+
     @property
     def is_dark(self) -> bool:
         """True for dark colours."""
@@ -166,6 +172,10 @@ class PageView:
     def ground_center(self) -> tuple[float, float] | None:
         """Point (x, y) of the ground in the middle of the picture (m); None without a picture."""
         return None if self._picture is None else self._picture.ground_center
+
+    def ground_matrix(self, z: float) -> tuple[float, ...] | None:
+        """Return the map from the picture to the ground at a height; None without a picture."""
+        return None if self._picture is None else self._picture.ground_matrix(z)
 
     def ask_again(self, *names: str) -> None:
         """Note that the page waits for parts, also if they are as before."""

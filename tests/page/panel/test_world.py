@@ -1,12 +1,16 @@
 """The things in the world and the scene itself, changed through the panel's socket."""
 
+import base64
+import io
 import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from uuid import uuid4
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from ai4u_edu import Scene
 from ai4u_edu.page.editing.scene_store import SceneStore
@@ -53,6 +57,56 @@ def test_things_are_added_and_deleted(page: PanelPage, room: PanelRoom, template
     assert things(part)[name]["kind"] in {template, "body"}
     page.done("remove_body", name=name)
     page.part("world", lambda m: things(m).keys() == before.keys())
+
+
+def test_the_palette_has_a_picture_of_each_thing(page: PanelPage) -> None:
+    items = {item["name"]: item for item in page.done("palette")["items"]}
+    assert list(items) == ["wall", "box", "ball", "target", "lamp", "area", "floor", "agent"]
+    assert len({item["url"] for item in items.values()}) == len(items)
+    for item in items.values():
+        data = base64.b64decode(item["url"].removeprefix("data:image/png;base64,"))
+        picture = Image.open(io.BytesIO(data))
+        opacity = np.asarray(picture)[..., 3]
+        assert opacity[0].max() == 0 < opacity[48, 48]
+    assert items["box"]["side_m"] == pytest.approx(0.8 * math.sqrt(2), rel=0.07)
+
+
+@pytest.mark.parametrize("template", ["ball", "wall", "area"])
+def test_a_thing_is_added_where_a_person_puts_it(page: PanelPage, template: str) -> None:
+    done = page.done("add_body", template=template, x=-3, y=3.5)
+    assert done["text"] == f"Added {template}."
+    listed = things(page.part("world", lambda m: template in things(m)))[template]
+    assert (listed["x"], listed["y"]) == (-3, 3.5)
+
+
+def test_a_thing_whose_place_is_taken_is_put_beside_it(page: PanelPage) -> None:
+    page.done("move_body", name="box", x=2, y=0)
+    done = page.done("add_body", template="ball", x=2, y=0)
+    assert "There was no room right there" in done["text"]
+    listed = things(page.part("world", lambda m: "ball" in things(m)))["ball"]
+    assert 0.8 < math.dist((listed["x"], listed["y"]), (2, 0)) < 2
+    # neither can move, so they may overlap, as walls do at a corner
+    for _ in range(2):
+        assert "no room" not in page.done("add_body", template="wall", x=-3, y=3)["text"]
+
+
+def test_a_thing_is_refused_where_it_would_fall(page: PanelPage) -> None:
+    failed = page.failed("add_body", template="box", x=50, y=0)
+    assert failed["text"] == "there is no floor: put it on a floor, or add a floor first"
+    page.done("add_body", template="floor", x=50, y=0)
+    page.done("add_body", template="box", x=50, y=0)
+    page.failed("add_body", template="box", x=1e5, y=0)
+
+
+def test_the_map_to_the_ground_needs_a_picture(room: PanelRoom, page: PanelPage) -> None:
+    assert "not there yet" in page.failed("ground")["text"]
+    page_id = uuid4().hex
+    with room.page(f"?page={page_id}") as other, picture(room, page_id) as client:
+        until(lambda: "matrix" in other.do("ground"))
+        until(lambda: client.camera == "arena")
+        matrix = np.reshape(other.done("ground")["matrix"], (3, 3))
+        x, y, w = matrix @ (0.5, 0.5, 1)
+        assert (x / w, y / w) == pytest.approx(client.ground_center, abs=0.01)
 
 
 def test_an_agent_is_added_like_the_one_that_is_shown(page: PanelPage, room: PanelRoom) -> None:

@@ -13,11 +13,17 @@ from ai4u_edu.page.editing import ChangeError, ChangeResult, SceneEditor
 from ai4u_edu.page.editing.forms import read_values
 from ai4u_edu.page.editing.settings import scene_form
 from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
-from ai4u_edu.page.editing.things import Thing, kind_of, thing_named
+from ai4u_edu.page.editing.things import Thing, checked_description, kind_of, thing_named
 from ai4u_edu.page.messages import Degrees, Metres, Name, PageCommand, Values
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.new_things import TEMPLATES, Template, free_position
+from ai4u_edu.page.panel.new_things import (
+    TEMPLATES,
+    Template,
+    free_position,
+    free_position_beside,
+    picture_of,
+)
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import BodyDescription, Pose
@@ -60,8 +66,39 @@ async def _select(page: Page, command: SelectBody) -> Answer:
     return Answer()
 
 
+class ListThings(PageCommand, tag="palette"):
+    """List the things that can be added, each with its picture from above."""
+
+
+async def _palette(page: Page, _command: ListThings) -> Answer:
+    editor = page.context.required_editor()
+    items = []
+    for name, template in TEMPLATES.items():
+        described = dict(_described(page, editor, template))
+        is_agent = template.kind == "agents"
+        thing = checked_description(described, "bodies" if is_agent else template.kind)
+        picture = picture_of(thing, is_agent=is_agent)
+        items.append({"name": name, "title": template.title, **picture._asdict()})
+    return Answer(more={"items": items})
+
+
+class Ground(PageCommand, tag="ground"):
+    """Return the map from the page's picture to the ground, 3 x 3, row by row.
+
+    It takes (across, down, 1), shares of the picture's width and height, to (w x, w y, w): metres.
+    """
+
+
+async def _ground(page: Page, _command: Ground) -> Answer:
+    static_scene = page.context.runner.latest.static_scene
+    matrix = page.view.ground_matrix(static_scene.lowest_floor)
+    if matrix is None:
+        raise SetupError("the picture of the world is not there yet; wait a moment, and try again")
+    return Answer(more={"matrix": matrix})
+
+
 class AddBody(PageCommand, tag="add_body"):
-    """Add a thing, by default where there is room in the picture (m)."""
+    """Add a thing at a place (m), or beside it if it is taken; by default where there is room."""
 
     template: Name
     x: Metres | None = None
@@ -88,10 +125,8 @@ async def _add_thing(
     """Add a thing at a place, or where there is room in the picture; then select it."""
     editor = page.context.required_editor()
     name = editor.free_name(str(described["name"]))
-    thing = dict(described) | {
-        "name": name,
-        "position": at or _place_for(page, described, template),
-    }
+    chosen, at = at, _place_for(page, described, template, at)
+    thing = dict(described) | {"name": name, "position": at}
     future: Future[ChangeResult]
     if template.kind == "agents":
         future = editor.add_agent(thing, page.view.agent)
@@ -101,7 +136,8 @@ async def _add_thing(
         future = editor.add_region(thing, template.kind)
     result = await page.result(future)
     page.view.select(name)
-    return change_answer(f"{done} {name}.", result, body=name)
+    aside = "" if chosen in (None, at) else " There was no room right there, so it is beside."
+    return change_answer(f"{done} {name}.{aside}", result, body=name)
 
 
 class DuplicateBody(PageCommand, tag="duplicate_body"):
@@ -120,7 +156,7 @@ async def _duplicate(page: Page, command: DuplicateBody) -> Answer:
     if not isinstance(thing, BodyDescription):
         x, y = thing.position
         at = x + COPY_OFFSET_M, y - COPY_OFFSET_M
-    return await _add_thing(page, Template("", "", kind, {}), described, at, "Copied it as")
+    return await _add_thing(page, Template("", kind, {}), described, at, "Copied it as")
 
 
 class ChangeBody(PageCommand, tag="change_body"):
@@ -229,9 +265,33 @@ def _copy_of(thing: Thing) -> dict[str, Any]:
     }
 
 
-def _place_for(page: Page, described: Mapping[str, Any], template: Template) -> tuple[float, float]:
-    """Return a place in the middle of the picture, for a body one where it touches nothing."""
+def _place_for(
+    page: Page,
+    described: Mapping[str, Any],
+    template: Template,
+    at: tuple[float, float] | None,
+) -> tuple[float, float]:
+    """Return a place for a thing; a body needs a floor, and room.
+
+    Args:
+        page: has the picture.
+        described: the thing.
+        template: its kind.
+        at: the place that a person chose; by default the middle of the picture.
+
+    Raises:
+        SetupError: there is no such place.
+    """
     snapshot = page.context.runner.latest
+    if at is not None:
+        if template.kind in {"floors", "areas"}:
+            return at
+        beside = free_position_beside(snapshot, dict(described), *at)
+        if beside is None:
+            if snapshot.static_scene.floor_under(*at) is None:
+                raise SetupError("there is no floor: put it on a floor, or add a floor first")
+            raise SetupError("there is no room: put it where nothing else stands")
+        return beside
     center = page.view.ground_center or _middle(snapshot.static_scene)
     if template.kind in {"floors", "areas"}:
         return round(center[0], 1), round(center[1], 1)
@@ -274,6 +334,8 @@ def _named(thing: Thing, error: ChangeError) -> list[ParameterProblem]:
 
 
 HANDLERS: Mapping[type[PageCommand], Handler] = {
+    ListThings: _palette,
+    Ground: _ground,
     MoveMode: _move_mode,
     Snap: _snap,
     SelectBody: _select,
