@@ -153,6 +153,10 @@ def _value(command: str, field: inspect.Field, known: Known, rng: random.Random)
     match field.encode_name:
         case "name":
             return known.draw(NAME_POOLS.get(command, "body"), rng)
+        case "names":
+            return [known.draw("body", rng) for _ in range(rng.randint(1, 3))]
+        case "corners":
+            return [[rng.uniform(-9, 9), rng.uniform(-9, 9)] for _ in range(rng.randint(1, 4))]
         case "parent":
             return [known.listed]
         case "path":

@@ -1,6 +1,7 @@
 """The palette under the world: dragging, clicking and keys, with a fake panel."""
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import pytest
@@ -13,6 +14,8 @@ from tests.page.server.rooms import Room
 PIXEL = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw=="
 THINGS = ("wall", "box", "ball", "target", "lamp", "area", "floor", "agent")
 ITEMS = [{"name": name, "title": name.capitalize(), "url": PIXEL, "side_m": 2.0} for name in THINGS]
+FOUND = ["cube", "robot"]
+"""Things that each frame finds; a click finds the first one."""
 WIDE_M = 20.0
 """Width and height of the ground that the picture shows, with (0, 0) in the middle (m)."""
 MATRIX = [WIDE_M, 0, -WIDE_M / 2, 0, -WIDE_M, WIDE_M / 2, 0, 0, 1]
@@ -36,7 +39,10 @@ def build(page: PanelPage, tab: str = "World", **answers: Json) -> None:
     page.panel.replies |= {
         "palette": lambda _: {"items": ITEMS},
         "ground": lambda _: {"matrix": MATRIX},
-        "add_body": lambda message: {"body": message["template"], "text": "Added it."},
+        "add_body": lambda message: {"bodies": [message["template"]], "text": "Added it."},
+        "find_things": lambda message: {"names": FOUND[: len(message["corners"])]},
+        "duplicate": lambda message: {"bodies": [f"{name} 2" for name in message["names"]]},
+        "paste": lambda _: {"bodies": ["cube 2"]},
     }
     page.panel.change("world", snap=0.5)
     page.tab(tab).click()
@@ -63,6 +69,27 @@ def added(page: PanelPage) -> Json:
 
 def ghost(page: PanelPage) -> Locator:
     return page.page.locator(".ai4u-ghost")
+
+
+def is_move_mode(page: PanelPage) -> bool:
+    """Return True if the latest command lets things be moved."""
+    commands = page.panel.commands("move_mode")
+    return bool(commands and commands[-1]["on"])
+
+
+def selected(page: PanelPage) -> list[str]:
+    """Return the names of the selected things that the page said last."""
+    last = (page.panel.commands("select") or [{"body": None, "others": []}])[-1]
+    return [last["body"], *last["others"]] if last["body"] else []
+
+
+def tool(page: PanelPage, name: str) -> Locator:
+    bar = page.page.get_by_role("toolbar", name="Selected things")
+    return bar.get_by_role("button", name=name)
+
+
+def is_aligned(page: PanelPage, command: Json) -> bool:
+    return command in page.panel.commands("align")
 
 
 def start_drag(page: PanelPage, title: str) -> None:
@@ -127,8 +154,8 @@ def test_the_keyboard_takes_moves_and_places_it(desk: PanelPage) -> None:
     expect(ghost(desk)).to_be_visible()
     for key in ("ArrowRight", "ArrowRight", "ArrowUp", "Alt+ArrowUp"):
         desk.page.keyboard.press(key)
-    said = desk.page.locator(".ai4u-palette [role=status]")
-    expect(said).to_have_text("Lamp: 1 m to the right, 0.55 m up.")
+    said = desk.page.locator(".ai4u-palette .ai4u-hidden-text")
+    expect(said).to_have_text("Lamp: 1 m right, 0.55 m up.")
     desk.page.keyboard.press("Enter")
     assert added(desk) == {"template": "lamp", "x": 1, "y": 0.55}
     expect(said).to_have_text("Added it.")
@@ -144,10 +171,10 @@ def test_a_refusal_is_said(desk: PanelPage) -> None:
 
 def test_it_is_there_while_a_tab_builds_the_world(desk: PanelPage) -> None:
     palette = desk.page.get_by_role("region", name="Add to the world")
-    desk.until(lambda: desk.panel.commands("move_mode")[-1:] == [{"on": True}])
+    desk.until(lambda: is_move_mode(desk))
     desk.tab("Drive").click()
     expect(palette).to_be_hidden()
-    desk.until(lambda: desk.panel.commands("move_mode")[-1] == {"on": False})
+    desk.until(lambda: not is_move_mode(desk))
     desk.tab("Build").click()
     expect(palette).to_be_visible()
     assert set(desk.panel.shown["tabs"]) == {"blocks", "world"}
@@ -165,7 +192,7 @@ def test_who_does_not_move_things_keeps_it_so(desk: PanelPage) -> None:
     desk.panel.received.clear()
     desk.tab("World").click()
     desk.until(lambda: desk.panel.commands("snap"))
-    assert desk.panel.commands("move_mode")[-1] == {"on": False}
+    assert not is_move_mode(desk)
     assert desk.panel.commands("snap")[-1] == {"distance": 0}
 
 
@@ -185,3 +212,64 @@ def test_on_a_phone_a_tap_takes_it_and_the_next_one_places_it(
         phone.until(lambda: phone.panel.commands("ground"))
         phone.page.touchscreen.tap(*at(phone, 4, 5))
         assert added(phone) == {"template": "ball", "x": 4, "y": 5}
+
+
+def pull_frame(page: PanelPage) -> None:
+    page.page.mouse.move(*at(page, -5, 5))
+    page.page.mouse.down()
+    page.page.mouse.move(*at(page, 5, -5), steps=3)
+    expect(page.page.locator(".ai4u-frame")).to_be_visible()
+    page.page.mouse.up()
+
+
+def test_shift_pulls_a_frame_around_things(desk: PanelPage) -> None:
+    expect(tool(desk, "Put into a row")).to_be_hidden()
+    desk.page.keyboard.down("Shift")
+    pull_frame(desk)
+    desk.until(lambda: selected(desk) == ["cube", "robot"])
+    (frame,) = desk.panel.commands("find_things")
+    assert [pytest.approx(corner, abs=0.1) for corner in frame["corners"]] == [
+        [-5, 5],
+        [5, 5],
+        [5, -5],
+        [-5, -5],
+    ]
+    desk.page.mouse.click(*at(desk, 1, 1))  # the first of them, which is let go
+    desk.until(lambda: selected(desk) == ["robot"])
+    desk.page.keyboard.up("Shift")
+    expect(desk.page.locator(".ai4u-frame-layer")).to_have_count(0)
+
+
+def test_tools_change_all_that_is_selected(desk: PanelPage) -> None:
+    tool(desk, "Select several").click()
+    pull_frame(desk)
+    expect(desk.page.get_by_text("2 things selected")).to_be_visible()
+    names = ["cube", "robot"]
+    for name, how in (("a row", "row"), ("a column", "column"), ("Space evenly", "spread")):
+        tool(desk, name).click()
+        desk.until(partial(is_aligned, desk, {"names": names, "how": how}))
+    tool(desk, "Duplicate").click()
+    desk.until(lambda: selected(desk) == ["cube 2", "robot 2"])
+    tool(desk, "Delete").click()
+    desk.until(lambda: desk.panel.commands("remove_bodies") == [{"names": ["cube 2", "robot 2"]}])
+    desk.until(lambda: selected(desk) == [])
+    desk.page.mouse.click(*at(desk, 1, 1))  # the mode goes on
+    desk.until(lambda: selected(desk) == ["cube"])
+    tool(desk, "Select several").click()
+    expect(desk.page.locator(".ai4u-frame-layer")).to_have_count(0)
+
+
+def test_what_is_copied_is_pasted_where_the_pointer_is(desk: PanelPage) -> None:
+    tool(desk, "Select several").click()
+    desk.page.mouse.click(*at(desk, 1, 1))
+    desk.until(lambda: selected(desk) == ["cube"])
+    desk.page.keyboard.press("Control+c")
+    desk.page.mouse.move(*at(desk, -4, 2))
+    desk.page.keyboard.press("Control+v")
+    desk.until(lambda: desk.panel.commands("paste"))
+    assert desk.panel.commands("copy") == [{"names": ["cube"]}]
+    (place,) = desk.panel.commands("paste")
+    assert (place["x"], place["y"]) == pytest.approx((-4, 2), abs=0.1)
+    desk.until(lambda: selected(desk) == ["cube 2"])
+    tool(desk, "Paste").click()
+    desk.until(lambda: desk.panel.commands("paste")[1:] == [{}])

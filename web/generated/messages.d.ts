@@ -976,6 +976,8 @@ export interface Show {
   block?: (string | number)[] | null;
   /** Name of the selected thing; null for none. */
   body?: string | null;
+  /** Names of the things that are selected with it. */
+  others?: string[];
   /** Number of the chosen episode; null for none. */
   episode?: number | null;
 }
@@ -1002,6 +1004,12 @@ export interface AddBody {
   template: string;
   x?: number | null;
   y?: number | null;
+}
+
+/** Put things into a row or a column through their middle, or at equal distances. */
+export interface Align {
+  names: string[];
+  how: "column" | "row" | "spread";
 }
 
 /** Return the action at another pose, and show it; by default where the agent stands now. */
@@ -1068,6 +1076,11 @@ export interface CompareDrivers {
 export interface ContinueHere {
 }
 
+/** Keep copies of things, which can be pasted, into another scene too. */
+export interface Copy {
+  names: string[];
+}
+
 /** Draw the picture in dark colours, or light ones. */
 export interface Dark {
   on: boolean;
@@ -1104,14 +1117,19 @@ export interface DriveNetwork {
   network: number;
 }
 
+/** Add copies of things beside them. */
+export interface Duplicate {
+  names: string[];
+}
+
 /** Add a copy of a block of the agent. */
 export interface DuplicateBlock {
   path: (string | number)[];
 }
 
-/** Add a copy of a thing. */
-export interface DuplicateBody {
-  name: string;
+/** Name the bodies and areas whose middle is within a frame; of one point (m), what is there. */
+export interface FindThings {
+  corners: [number, number][];
 }
 
 /** Delete a drive. */
@@ -1191,15 +1209,17 @@ export interface MoveBody {
 /** Let the user move things with the mouse, or not. */
 export interface MoveMode {
   on: boolean;
+  /** Radius of the knobs that turn and resize a thing, as a share of the picture's height. */
+  knob?: number;
 }
 
 /** Begin an episode with a new start, also if the seed is locked. */
 export interface NewStart {
 }
 
-/** Move a thing a bit (m, degrees). */
+/** Move things a bit (m, degrees). */
 export interface Nudge {
-  name: string;
+  names: string[];
   dx?: number;
   dy?: number;
   turn_deg?: number;
@@ -1220,6 +1240,12 @@ export interface OpenRecording {
 export interface OpenScene {
   name: string;
   is_saved?: boolean;
+}
+
+/** Add what was copied, with its middle at a place (m); by default beside where it was. */
+export interface Paste {
+  x?: number | null;
+  y?: number | null;
 }
 
 /** Pause the world. */
@@ -1273,9 +1299,9 @@ export interface RemoveBlock {
   path: (string | number)[];
 }
 
-/** Delete a thing; the body of an agent goes with its agent. */
-export interface RemoveBody {
-  name: string;
+/** Delete things; the body of an agent goes with its agent. */
+export interface RemoveBodies {
+  names: string[];
 }
 
 /** Remove the ghost. */
@@ -1313,9 +1339,10 @@ export interface SaveScene {
   over?: boolean;
 }
 
-/** Select a thing. */
+/** Select a thing, and others with it. */
 export interface SelectBody {
   body: string | null;
+  others?: string[];
 }
 
 /** Choose the agent's driver. */
@@ -1421,6 +1448,7 @@ export interface Commands {
   add_block: AddBlock;
   add_body: AddBody;
   agent: ShowAgent;
+  align: Align;
   back_to_live: BackToLive;
   camera: Camera;
   change_agent: ChangeAgent;
@@ -1429,16 +1457,18 @@ export interface Commands {
   change_settings: ChangeSettings;
   compare: CompareDrivers;
   continue: ContinueHere;
+  copy: Copy;
   dark: Dark;
   decision: Decision;
   discard: Discard;
   download: Download;
   driver: SetDriver;
   drivers: ListDrivers;
+  duplicate: Duplicate;
   duplicate_block: DuplicateBlock;
-  duplicate_body: DuplicateBody;
   elsewhere: AskElsewhere;
   episode: OpenEpisode;
+  find_things: FindThings;
   gallery: ListBlocks;
   ground: Ground;
   hide_elsewhere: HideElsewhere;
@@ -1454,6 +1484,7 @@ export interface Commands {
   open_scene: OpenScene;
   paid: AskPaid;
   palette: ListThings;
+  paste: Paste;
   pause: Pause;
   pin: Pin;
   play: Play;
@@ -1462,7 +1493,7 @@ export interface Commands {
   redo: Redo;
   reduce_motion: ReduceMotion;
   remove_block: RemoveBlock;
-  remove_body: RemoveBody;
+  remove_bodies: RemoveBodies;
   remove_ghost: RemoveGhost;
   reset: Reset;
   restore: Restore;

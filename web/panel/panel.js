@@ -122,7 +122,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   constructor(driving, pageId) {
     super();
     this.driving = driving;
-    this.shown = { agent: driving.agent ?? "", tabs: [], block: null, body: null, episode: null };
+    this.shown = { agent: driving.agent ?? "", tabs: [], block: null, body: null, others: [], episode: null };
     const query = new URLSearchParams({ page: pageId, ...(driving.agent === null ? {} : { agent: driving.agent }) });
     this.#socket = new PanelSocket(`ws/panel?${query}`);
     this.#socket.onconnected = (isConnected) => this.#onConnected(isConnected);
@@ -193,6 +193,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     if (JSON.stringify(before) === JSON.stringify(this.shown)) return;
     this.#socket.show(this.shown);
     if (before.agent !== this.shown.agent) this.dispatchEvent(new Event("agent"));
+    if (before.body !== this.shown.body || before.others !== this.shown.others) this.dispatchEvent(new Event("shown"));
   }
 
   /**
@@ -311,7 +312,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     } else if (message.type === "stand_in") {
       this.dispatchEvent(new CustomEvent("stand_in", { detail: message }));
     } else if (message.type === "selected") {
-      if (message.agent) this.show({ agent: message.agent });
+      this.show({ body: message.body, others: [], ...(message.agent ? { agent: message.agent } : {}) });
       this.dispatchEvent(new CustomEvent("selected", { detail: message }));
     }
   }

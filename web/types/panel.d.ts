@@ -119,17 +119,19 @@ export interface StandingPose {
 /** Further fields of the answers to commands that were carried out. */
 export interface AnswerFields {
   add_block: { path: (string | number)[] };
-  add_body: { body: string };
+  add_body: { bodies: string[] };
   compare: DriverComparison;
   download: { file: string; content: string };
   drivers: { items: DriverChoice[] };
   duplicate_block: { path: (string | number)[] };
-  duplicate_body: { body: string };
+  duplicate: { bodies: string[] };
   elsewhere: StandingPose & { can_stand: boolean; action: ChangedNumber[] };
   gallery: { items: GalleryBlock[] };
+  find_things: { names: string[] };
   ground: { matrix: number[] };
   move_block: { path: (string | number)[] };
   open_recording: { number: number };
+  paste: { bodies: string[] };
   palette: { items: PaletteThing[] };
   paid: { terms: PaidCurve[]; moments: PaidMoment[] };
   rivals: { rivals: Rival[] };
@@ -251,5 +253,6 @@ export interface PanelEvents extends PartEvents {
   disconnected: null;
   driver: DriverView;
   selected: SelectedMessage;
+  shown: null;
   stand_in: StandInMessage;
 }

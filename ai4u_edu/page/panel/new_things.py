@@ -1,9 +1,9 @@
-"""Things that a page can add to a world: their pictures, and the search for a free position."""
+"""Things that a page can add to a world, their pictures, and what lies or has room where."""
 
 import base64
 import io
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, Literal, NamedTuple
 
@@ -13,6 +13,9 @@ from ai4u_edu.page.editing.things import Thing
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.snapshot.raster import draw_thing
 from ai4u_edu.world import BodyDescription
+from ai4u_edu.world.region import Region
+
+Place = tuple[float, float]
 
 
 class Template(NamedTuple):
@@ -95,8 +98,8 @@ MAX_RINGS = 23
 """Number of those rings."""
 CLEARANCE_M = 0.15
 """Free distance (m) between a new body and the others."""
-MAX_ASIDE_RINGS = 4
-"""Number of rings around a place that a person chose."""
+ASIDE_STEP_M, MAX_ASIDE_M = 0.5, 4.0
+"""Grid of the places around one that a person chose, and the distance to the last of them (m)."""
 PICTURE_PX = 96
 """Side of a thing's picture."""
 PICTURE_MARGIN = 1.06
@@ -146,27 +149,36 @@ def free_position(
     return None
 
 
-def free_position_beside(
-    snapshot: Snapshot, template: dict[str, Any], x: float, y: float
+def free_offset(
+    snapshot: Snapshot, bodies: Sequence[BodyDescription], dx: float, dy: float
 ) -> tuple[float, float] | None:
-    """Return the place that a person chose for a body, or the nearest free one within 2 m.
+    """Return an offset (m) by which new bodies have room together: the nearest to (dx, dy).
 
-    Its centre has to be on a floor, and it may overlap no body, unless neither can move.
+    The centre of each has to be on a floor then, and it may overlap no body that is there, unless
+    neither can move. None if there is none near.
     """
-    body = BodyDescription.model_validate(template)
-    placed = [
-        _Box.around(other, *pose)
-        for other, *pose in _placed_bodies(snapshot)
-        if "static" not in (body.kind, other.kind) or body.kind != other.kind
+    placed = list(_placed_bodies(snapshot))
+    boxes = [
+        (
+            _Box.around(body, *body.position, math.radians(body.heading_deg)),
+            [
+                _Box.around(other, *pose)
+                for other, *pose in placed
+                if "static" not in (body.kind, other.kind) or body.kind != other.kind
+            ],
+        )
+        for body in bodies
     ]
-    heading = math.radians(body.heading_deg)
-    for at in ((x, y), *_positions_around(x, y, MAX_ASIDE_RINGS)):
-        box = _Box.around(body, *at, heading)
-        if snapshot.static_scene.floor_under(*at) is not None and not any(
-            box.overlaps(other) for other in placed
-        ):
-            return at
+    for aside_x, aside_y in _ASIDE:
+        offset = dx + aside_x, dy + aside_y
+        if all(_has_room(snapshot, box.moved(*offset), others) for box, others in boxes):
+            return offset
     return None
+
+
+def _has_room(snapshot: Snapshot, box: "_Box", others: Sequence["_Box"]) -> bool:
+    is_on_floor = snapshot.static_scene.floor_under(box.x, box.y) is not None
+    return is_on_floor and not any(box.overlaps(other) for other in others)
 
 
 def _placed_bodies(
@@ -194,8 +206,14 @@ class _Box(NamedTuple):
     def around(cls, body: BodyDescription, x: float, y: float, heading: float) -> "_Box":
         return cls(x, y, *_half_extents(body), heading)
 
+    def moved(self, dx: float, dy: float) -> "_Box":
+        return self._replace(x=self.x + dx, y=self.y + dy)
+
     def overlaps(self, other: "_Box") -> bool:
         """Return True unless a line along one of the sides separates the two."""
+        reach = self.along + self.across + other.along + other.across
+        if abs(self.x - other.x) >= reach or abs(self.y - other.y) >= reach:
+            return False
         return not any(
             self._is_apart(other, heading + turn)
             for heading in (self.heading, other.heading)
@@ -227,11 +245,86 @@ def _distance_to_box(
     return math.hypot(max(abs(ahead) - along, 0.0), max(abs(aside) - across, 0.0))
 
 
-def _positions_around(x: float, y: float, rings: int = MAX_RINGS) -> Iterator[tuple[float, float]]:
+def _positions_around(x: float, y: float) -> Iterator[tuple[float, float]]:
     """Yield positions around (x, y), nearest first."""
     yield round(x, 1), round(y, 1)
-    for ring in range(1, rings + 1):
+    for ring in range(1, MAX_RINGS + 1):
         for step in range(6 * ring):
             angle = step * math.pi / 3 / ring
             radius = RING_SPACING_M * ring
             yield round(x + radius * math.cos(angle), 1), round(y + radius * math.sin(angle), 1)
+
+
+_STEPS = range(-round(MAX_ASIDE_M / ASIDE_STEP_M), round(MAX_ASIDE_M / ASIDE_STEP_M) + 1)
+_ASIDE = sorted(
+    ((ASIDE_STEP_M * right, ASIDE_STEP_M * up) for right in _STEPS for up in _STEPS),
+    key=lambda offset: math.hypot(*offset),
+)
+"""Offsets from a place that a person chose, the nearest first."""
+
+
+def things_within(snapshot: Snapshot, corners: Sequence[Place]) -> list[str]:
+    """Return the names of the bodies and areas whose middle is within a convex frame (m).
+
+    Floors lie under everything, so a frame leaves them out.
+    """
+    places = {state.name: (state.x, state.y) for state in snapshot.bodies if not state.fallen}
+    places |= {area.name: area.position for area in snapshot.static_scene.areas}
+    return [name for name, place in places.items() if _is_within(place, corners)]
+
+
+def thing_at(snapshot: Snapshot, x: float, y: float) -> str | None:
+    """Return the name of the uppermost thing at a place (m); None over the void."""
+    static_scene = snapshot.static_scene
+    described = {body.name: body for body in static_scene.bodies}
+    found: list[tuple[float, str]] = []
+    for state in snapshot.bodies:
+        body = described.get(state.name)
+        if body is None or state.fallen:
+            continue
+        if _covers(body, x - state.x, y - state.y, state.heading):
+            found.append((state.z + body.height, state.name))
+    if found:
+        return max(found)[1]
+    regions = (*reversed(static_scene.areas), *sorted(static_scene.floors, key=lambda f: -f.top))
+    return next((region.name for region in regions if Region(region).contains(x, y)), None)
+
+
+def aligned_places(
+    places: Mapping[str, Place], how: Literal["row", "column", "spread"]
+) -> dict[str, Place]:
+    """Return places in a row or a column through the middle, or at equal distances on a line.
+
+    >>> aligned_places({"a": (0, 1), "b": (2, 3)}, "row")
+    {'a': (0, 2.0), 'b': (2, 2.0)}
+    >>> aligned_places({"a": (0, 0), "b": (1, 0), "c": (4, 2)}, "spread")
+    {'a': (0.0, 0.0), 'b': (2.0, 1.0), 'c': (4.0, 2.0)}
+    """
+    xs, ys = [x for x, _ in places.values()], [y for _, y in places.values()]
+    if how == "row":
+        return {name: (x, sum(ys) / len(ys)) for name, (x, _) in places.items()}
+    if how == "column":
+        return {name: (sum(xs) / len(xs), y) for name, (_, y) in places.items()}
+    axis = 0 if max(xs) - min(xs) >= max(ys) - min(ys) else 1
+    order = sorted(places, key=lambda name: places[name][axis])
+    (x0, y0), (x1, y1) = places[order[0]], places[order[-1]]
+    steps = max(len(order) - 1, 1)
+    spread = {
+        name: (x0 + number / steps * (x1 - x0), y0 + number / steps * (y1 - y0))
+        for number, name in enumerate(order)
+    }
+    return {name: spread[name] for name in places}
+
+
+def _is_within(place: Place, corners: Sequence[Place]) -> bool:
+    """Return True for a place on the same side of all edges of a convex polygon."""
+    (x, y), sides = place, []
+    for (x0, y0), (x1, y1) in zip(corners, (*corners[1:], corners[0]), strict=True):
+        sides.append((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0))
+    return all(side >= 0 for side in sides) or all(side <= 0 for side in sides)
+
+
+def _covers(body: BodyDescription, dx: float, dy: float, heading: float) -> bool:
+    cos, sin = math.cos(heading), math.sin(heading)
+    outline = body.shape.outline()
+    return _is_within((cos * dx + sin * dy, cos * dy - sin * dx), outline)

@@ -64,8 +64,12 @@ class ViewerClient:
         """Its panel, once that has a connection; None with viser's panel."""
         self.selected = ""
         """Name of the selected thing."""
+        self.others: tuple[str, ...] = ()
+        """Names of the things that are selected with it."""
         self.is_move_mode = False
         """True if its user may drag things."""
+        self.knob_share = 0.025
+        """Radius of the handles' knobs, as a share of the picture's height."""
         self.is_motion_reduced = False
         """True if its user prefers pictures without motion that nothing in the world makes."""
         self.choices: dict[str, object] = {}

@@ -50,12 +50,12 @@ def test_everything_in_the_scene_is_listed(page: PanelPage) -> None:
 def test_things_are_added_and_deleted(page: PanelPage, room: PanelRoom, template: str) -> None:
     before = things(page.part("world"))
     done = page.done("add_body", template=template)
-    name = done["body"]
+    (name,) = done["bodies"]
     assert name not in before
     assert done["text"].startswith(f"Added {name}.")
     part = page.part("world", lambda m: m["form"] and m["form"]["name"] == name)
     assert things(part)[name]["kind"] in {template, "body"}
-    page.done("remove_body", name=name)
+    page.done("remove_bodies", names=[name])
     page.part("world", lambda m: things(m).keys() == before.keys())
 
 
@@ -116,25 +116,97 @@ def test_an_agent_is_added_like_the_one_that_is_shown(page: PanelPage, room: Pan
     assert [type(each) for each in added.sensors] == [
         type(each) for each in room.runner.sim.agents[0].sensors
     ]
-    page.done("remove_body", name=done["body"])
+    page.done("remove_bodies", names=done["bodies"])
     page.part("scene", lambda m: len(m["agents"]) == 1)
-    assert "the only agent" in page.failed("remove_body", name="robot")["text"]
+    assert "the only agent" in page.failed("remove_bodies", names=["robot"])["text"]
 
 
 def test_a_thing_is_moved_nudged_and_copied(page: PanelPage, room: PanelRoom) -> None:
     assert page.done("move_body", name="box", x=2, y=-1)["text"].startswith("Moved box.")
     page.part("world", lambda m: (things(m)["box"]["x"], things(m)["box"]["y"]) == (2, -1))
     for number in range(100, 104):
-        page.send({"type": "do", "id": number, "command": "nudge", "name": "box", "dx": 0.5})
+        page.send({"type": "do", "id": number, "command": "nudge", "names": ["box"], "dx": 0.5})
     page.receive(lambda m: m.get("id") == 103)
     box = room.editor.state.description.bodies[-1]
     assert room.runner.sim.world["box"].pose[0] == pytest.approx(4.0)
-    copy = page.done("duplicate_body", name="box")["body"]
+    (copy,) = page.done("duplicate", names=["box"])["bodies"]
     assert copy == "box 2"
     assert things(page.part("world", lambda m: copy in things(m)))[copy]["shape"] == box.shape.type
     page.part("scene", undo={"label": "add box 2"})  # whichever tab is open
     page.done("undo")
     page.part("world", lambda m: copy not in things(m))
+
+
+def test_several_things_are_one_step_of_undo(page: PanelPage, room: PanelRoom) -> None:
+    page.done("add_body", template="wall", x=-4, y=3)
+    page.done("add_body", template="ball", x=4, y=-3)
+    names = ["ball", "wall"]
+
+    def places(part: Message) -> dict[str, tuple[float, float]]:
+        listed = things(part)
+        return {name: (listed[name]["x"], listed[name]["y"]) for name in listed}
+
+    before = places(page.part("world", lambda m: "ball" in things(m)))
+    for command, arguments, label in (
+        ("nudge", {"dx": 0.5, "turn_deg": 15.0}, "move 2 things"),
+        ("align", {"how": "row"}, "move 2 things"),
+        ("align", {"how": "column"}, "move 2 things"),
+        ("duplicate", {}, "add 2 things"),
+        ("remove_bodies", {}, "remove 2 things"),
+    ):
+        page.done(command, names=names, **arguments)
+        assert room.editor.undo_label == label
+        page.part("world", undo={"label": label})
+        page.done("undo")
+        page.part("world", lambda m: places(m) == before)
+    assert page.done("align", names=names, how="row")["text"] == "Aligned 2 things."
+    page.part("world", lambda m: things(m)["ball"]["y"] == things(m)["wall"]["y"] == 0)
+    assert room.runner.sim.world["ball"].position == (4, 0)  # at once
+
+
+def test_copies_keep_their_distances_and_find_room(page: PanelPage, room: PanelRoom) -> None:
+    page.done("add_body", template="ball", x=-3, y=3)
+    page.done("add_body", template="box", x=-2, y=3)
+    first = page.done("duplicate", names=["ball", "box 2"])["bodies"]
+    listed = things(page.part("world", lambda m: set(first) <= things(m).keys()))
+    ball, box = (listed[name] for name in first)
+    assert (box["x"] - ball["x"], box["y"] - ball["y"]) == (1, 0)
+    assert page.failed("paste")["text"].startswith("nothing was copied yet")
+    page.done("copy", names=["ball", "box 2"])
+    pasted = page.done("paste", x=3, y=-3)["bodies"]
+    listed = things(page.part("world", lambda m: set(pasted) <= things(m).keys()))
+    assert [listed[name]["x"] for name in pasted] == [2.5, 3.5]
+    page.done("open_scene", name="maze")
+    assert len(page.done("paste", x=0, y=0)["bodies"]) == 2  # into another scene
+
+
+def test_a_copied_agent_brings_its_blocks(page: PanelPage, room: PanelRoom) -> None:
+    page.done("copy", names=["robot"])
+    page.done("paste", x=3, y=3)
+    page.part("scene", lambda m: len(m["agents"]) == 2)
+    first, second = room.runner.sim.agents
+    assert [type(each) for each in second.rewards] == [type(each) for each in first.rewards]
+    assert "only agent" in page.failed("remove_bodies", names=["robot", "robot 2"])["text"]
+
+
+def test_a_frame_and_a_click_find_things(page: PanelPage) -> None:
+    page.done("add_body", template="area", x=-3, y=3)
+    page.done("move_body", name="box", x=2, y=1)
+    page.part("world", lambda m: things(m)["box"]["x"] == 2)
+    frame = [[-4, 4], [3, 4], [3, 0.5], [-4, 0.5]]
+    assert page.done("find_things", corners=frame)["names"] == ["box", "area"]
+    for x, y, names in ((2.3, 1.3, ["box"]), (-3.5, 3, ["area"]), (50, 0, [])):
+        assert page.done("find_things", corners=[[x, y]])["names"] == names
+    assert page.done("find_things", corners=[[0, -4.5]])["names"] != []  # the plate
+    page.failed("find_things", corners=[])
+    page.failed("find_things", corners=[[0, 0]] * 9)
+
+
+def test_names_of_several_things_are_checked(page: PanelPage) -> None:
+    for command in ("nudge", "duplicate", "copy", "remove_bodies"):
+        assert "did you mean 'box'" in page.failed(command, names=["bxo"])["text"]
+        page.failed(command, names=[])
+        page.failed(command, names=["box"] * 101)
 
 
 def test_the_form_of_a_thing(page: PanelPage) -> None:
@@ -212,9 +284,9 @@ def test_nudges_of_one_thing_are_undone_together(
     monkeypatch.setattr("ai4u_edu.page.editing.transactions.MERGE_S", math.inf)
     before = room.runner.latest.bodies
     for _ in range(3):
-        page.done("nudge", name="box", dx=0.25, dy=0)
+        page.done("nudge", names=["box"], dx=0.25, dy=0)
     moved = room.runner.latest.bodies
-    page.done("nudge", name="robot", dx=0.25, dy=0)
+    page.done("nudge", names=["robot"], dx=0.25, dy=0)
     page.done("undo")
     assert room.runner.latest.bodies == moved != before
     page.done("undo")

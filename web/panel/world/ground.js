@@ -87,5 +87,5 @@ function inverse([a, b, c, d, e, f, g, h, i]) {
   const [D, E, F] = [f * g - d * i, a * i - c * g, c * d - a * f];
   const [G, H, I] = [d * h - e * g, b * g - a * h, a * e - b * d];
   const determinant = a * A + b * D + c * G;
-  return [A, B, C, D, E, F, G, H, I].map((each) => each / determinant);
+  return [A, B, C, D, E, F, G, H, I].map((number) => number / determinant);
 }

@@ -11,8 +11,9 @@
  */
 import { element, setAttributes, setText } from "../../shared/dom.js";
 import { recall } from "../../shared/storage.js";
-import { choose } from "./body_card.js";
 import { Ground, onGrid } from "./ground.js";
+import { chooseAdded, setMoveMode } from "./selection.js";
+import { SelectionBar } from "./selection_bar.js";
 
 /** Keys under which the page remembers whether things are moved by the mouse, and the distance of the grid (m). */
 export const MOVES_KEY = "move-things";
@@ -31,6 +32,8 @@ const FINE_STEP_M = 0.05;
 /** @type {Record<string, [right: number, up: number]>} */
 const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
+/** @typedef {Pick<PointerEvent, "clientX" | "clientY" | "altKey">} Aim */
+
 export class Palette {
   #panel;
   #entries = element("div", { className: "ai4u-palette-entries", role: "group", ariaLabel: "Things to add" });
@@ -38,6 +41,8 @@ export class Palette {
   #hint = element("p", { className: "ai4u-palette-hint", textContent: "Drag a thing into the world." });
   #layer = element("div", { className: "ai4u-layer", ariaHidden: "true" });
   #ghost = element("img", { className: "ai4u-ghost", alt: "", draggable: false });
+  /** The bar for the selected things. */
+  bar;
   element = element("section", { className: "ai4u-palette", ariaLabel: "Add to the world", hidden: true });
   /**
    * The thing that is held; null for none.
@@ -49,6 +54,11 @@ export class Palette {
    * @type {Point | null}
    */
   #place = null;
+  /**
+   * The pointer that it follows; null for one that keys move.
+   * @type {Aim | null}
+   */
+  #pointer = null;
   /** @type {Ground | null} */
   #ground = null;
   #timer = 0;
@@ -64,19 +74,22 @@ export class Palette {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
+    this.bar = new SelectionBar(panel);
     this.#layer.append(this.#ghost);
-    this.element.append(this.#hint, this.#entries, this.#says);
+    this.element.append(this.bar.element, this.#hint, this.#entries, this.#says);
     this.#layer.addEventListener("pointermove", (event) => this.#follow(event));
     this.#layer.addEventListener("pointerdown", (event) => this.#follow(event));
     this.#layer.addEventListener("pointerup", (event) => this.#putAt(event));
+    addEventListener("resize", () => this.element.hidden || setMoveMode(panel, recall(MOVES_KEY, true)));
     panel.addEventListener("connected", () => this.element.hidden || this.show(true));
   }
 
   /** @param {boolean} isOn */
   show(isOn) {
     this.element.hidden = !isOn;
-    this.#panel.send("move_mode", { on: isOn && recall(MOVES_KEY, true) }, { quiet: true });
+    setMoveMode(this.#panel, isOn && recall(MOVES_KEY, true));
     this.#panel.send("snap", { distance: recall(SNAP_KEY, SNAP_M) }, { quiet: true });
+    this.bar.show(isOn);
     document.documentElement.toggleAttribute("data-ai4u-building", isOn);
     if (!isOn) this.#drop();
     else if (!this.#isListed) this.#list();
@@ -94,10 +107,19 @@ export class Palette {
     const step = altKey ? FINE_STEP_M : this.#snap || STEP_M;
     const [right, up] = DIRECTIONS[code];
     return () => {
+      this.#pointer = null;
       const { x, y } = this.#place ?? this.#middle ?? { x: 0, y: 0 };
       this.#move(onGrid({ x: x + right * step, y: y + up * step }, altKey ? 0 : this.#snap));
-      setText(this.#says, `${this.#held.title}: ${this.#place.x} m to the right, ${this.#place.y} m up.`);
+      this.say(`${this.#held.title}: ${placeWords(this.#place)}.`);
     };
+  }
+
+  /**
+   * Say something to screen readers.
+   * @param {string} text
+   */
+  say(text) {
+    setText(this.#says, text);
   }
 
   async #list() {
@@ -185,7 +207,7 @@ export class Palette {
     this.#ghost.hidden = true;
     document.body.append(this.#layer);
     setText(this.#hint, isByKeys ? "Arrow keys move it, Enter puts it there, Esc puts it away." : "Now click a place in the world. Esc puts it away.");
-    setText(this.#says, `${thing.title}: the arrow keys move it, Enter puts it there, Escape puts it away.`);
+    this.say(`${thing.title}: the arrow keys move it, Enter puts it there, Escape puts it away.`);
     await this.#look();
     if (this.#held === thing && isByKeys && this.#place === null && this.#middle) this.#move(onGrid(this.#middle, this.#snap));
   }
@@ -193,11 +215,11 @@ export class Palette {
   /** @param {string} [text] for screen readers */
   #drop(text = "") {
     clearTimeout(this.#timer);
-    this.#held = this.#place = this.#ground = null;
+    this.#held = this.#place = this.#ground = this.#pointer = null;
     this.#layer.remove();
     for (const entry of this.#entries.children) setAttributes(entry, { "aria-pressed": "false" });
     setText(this.#hint, "Drag a thing into the world.");
-    if (text) setText(this.#says, text);
+    if (text) this.say(text);
   }
 
   /** @param {PointerEvent} event */
@@ -213,11 +235,11 @@ export class Palette {
     this.#drop();
     const answer = await this.#panel.send("add_body", { template: thing.name, ...place });
     if (!answer.ok) {
-      setText(this.#says, answer.text || answer.problems.map((problem) => problem.text).join(" "));
+      this.say(answer.text || answer.problems.map((problem) => problem.text).join(" "));
       return;
     }
-    setText(this.#says, answer.text);
-    if (answer.body) choose(this.#panel, answer.body);
+    this.say(answer.text);
+    chooseAdded(this.#panel, answer);
   }
 
   /** Ask for the map between picture and ground, and again while a thing is held: the camera may follow a robot. */
@@ -228,20 +250,22 @@ export class Palette {
     if (this.#held === null) return;
     if (answer.ok && rect !== null) {
       this.#ground = new Ground(answer.matrix, rect);
-      if (this.#place) this.#move(this.#place);
+      if (this.#pointer) this.#follow(this.#pointer);
+      else if (this.#place) this.#move(this.#place);
     }
     this.#timer = setTimeout(() => this.#look(), GROUND_MS);
   }
 
-  /** @param {PointerEvent} event */
-  #follow(event) {
-    const isThere = isWithin(event, this.#rect);
+  /** @param {Aim} aim */
+  #follow({ clientX, clientY, altKey }) {
+    this.#pointer = { clientX, clientY, altKey };
+    const isThere = isWithin(this.#pointer, this.#rect);
     if (this.#held === null) return;
-    const place = isThere ? (this.#ground?.at({ x: event.clientX, y: event.clientY }) ?? null) : null;
+    const place = isThere ? (this.#ground?.at({ x: clientX, y: clientY }) ?? null) : null;
     if (place === null) {
       this.#place = null;
       this.#ghost.hidden = true;
-    } else this.#move(onGrid(place, event.altKey ? 0 : this.#snap));
+    } else this.#move(onGrid(place, altKey ? 0 : this.#snap));
   }
 
   /** @param {Point} place (m) */
@@ -271,8 +295,13 @@ export class Palette {
   }
 }
 
+/** @param {Point} place (m) */
+function placeWords({ x, y }) {
+  return `${Math.abs(x)} m ${x < 0 ? "left" : "right"}, ${Math.abs(y)} m ${y < 0 ? "down" : "up"}`;
+}
+
 /**
- * @param {PointerEvent} event
+ * @param {Pick<Aim, "clientX" | "clientY">} place
  * @param {DOMRect | null} rect
  */
 function isWithin({ clientX, clientY }, rect) {

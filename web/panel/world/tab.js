@@ -6,6 +6,7 @@
  */
 import { element, keyed, setText } from "../../shared/dom.js";
 import { BodyCard } from "./body_card.js";
+import { chooseMore, setMoveMode } from "./selection.js";
 import { Form } from "../widgets/form.js";
 import { section, toggle } from "../widgets/parts.js";
 import { remember } from "../../shared/storage.js";
@@ -14,7 +15,7 @@ import { SceneFiles } from "./scene_files.js";
 
 const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
 const HINT_ON =
-  "Drag things to move them (Esc cancels). Click one to get handles that rotate and resize it. Arrow keys nudge it.";
+  "Drag things to move them (Esc cancels). Click one to turn it or change its size. Shift and a click, or a frame, take several.";
 
 export class WorldTab {
   #panel;
@@ -55,6 +56,8 @@ export class WorldTab {
       section("world-settings", "Scene settings", { isOpen: false }, this.#settings.element),
       this.#files.kept,
     );
+    this.#list.addEventListener("click", (event) => this.#chooseMore(event), { capture: true });
+    panel.addEventListener("shown", () => this.#updateShown());
     panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));
   }
 
@@ -80,10 +83,28 @@ export class WorldTab {
     this.#settings.update(part.settings ?? []);
   }
 
+  /**
+   * Select a thing besides the others, with Shift.
+   * @param {MouseEvent} event
+   */
+  #chooseMore(event) {
+    if (!event.shiftKey || !(event.target instanceof Element)) return;
+    const card = event.target.closest(".ai4u-card-head")?.closest(".ai4u-card");
+    const name = [...this.#cards].find(([, { element: made }]) => made === card)?.[0];
+    if (name === undefined) return;
+    event.stopPropagation();
+    chooseMore(this.#panel, [name], { isToggle: true });
+  }
+
+  #updateShown() {
+    const part = this.#panel.part("world"); // the form comes later
+    if (part) this.update(part);
+  }
+
   /** @param {boolean} on */
   #setMoving(on) {
     remember(MOVES_KEY, on);
-    this.#panel.send("move_mode", { on }, { quiet: true });
+    setMoveMode(this.#panel, on);
   }
 
   /** @param {number} distance (m); 0 for no grid */
@@ -94,9 +115,6 @@ export class WorldTab {
 
   /** @param {string} name */
   #showSelected(name) {
-    this.#panel.show({ body: name });
-    const part = this.#panel.part("world"); // the form comes later
-    if (part) this.update(part);
     this.#cards.get(name)?.element.scrollIntoView({ block: "nearest" });
   }
 }
