@@ -18,6 +18,10 @@ MAX_FIELDS = 200
 """Most values of a form."""
 
 Name = Annotated[str, Meta(max_length=MAX_NAME_CHARS)]
+MAX_SELECTED = 100
+"""Most things that are selected, moved or copied at once."""
+Names = Annotated[tuple[Name, ...], Meta(min_length=1, max_length=MAX_SELECTED)]
+Others = Annotated[tuple[Name, ...], Meta(max_length=MAX_SELECTED)]
 Number = Annotated[int, Meta(ge=0, le=MAX_EXACT_INT)]
 Path = Annotated[list[str | int], Meta(min_length=1, max_length=MAX_PATH_PARTS)]
 Values = Annotated[dict[str, Any], Meta(max_length=MAX_FIELDS)]

@@ -28,7 +28,14 @@ from ai4u_edu.snapshot.marks import (
     robot_parts,
     tread_bars,
 )
-from ai4u_edu.world import BodyDescription, FloorDescription, RegionDescription, RingShape
+from ai4u_edu.world import (
+    AreaDescription,
+    BodyDescription,
+    FloorDescription,
+    RegionDescription,
+    RingShape,
+    WorldSettings,
+)
 from ai4u_edu.world.ink import TILE_M, InkImage
 
 Points = npt.NDArray[np.float64]
@@ -66,6 +73,52 @@ def draw_snapshot(snapshot: Snapshot, *, longest: int = 480) -> npt.NDArray[np.u
         (height, width, 3) uint8.
     """
     return _Canvas(snapshot.static_scene, longest).draw(snapshot)
+
+
+def draw_thing(
+    thing: BodyDescription | FloorDescription | AreaDescription,
+    reach_m: float,
+    *,
+    is_agent: bool,
+    longest: int,
+) -> npt.NDArray[np.uint8]:
+    """Draw one thing from above, at the heading of its description, and nothing around it.
+
+    Args:
+        thing: its position is ignored.
+        reach_m: distance (m) from the middle of the picture to its sides.
+        is_agent: True for the body of an agent, which has a face.
+        longest: pixels of a side.
+
+    Returns:
+        (longest, longest, 4) uint8: red, green, blue, opacity.
+    """
+    thing = thing.model_copy(update={"position": (0.0, 0.0)})
+    side = reach_m - MARGIN_M
+    static_scene = StaticScene(
+        settings=WorldSettings(),
+        floors=(),
+        areas=(),
+        bodies=(),
+        agent_of={thing.name: ""} if is_agent else {},
+        bounds=((-side, -side), (side, side)),
+    )
+    canvas = _Canvas(static_scene, longest)
+    opacity = Image.new("L", canvas.image.size)
+    pen = ImageDraw.Draw(opacity)
+    if isinstance(thing, BodyDescription):
+        heading = math.radians(thing.heading_deg)
+        state = BodyState(thing.name, 0, 0, 0, heading, 0, 0, 0, 0, on_ground=True, fallen=False)
+        canvas._body(thing, state)
+        canvas._polygon(_placed(thing.shape.outline(), 0.0, 0.0, heading), 255, None, pen)
+    else:
+        if isinstance(thing, FloorDescription):
+            canvas._region(thing, theme.floor_colour(thing), theme.FLOOR_EDGE)
+        else:
+            canvas._region(thing, theme.area_fill(thing), theme.area_colour(thing))
+        canvas._region(thing, 255, None, pen)
+    canvas.image.putalpha(opacity)
+    return np.asarray(canvas.image.reduce(SUPERSAMPLING), np.uint8)
 
 
 class _Canvas:

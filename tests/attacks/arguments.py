@@ -52,6 +52,8 @@ FORMS = {
     "change_settings": "scene settings",
 }
 """Forms whose values the commands send."""
+LISTS = {"drivers": "driver", "scenes": "scene", "gallery": "class", "palette": "template"}
+"""Kinds of the names that a command lists."""
 
 
 class Known:
@@ -80,7 +82,6 @@ class Known:
                 self._note_form("block", part["form"], "path")
             case "world":
                 self.names["body"] = [body["name"] for body in part["bodies"]]
-                self.names["template"] = [each["name"] for each in part["templates"]]
                 self.forms["scene settings"] = part["settings"]
                 self._note_form("thing", part["form"], "name")
             case "past":
@@ -91,8 +92,8 @@ class Known:
         command = asked["command"]
         if command == "download":
             self.scene_file = answer["content"]
-        elif command in {"drivers", "scenes", "gallery"}:
-            kind = {"drivers": "driver", "scenes": "scene", "gallery": "class"}[command]
+        elif command in LISTS:
+            kind = LISTS[command]
             key = "class" if kind == "class" else "name"
             self.listed = asked.get("kind", self.listed)
             self.names[kind] = [each[key] for each in answer["items"]]
@@ -152,6 +153,10 @@ def _value(command: str, field: inspect.Field, known: Known, rng: random.Random)
     match field.encode_name:
         case "name":
             return known.draw(NAME_POOLS.get(command, "body"), rng)
+        case "names":
+            return [known.draw("body", rng) for _ in range(rng.randint(1, 3))]
+        case "corners":
+            return [[rng.uniform(-9, 9), rng.uniform(-9, 9)] for _ in range(rng.randint(1, 4))]
         case "parent":
             return [known.listed]
         case "path":

@@ -44,7 +44,7 @@ INDEX = """<!doctype html>
   import {{ {name} }} from "./web/{module}.js";
 
   class FakePanel extends EventTarget {{
-    shown = {{ agent: "0", tabs: ["{part}"], block: null, body: null, episode: null }};
+    shown = {{ agent: "0", tabs: ["{part}"], block: null, body: null, others: [], episode: null }};
     details = false;
     sent = [];
     answers = {{}};

@@ -38,6 +38,7 @@ def test_the_page_tells_what_it_looks_at(desk: PanelPage) -> None:
         "tabs": ["agent"],
         "block": None,
         "body": None,
+        "others": [],
         "episode": None,
     }
     page_id = desk.page.evaluate("ai4uPageId")

@@ -45,10 +45,6 @@ PART: dict[str, Any] = {
     "bodies": [ROBOT, BOX, PLATE],
     "form": None,
     "settings": SETTINGS,
-    "templates": [
-        {"name": name, "title": name.capitalize(), "icon": name}
-        for name in ("wall", "box", "ball", "floor", "area", "lamp", "agent")
-    ],
     "unsaved": None,
     "can_save": True,
     "undo": {"label": ""},
@@ -64,7 +60,6 @@ MOVING = {**PART, "is_move_mode": True, "form": FORM}
 def tab(chromium: Browser) -> Iterator[TabPage]:
     tab = TabPage(chromium, "panel/world/tab", "WorldTab", "world")
     tab.give(PART)
-    assert tab.sent() == [{"command": "snap", "distance": 0.5}]
     yield tab
     tab.close()
     assert tab.errors == []
@@ -90,7 +85,7 @@ def test_things_are_listed_with_their_places(tab: TabPage) -> None:
 def test_a_click_chooses_and_the_form_changes_it(tab: TabPage) -> None:
     tab.head("box").click()
     assert tab.shown["body"] == "box"
-    assert tab.sent() == [{"command": "select", "body": "box"}]
+    assert tab.sent() == [{"command": "select", "body": "box", "others": []}]
     tab.give({**PART, "form": FORM})
     expect(tab.page.get_by_label("mass (kg)")).to_be_hidden()
     x = tab.page.get_by_label("x (m)")
@@ -104,29 +99,18 @@ def test_a_click_chooses_and_the_form_changes_it(tab: TabPage) -> None:
 
 def test_a_thing_that_is_clicked_in_the_picture_opens(tab: TabPage) -> None:
     tab.page.evaluate(
-        """panel.dispatchEvent(new CustomEvent("selected", {detail: {body: "plate"}}))"""
+        """panel.show({body: "plate", others: []});
+        panel.dispatchEvent(new CustomEvent("selected", {detail: {body: "plate"}}))"""
     )
     expect(tab.head("plate")).to_have_attribute("aria-expanded", "true")
     assert tab.shown["body"] == "plate"
 
 
-def test_things_are_added_and_can_be_moved_then(tab: TabPage) -> None:
-    tab.answer("add_body", body="lamp")
-    for name in ("Wall", "Box", "Ball", "Floor", "Area", "Lamp", "Agent"):
-        expect(tab.page.get_by_role("button", name=name, exact=True)).to_be_visible()
-    tab.page.get_by_role("button", name="Lamp", exact=True).click()
-    assert tab.sent() == [
-        {"command": "add_body", "template": "lamp"},
-        {"command": "select", "body": "lamp"},
-        {"command": "move_mode", "on": True},
-    ]
-    assert tab.shown["body"] == "lamp"
-
-
 def test_moving_and_the_grid_are_switched(tab: TabPage) -> None:
     expect(tab.page.get_by_text("Turn on Move things")).to_be_visible()
     tab.page.get_by_role("switch", name="Move things").click()
-    assert tab.sent() == [{"command": "move_mode", "on": True}]
+    (sent,) = tab.sent()
+    assert sent == {"command": "move_mode", "on": True, "knob": sent["knob"]}
     tab.give(MOVING)
     expect(tab.page.get_by_text("Esc cancels")).to_be_visible()
     tab.page.get_by_role("switch", name="Snap to grid").click()
@@ -138,16 +122,16 @@ def test_moving_and_the_grid_are_switched(tab: TabPage) -> None:
 
 
 SHORTCUTS: list[tuple[str, dict[str, object]]] = [
-    ("ArrowRight", {"command": "nudge", "name": "box", "dx": 0.5, "dy": 0, "turn_deg": 0}),
-    ("ArrowUp", {"command": "nudge", "name": "box", "dx": 0, "dy": 0.5, "turn_deg": 0}),
-    ("Alt+ArrowLeft", {"command": "nudge", "name": "box", "dx": -0.05, "dy": 0, "turn_deg": 0}),
-    ("Shift+ArrowLeft", {"command": "nudge", "name": "box", "dx": 0, "dy": 0, "turn_deg": 15}),
-    ("Delete", {"command": "remove_body", "name": "box"}),
-    ("Control+d", {"command": "duplicate_body", "name": "box"}),
+    ("ArrowRight", {"command": "nudge", "names": ["box"], "dx": 0.5, "dy": 0, "turn_deg": 0}),
+    ("ArrowUp", {"command": "nudge", "names": ["box"], "dx": 0, "dy": 0.5, "turn_deg": 0}),
+    ("Alt+ArrowLeft", {"command": "nudge", "names": ["box"], "dx": -0.05, "dy": 0, "turn_deg": 0}),
+    ("Shift+ArrowLeft", {"command": "nudge", "names": ["box"], "dx": 0, "dy": 0, "turn_deg": 15}),
+    ("Delete", {"command": "remove_bodies", "names": ["box"]}),
+    ("Control+d", {"command": "duplicate", "names": ["box"]}),
     ("Control+z", {"command": "undo"}),
     ("Control+y", {"command": "redo"}),
     ("Control+Shift+Z", {"command": "redo"}),
-    ("Escape", {"command": "select", "body": None}),
+    ("Escape", {"command": "select", "body": None, "others": []}),
 ]
 
 
@@ -159,6 +143,24 @@ def test_shortcuts_change_the_chosen_thing(tab: TabPage, subtests: pytest.Subtes
                 tab.page.evaluate("document.activeElement.blur()")
             tab.page.keyboard.press(keys)
             assert tab.sent()[0] == command
+
+
+def test_shift_selects_several_and_shortcuts_change_all(tab: TabPage) -> None:
+    chosen(tab)
+    tab.head("robot").click(modifiers=["Shift"])
+    select = {"command": "select", "body": "box", "others": ["robot"]}
+    assert tab.sent() == [select]
+    assert tab.shown["others"] == ["robot"]
+    tab.page.evaluate("document.activeElement.blur()")
+    tab.page.keyboard.press("ArrowRight")
+    tab.page.keyboard.press("Delete")
+    names = ["box", "robot"]
+    nudge = {"command": "nudge", "names": names, "dx": 0.5, "dy": 0, "turn_deg": 0}
+    assert tab.sent()[:2] == [nudge, {"command": "remove_bodies", "names": names}]
+    tab.head("box").click()
+    tab.head("robot").click(modifiers=["Shift"])
+    tab.head("robot").click(modifiers=["Shift"])
+    assert tab.sent()[-1] == {"command": "select", "body": "box", "others": []}
 
 
 def test_shortcuts_leave_texts_and_windows_alone(tab: TabPage) -> None:
@@ -195,13 +197,13 @@ def test_escape_during_a_drag_is_the_pictures(tab: TabPage) -> None:
 
 def test_a_card_copies_and_deletes(tab: TabPage) -> None:
     chosen(tab)
-    tab.answer("duplicate_body", body="box 2")
+    tab.answer("duplicate", bodies=["box 2"])
     tab.page.get_by_role("button", name="Duplicate").click()
-    assert tab.sent()[0] == {"command": "duplicate_body", "name": "box"}
+    assert tab.sent()[0] == {"command": "duplicate", "names": ["box"]}
     assert tab.shown["body"] == "box 2"
     tab.head("box").click()
     tab.page.get_by_role("button", name="Delete").click()
-    assert {"command": "remove_body", "name": "box"} in tab.sent()
+    assert {"command": "remove_bodies", "names": ["box"]} in tab.sent()
     assert tab.shown["body"] is None
 
 

@@ -62,6 +62,17 @@ def rays(server: Played) -> list[float]:
     return list(percept.get(RAYS, ()))
 
 
+def put(page: Page, title: str) -> None:
+    """Take a thing from the palette, and put it beside the middle of the picture, by keys."""
+    entry = page.locator(".ai4u-palette-entry", has_text=title)
+    entry.press("Enter")
+    expect(page.locator(".ai4u-ghost")).to_be_visible()
+    for _ in range(5):
+        page.keyboard.press("ArrowUp")
+    page.keyboard.press("Enter")
+    expect(entry).to_have_attribute("aria-pressed", "false")
+
+
 def test_a_card_of_the_start_page_opens_its_scene(page: Page, server: Played) -> None:
     page.goto(f"{server.url}start")
     page.locator("#scenes").get_by_role("button", name="Donut", exact=True).click()
@@ -122,7 +133,7 @@ def test_a_wall_is_added_dragged_and_put_back(page: Page, server: Played) -> Non
     press(page, "Pause")
     until(lambda: server.snapshot()["paused"])
     open_tab(page, "World")
-    press(page, "Wall")
+    put(page, "Wall")
     until(lambda: body(server, "wall"))
     expect(page.get_by_role("switch", name="Move things")).to_have_attribute("aria-checked", "true")
     expect(card(page, "wall").locator(".ai4u-card-body")).to_be_visible()
@@ -144,7 +155,7 @@ def test_a_scene_is_saved_downloaded_and_opened_again(
     page: Page, server: Played, tmp_path: Path
 ) -> None:
     open_tab(page, "World")
-    press(page, "Target")
+    put(page, "Target")
     until(lambda: body(server, "target"))
     press(page, "Save")
     notices = recorded_notices(page)

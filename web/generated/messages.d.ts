@@ -843,14 +843,6 @@ export interface ThingForm {
   fields: FormField[];
 }
 
-/** A thing that can be added. */
-export interface ThingTemplate {
-  name: string;
-  title: string;
-  /** Name of its icon, as in `web/shared/icons.js`. */
-  icon: string;
-}
-
 /** A scene that somebody changed and did not save. */
 export interface UnsavedScene {
   name: string;
@@ -870,8 +862,6 @@ export interface WorldPart {
   form: ThingForm | null;
   /** Form of the scene itself. */
   settings: FormField[];
-  /** Things that can be added. */
-  templates: ThingTemplate[];
   /** A scene that can be restored; null if there is none. */
   unsaved: UnsavedScene | null;
   /** The reason why the scene is not kept while it is changed; empty if it is. */
@@ -1031,6 +1021,8 @@ export interface Show {
   block?: (string | number)[] | null;
   /** Name of the selected thing; null for none. */
   body?: string | null;
+  /** Names of the things that are selected with it. */
+  others?: string[];
   /** Number of the chosen episode; null for none. */
   episode?: number | null;
 }
@@ -1052,11 +1044,17 @@ export interface AddBlock {
   index?: number | null;
 }
 
-/** Add a thing, by default where there is room in the picture (m). */
+/** Add a thing at a place (m), or beside it if it is taken; by default where there is room. */
 export interface AddBody {
   template: string;
   x?: number | null;
   y?: number | null;
+}
+
+/** Put things into a row or a column through their middle, or at equal distances. */
+export interface Align {
+  names: string[];
+  how: "column" | "row" | "spread";
 }
 
 /** Return the action at another pose, and show it; by default where the agent stands now. */
@@ -1123,6 +1121,11 @@ export interface CompareDrivers {
 export interface ContinueHere {
 }
 
+/** Keep copies of things, which can be pasted, into another scene too. */
+export interface Copy {
+  names: string[];
+}
+
 /** Draw the picture in dark colours, or light ones. */
 export interface Dark {
   on: boolean;
@@ -1159,14 +1162,19 @@ export interface DriveNetwork {
   network: number;
 }
 
+/** Add copies of things beside them. */
+export interface Duplicate {
+  names: string[];
+}
+
 /** Add a copy of a block of the agent. */
 export interface DuplicateBlock {
   path: (string | number)[];
 }
 
-/** Add a copy of a thing. */
-export interface DuplicateBody {
-  name: string;
+/** Name the bodies and areas whose middle is within a frame; of one point (m), what is there. */
+export interface FindThings {
+  corners: [number, number][];
 }
 
 /** Delete a drive. */
@@ -1181,6 +1189,10 @@ export interface GoOnPractising {
 /** Show a decision of the chosen episode, counted from 0. */
 export interface GoToStep {
   step: number;
+}
+
+/** Return the map from the page's picture to the ground, 3 x 3, row by row. It takes (across, down, 1), shares of the picture's width and height, to (w x, w y, w): metres. */
+export interface Ground {
 }
 
 /** Show no other pose any more. */
@@ -1208,6 +1220,10 @@ export interface ListRivals {
 
 /** List the scenes that can be opened. */
 export interface ListScenes {
+}
+
+/** List the things that can be added, each with its picture from above. */
+export interface ListThings {
 }
 
 /** Open the scene file that was sent in binary messages before. */
@@ -1238,15 +1254,17 @@ export interface MoveBody {
 /** Let the user move things with the mouse, or not. */
 export interface MoveMode {
   on: boolean;
+  /** Radius of the knobs that turn and resize a thing, as a share of the picture's height. */
+  knob?: number;
 }
 
 /** Begin an episode with a new start, also if the seed is locked. */
 export interface NewStart {
 }
 
-/** Move a thing a bit (m, degrees). */
+/** Move things a bit (m, degrees). */
 export interface Nudge {
-  name: string;
+  names: string[];
   dx?: number;
   dy?: number;
   turn_deg?: number;
@@ -1267,6 +1285,12 @@ export interface OpenRecording {
 export interface OpenScene {
   name: string;
   is_saved?: boolean;
+}
+
+/** Add what was copied, with its middle at a place (m); by default beside where it was. */
+export interface Paste {
+  x?: number | null;
+  y?: number | null;
 }
 
 /** Pause the world. */
@@ -1326,9 +1350,9 @@ export interface RemoveBlock {
   path: (string | number)[];
 }
 
-/** Delete a thing; the body of an agent goes with its agent. */
-export interface RemoveBody {
-  name: string;
+/** Delete things; the body of an agent goes with its agent. */
+export interface RemoveBodies {
+  names: string[];
 }
 
 /** Remove the ghost. */
@@ -1366,9 +1390,10 @@ export interface SaveScene {
   over?: boolean;
 }
 
-/** Select a thing. */
+/** Select a thing, and others with it. */
 export interface SelectBody {
   body: string | null;
+  others?: string[];
 }
 
 /** Choose the agent's driver. */
@@ -1486,6 +1511,7 @@ export interface Commands {
   add_block: AddBlock;
   add_body: AddBody;
   agent: ShowAgent;
+  align: Align;
   back_to_live: BackToLive;
   camera: Camera;
   change_agent: ChangeAgent;
@@ -1494,17 +1520,20 @@ export interface Commands {
   change_settings: ChangeSettings;
   compare: CompareDrivers;
   continue: ContinueHere;
+  copy: Copy;
   dark: Dark;
   decision: Decision;
   discard: Discard;
   download: Download;
   driver: SetDriver;
   drivers: ListDrivers;
+  duplicate: Duplicate;
   duplicate_block: DuplicateBlock;
-  duplicate_body: DuplicateBody;
   elsewhere: AskElsewhere;
   episode: OpenEpisode;
+  find_things: FindThings;
   gallery: ListBlocks;
+  ground: Ground;
   hide_elsewhere: HideElsewhere;
   load_text: LoadText;
   lock_seed: LockSeed;
@@ -1517,6 +1546,8 @@ export interface Commands {
   open_recording: OpenRecording;
   open_scene: OpenScene;
   paid: AskPaid;
+  palette: ListThings;
+  paste: Paste;
   pause: Pause;
   pin: Pin;
   play: Play;
@@ -1526,7 +1557,7 @@ export interface Commands {
   redo: Redo;
   reduce_motion: ReduceMotion;
   remove_block: RemoveBlock;
-  remove_body: RemoveBody;
+  remove_bodies: RemoveBodies;
   remove_ghost: RemoveGhost;
   reset: Reset;
   restore: Restore;

@@ -6,6 +6,7 @@
  * @import { EmitterClass } from "../types/events.js"
  * @import { AnswerTo, PanelEvents, PanelMessage, Parts, TabsPart } from "../types/panel.js"
  * @import { NoticeAction } from "./notices.js"
+ * @import { Palette } from "./world/palette.js"
  */
 import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
@@ -30,6 +31,10 @@ const MAX_FILE_NAME_CHARS = 80;
  * @type {Record<string, Show["tabs"][number]>}
  */
 const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", code: "agent", past: "past" };
+/** Parts that tabs need besides their own. @type {Record<string, Show["tabs"]>} */
+const MORE_PARTS = { code: ["past"], build: ["world"] };
+/** Tabs that build the world, with the palette under it. */
+const BUILDING = ["build", "world"];
 /** @typedef {{update(part: Parts[keyof Parts]): void}} Tab takes each part of its name */
 /** @typedef {new (root: HTMLElement, panel: Panel) => Tab} TabClass */
 /** @typedef {{agent: string | null, take: () => void, letGo: () => void}} Driving */
@@ -64,6 +69,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
    * @type {Omit<Show, "type">}
    */
   shown;
+  /**
+   * The things to add to the world, once a tab has been open that builds it.
+   * @type {Palette | null}
+   */
+  palette = null;
   /** True while a program of this page has the agent. */
   hasProgram = false;
   /**
@@ -114,7 +124,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   constructor(driving, pageId) {
     super();
     this.driving = driving;
-    this.shown = { agent: driving.agent ?? "", tabs: [], block: null, body: null, episode: null };
+    this.shown = { agent: driving.agent ?? "", tabs: [], block: null, body: null, others: [], episode: null };
     const query = new URLSearchParams({ page: pageId, ...(driving.agent === null ? {} : { agent: driving.agent }) });
     this.#socket = new PanelSocket(`ws/panel?${query}`);
     this.#socket.onconnected = (isConnected) => this.#onConnected(isConnected);
@@ -185,6 +195,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     if (JSON.stringify(before) === JSON.stringify(this.shown)) return;
     this.#socket.show(this.shown);
     if (before.agent !== this.shown.agent) this.dispatchEvent(new Event("agent"));
+    if (before.body !== this.shown.body || before.others !== this.shown.others) this.dispatchEvent(new Event("shown"));
   }
 
   /**
@@ -272,6 +283,21 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     const label = isFolded ? "Open the panel" : "Fold the panel";
     setAttributes(this.#fold, { "aria-expanded": isFolded ? "false" : "true", "aria-label": label, title: label });
     this.#body.inert = isFolded;
+    this.#showPalette();
+  }
+
+  /** Show the palette while a tab is open that builds the world. */
+  async #showPalette() {
+    const isBuilding = () => !this.layout.isFolded && BUILDING.includes(this.#tabs.open);
+    if (this.palette === null) {
+      if (!isBuilding()) return;
+      const { Palette: Made } = await retried(() => import("./world/palette.js"));
+      if (this.palette === null) {
+        this.palette = new Made(this);
+        this.element.before(this.palette.element);
+      }
+    }
+    this.palette.show(isBuilding());
   }
 
   /** @param {boolean} isConnected */
@@ -293,7 +319,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     } else if (message.type === "stand_in") {
       this.dispatchEvent(new CustomEvent("stand_in", { detail: message }));
     } else if (message.type === "selected") {
-      if (message.agent) this.show({ agent: message.agent });
+      this.show({ body: message.body, others: [], ...(message.agent ? { agent: message.agent } : {}) });
       this.dispatchEvent(new CustomEvent("selected", { detail: message }));
     }
   }
@@ -326,11 +352,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
    * @param {HTMLElement} root of the tab
    */
   async #openTab(name, root) {
-    const parts = name === "code" ? [PART_OF_TAB.code, PART_OF_TAB.past] : name in PART_OF_TAB ? [PART_OF_TAB[name]] : [];
-    this.show({ tabs: parts });
+    this.show({ tabs: name in PART_OF_TAB ? [PART_OF_TAB[name], ...(MORE_PARTS[name] ?? [])] : [] });
     this.#showHistory();
     this.layout.widen(name === "code");
     this.#showTop();
+    this.#showPalette();
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);
       try {

@@ -1,7 +1,8 @@
-/** Shortcuts for changing the world: undo and redo anywhere; delete, copy and nudge for the chosen thing. */
+/** Shortcuts for changing the world: undo and redo anywhere; delete, copy, paste and nudge for the selected things. */
 
 /** @import { Panel } from "./panel.js" */
 import { isTextInput } from "../page/keys.js";
+import { choose, duplicateSelected, removeSelected, selected } from "./world/selection.js";
 
 /** Distance by which an arrow key moves a thing if there is no grid, or while Alt is held (m). */
 const FREE_STEP_M = 0.05;
@@ -28,8 +29,7 @@ addEventListener(
   (event) => {
     if (panel === null || isTextInput(event.target) || event.isComposing) return;
     if (document.querySelector("dialog[open]")) return;
-    const body = (panel.shown.tabs.includes("world") ? panel.shown.body : null) ?? null;
-    const run = commandOf(event, body);
+    const run = panel.palette?.commandOf(event) ?? commandOf(event);
     if (run === null) return;
     event.preventDefault();
     event.stopImmediatePropagation();
@@ -41,21 +41,25 @@ addEventListener(
 /**
  * Return what a key does as a function; null if it does nothing here.
  * @param {KeyboardEvent} event
- * @param {string | null} body the chosen thing
  */
-function commandOf(event, body) {
+function commandOf(event) {
   const { key, code } = event;
+  const isBuilding = panel.shown.tabs.includes("world");
+  const names = isBuilding ? selected(panel) : [];
   if (event.ctrlKey || event.metaKey) {
     const letter = key.toLowerCase();
     if (letter === "z") return () => panel.send(event.shiftKey ? "redo" : "undo");
     if (letter === "y") return () => panel.send("redo");
-    if (letter === "d" && body !== null) return () => copy(body);
+    if (letter === "v" && isBuilding) return () => panel.palette?.bar.paste();
+    if (names.length === 0) return null;
+    if (letter === "d") return () => duplicateSelected(panel);
+    if (letter === "c" && getSelection().isCollapsed) return () => panel.palette?.bar.copy();
     return null;
   }
-  if (body === null) return null;
-  if (key === "Delete" || key === "Backspace") return () => remove(body);
-  if (key === "Escape" && !panel.part("world")?.is_dragging) return () => choose(null);
-  if (code in DIRECTIONS && panel.part("world")?.is_move_mode && !usesArrows(event.target)) return () => nudge(body, event);
+  if (names.length === 0) return null;
+  if (key === "Delete" || key === "Backspace") return () => removeSelected(panel);
+  if (key === "Escape" && !panel.part("world")?.is_dragging) return () => choose(panel, null);
+  if (code in DIRECTIONS && panel.part("world")?.is_move_mode && !usesArrows(event.target)) return () => nudge(names, event);
   return null;
 }
 
@@ -64,32 +68,15 @@ function usesArrows(target) {
   return target instanceof Element && target.matches("[role=tab], [role=slider], input, select");
 }
 
-/** @param {string} body */
-async function copy(body) {
-  const answer = await panel.send("duplicate_body", { name: body });
-  if (answer.ok && answer.body) choose(answer.body);
-}
-
-/** @param {string} body */
-async function remove(body) {
-  const answer = await panel.send("remove_body", { name: body });
-  if (answer.ok && panel.shown.body === body) choose(null);
-}
-
 /**
- * @param {string} body
+ * @param {string[]} names
  * @param {KeyboardEvent} event
  */
-function nudge(body, { code, shiftKey, altKey }) {
+async function nudge(names, { code, shiftKey, altKey }) {
   const [right, up] = DIRECTIONS[code];
   const step = (!altKey && panel.part("world")?.snap) || FREE_STEP_M;
   const turn = shiftKey ? -right * TURN_STEP_DEG : 0;
   const [dx, dy] = shiftKey ? [0, 0] : [right * step, up * step];
-  panel.send("nudge", { name: body, dx, dy, turn_deg: turn }, { quiet: true });
-}
-
-/** @param {string | null} body */
-function choose(body) {
-  panel.show({ body });
-  panel.send("select", { body }, { quiet: true });
+  const answer = await panel.send("nudge", { names, dx, dy, turn_deg: turn }, { quiet: true });
+  if (answer.ok) panel.palette?.say(answer.text);
 }

@@ -56,6 +56,16 @@ export interface Rival {
   steps: number | null;
 }
 
+/** A thing that can be added to the world, with its picture from above. */
+export interface PaletteThing {
+  name: string;
+  title: string;
+  /** The picture as a data: address. */
+  url: string;
+  /** Length of its sides in the world (m). */
+  side_m: number;
+}
+
 export interface SceneCard {
   name: string;
   title: string;
@@ -109,16 +119,20 @@ export interface StandingPose {
 /** Further fields of the answers to commands that were carried out. */
 export interface AnswerFields {
   add_block: { path: (string | number)[] };
-  add_body: { body: string };
+  add_body: { bodies: string[] };
   compare: DriverComparison;
   download: { file: string; content: string };
   drivers: { items: DriverChoice[] };
   duplicate_block: { path: (string | number)[] };
-  duplicate_body: { body: string };
+  duplicate: { bodies: string[] };
   elsewhere: StandingPose & { can_stand: boolean; action: ChangedNumber[] };
   gallery: { items: GalleryBlock[] };
+  find_things: { names: string[] };
+  ground: { matrix: number[] };
   move_block: { path: (string | number)[] };
   open_recording: { number: number };
+  paste: { bodies: string[] };
+  palette: { items: PaletteThing[] };
   paid: { terms: PaidCurve[]; moments: PaidMoment[] };
   rivals: { rivals: Rival[] };
   scenes: { items: SceneCard[] };
@@ -239,6 +253,7 @@ export interface PanelEvents extends PartEvents {
   disconnected: null;
   driver: DriverView;
   selected: SelectedMessage;
+  shown: null;
   stand_in: StandInMessage;
   thought: null;
 }

@@ -1,6 +1,6 @@
 """The editor of a running world's scene."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -276,8 +276,33 @@ class SceneEditor:
 
         return self._submit(propose)
 
+    def move_things(
+        self, goals: Mapping[str, proposals.Goal], *, is_nudge: bool = False
+    ) -> "Future[ChangeResult]":
+        """Put several things somewhere, as one change.
+
+        Args:
+            goals: x, y (m) and heading (degrees; None for the present one) by name.
+            is_nudge: as of :meth:`move_body`.
+        """
+        pose_of = self._transactions.pose
+
+        def propose() -> Proposal:
+            moved = proposals.move_things(self.state, goals, pose_of)
+            return moved._replace(merge_key=f"nudge {' '.join(goals)}") if is_nudge else moved
+
+        return self._submit(propose)
+
+    def add_things(self, new_things: Sequence[proposals.NewThing]) -> "Future[ChangeResult]":
+        """Add several things as one change; another episode begins if agents are among them."""
+        return self._submit(lambda: proposals.add_things(self.state, new_things))
+
+    def remove_things(self, names: Sequence[str]) -> "Future[ChangeResult]":
+        """Remove several things as one change; the body of an agent goes with its agent."""
+        return self._submit(lambda: proposals.remove_things(self.state, names))
+
     def add_body(self, body: BodyDescription | Mapping[str, Any]) -> "Future[ChangeResult]":
-        """Add a body, from its description; :meth:`free_name` returns an unused name."""
+        """Add a body, from its description; :meth:`free_names` returns unused names."""
         return self._submit(lambda: proposals.add_thing(self.state, body, "bodies"))
 
     def add_region(
@@ -307,9 +332,9 @@ class SceneEditor:
         """Change parameters of a body, a floor or an area, those of its description."""
         return self._submit(lambda: proposals.change_thing(self.state, name, values))
 
-    def free_name(self, like: str) -> str:
-        """Return a name that nothing in the scene has."""
-        return things.free_name(self.state, like)
+    def free_names(self, likes: Iterable[str]) -> list[str]:
+        """Return a name that nothing has for each of several new things."""
+        return things.free_names(self.state, likes)
 
     def change_scene(self, values: Mapping[str, Any]) -> "Future[ChangeResult]":
         """Change entries of the scene file: ``title``, ``goal``, ``world``, ``floors``..."""

@@ -1,7 +1,7 @@
 """Wanted states, worked out from the present one; nothing here touches the running world."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -36,6 +36,19 @@ class Proposal(NamedTuple):
     """True if the world must be rebuilt at once, which begins another episode."""
     merge_key: str = ""
     """Changes with the same key that follow each other within a second are undone as one."""
+
+
+Goal = tuple[float, float, float | None]
+"""Place (m) and heading (degrees) of a thing; None for its present heading."""
+
+
+class NewThing(NamedTuple):
+    """A thing to add."""
+
+    description: Mapping[str, Any]
+    kind: things.ThingKind
+    like: str = ""
+    """Id of the agent whose blocks are copied, for the body of a new agent; else empty."""
 
 
 def change_block(
@@ -119,6 +132,49 @@ def move_body(
     moved = things.with_pose(state, name, x, y, degrees)
     pose = (x, y, math.radians(degrees))
     return Proposal(moved, f"move {name}", path, {name: pose})
+
+
+def move_things(
+    state: EditState, goals: Mapping[str, Goal], pose_of: Callable[[str], Pose]
+) -> Proposal:
+    """Propose other poses of several things, by name."""
+    proposal = Proposal(state, "")
+    poses: dict[str, Pose] = {}
+    for name, goal in goals.items():
+        proposal = move_body(proposal.state, name, *goal, pose_of)
+        poses |= proposal.poses
+    if len(goals) == 1:
+        return proposal
+    return Proposal(proposal.state, f"move {len(goals)} things", poses=poses)
+
+
+def add_things(state: EditState, new_things: Sequence[NewThing]) -> Proposal:
+    """Propose several things more; another episode begins if agents are among them."""
+    proposal, restarts = Proposal(state, ""), False
+    for new in new_things:
+        if new.like:
+            proposal = add_agent(proposal.state, new.description, new.like)
+        else:
+            proposal = add_thing(proposal.state, new.description, new.kind)
+        restarts = restarts or proposal.restarts
+    if len(new_things) == 1:
+        return proposal
+    return Proposal(proposal.state, f"add {len(new_things)} things", restarts=restarts)
+
+
+def remove_things(state: EditState, names: Sequence[str]) -> Proposal:
+    """Propose the scene without some things; the body of an agent goes with its agent."""
+    proposal, restarts = Proposal(state, ""), False
+    for name in names:
+        agent = proposal.state.agent_with(name)
+        if agent is None:
+            proposal = remove_thing(proposal.state, name)
+        else:
+            proposal = remove_agent(proposal.state, agent)
+        restarts = restarts or proposal.restarts
+    if len(names) == 1:
+        return proposal
+    return Proposal(proposal.state, f"remove {len(names)} things", restarts=restarts)
 
 
 def add_thing(

@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.rebind import Blocks, rebind, sense_again
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, WorldError
 from ai4u_edu.blocks import Actuator, Block, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.page.editing.change_result import When
@@ -82,9 +82,10 @@ class RunningScene:
                 self._apply_now(applied, poses)
             except AI4UError:
                 self._describe(self.shown.description)
-                if applied == state:
+                if applied == state and difference.concerns_one_thing:
                     raise
-                applied = self.shown  # it may depend on the part that comes with the reset
+                # it may depend on the part that comes with the reset, or things change places
+                applied = self.shown
         self.shown, self.wanted = applied, state
         self._describe(self.shown.description)
         if applied != state:
@@ -209,15 +210,15 @@ class _StateDifference:
         of_page = ("name", "title", "goal", "controls", "rewards", "wait_for_key")
         fields = {name: getattr(new, name) for name in of_page}
         state = self._old.describing(**fields)
-        if self._differs_in_one_thing():
-            state = state.describing(floors=new.floors, areas=new.areas, bodies=new.bodies)
+        state = state.describing(floors=new.floors, areas=new.areas, bodies=new.bodies)
         if self._has_same_agents():
             state = state.describing(agents=new.agents, success=new.success)
             state = replace(self._new, description=state.description)
         return state
 
-    def _differs_in_one_thing(self) -> bool:
-        """Return True if at most one body, floor or area was added, removed or changed."""
+    @property
+    def concerns_one_thing(self) -> bool:
+        """True if at most one body, floor or area was added, removed or changed."""
         old = {thing.name: thing for thing in self._old.description.things}
         new = {thing.name: thing for thing in self._new.description.things}
         names = dict.fromkeys((*old, *new))
@@ -262,17 +263,40 @@ class _ThingEdits:
             for name in before:
                 if name not in after:
                     self._remove(name)
-            for name, body in after.items():
-                if name not in before:
-                    self._add(body, poses.get(name))
-                elif body != before[name] or name in poses:
-                    self._change(before[name], body, poses.get(name))
+            self._put_all(
+                {
+                    name: (before.get(name), body, poses.get(name))
+                    for name, body in after.items()
+                    if body != before.get(name) or name in poses
+                }
+            )
         except BaseException:
             self.undo()
             raise
         if self._undo_steps:
             reorder(self._world, [thing.name for thing in new.things])
         return bool(self._undo_steps)
+
+    def _put_all(
+        self, changes: Mapping[str, tuple[BodyDescription | None, BodyDescription, Pose | None]]
+    ) -> None:
+        """Add and change bodies: the description before, if any, that after, and a new pose.
+
+        One that is in the way of another may move itself, so those that found no room try again.
+        """
+        while changes:
+            blocked: dict[str, WorldError] = {}
+            for name, (old, new, pose) in changes.items():
+                try:
+                    if old is None:
+                        self._add(new, pose)
+                    else:
+                        self._change(old, new, pose)
+                except WorldError as error:
+                    blocked[name] = error
+            if len(blocked) == len(changes):
+                raise next(iter(blocked.values()))
+            changes = {name: changes[name] for name in blocked}
 
     def undo(self) -> None:
         """Roll back all changes."""

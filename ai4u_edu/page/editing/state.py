@@ -61,6 +61,13 @@ class EditState:
         """Return the parameters of an agent, blocks as mappings with a ``type``."""
         return self.description.agents[self.agent_index(agent_id)]
 
+    def agent_with(self, body: str) -> str | None:
+        """Return the id of the agent that a body belongs to; None if it belongs to none."""
+        for agent in self.description.agents:
+            if agent.get("body") == body:
+                return str(agent.get("id", "0"))
+        return None
+
     def with_agent(self, agent_id: str, agent: Mapping[str, Any]) -> "EditState":
         """Return a copy with other parameters of an agent.
 

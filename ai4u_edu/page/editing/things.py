@@ -1,7 +1,7 @@
 """Changes of bodies, floors and areas as data: a function takes a state and returns another one."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 from pydantic import ValidationError
@@ -143,9 +143,17 @@ def check_dragged(x: float, y: float, heading_deg: float | None) -> None:
 
 def free_name(state: EditState, like: str) -> str:
     """Return an unused name: ``box``, ``box 2``, ``box 3``."""
-    taken = {thing.name for thing in state.description.things}
-    stem = like.rstrip("0123456789 ") or like
-    name, number = like, 2
-    while name in taken:
-        name, number = f"{stem} {number}", number + 1
-    return name
+    return free_names(state, [like])[0]
+
+
+def free_names(state: EditState, likes: Iterable[str]) -> list[str]:
+    """Return an unused name for each of several new things."""
+    taken, names = {thing.name for thing in state.description.things}, []
+    for like in likes:
+        stem = like.rstrip("0123456789 ") or like
+        name, number = like, 2
+        while name in taken:
+            name, number = f"{stem} {number}", number + 1
+        taken.add(name)
+        names.append(name)
+    return names

@@ -6,6 +6,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
+from ai4u_edu.page.editing.proposals import NewThing
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.upload import Upload
@@ -25,6 +26,7 @@ class Page:
         note: sends the page a note that answers no command.
         upload: the file that the page is sending.
         moves: held while a thing is moved from where it is.
+        clipboard: copies of things, to be pasted.
     """
 
     context: PanelContext
@@ -32,6 +34,7 @@ class Page:
     note: Callable[[Level, str], None]
     upload: Upload = field(default_factory=Upload)
     moves: asyncio.Lock = field(default_factory=asyncio.Lock)
+    clipboard: list[NewThing] = field(default_factory=list)
 
     async def in_thread(self, work: Callable[[], T]) -> T:
         """Do slow work in another thread; all pages' work is done one after another."""

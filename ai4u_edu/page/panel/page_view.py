@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Protocol
 from msgspec import Meta
 
 from ai4u_edu.page.editing import ChangeResult
-from ai4u_edu.page.messages import Message, Name, Number, Path
+from ai4u_edu.page.messages import Message, Name, Number, Others, Path
 
 TEXTS_PER_CURVE = 4
 """Times that the other texts are sent for each curve of rewards, which is longer than all else."""
@@ -32,6 +32,8 @@ class Show(Message, tag="show"):
     """Path of the block whose form is shown; null for none."""
     body: Name | None = None
     """Name of the selected thing; null for none."""
+    others: Others = ()
+    """Names of the things that are selected with it."""
     episode: Number | None = None
     """Number of the chosen episode; null for none."""
 
@@ -57,10 +59,14 @@ class Picture(Protocol):
     """Id of the agent that is shown."""
     selected: str
     """Name of the selected thing; empty if there is none."""
+    others: tuple[str, ...]
+    """Names of the things that are selected with it."""
     choices: dict[str, object]
     """Choices about options, by option."""
     is_motion_reduced: bool
     is_move_mode: bool
+    knob_share: float
+    """Radius of the handles' knobs, as a share of the picture's height."""
     snap_m: float
 
     @property
@@ -74,6 +80,12 @@ class Picture(Protocol):
     @property
     def ground_center(self) -> tuple[float, float]:
         """Point (x, y) of the ground in the middle of the picture (m)."""
+
+    def ground_matrix(self, z: float) -> tuple[float, ...]:
+        """Return the map from the picture to the ground at a height (m), 3 x 3, row by row.
+
+        It takes (across, down, 1), shares of the picture's width and height, to (w x, w y, w).
+        """
 
     @property
     def is_dark(self) -> bool:
@@ -136,6 +148,7 @@ class PageView:
         self.show = Show(agent=agent)
         self._camera: CameraMode | None = None
         self.is_move_mode = False
+        self._knob_share = 0.025
         self.choices: dict[str, object] = {}
         """Choices about options, by option; the page's picture gets the same."""
         self.snap_m = 0.0
@@ -167,6 +180,10 @@ class PageView:
     def ground_center(self) -> tuple[float, float] | None:
         """Point (x, y) of the ground in the middle of the picture (m); None without a picture."""
         return None if self._picture is None else self._picture.ground_center
+
+    def ground_matrix(self, z: float) -> tuple[float, ...] | None:
+        """Return the map from the picture to the ground at a height; None without a picture."""
+        return None if self._picture is None else self._picture.ground_matrix(z)
 
     def ask_again(self, *names: str) -> None:
         """Note that the page waits for parts, also if they are as before."""
@@ -203,6 +220,7 @@ class PageView:
             agent=agent,
             tabs=self.show.tabs,
             body=self.show.body,
+            others=self.show.others,
             episode=self.show.episode,
         )
         self._apply(self._choose_shown)
@@ -253,9 +271,9 @@ class PageView:
         self.trails[self.show.agent] = on
         self._apply(self._choose_shown)
 
-    def set_move_mode(self, on: bool) -> None:
-        """Let the user drag bodies, or not."""
-        self.is_move_mode = on
+    def set_move_mode(self, on: bool, knob_share: float) -> None:
+        """Let the user drag bodies, or not; with knobs of a radius as a share of the height."""
+        self.is_move_mode, self._knob_share = on, knob_share
         self._apply(self._choose_shown)
 
     def set_snap(self, distance_m: float) -> None:
@@ -263,9 +281,9 @@ class PageView:
         self.snap_m = distance_m
         self._apply(self._choose_shown)
 
-    def select(self, body: str | None) -> None:
-        """Select a thing."""
-        self.show.body = body
+    def select(self, body: str | None, others: tuple[str, ...] = ()) -> None:
+        """Select a thing, and others with it."""
+        self.show.body, self.show.others = body, others
         self._apply(self._choose_shown)
 
     def close(self) -> None:
@@ -285,10 +303,11 @@ class PageView:
 
     def _choose_shown(self, picture: Picture) -> None:
         picture.agent = self.show.agent
-        picture.selected = self.show.body or ""
+        picture.selected, picture.others = self.show.body or "", self.show.others
         picture.choices = self.choices
         picture.is_motion_reduced = self._is_motion_reduced
         picture.is_move_mode, picture.snap_m = self.is_move_mode, self.snap_m
+        picture.knob_share = self._knob_share
         for agent, on in self.trails.items():
             picture.show_trail(agent, on)
 

@@ -9,7 +9,7 @@ from viser import ClientHandle
 
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
-from ai4u_edu.page.viewer.scene.framing import ground_at_center
+from ai4u_edu.page.viewer.scene.framing import ground_at_center, ground_matrix
 from ai4u_edu.page.viewer.scene.view import Mode, View
 from ai4u_edu.snapshot import Snapshot, StaticScene
 
@@ -64,8 +64,12 @@ class ViewerClient:
         """Its panel, once that has a connection; None with viser's panel."""
         self.selected = ""
         """Name of the selected thing."""
+        self.others: tuple[str, ...] = ()
+        """Names of the things that are selected with it."""
         self.is_move_mode = False
         """True if its user may drag things."""
+        self.knob_share = 0.025
+        """Radius of the handles' knobs, as a share of the picture's height."""
         self.is_motion_reduced = False
         """True if its user prefers pictures without motion that nothing in the world makes."""
         self.choices: dict[str, object] = {}
@@ -99,6 +103,12 @@ class ViewerClient:
     def ground_center(self) -> tuple[float, float]:
         """Point (x, y) of the ground in the middle of its picture (m)."""
         return ground_at_center(self.client.camera.position, self.client.camera.look_at)
+
+    def ground_matrix(self, z: float) -> tuple[float, ...]:
+        """Return the map from its picture to the ground at a height, as a matrix row by row."""
+        camera = self.client.camera
+        aspect = max(camera.image_width, 1) / max(camera.image_height, 1)
+        return ground_matrix(camera.position, camera.wxyz, camera.fov, aspect, z)
 
     def shows_sensor(self, key: str, *, is_default: bool) -> bool:
         """Return True if a sensor of the agent is shown in the scene.

@@ -10,6 +10,7 @@ from gymnasium.spaces import Box
 from ai4u_edu import Scene, Sensor
 from ai4u_edu.base.errors import BlockError, WorldError
 from ai4u_edu.page.editing import ChangeError
+from ai4u_edu.page.editing.proposals import NewThing
 from tests.page.editing.harness import EditorHarness, trace
 
 
@@ -88,8 +89,31 @@ def test_one_that_was_pushed_about_stays_when_it_is_changed(harness: EditorHarne
     assert harness.world["box"].position == (4, 0)
 
 
+def test_several_bodies_make_room_for_each_other(harness: EditorHarness) -> None:
+    shape = {"type": "box", "size": [1, 1]}
+    boxes = [
+        NewThing({"name": f"row {n}", "position": [n, 3], "shape": shape}, "bodies")
+        for n in range(3)
+    ]
+    assert harness.done(harness.editor.add_things(boxes)).when == "now"
+    assert harness.editor.undo_label == "add 3 things"
+    goals = {f"row {n}": (n + 1.0, 3.0, None) for n in range(3)}
+    assert harness.done(harness.editor.move_things(goals)).when == "now"
+    assert [harness.world[f"row {n}"].position[0] for n in range(3)] == [1, 2, 3]
+    swapped = {"row 0": (2.0, 3.0, None), "row 1": (1.0, 3.0, None)}
+    assert harness.done(harness.editor.move_things(swapped)).when == "next reset"
+    assert harness.done(harness.editor.remove_things(["row 0", "row 2"])).when == "now"
+    for _ in range(4):
+        harness.done(harness.editor.undo())
+    assert "row 1" not in harness.world.bodies
+    taken = {"box": (0.0, 3.0, None), "wall": (0.0, 3.0, None)}
+    with pytest.raises((ChangeError, WorldError), match="overlap"):
+        harness.done(harness.editor.move_things(taken))
+    assert harness.world["box"].position == (4, 0)
+
+
 def test_add_and_remove(harness: EditorHarness) -> None:
-    name = harness.editor.free_name("box")
+    name = harness.editor.free_names(["box"])[0]
     assert name == "box 2"
     harness.done(harness.editor.add_body({"name": name, "position": [0, 4], "kind": "static"}))
     assert harness.world["box 2"].position == (0, 4)

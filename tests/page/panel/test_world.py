@@ -1,12 +1,16 @@
 """The things in the world and the scene itself, changed through the panel's socket."""
 
+import base64
+import io
 import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from uuid import uuid4
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from ai4u_edu import Scene
 from ai4u_edu.page.editing.scene_store import SceneStore
@@ -46,13 +50,63 @@ def test_everything_in_the_scene_is_listed(page: PanelPage) -> None:
 def test_things_are_added_and_deleted(page: PanelPage, room: PanelRoom, template: str) -> None:
     before = things(page.part("world"))
     done = page.done("add_body", template=template)
-    name = done["body"]
+    (name,) = done["bodies"]
     assert name not in before
     assert done["text"].startswith(f"Added {name}.")
     part = page.part("world", lambda m: m["form"] and m["form"]["name"] == name)
     assert things(part)[name]["kind"] in {template, "body"}
-    page.done("remove_body", name=name)
+    page.done("remove_bodies", names=[name])
     page.part("world", lambda m: things(m).keys() == before.keys())
+
+
+def test_the_palette_has_a_picture_of_each_thing(page: PanelPage) -> None:
+    items = {item["name"]: item for item in page.done("palette")["items"]}
+    assert list(items) == ["wall", "box", "ball", "target", "lamp", "area", "floor", "agent"]
+    assert len({item["url"] for item in items.values()}) == len(items)
+    for item in items.values():
+        data = base64.b64decode(item["url"].removeprefix("data:image/png;base64,"))
+        picture = Image.open(io.BytesIO(data))
+        opacity = np.asarray(picture)[..., 3]
+        assert opacity[0].max() == 0 < opacity[48, 48]
+    assert items["box"]["side_m"] == pytest.approx(0.8 * math.sqrt(2), rel=0.07)
+
+
+@pytest.mark.parametrize("template", ["ball", "wall", "area"])
+def test_a_thing_is_added_where_a_person_puts_it(page: PanelPage, template: str) -> None:
+    done = page.done("add_body", template=template, x=-3, y=3.5)
+    assert done["text"] == f"Added {template}."
+    listed = things(page.part("world", lambda m: template in things(m)))[template]
+    assert (listed["x"], listed["y"]) == (-3, 3.5)
+
+
+def test_a_thing_whose_place_is_taken_is_put_beside_it(page: PanelPage) -> None:
+    page.done("move_body", name="box", x=2, y=0)
+    done = page.done("add_body", template="ball", x=2, y=0)
+    assert "There was no room right there" in done["text"]
+    listed = things(page.part("world", lambda m: "ball" in things(m)))["ball"]
+    assert 0.8 < math.dist((listed["x"], listed["y"]), (2, 0)) < 2
+    # neither can move, so they may overlap, as walls do at a corner
+    for _ in range(2):
+        assert "no room" not in page.done("add_body", template="wall", x=-3, y=3)["text"]
+
+
+def test_a_thing_is_refused_where_it_would_fall(page: PanelPage) -> None:
+    failed = page.failed("add_body", template="box", x=50, y=0)
+    assert failed["text"] == "there is no floor: put it on a floor, or add a floor first"
+    page.done("add_body", template="floor", x=50, y=0)
+    page.done("add_body", template="box", x=50, y=0)
+    page.failed("add_body", template="box", x=1e5, y=0)
+
+
+def test_the_map_to_the_ground_needs_a_picture(room: PanelRoom, page: PanelPage) -> None:
+    assert "not there yet" in page.failed("ground")["text"]
+    page_id = uuid4().hex
+    with room.page(f"?page={page_id}") as other, picture(room, page_id) as client:
+        until(lambda: "matrix" in other.do("ground"))
+        until(lambda: client.camera == "arena")
+        matrix = np.reshape(other.done("ground")["matrix"], (3, 3))
+        x, y, w = matrix @ (0.5, 0.5, 1)
+        assert (x / w, y / w) == pytest.approx(client.ground_center, abs=0.01)
 
 
 def test_an_agent_is_added_like_the_one_that_is_shown(page: PanelPage, room: PanelRoom) -> None:
@@ -62,25 +116,97 @@ def test_an_agent_is_added_like_the_one_that_is_shown(page: PanelPage, room: Pan
     assert [type(each) for each in added.sensors] == [
         type(each) for each in room.runner.sim.agents[0].sensors
     ]
-    page.done("remove_body", name=done["body"])
+    page.done("remove_bodies", names=done["bodies"])
     page.part("scene", lambda m: len(m["agents"]) == 1)
-    assert "the only agent" in page.failed("remove_body", name="robot")["text"]
+    assert "the only agent" in page.failed("remove_bodies", names=["robot"])["text"]
 
 
 def test_a_thing_is_moved_nudged_and_copied(page: PanelPage, room: PanelRoom) -> None:
     assert page.done("move_body", name="box", x=2, y=-1)["text"].startswith("Moved box.")
     page.part("world", lambda m: (things(m)["box"]["x"], things(m)["box"]["y"]) == (2, -1))
     for number in range(100, 104):
-        page.send({"type": "do", "id": number, "command": "nudge", "name": "box", "dx": 0.5})
+        page.send({"type": "do", "id": number, "command": "nudge", "names": ["box"], "dx": 0.5})
     page.receive(lambda m: m.get("id") == 103)
     box = room.editor.state.description.bodies[-1]
     assert room.runner.sim.world["box"].pose[0] == pytest.approx(4.0)
-    copy = page.done("duplicate_body", name="box")["body"]
+    (copy,) = page.done("duplicate", names=["box"])["bodies"]
     assert copy == "box 2"
     assert things(page.part("world", lambda m: copy in things(m)))[copy]["shape"] == box.shape.type
     page.part("scene", undo={"label": "add box 2"})  # whichever tab is open
     page.done("undo")
     page.part("world", lambda m: copy not in things(m))
+
+
+def test_several_things_are_one_step_of_undo(page: PanelPage, room: PanelRoom) -> None:
+    page.done("add_body", template="wall", x=-4, y=3)
+    page.done("add_body", template="ball", x=4, y=-3)
+    names = ["ball", "wall"]
+
+    def places(part: Message) -> dict[str, tuple[float, float]]:
+        listed = things(part)
+        return {name: (listed[name]["x"], listed[name]["y"]) for name in listed}
+
+    before = places(page.part("world", lambda m: "ball" in things(m)))
+    for command, arguments, label in (
+        ("nudge", {"dx": 0.5, "turn_deg": 15.0}, "move 2 things"),
+        ("align", {"how": "row"}, "move 2 things"),
+        ("align", {"how": "column"}, "move 2 things"),
+        ("duplicate", {}, "add 2 things"),
+        ("remove_bodies", {}, "remove 2 things"),
+    ):
+        page.done(command, names=names, **arguments)
+        assert room.editor.undo_label == label
+        page.part("world", undo={"label": label})
+        page.done("undo")
+        page.part("world", lambda m: places(m) == before)
+    assert page.done("align", names=names, how="row")["text"] == "Aligned 2 things."
+    page.part("world", lambda m: things(m)["ball"]["y"] == things(m)["wall"]["y"] == 0)
+    assert room.runner.sim.world["ball"].position == (4, 0)  # at once
+
+
+def test_copies_keep_their_distances_and_find_room(page: PanelPage, room: PanelRoom) -> None:
+    page.done("add_body", template="ball", x=-3, y=3)
+    page.done("add_body", template="box", x=-2, y=3)
+    first = page.done("duplicate", names=["ball", "box 2"])["bodies"]
+    listed = things(page.part("world", lambda m: set(first) <= things(m).keys()))
+    ball, box = (listed[name] for name in first)
+    assert (box["x"] - ball["x"], box["y"] - ball["y"]) == (1, 0)
+    assert page.failed("paste")["text"].startswith("nothing was copied yet")
+    page.done("copy", names=["ball", "box 2"])
+    pasted = page.done("paste", x=3, y=-3)["bodies"]
+    listed = things(page.part("world", lambda m: set(pasted) <= things(m).keys()))
+    assert [listed[name]["x"] for name in pasted] == [2.5, 3.5]
+    page.done("open_scene", name="maze")
+    assert len(page.done("paste", x=0, y=0)["bodies"]) == 2  # into another scene
+
+
+def test_a_copied_agent_brings_its_blocks(page: PanelPage, room: PanelRoom) -> None:
+    page.done("copy", names=["robot"])
+    page.done("paste", x=3, y=3)
+    page.part("scene", lambda m: len(m["agents"]) == 2)
+    first, second = room.runner.sim.agents
+    assert [type(each) for each in second.rewards] == [type(each) for each in first.rewards]
+    assert "only agent" in page.failed("remove_bodies", names=["robot", "robot 2"])["text"]
+
+
+def test_a_frame_and_a_click_find_things(page: PanelPage) -> None:
+    page.done("add_body", template="area", x=-3, y=3)
+    page.done("move_body", name="box", x=2, y=1)
+    page.part("world", lambda m: things(m)["box"]["x"] == 2)
+    frame = [[-4, 4], [3, 4], [3, 0.5], [-4, 0.5]]
+    assert page.done("find_things", corners=frame)["names"] == ["box", "area"]
+    for x, y, names in ((2.3, 1.3, ["box"]), (-3.5, 3, ["area"]), (50, 0, [])):
+        assert page.done("find_things", corners=[[x, y]])["names"] == names
+    assert page.done("find_things", corners=[[0, -4.5]])["names"] != []  # the plate
+    page.failed("find_things", corners=[])
+    page.failed("find_things", corners=[[0, 0]] * 9)
+
+
+def test_names_of_several_things_are_checked(page: PanelPage) -> None:
+    for command in ("nudge", "duplicate", "copy", "remove_bodies"):
+        assert "did you mean 'box'" in page.failed(command, names=["bxo"])["text"]
+        page.failed(command, names=[])
+        page.failed(command, names=["box"] * 101)
 
 
 def test_the_form_of_a_thing(page: PanelPage) -> None:
@@ -158,9 +284,9 @@ def test_nudges_of_one_thing_are_undone_together(
     monkeypatch.setattr("ai4u_edu.page.editing.transactions.MERGE_S", math.inf)
     before = room.runner.latest.bodies
     for _ in range(3):
-        page.done("nudge", name="box", dx=0.25, dy=0)
+        page.done("nudge", names=["box"], dx=0.25, dy=0)
     moved = room.runner.latest.bodies
-    page.done("nudge", name="robot", dx=0.25, dy=0)
+    page.done("nudge", names=["robot"], dx=0.25, dy=0)
     page.done("undo")
     assert room.runner.latest.bodies == moved != before
     page.done("undo")

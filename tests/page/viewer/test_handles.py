@@ -34,6 +34,7 @@ class HandledPage:
         shown(viewer)
         (client,) = viewer.viewer_clients.values()
         self.chosen = ""
+        self.others: tuple[str, ...] = ()
         self.results: list[Future[ChangeResult]] = []
         self.handles = Handles(client, harness.editor, self._choose, self.results.append)
         self._owner = client.client.scene._owner_id
@@ -44,7 +45,7 @@ class HandledPage:
 
     def draw(self) -> None:
         publish(self._harness.runner)
-        self.handles.draw(self._harness.runner.latest, self.chosen, on=True)
+        self.handles.draw(self._harness.runner.latest, self.chosen, self.others, on=True)
 
     def choose(self, name: str) -> None:
         self.chosen = name
@@ -117,7 +118,7 @@ def test_lamps_and_agents_are_moved_and_resized_too(
     handled.drag(handled.handles.node, (0, 0), (0, -3), instance=0)
     assert harness.world["robot"].position == (0, -3)
     handled.choose("robot")
-    handled.drag(handled.handles.size_knob, (0.35, -2.65), (0, -3.8))
+    handled.drag(handled.handles.knobs[DragAction.RESIZE], (0.3536, -2.6464), (0, -3.8))
     assert thing(harness, "robot").shape.radius == 0.8
     assert harness.editor.undo_label == "resize robot"
 
@@ -135,10 +136,10 @@ def test_an_area_is_chosen_by_a_click_and_moved_turned_and_resized(
     assert thing(harness, "home").position == (2, 2)
     assert harness.world.areas["home"].contains(2.9, 2.9)
 
-    handled.drag(handles.knob, (3.5, 2), (2, 5))
+    handled.drag(handles.knobs[DragAction.TURN], (3.5, 2), (2, 5))
     assert thing(harness, "home").heading_deg == 90
 
-    handled.drag(handles.size_knob, (1, 3), (0.4, 2.9))  # turned: across is along x
+    handled.drag(handles.knobs[DragAction.RESIZE], (1, 3), (0.4, 2.9))  # turned: across is along x
     assert thing(harness, "home").shape.size == (2, 3)
     for label in ("resize home", "move home", "move home"):
         assert harness.editor.undo_label == label
@@ -146,9 +147,43 @@ def test_an_area_is_chosen_by_a_click_and_moved_turned_and_resized(
     assert thing(harness, "home").position == (0, 4)
 
 
+def test_sides_and_height_have_knobs_of_their_own(
+    handled: HandledPage, harness: EditorHarness
+) -> None:
+    handled.choose("box")
+    knob = handled.handles.knobs[DragAction.LENGTH]
+    (x, y), (length, width) = harness.world["box"].position, thing(harness, "box").shape.size
+    handled.drag(knob, (x + length, y), (x + length + 0.5, y + 3))
+    assert thing(harness, "box").shape.size == (length + 1, width)
+    handled.draw()
+    handled.drag(handled.handles.knobs[DragAction.HEIGHT], (x - 1, y), (x - 1, y + 0.72))
+    assert thing(harness, "box").height == pytest.approx(1.7)
+    assert harness.editor.undo_label == "change box"
+    handled.choose("lamp")  # a circle has no sides, an area no height
+    assert handled.handles.knobs.keys() == {DragAction.TURN, DragAction.RESIZE, DragAction.HEIGHT}
+    handled.choose("home")
+    assert DragAction.HEIGHT not in handled.handles.knobs
+
+
+def test_a_dragged_thing_takes_along_what_is_chosen_with_it(
+    handled: HandledPage, harness: EditorHarness
+) -> None:
+    handled.chosen, handled.others = "lamp", ("box", "home")
+    handled.draw()
+    handled.drag(handled.handles.node, (4, 0), (3, -1), (2, -2), instance=1)
+    assert (handled.chosen, handled.others) == ("lamp", ("box", "home"))
+    assert harness.world["box"].position == (2, -2)
+    assert harness.world["lamp"].position == (2, 2)
+    assert thing(harness, "home").position == (-2, 2)
+    assert harness.editor.undo_label == "move 3 things"
+    harness.editor.undo().result(LIMIT_S)
+    assert harness.world["lamp"].position == (4, 4)
+    assert thing(harness, "home").position == (0, 4)
+
+
 def test_a_floor_is_resized(handled: HandledPage, harness: EditorHarness) -> None:
     handled.choose("plate")
-    handled.drag(handled.handles.size_knob, (6, 6), (8, 7))
+    handled.drag(handled.handles.knobs[DragAction.RESIZE], (6, 6), (8, 7))
     assert thing(harness, "plate").shape.size == (16, 14)
     assert harness.world.ground(7.5, 6.5) == 0
 
@@ -158,7 +193,7 @@ def test_a_place_where_it_can_not_stand_is_refused(
 ) -> None:
     handled.choose("lamp")
     with pytest.raises(Exception, match="overlap"):
-        handled.drag(handled.handles.size_knob, (4.2, 4.2), (4, 0))
+        handled.drag(handled.handles.knobs[DragAction.RESIZE], (4.2, 4.2), (4, 0))
     assert thing(harness, "lamp").shape.radius == 0.3
 
 
@@ -179,6 +214,13 @@ def test_goals() -> None:
     resized = size.goal(-0.2, 3.0)
     assert resized is not None
     assert resized.shape == BoxShape(size=(6, 0.4))
+    assert resized.words == "6 x 0.4 m"
+    pulled = Drag.start(body, DragAction.WIDTH, (0.0, 0.0, 0.0), 0.3, 0.6).goal(2.0, 0.9)
+    assert pulled is not None
+    assert pulled.shape == BoxShape(size=(2, 1.6))
+    higher = Drag.start(body, DragAction.HEIGHT, (0.0, 0.0, 0.0), -1.5, 0.2).goal(-1.5, -9.0)
+    assert higher is not None
+    assert (higher.height, higher.words) == (0.1, "0.1 m high")
     stick = Drag(area, DragAction.RESIZE, 0.0, 0.0).goal(3.0, 1.0)
     assert stick is not None
     assert stick.shape == CapsuleShape(length=4, radius=1)

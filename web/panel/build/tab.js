@@ -46,13 +46,20 @@ export class BuildTab {
   constructor(root, panel) {
     this.#panel = panel;
     this.#driver = choice("Driven by", (name) => this.#setDriver(name));
-    root.append(this.#driver.element);
-    for (const { kind, title, one, add, none: noneText, detailsOnly } of KINDS) {
+    const adding = KINDS.map(({ kind, one, add, detailsOnly }) => {
+      const made = button(one, () => openGallery(panel, { title: add, kind }), { icon: "add", label: add });
+      made.classList.toggle("ai4u-details-only", Boolean(detailsOnly));
+      return made;
+    });
+    root.append(
+      element("h3", { className: "ai4u-add-title", textContent: "Add to the robot" }),
+      element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add to the robot" }, ...adding),
+      this.#driver.element,
+    );
+    for (const { kind, title, none: noneText, detailsOnly } of KINDS) {
       const cards = element("div", { className: "ai4u-card-list" });
       const none = element("p", { className: "ai4u-hint-text", textContent: noneText });
-      const open = () => openGallery(panel, { title: add, kind });
-      const adding = button(one, open, { icon: "add", label: add, kind: "quiet" });
-      root.append(section(`build-${kind}`, title, { detailsOnly }, cards, none, adding));
+      root.append(section(`build-${kind}`, title, { detailsOnly }, cards, none));
       this.#lists.set(kind, { cards, none });
     }
     this.#settings = new Form({

@@ -7,6 +7,7 @@
 import { button, element } from "../../shared/dom.js";
 import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
+import { choose, duplicateSelected, removeSelected, selected } from "./selection.js";
 
 /** @type {Record<string, string>} */
 const KIND_ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
@@ -26,8 +27,8 @@ export class BodyCard {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
     this.#form = new Form({ onChange: (values) => panel.send("change_body", { name: this.#name, values }) });
-    this.#copy = button("Duplicate", () => this.#duplicate(), { icon: "copy", kind: "quiet" });
-    this.#delete = button("Delete", () => this.#remove(), { icon: "trash", kind: "danger" });
+    this.#copy = button("Duplicate", () => duplicateSelected(panel), { icon: "copy", kind: "quiet" });
+    this.#delete = button("Delete", () => removeSelected(panel), { icon: "trash", kind: "danger" });
     const tools = element("div", { className: "ai4u-tools" }, this.#copy, this.#delete);
     this.#card.body.append(this.#form.element, tools);
   }
@@ -47,6 +48,7 @@ export class BodyCard {
     const place = isRandom ? "random place" : `${metres(x)}, ${metres(y)}`;
     const reads = kind === "body" ? place : `${kind}, ${place}`;
     const icon = KIND_ICONS[kind] ?? SHAPE_ICONS[shape] ?? "box";
+    this.#card.element.toggleAttribute("data-selected", selected(this.#panel).includes(name));
     this.#card.update({ icon, title: name, type: shape, reads, isOpen });
     const isMine = isOpen && form?.name === name;
     this.#form.element.hidden = !isMine;
@@ -54,26 +56,6 @@ export class BodyCard {
     this.#copy.title = `Duplicate ${name}`;
     this.#delete.title = `Delete ${name}`;
   }
-
-  async #duplicate() {
-    const answer = await this.#panel.send("duplicate_body", { name: this.#name });
-    if (answer.ok && answer.body) choose(this.#panel, answer.body);
-  }
-
-  async #remove() {
-    const answer = await this.#panel.send("remove_body", { name: this.#name });
-    if (answer.ok && this.#panel.shown.body === this.#name) choose(this.#panel, null);
-  }
-}
-
-/**
- * Choose a thing: its form opens, and the picture marks it.
- * @param {Panel} panel
- * @param {string | null} name
- */
-export function choose(panel, name) {
-  panel.show({ body: name });
-  panel.send("select", { body: name }, { quiet: true });
 }
 
 /** @param {number} value */

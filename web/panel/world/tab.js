@@ -4,16 +4,18 @@
  * @import { WorldPart } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
  */
-import { button, element, keyed, setText } from "../../shared/dom.js";
-import { BodyCard, choose } from "./body_card.js";
+import { element, keyed, setText } from "../../shared/dom.js";
+import { BodyCard } from "./body_card.js";
+import { chooseMore, setMoveMode } from "./selection.js";
 import { Form } from "../widgets/form.js";
 import { section, toggle } from "../widgets/parts.js";
+import { remember } from "../../shared/storage.js";
+import { MOVES_KEY, SNAP_KEY, SNAP_M } from "./palette.js";
 import { SceneFiles } from "./scene_files.js";
 
-const DEFAULT_SNAP_M = 0.5;
 const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
 const HINT_ON =
-  "Drag things to move them (Esc cancels). Click one to get handles that rotate and resize it. Arrow keys nudge it.";
+  "Drag things to move them (Esc cancels). Click one to turn it or change its size. Shift and a click, or a frame, take several.";
 
 export class WorldTab {
   #panel;
@@ -28,8 +30,6 @@ export class WorldTab {
   #hint = element("p", { className: "ai4u-hint-text" });
   #settings;
   #files;
-  #add = element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add" });
-  #isMoving = false;
 
   /**
    * @param {HTMLElement} root
@@ -39,10 +39,9 @@ export class WorldTab {
     this.#panel = panel;
     this.#files = new SceneFiles(panel);
     this.#moves = toggle("Move things", (isOn) => this.#setMoving(isOn));
-    this.#snaps = toggle("Snap to grid", (isOn) => this.#setSnap(isOn ? DEFAULT_SNAP_M : 0), {
+    this.#snaps = toggle("Snap to grid", (isOn) => this.#setSnap(isOn ? SNAP_M : 0), {
       title: "Hold Alt to move freely",
     });
-    this.#setSnap(DEFAULT_SNAP_M);
     this.#settings = new Form({ onChange: (values) => panel.send("change_settings", { values }) });
     root.append(
       this.#files.element,
@@ -51,29 +50,22 @@ export class WorldTab {
         "Things",
         {},
         element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
-        element("h4", { textContent: "Add" }),
-        this.#add,
         this.#hint, // below the buttons, which its other texts would move
         this.#list,
       ),
       section("world-settings", "Scene settings", { isOpen: false }, this.#settings.element),
       this.#files.kept,
     );
+    this.#list.addEventListener("click", (event) => this.#chooseMore(event), { capture: true });
+    panel.addEventListener("shown", () => this.#updateShown());
     panel.addEventListener("selected", ({ detail }) => this.#showSelected(detail.body));
   }
 
   /** @param {WorldPart} part */
   update(part) {
-    this.#isMoving = Boolean(part.is_move_mode);
-    this.#moves.set(this.#isMoving);
+    this.#moves.set(part.is_move_mode);
     this.#snaps.set(part.snap > 0);
-    keyed(
-      this.#add,
-      part.templates ?? [],
-      ({ name }) => name,
-      ({ name, title, icon }) => button(title, () => this.#addThing(name), { icon }),
-    );
-    setText(this.#hint, this.#isMoving ? HINT_ON : HINT_OFF);
+    setText(this.#hint, part.is_move_mode ? HINT_ON : HINT_OFF);
     this.#files.update(part);
     const bodies = part.bodies ?? [];
     const names = new Set(bodies.map(({ name }) => name));
@@ -91,29 +83,38 @@ export class WorldTab {
     this.#settings.update(part.settings ?? []);
   }
 
+  /**
+   * Select a thing besides the others, with Shift.
+   * @param {MouseEvent} event
+   */
+  #chooseMore(event) {
+    if (!event.shiftKey || !(event.target instanceof Element)) return;
+    const card = event.target.closest(".ai4u-card-head")?.closest(".ai4u-card");
+    const name = [...this.#cards].find(([, { element: made }]) => made === card)?.[0];
+    if (name === undefined) return;
+    event.stopPropagation();
+    chooseMore(this.#panel, [name], { isToggle: true });
+  }
+
+  #updateShown() {
+    const part = this.#panel.part("world"); // the form comes later
+    if (part) this.update(part);
+  }
+
   /** @param {boolean} on */
   #setMoving(on) {
-    this.#panel.send("move_mode", { on }, { quiet: true });
+    remember(MOVES_KEY, on);
+    setMoveMode(this.#panel, on);
   }
 
   /** @param {number} distance (m); 0 for no grid */
   #setSnap(distance) {
+    remember(SNAP_KEY, distance);
     this.#panel.send("snap", { distance }, { quiet: true });
-  }
-
-  /** @param {string} template its name */
-  async #addThing(template) {
-    const answer = await this.#panel.send("add_body", { template });
-    if (!answer.ok || !answer.body) return;
-    choose(this.#panel, answer.body);
-    if (!this.#isMoving) this.#setMoving(true); // most new things are moved next
   }
 
   /** @param {string} name */
   #showSelected(name) {
-    this.#panel.show({ body: name });
-    const part = this.#panel.part("world"); // the form comes later
-    if (part) this.update(part);
     this.#cards.get(name)?.element.scrollIntoView({ block: "nearest" });
   }
 }

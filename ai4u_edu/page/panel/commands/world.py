@@ -1,40 +1,60 @@
 """Commands that change the things in the world, and the scene's settings."""
 
 import math
-from collections.abc import Mapping
-from concurrent.futures import Future
-from typing import Annotated, Any
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal
 
 from msgspec import Meta
 
 from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
 from ai4u_edu.base.parameters import ParameterProblem
-from ai4u_edu.page.editing import ChangeError, ChangeResult, SceneEditor
+from ai4u_edu.page.editing import ChangeError, SceneEditor
 from ai4u_edu.page.editing.forms import read_values
+from ai4u_edu.page.editing.proposals import NewThing
 from ai4u_edu.page.editing.settings import scene_form
 from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
-from ai4u_edu.page.editing.things import Thing, kind_of, thing_named
-from ai4u_edu.page.messages import Degrees, Metres, Name, PageCommand, Values
+from ai4u_edu.page.editing.things import (
+    Thing,
+    ThingKind,
+    checked_description,
+    kind_of,
+    thing_named,
+)
+from ai4u_edu.page.messages import Degrees, Metres, Name, Names, Others, PageCommand, Values
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
-from ai4u_edu.page.panel.new_things import TEMPLATES, Template, free_position
+from ai4u_edu.page.panel.new_things import (
+    TEMPLATES,
+    Template,
+    aligned_places,
+    free_offset,
+    free_position,
+    picture_of,
+    thing_at,
+    things_within,
+)
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import BodyDescription, Pose
 
 COPY_OFFSET_M = 0.5
-"""Distance (m) of a copied floor or area from the original, to the right and down."""
+"""Distance (m) of a copy from the original, to the right and down."""
+MAX_CORNERS = 8
+"""Most corners of a frame around things."""
+Corner = tuple[Metres, Metres]
 
 
 class MoveMode(PageCommand, tag="move_mode"):
     """Let the user move things with the mouse, or not."""
 
     on: bool
+    knob: Annotated[float, Meta(ge=0.005, le=0.2)] = 0.025
+    """Radius of the knobs that turn and resize a thing, as a share of the picture's height."""
 
 
 async def _move_mode(page: Page, command: MoveMode) -> Answer:
     page.context.required_editor()
-    page.view.set_move_mode(command.on)
+    page.view.set_move_mode(command.on, command.knob)
     return Answer()
 
 
@@ -50,18 +70,64 @@ async def _snap(page: Page, command: Snap) -> Answer:
 
 
 class SelectBody(PageCommand, tag="select"):
-    """Select a thing."""
+    """Select a thing, and others with it."""
 
     body: Name | None
+    others: Others = ()
 
 
 async def _select(page: Page, command: SelectBody) -> Answer:
-    page.view.select(command.body)
+    page.view.select(command.body, command.others)
     return Answer()
 
 
+class FindThings(PageCommand, tag="find_things"):
+    """Name the bodies and areas whose middle is within a frame; of one point (m), what is there."""
+
+    corners: Annotated[tuple[Corner, ...], Meta(min_length=1, max_length=MAX_CORNERS)]
+
+
+async def _find(page: Page, command: FindThings) -> Answer:
+    snapshot = page.context.runner.latest
+    if len(command.corners) == 1:
+        name = thing_at(snapshot, *command.corners[0])
+        return Answer(more={"names": [name] if name else []})
+    return Answer(more={"names": things_within(snapshot, command.corners)})
+
+
+class ListThings(PageCommand, tag="palette"):
+    """List the things that can be added, each with its picture from above."""
+
+
+async def _palette(page: Page, _command: ListThings) -> Answer:
+    editor = page.context.required_editor()
+    items = []
+    for name, template in TEMPLATES.items():
+        described = dict(_described(page, editor, template))
+        kind: ThingKind = "bodies" if template.kind == "agents" else template.kind
+        thing = checked_description(described, kind)
+        picture = picture_of(thing, is_agent=template.kind == "agents")
+        items.append({"name": name, "title": template.title, **picture._asdict()})
+    return Answer(more={"items": items})
+
+
+class Ground(PageCommand, tag="ground"):
+    """Return the map from the page's picture to the ground, 3 x 3, row by row.
+
+    It takes (across, down, 1), shares of the picture's width and height, to (w x, w y, w): metres.
+    """
+
+
+async def _ground(page: Page, _command: Ground) -> Answer:
+    static_scene = page.context.runner.latest.static_scene
+    matrix = page.view.ground_matrix(static_scene.lowest_floor)
+    if matrix is None:
+        raise SetupError("the picture of the world is not there yet; wait a moment, and try again")
+    return Answer(more={"matrix": matrix})
+
+
 class AddBody(PageCommand, tag="add_body"):
-    """Add a thing, by default where there is room in the picture (m)."""
+    """Add a thing at a place (m), or beside it if it is taken; by default where there is room."""
 
     template: Name
     x: Metres | None = None
@@ -74,53 +140,113 @@ async def _add(page: Page, command: AddBody) -> Answer:
     if template is None:
         hint = suggest(command.template, TEMPLATES)
         raise NameNotFoundError(f"nothing is called {command.template!r}; {hint}")
-    at = None if command.x is None or command.y is None else (command.x, command.y)
-    return await _add_thing(page, template, _described(page, editor, template), at, "Added")
+    described = _described(page, editor, template)
+    new = _new_thing(page, template, described)
+    if command.x is None or command.y is None:
+        at = _place_for(page, described, template)
+        return await _add_all(page, [new], at, "Added", has_room=True)
+    return await _add_all(page, [new], (command.x, command.y), "Added")
 
 
-async def _add_thing(
+async def _add_all(
     page: Page,
-    template: Template,
-    described: Mapping[str, Any],
-    at: tuple[float, float] | None,
+    new_things: Sequence[NewThing],
+    offset: tuple[float, float],
     done: str,
+    *,
+    has_room: bool = False,
 ) -> Answer:
-    """Add a thing at a place, or where there is room in the picture; then select it."""
+    """Add things together, and select them.
+
+    Args:
+        page: gets the answer.
+        new_things: with any names.
+        offset: by which they are moved (m); if bodies have no room, to the nearest place with some.
+        done: a verb for the answer.
+        has_room: True if that was looked for.
+    """
     editor = page.context.required_editor()
-    name = editor.free_name(str(described["name"]))
-    thing = dict(described) | {
-        "name": name,
-        "position": at or _place_for(page, described, template),
-    }
-    future: Future[ChangeResult]
-    if template.kind == "agents":
-        future = editor.add_agent(thing, page.view.agent)
-    elif template.kind == "bodies":
-        future = editor.add_body(thing)
-    else:
-        future = editor.add_region(thing, template.kind)
-    result = await page.result(future)
-    page.view.select(name)
-    return change_answer(f"{done} {name}.", result, body=name)
+    free = offset if has_room else _free_offset(page, new_things, offset)
+    names = editor.free_names([str(new.description["name"]) for new in new_things])
+    placed = []
+    for new, name in zip(new_things, names, strict=True):
+        x, y = new.description.get("position", (0.0, 0.0))
+        position = round(x + free[0], 4), round(y + free[1], 4)
+        described = {**new.description, "name": name, "position": position}
+        placed.append(new._replace(description=described))
+    result = await page.result(editor.add_things(placed))
+    page.view.select(names[0], tuple(names[1:]))
+    aside = "" if free == offset else " There was no room right there, so it is beside."
+    return change_answer(f"{done} {_named_things(names)}.{aside}", result, bodies=names)
 
 
-class DuplicateBody(PageCommand, tag="duplicate_body"):
-    """Add a copy of a thing."""
+def _free_offset(
+    page: Page, new_things: Sequence[NewThing], offset: tuple[float, float]
+) -> tuple[float, float]:
+    """Return the offset nearest to another one at which new bodies have room.
 
-    name: Name
+    Raises:
+        SetupError: there is none near.
+    """
+    snapshot = page.context.runner.latest
+    bodies = [
+        BodyDescription.model_validate(new.description)
+        for new in new_things
+        if new.kind == "bodies"
+    ]
+    free = free_offset(snapshot, bodies, *offset)
+    if free is not None:
+        return free
+    (x, y) = bodies[0].position
+    if snapshot.static_scene.floor_under(x + offset[0], y + offset[1]) is None:
+        raise SetupError("there is no floor: put it on a floor, or add a floor first")
+    raise SetupError("there is no room: put it where nothing else stands")
 
 
-async def _duplicate(page: Page, command: DuplicateBody) -> Answer:
-    editor = page.context.required_editor()
-    thing = thing_named(editor.state, command.name)
-    described = _copy_of(thing)
-    is_agent = _agent_of(editor, thing.name) is not None
-    kind = "agents" if is_agent else kind_of(thing)
-    at = None
-    if not isinstance(thing, BodyDescription):
-        x, y = thing.position
-        at = x + COPY_OFFSET_M, y - COPY_OFFSET_M
-    return await _add_thing(page, Template("", "", kind, {}), described, at, "Copied it as")
+class Duplicate(PageCommand, tag="duplicate"):
+    """Add copies of things beside them."""
+
+    names: Names
+
+
+async def _duplicate(page: Page, command: Duplicate) -> Answer:
+    copies = _copies(page, command.names)
+    return await _add_all(page, copies, (COPY_OFFSET_M, -COPY_OFFSET_M), "Copied as")
+
+
+class Copy(PageCommand, tag="copy"):
+    """Keep copies of things, which can be pasted, into another scene too."""
+
+    names: Names
+
+
+async def _copy(page: Page, command: Copy) -> Answer:
+    page.clipboard[:] = _copies(page, command.names)
+    return Answer(f"Copied {_named_things(command.names)}. Ctrl+V pastes it.")
+
+
+class Paste(PageCommand, tag="paste"):
+    """Add what was copied, with its middle at a place (m); by default beside where it was."""
+
+    x: Metres | None = None
+    y: Metres | None = None
+
+
+async def _paste(page: Page, command: Paste) -> Answer:
+    agents = page.context.required_editor().state.description.agents
+    ids = {str(agent.get("id", "0")) for agent in agents}
+    copies = [
+        new._replace(like=page.view.agent) if new.like and new.like not in ids else new
+        for new in page.clipboard
+    ]
+    if not copies:
+        raise SetupError("nothing was copied yet: select a thing, and press Ctrl+C")
+    offset = COPY_OFFSET_M, -COPY_OFFSET_M
+    if command.x is not None and command.y is not None:
+        places = [new.description.get("position", (0.0, 0.0)) for new in copies]
+        xs, ys = zip(*places, strict=True)
+        offset = command.x - (min(xs) + max(xs)) / 2, command.y - (min(ys) + max(ys)) / 2
+    return await _add_all(page, copies, offset, "Pasted")
 
 
 class ChangeBody(PageCommand, tag="change_body"):
@@ -165,41 +291,64 @@ async def _move(page: Page, command: MoveBody) -> Answer:
 
 
 class Nudge(PageCommand, tag="nudge"):
-    """Move a thing a bit (m, degrees)."""
+    """Move things a bit (m, degrees)."""
 
-    name: Name
+    names: Names
     dx: Metres = 0.0
     dy: Metres = 0.0
     turn_deg: Degrees = 0.0
 
 
 async def _nudge(page: Page, command: Nudge) -> Answer:
-    """Move a thing from where it is; several nudges follow one another."""
+    """Move things from where they are; several nudges follow one another."""
     editor = page.context.required_editor()
     async with page.moves:
-        x, y, heading = await page.result(
-            page.context.runner.submit(lambda: _present_pose(page, editor, command.name))
-        )
-        heading_deg = math.degrees(heading) + command.turn_deg if command.turn_deg else None
-        result = await page.result(
-            editor.move_body(
-                command.name, x + command.dx, y + command.dy, heading_deg, is_nudge=True
+        poses = await _present_poses(page, command.names)
+        goals = {
+            name: (
+                x + command.dx,
+                y + command.dy,
+                math.degrees(heading) + command.turn_deg if command.turn_deg else None,
             )
-        )
-    return change_answer(f"Moved {command.name}.", result)
+            for name, (x, y, heading) in poses.items()
+        }
+        result = await page.result(editor.move_things(goals, is_nudge=True))
+    where = ""
+    if len(goals) == 1:
+        ((x, y, heading_deg),) = goals.values()
+        turned = "" if heading_deg is None else f", turned to {heading_deg:.0f}°"
+        where = f" to x {x:.2f} m, y {y:.2f} m{turned}"
+    return change_answer(f"Moved {_named_things(command.names)}{where}.", result)
 
 
-class RemoveBody(PageCommand, tag="remove_body"):
-    """Delete a thing; the body of an agent goes with its agent."""
+class Align(PageCommand, tag="align"):
+    """Put things into a row or a column through their middle, or at equal distances."""
 
-    name: Name
+    names: Names
+    how: Literal["row", "column", "spread"]
 
 
-async def _remove(page: Page, command: RemoveBody) -> Answer:
+async def _align(page: Page, command: Align) -> Answer:
     editor = page.context.required_editor()
-    agent = _agent_of(editor, command.name)
-    future = editor.remove_body(command.name) if agent is None else editor.remove_agent(agent)
-    return change_answer(f"Deleted {command.name}.", await page.result(future))
+    async with page.moves:
+        poses = await _present_poses(page, command.names)
+        places = {name: (x, y) for name, (x, y, _) in poses.items()}
+        aligned = aligned_places(places, command.how)
+        goals = {name: (x, y, None) for name, (x, y) in aligned.items()}
+        result = await page.result(editor.move_things(goals))
+    return change_answer(f"Aligned {_named_things(command.names)}.", result)
+
+
+class RemoveBodies(PageCommand, tag="remove_bodies"):
+    """Delete things; the body of an agent goes with its agent."""
+
+    names: Names
+
+
+async def _remove(page: Page, command: RemoveBodies) -> Answer:
+    names = tuple(dict.fromkeys(command.names))
+    result = await page.result(page.context.required_editor().remove_things(names))
+    return change_answer(f"Deleted {_named_things(names)}.", result)
 
 
 class ChangeSettings(PageCommand, tag="change_settings"):
@@ -229,6 +378,29 @@ def _copy_of(thing: Thing) -> dict[str, Any]:
     }
 
 
+def _new_thing(page: Page, template: Template, described: Mapping[str, Any]) -> NewThing:
+    """Return a thing of a template, in the middle of the world."""
+    described = {**described, "position": (0.0, 0.0)}
+    if template.kind == "agents":
+        return NewThing(described, "bodies", page.view.agent)
+    return NewThing(described, template.kind)
+
+
+def _copies(page: Page, names: Sequence[str]) -> list[NewThing]:
+    """Return copies of things."""
+    state = page.context.required_editor().state
+    things = [thing_named(state, name) for name in dict.fromkeys(names)]
+    return [
+        NewThing(_copy_of(thing), kind_of(thing), state.agent_with(thing.name) or "")
+        for thing in things
+    ]
+
+
+def _named_things(names: Sequence[str]) -> str:
+    """Return one name, or the number of several."""
+    return names[0] if len(names) == 1 else f"{len(names)} things"
+
+
 def _place_for(page: Page, described: Mapping[str, Any], template: Template) -> tuple[float, float]:
     """Return a place in the middle of the picture, for a body one where it touches nothing."""
     snapshot = page.context.runner.latest
@@ -246,6 +418,16 @@ def _middle(static_scene: StaticScene) -> tuple[float, float]:
     return (left + right) / 2, (low + high) / 2
 
 
+async def _present_poses(page: Page, names: Sequence[str]) -> dict[str, Pose]:
+    """Return where things are now, by name."""
+    editor = page.context.required_editor()
+    return await page.result(
+        page.context.runner.submit(
+            lambda: {name: _present_pose(page, editor, name) for name in names}
+        )
+    )
+
+
 def _present_pose(page: Page, editor: SceneEditor, name: str) -> Pose:
     """Return a thing's pose now; in the runner's thread."""
     thing = thing_named(editor.state, name)
@@ -253,14 +435,6 @@ def _present_pose(page: Page, editor: SceneEditor, name: str) -> Pose:
         x, y, _, heading = page.context.runner.sim.world[name].pose
         return x, y, heading
     return (*thing.position, math.radians(thing.heading_deg))
-
-
-def _agent_of(editor: SceneEditor, body: str) -> str | None:
-    """Return the id of the agent that a body belongs to; None if it belongs to none."""
-    for agent in editor.state.description.agents:
-        if agent.get("body") == body:
-            return str(agent.get("id", "0"))
-    return None
 
 
 def _named(thing: Thing, error: ChangeError) -> list[ParameterProblem]:
@@ -274,15 +448,21 @@ def _named(thing: Thing, error: ChangeError) -> list[ParameterProblem]:
 
 
 HANDLERS: Mapping[type[PageCommand], Handler] = {
+    ListThings: _palette,
+    Ground: _ground,
     MoveMode: _move_mode,
     Snap: _snap,
     SelectBody: _select,
+    FindThings: _find,
     AddBody: _add,
-    DuplicateBody: _duplicate,
+    Duplicate: _duplicate,
+    Copy: _copy,
+    Paste: _paste,
+    Align: _align,
     ChangeBody: _change,
     MoveBody: _move,
     Nudge: _nudge,
-    RemoveBody: _remove,
+    RemoveBodies: _remove,
     ChangeSettings: _settings,
 }
 """Handlers by the type of their command."""

@@ -15,8 +15,12 @@ from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
-from ai4u_edu.page.panel.parts.sensor_slots import ProgramSensor, program_sensor
-from ai4u_edu.page.panel.parts.sensors import SensorReading, sensor_reading
+from ai4u_edu.page.panel.parts.sensors import (
+    ProgramSensor,
+    SensorReading,
+    program_sensor,
+    sensor_reading,
+)
 from ai4u_edu.snapshot import AgentState, Need, Snapshot
 from ai4u_edu.snapshot.agent_words import ending, script_problem, title
 from ai4u_edu.snapshot.block_info import ActuatorInfo

@@ -1,9 +1,9 @@
-"""Sensors' readings: lines with names and units, strips of bars, pictures, or text."""
+"""Sensors' readings: lines, strips of bars, pictures or text for a page, and names for programs."""
 
 import base64
 import io
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +13,7 @@ from PIL import Image
 from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
 from ai4u_edu.page.panel.gallery import hint_of, words_of
-from ai4u_edu.snapshot.block_info import SensorInfo
+from ai4u_edu.snapshot.block_info import RayLayout, SensorInfo
 from ai4u_edu.snapshot.numbers import number
 from ai4u_edu.snapshot.reading_cells import GREYS, Cells, shaded, split_stack
 from ai4u_edu.snapshot.theme import RAY_MISS, UNKNOWN_GROUP, VOID, Rgb
@@ -32,6 +32,13 @@ MAX_TEXT_CHARS = 400
 MAX_LISTED_NUMBERS = 40
 RAY_GROUPS, RAY_DISTANCES = slice(-2, None, -2), slice(None, None, -2)
 """Numbers of a reading that alternates groups and distances, from the leftmost ray on."""
+
+MAX_NAMED_SLOTS = 32
+"""Longest reading of which each number has a name; of longer ones a program takes the smallest,
+the largest or the mean."""
+ValueKind = Literal["bool", "number", "text"]
+KINDS: dict[str, ValueKind] = {"b": "bool", "f": "number", "i": "number", "u": "number"}
+"""Kinds of values that blocks can use, by numpy's kind."""
 
 Floats = npt.NDArray[np.float64]
 
@@ -281,3 +288,73 @@ def _picture(cells: Cells, colours: Sequence[Rgb], caption: str) -> ReadingPictu
 def _short(value: Any) -> float | None:
     """Return a number with four decimals; None if it is not finite."""
     return round(float(value), 4) if np.isfinite(value) else None
+
+
+class SensorSlot(Struct, frozen=True):
+    """One number of a reading."""
+
+    name: str
+    """Its name; empty if it is the only one and has none."""
+    unit: str
+    """Its unit; empty if it is normalized, or has none."""
+    low: float | None
+    """Lower bound; null if it has none."""
+    high: float | None
+    """Upper bound; null if it has none."""
+
+
+class ProgramSensor(Struct, frozen=True):
+    """A sensor as a program reads it."""
+
+    key: str
+    """Its perception key."""
+    title: str
+    type_name: str = field(name="class")
+    """Name of its class."""
+    kind: ValueKind
+    unit: str
+    """Unit of the reading; empty if it is normalized, or has none."""
+    shape: list[int]
+    """Shape of the reading; empty for a single value."""
+    stack: int
+    """Number of stacked readings, oldest first."""
+    slots: list[SensorSlot]
+    """Its numbers; empty if there are too many of them, or several axes."""
+    rays: RayLayout | None
+    """Order of the numbers of a flat fan of rays; null for another sensor."""
+
+
+def program_sensor(sensor: SensorInfo, value: Any) -> ProgramSensor:
+    """Return a sensor's name, and those of its numbers with units and ranges.
+
+    Args:
+        sensor: description of the sensor.
+        value: its reading in the percept.
+    """
+    array = np.asarray(value)
+    count = len(sensor.low)
+    axes = array.ndim - (sensor.stack > 1)
+    is_listed = axes == 1 and count <= MAX_NAMED_SLOTS and sensor.rays is None
+    return ProgramSensor(
+        key=sensor.key,
+        title=words_of(sensor.block).title,
+        type_name=sensor.block,
+        kind=KINDS.get(array.dtype.kind, "text"),
+        unit=sensor.unit,
+        shape=list(array.shape),
+        stack=sensor.stack,
+        slots=_slots(sensor) if is_listed else [],
+        rays=sensor.rays,
+    )
+
+
+def _slots(sensor: SensorInfo) -> list[SensorSlot]:
+    count = len(sensor.low)
+    names = sensor.slots or tuple(map(str, range(count)) if count > 1 else ("",))
+    units = sensor.unit.split(", ")
+    units = units if len(units) == count else [sensor.unit] * count
+    ranges = zip(sensor.low.tolist(), sensor.high.tolist(), strict=True)
+    return [
+        SensorSlot(name.replace("_", " "), unit, _short(low), _short(high))
+        for name, unit, (low, high) in zip(names, units, ranges, strict=True)
+    ]

@@ -9,7 +9,6 @@ from ai4u_edu.page.editing import EditState, SceneEditor
 from ai4u_edu.page.editing.settings import scene_form
 from ai4u_edu.page.editing.thing_form import thing_form
 from ai4u_edu.page.editing.things import Thing, kind_of
-from ai4u_edu.page.panel.new_things import TEMPLATES
 from ai4u_edu.page.panel.page_view import PageView
 from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
@@ -55,15 +54,6 @@ class ThingForm(Struct, frozen=True):
     fields: list[FormField]
 
 
-class ThingTemplate(Struct, frozen=True):
-    """A thing that can be added."""
-
-    name: str
-    title: str
-    icon: str
-    """Name of its icon, as in ``web/shared/icons.js``."""
-
-
 class UnsavedScene(Struct, frozen=True):
     """A scene that somebody changed and did not save."""
 
@@ -84,8 +74,6 @@ class WorldPart(PanelPart, frozen=True, kw_only=True):
     """Form of the selected thing; null if there is none."""
     settings: list[FormField]
     """Form of the scene itself."""
-    templates: list[ThingTemplate]
-    """Things that can be added."""
     unsaved: UnsavedScene | None
     """A scene that can be restored; null if there is none."""
     problem: str
@@ -120,10 +108,6 @@ def world_part(editor: SceneEditor, view: PageView) -> WorldPart:
         bodies=[_thing(thing, agents, described) for thing in reversed(described.things)],
         form=_form(state, view.show.body, agents),
         settings=[form_field(setting) for setting in scene_form(described)],
-        templates=[
-            ThingTemplate(name, template.title, template.icon)
-            for name, template in TEMPLATES.items()
-        ],
         unsaved=None if unsaved is None else UnsavedScene(unsaved.name, unsaved.when),
         problem="" if autosave is None else autosave.problem,
         can_save=editor.scene_store is not None,

@@ -22,6 +22,8 @@ MAX_DRAG_M = 1e6
 """Largest distance (m) from the origin to which a thing can be dragged."""
 MIN_SIZE_M = 0.1
 """Smallest length (m) that a person can pull a shape to."""
+HEIGHT_STEP_M = 0.1
+"""Heights are multiples of it."""
 FREE_STEP_M = 0.01
 """Lengths are multiples of it if they don't snap to a grid."""
 
@@ -32,6 +34,9 @@ class DragAction(Enum):
     MOVE = "move"
     TURN = "turn"
     RESIZE = "resize"
+    LENGTH = "length"
+    WIDTH = "width"
+    HEIGHT = "height"
 
 
 class Goal(NamedTuple):
@@ -41,6 +46,24 @@ class Goal(NamedTuple):
     y: float
     heading_deg: float | None
     shape: Shape | None = None
+    height: float | None = None
+    """Height of a body (m); None if it stays."""
+
+    @property
+    def words(self) -> str:
+        """The size, height or heading in words; empty for a move."""
+        if self.height is not None:
+            return f"{self.height:g} m high"
+        if self.heading_deg is not None:
+            return f"{self.heading_deg:g}°"
+        match self.shape:
+            case BoxShape(size=(length, width)):
+                return f"{length:g} x {width:g} m"
+            case CircleShape(radius=radius):
+                return f"{2 * radius:g} m wide"
+            case CapsuleShape(length=length, radius=radius):
+                return f"{length + 2 * radius:g} x {2 * radius:g} m"
+        return ""
 
 
 class Drag(NamedTuple):
@@ -53,6 +76,30 @@ class Drag(NamedTuple):
     """Offset from the pointer to the centre; for a rotation or another size, the centre."""
     heading: float = 0.0
     """Heading of the thing, in radians."""
+    grip: tuple[float, float] = (0.0, 0.0)
+    """Offset from the pointer to the edge that it moves, in the thing's own frame (m)."""
+
+    @classmethod
+    def start(
+        cls, thing: Thing, action: DragAction, pose: tuple[float, float, float], x: float, y: float
+    ) -> "Drag":
+        """Return a drag that starts with the pointer at (x, y).
+
+        Args:
+            thing: the thing.
+            action: what is changed.
+            pose: x, y (m) and heading (radians) of the thing.
+            x: place of the pointer in the world (m).
+            y: likewise.
+        """
+        at_x, at_y, heading = pose
+        if action is DragAction.MOVE:
+            return cls(thing, action, at_x - x, at_y - y, heading)
+        if action is DragAction.HEIGHT:
+            return cls(thing, action, at_x, at_y, heading, (0.0, y))
+        along, across = _in_frame(x - at_x, y - at_y, heading)
+        edge_x, edge_y = edge_of(thing.shape, action)
+        return cls(thing, action, at_x, at_y, heading, (edge_x - along, edge_y - across))
 
     @property
     def name(self) -> str:
@@ -62,7 +109,8 @@ class Drag(NamedTuple):
     @property
     def is_live(self) -> bool:
         """True if the world follows during the drag; else the page shows an outline only."""
-        return self.action is not DragAction.RESIZE and isinstance(self.thing, BodyDescription)
+        is_pose = self.action in {DragAction.MOVE, DragAction.TURN}
+        return is_pose and isinstance(self.thing, BodyDescription)
 
     def goal(
         self, x: float, y: float, snap_m: float = 0.0, *, is_free: bool = False
@@ -86,18 +134,52 @@ class Drag(NamedTuple):
             step = FREE_ROTATION_STEP_DEG if is_free else ROTATION_STEP_DEG
             degrees = math.degrees(math.atan2(dy, dx))
             return Goal(self.x, self.y, step * round(degrees / step))
-        cos, sin = math.cos(self.heading), math.sin(self.heading)
-        local = cos * dx + sin * dy, cos * dy - sin * dx
+        if self.action is DragAction.HEIGHT and isinstance(self.thing, BodyDescription):
+            step = FREE_STEP_M if is_free else HEIGHT_STEP_M
+            height = round(round((self.thing.height + y - self.grip[1]) / step) * step, 3)
+            return Goal(self.x, self.y, None, height=max(height, step, MIN_SIZE_M))
+        along, across = _in_frame(dx, dy, self.heading)
         shape: Shape = self.thing.shape
-        return Goal(self.x, self.y, None, _resized(shape, *local, snap_m))
+        along, across = along + self.grip[0], across + self.grip[1]
+        corner = edge_of(shape)
+        if self.action is DragAction.LENGTH:
+            across = corner[1]
+        elif self.action is DragAction.WIDTH:
+            along = corner[0]
+        pulled = _resized(shape, along, across, snap_m)
+        return Goal(self.x, self.y, None, _only(self.action, shape, pulled))
 
 
-def corner_of(shape: Shape) -> tuple[float, float]:
-    """Return the place of the resize knob in the shape's own frame.
+def _in_frame(dx: float, dy: float, heading: float) -> tuple[float, float]:
+    cos, sin = math.cos(heading), math.sin(heading)
+    return cos * dx + sin * dy, cos * dy - sin * dx
 
-    >>> corner_of(BoxShape(size=(2, 1)))
-    (1.0, 0.5)
+
+def _only(action: DragAction, before: Shape, pulled: Shape) -> Shape:
+    """Return a pulled shape with the other side as it was, if a side was pulled."""
+    if action is DragAction.RESIZE:
+        return pulled
+    is_length = action is DragAction.LENGTH
+    if isinstance(before, BoxShape) and isinstance(pulled, BoxShape):
+        (length, width), (new_length, new_width) = before.size, pulled.size
+        size = (new_length, width) if is_length else (length, new_width)
+        return before.model_copy(update={"size": size})
+    if isinstance(before, CapsuleShape) and isinstance(pulled, CapsuleShape):
+        changed = {"length": pulled.length} if is_length else {"radius": pulled.radius}
+        return before.model_copy(update=changed)
+    return pulled
+
+
+def edge_of(shape: Shape, action: DragAction = DragAction.RESIZE) -> tuple[float, float]:
+    """Return the corner or the middle of a side that a knob moves, in the shape's own frame (m).
+
+    >>> edge_of(BoxShape(size=(2, 1))), edge_of(BoxShape(size=(2, 1)), DragAction.LENGTH)
+    ((1.0, 0.5), (1.0, 0.0))
     """
+    if action is DragAction.LENGTH:
+        return max(x for x, _ in outline_of(shape)), 0.0
+    if action is DragAction.WIDTH:
+        return 0.0, max(y for _, y in outline_of(shape))
     if isinstance(shape, CircleShape):
         return shape.radius * math.sqrt(0.5), shape.radius * math.sqrt(0.5)
     outline = outline_of(shape)
@@ -135,7 +217,7 @@ def _resized(shape: Shape, x: float, y: float, snap_m: float = 0.0) -> Shape:
         radius = _length(2 * abs(y), snap_m) / 2
         length = _length(2 * max(abs(x) - radius, 0.0), snap_m)
         return shape.model_copy(update={"radius": radius, "length": length})
-    reach = math.hypot(*corner_of(shape))
+    reach = math.hypot(*edge_of(shape))
     return shape.scaled(max(math.hypot(x, y), MIN_SIZE_M) / max(reach, MIN_SIZE_M))
 
 

@@ -149,3 +149,47 @@ def ground_at_center(position: Iterable[float], look_at: Iterable[float]) -> tup
     dx, dy, down = target_x - x, target_y - y, z - target_z
     share = z / down if down > 0.2 * math.hypot(dx, dy) else 1.0
     return float(x + share * dx), float(y + share * dy)
+
+
+def ground_matrix(
+    position: Iterable[float], wxyz: Iterable[float], fov: float, aspect: float, z: float
+) -> tuple[float, ...]:
+    """Return the map from a camera's picture to the ground, as a 3 x 3 matrix, row by row.
+
+    The matrix times (across, down, 1) is (w x, w y, w): (x, y) is the point of the ground (m) that
+    is seen at these shares of the picture's width and height; w is above 0 if it lies ahead.
+
+    Args:
+        position: of the camera (m).
+        wxyz: its orientation as a quaternion: x to the right, y down, z ahead.
+        fov: vertical field of view (radians).
+        aspect: width / height of the picture.
+        z: height of the ground (m).
+
+    >>> matrix = ground_matrix((3, 4, 10), (0, 1, 0, 0), 2 * math.atan(0.5), 2.0, 0.0)
+    >>> [round(number, 6) + 0.0 for number in matrix]
+    [20.0, 0.0, -7.0, 0.0, -10.0, 9.0, 0.0, 0.0, 1.0]
+    """
+    w, i, j, k = wxyz
+    (x, y, height), tangent = position, math.tan(fov / 2)
+    turn = (
+        (1 - 2 * (j * j + k * k), 2 * (i * j - k * w), 2 * (i * k + j * w)),
+        (2 * (i * j + k * w), 1 - 2 * (i * i + k * k), 2 * (j * k - i * w)),
+        (2 * (i * k - j * w), 2 * (j * k + i * w), 1 - 2 * (i * i + j * j)),
+    )
+    # direction of the ray through (across, down), times (across, down, 1)
+    right, below, ahead = (
+        [
+            2 * tangent * aspect * row[0],
+            2 * tangent * row[1],
+            row[2] - tangent * (aspect * row[0] + row[1]),
+        ]
+        for row in turn
+    )
+    depth = height - z
+    rows = (
+        [depth * a - x * c for a, c in zip(right, ahead, strict=True)],
+        [depth * b - y * c for b, c in zip(below, ahead, strict=True)],
+        [-c for c in ahead],
+    )
+    return tuple(float(number) for row in rows for number in row)

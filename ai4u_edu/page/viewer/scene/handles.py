@@ -2,7 +2,7 @@
 
 import math
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Future
 from functools import partial
 from typing import Any, Literal
@@ -12,33 +12,17 @@ import numpy.typing as npt
 from viser import (
     BatchedMeshHandle,
     CommandHandle,
-    FrameHandle,
     LineSegmentsHandle,
     SceneNodeDragEvent,
     SceneNodePointerEvent,
 )
 
-from ai4u_edu.base.colors import rgb
 from ai4u_edu.page.editing import ChangeResult, SceneEditor
 from ai4u_edu.page.viewer.backend.reporting import report_errors
 from ai4u_edu.page.viewer.scene.arena import arena_size
-from ai4u_edu.page.viewer.scene.drags import (
-    Drag,
-    DragAction,
-    Goal,
-    Thing,
-    corner_of,
-    outline_of,
-)
-from ai4u_edu.page.viewer.scene.geometry import (
-    Array,
-    cap,
-    circle,
-    grow,
-    heading_wxyz,
-    prism,
-    segments,
-)
+from ai4u_edu.page.viewer.scene.chosen_mark import INK, ChosenMark
+from ai4u_edu.page.viewer.scene.drags import Drag, DragAction, Goal, Thing, outline_of
+from ai4u_edu.page.viewer.scene.geometry import Array, heading_wxyz, prism, segments
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.light import line_colours
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
@@ -47,9 +31,7 @@ from ai4u_edu.page.viewer.scene.view import Mode
 from ai4u_edu.page.viewer.viewer_client import ViewerClient, ViewerClients
 from ai4u_edu.runtime.frame_budget import SENSES_PER_S, PageTurns
 from ai4u_edu.snapshot import BodyState, Snapshot, StaticScene
-from ai4u_edu.snapshot.theme import Rgb
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
-from ai4u_edu.world.shapes import Shape
 
 _Region = FloorDescription | AreaDescription
 
@@ -89,103 +71,8 @@ def _plate_z(region: _Region, static_scene: StaticScene) -> float:
     return _surface_z(region, static_scene) + depth
 
 
-_KNOB_RADIUS, _KNOB_DISTANCE = 0.02, 0.05
-"""Radius of the knobs and the rotation knob's distance, as shares of the arena's size."""
-_OUTLINE_MARGIN = 0.006
-"""Distance of the outline from the thing, as a share of the arena's size."""
-_INK: Rgb = rgb("vermillion")
-_SIZE_INK: Rgb = rgb("blue")
-
-
-class _ChosenMark:
-    """The mark around the chosen thing: outline, rotation knob, resize knob.
-
-    Args:
-        viewer_client: the page.
-    """
-
-    def __init__(self, viewer_client: ViewerClient) -> None:
-        self._scene = viewer_client.client.scene
-        self._subtree = Subtree(self._scene, "chosen")
-        self.thing: Thing | None = None
-        self.frame: FrameHandle | None = None
-        self.turn_knob: BatchedMeshHandle | None = None
-        self.size_knob: BatchedMeshHandle | None = None
-        self.plate: BatchedMeshHandle | None = None
-        """An invisible plate over a chosen floor or area, by which it is moved."""
-        self._edge: LineSegmentsHandle | None = None
-        self._unit = 1.0
-
-    def build(self, thing: Thing | None, static_scene: StaticScene, _plate_z: float = 0.0) -> None:
-        """Build the mark for another thing.
-
-        Args:
-            thing: None removes the mark.
-            static_scene: has the arena's size.
-            _plate_z: height (m) of a floor's or an area's plate relative to the mark.
-        """
-        self.thing, self._unit = thing, arena_size(static_scene)
-        self.frame = self.turn_knob = self.size_knob = self.plate = self._edge = None
-        with self._subtree.rebuild() as parent:
-            if thing is None:
-                return
-            node = f"{parent}/frame"
-            self.frame = self._scene.add_frame(node, show_axes=False)
-            lines = self._lines(thing.shape)
-            self._edge = self._scene.add_line_segments(
-                f"{node}/edge",
-                lines,
-                line_colours(_INK),
-                thickness=3.0,
-                thickness_units="screen",
-            )
-            drawer = MeshDrawer(self._scene, node)
-            self.turn_knob = self._knob(drawer, "knob", self._turn_place(thing.shape), _INK)
-            self.size_knob = self._knob(drawer, "size", corner_of(thing.shape), _SIZE_INK)
-            if not isinstance(thing, BodyDescription):
-                plate = cap(outline_of(thing.shape))
-                self.plate = drawer.batch("plate", plate, [_INK], opacity=0.0)
-                self.plate.batched_scales = np.ones(1, np.float32)
-                self.plate.batched_positions = np.array([(0.0, 0.0, _plate_z)], np.float32)
-
-    def place(
-        self, x: float, y: float, z: float, heading: float, *, is_visible: bool = True
-    ) -> None:
-        """Move the mark (m, radians)."""
-        if self.frame is not None:
-            self.frame.visible = is_visible
-            self.frame.position = (x, y, z)
-            self.frame.wxyz = heading_wxyz(heading)
-
-    def show_shape(self, shape: Shape) -> None:
-        """Show another shape as the outline, during a drag."""
-        if self._edge is not None and self.size_knob is not None and self.turn_knob is not None:
-            self._edge.points = self._lines(shape)
-            self.size_knob.batched_positions = np.array([(*corner_of(shape), 0.0)], np.float32)
-            self.turn_knob.batched_positions = np.array(
-                [(*self._turn_place(shape), 0.0)], np.float32
-            )
-
-    def _lines(self, shape: Shape) -> npt.NDArray[np.float32]:
-        outline = np.asarray(outline_of(shape))
-        near, far = float(outline[:, 0].max()), self._turn_place(shape)[0]
-        edge = segments(grow(outline, _OUTLINE_MARGIN * self._unit))
-        lines = np.concatenate([edge, np.array([[(near, 0, 0), (far, 0, 0)]])])
-        return lines.astype(np.float32)
-
-    def _turn_place(self, shape: Shape) -> tuple[float, float]:
-        return max(x for x, _ in outline_of(shape)) + _KNOB_DISTANCE * self._unit, 0.0
-
-    def _knob(
-        self, drawer: MeshDrawer, name: str, place: tuple[float, float], ink: Rgb
-    ) -> BatchedMeshHandle:
-        radius = _KNOB_RADIUS * self._unit
-        knob = drawer.batch(name, prism(circle(radius, corners=24), radius, 0.0), [ink])
-        knob.batched_scales = np.ones(1, np.float32)
-        knob.batched_positions = np.array([(*place, 0.0)], np.float32)
-        return knob
-
-
+Pose = tuple[float, float, float]
+"""x, y (m) and heading (radians)."""
 _HANDLE_MARGIN = 0.015
 """Margin of a handle around its body, as a share of the arena's size; it helps with thin walls."""
 FREE_MODIFIER: Literal["alt"] = "alt"
@@ -224,12 +111,17 @@ class Handles:
         self.snap_m = 0.0
         """Distance (m) of the grid to which things snap; 0 for free places."""
         self._subtree = Subtree(viewer_client.client.scene, "handles")
-        self._mark = _ChosenMark(viewer_client)
+        self._mark = ChosenMark(viewer_client)
+        self._others = Subtree(viewer_client.client.scene, "others")
+        self._other_lines: LineSegmentsHandle | None = None
+        self._other_things: tuple[Thing, ...] = ()
         self._lock = threading.Lock()
         self.drag: Drag | None = None
         """The drag in progress."""
         self._goal: Goal | None = None
-        self._pending: Future[None] | None = None
+        self._pending: list[Future[None]] = []
+        self._along: dict[str, tuple[float, float]] = {}
+        """Offsets (m) of the things that a dragged one takes along, by name."""
         self._bodies: tuple[BodyDescription, ...] = ()
         self._regions: tuple[_Region, ...] = ()
         self.states: dict[str, BodyState] = {}
@@ -249,26 +141,24 @@ class Handles:
         return self._plates.name if self._plates is not None else ""
 
     @property
-    def knob(self) -> BatchedMeshHandle | None:
-        """The knob that rotates the chosen thing."""
-        return self._mark.turn_knob
-
-    @property
-    def size_knob(self) -> BatchedMeshHandle | None:
-        """The knob that resizes the chosen thing."""
-        return self._mark.size_knob
+    def knobs(self) -> dict[DragAction, BatchedMeshHandle]:
+        """The knobs of the chosen thing, by what they change."""
+        return self._mark.knobs
 
     @property
     def chosen_plate(self) -> BatchedMeshHandle | None:
         """The plate by which the chosen floor or area is moved."""
         return self._mark.plate
 
-    def draw(self, snapshot: Snapshot, chosen: str, *, on: bool) -> None:
+    def draw(
+        self, snapshot: Snapshot, chosen: str, others: Collection[str] = (), *, on: bool
+    ) -> None:
         """Move the handles to the things.
 
         Args:
             snapshot: the shown state of the world.
             chosen: name of the chosen thing, or "".
+            others: names of the things that are chosen with it.
             on: False removes all handles.
         """
         static_scene = snapshot.static_scene
@@ -289,8 +179,11 @@ class Handles:
                 self._bodies, self._regions = bodies, regions
                 self._build(static_scene)
                 self._listen(is_on)
-            if thing != self._mark.thing:
+            if _looks(thing) != _looks(self._mark.thing):
                 self._build_mark(thing, static_scene)
+            self._mark.thing = thing
+            self._mark.scale(self._knob_radius)
+            self._draw_others(tuple(each for each in things if each.name in others), static_scene)
             self._move_handles(static_scene)
         self._send_drag()
 
@@ -302,12 +195,12 @@ class Handles:
         with self._subtree.rebuild() as parent:
             drawer = MeshDrawer(self._viewer_client.client.scene, parent)
             if self._bodies:
-                boxes = drawer.batch("boxes", _BOX, [_INK] * len(self._bodies), opacity=0.0)
+                boxes = drawer.batch("boxes", _BOX, [INK] * len(self._bodies), opacity=0.0)
                 boxes.on_click(report_errors(self._on_click))
                 _listen_to_drags(boxes, self._on_drag)
                 self._boxes = boxes
             if self._regions:
-                plates = drawer.batch("plates", _BOX, [_INK] * len(self._regions), opacity=0.0)
+                plates = drawer.batch("plates", _BOX, [INK] * len(self._regions), opacity=0.0)
                 plates.on_click(report_errors(self._on_region_click))
                 self._plates = plates
                 self._place_plates(plates, static_scene)
@@ -337,15 +230,66 @@ class Handles:
         if thing is not None and not isinstance(thing, BodyDescription):
             above_others = 0.3 * Layers.of(static_scene).unit
             depth = _plate_z(thing, static_scene) + above_others - self._mark_z(thing, static_scene)
-        self._mark.build(thing, static_scene, depth)
-        for handle, action in (
-            (self._mark.turn_knob, DragAction.TURN),
-            (self._mark.size_knob, DragAction.RESIZE),
-            (self._mark.plate, DragAction.MOVE),
-        ):
-            if handle is not None:
-                _listen_to_drags(handle, self._mark_dragged(action))
-                handle.on_click(report_errors(self._on_mark_click))
+        self._mark.build(thing, static_scene, depth, self._knob_radius)
+        plates = {} if self._mark.plate is None else {DragAction.MOVE: self._mark.plate}
+        for action, handle in (self._mark.knobs | plates).items():
+            _listen_to_drags(handle, self._mark_dragged(action))
+            handle.on_click(report_errors(self._on_mark_click))
+
+    @property
+    def _knob_radius(self) -> float:
+        """Radius of a knob (m), which has the same size on the screen from near and far."""
+        camera = self._viewer_client.client.camera
+        distance = float(np.linalg.norm(camera.position - camera.look_at))
+        height = 2 * distance * math.tan(camera.fov / 2)
+        return max(self._viewer_client.knob_share * height, 1e-3)
+
+    def _draw_others(self, things: tuple[Thing, ...], static_scene: StaticScene) -> None:
+        """Draw outlines around the things that are chosen with the first one."""
+        if things != self._other_things:
+            self._other_things, self._other_lines = things, None
+            with self._others.rebuild() as parent:
+                if things:
+                    self._other_lines = self._viewer_client.client.scene.add_line_segments(
+                        f"{parent}/edges",
+                        self._outlines(static_scene),
+                        line_colours(INK),
+                        thickness=3.0,
+                        thickness_units="screen",
+                    )
+        elif self._other_lines is not None:
+            points = self._outlines(static_scene)
+            if not np.array_equal(points, self._other_lines.points):
+                self._other_lines.points = points
+
+    def _outlines(self, static_scene: StaticScene) -> npt.NDArray[np.float32]:
+        """Return the outlines of the other chosen things in the world: (n, 2, 3)."""
+        edges = []
+        for thing in self._other_things:
+            x, y, heading = self._pose(thing) or (*thing.position, math.radians(thing.heading_deg))
+            outline = np.array(
+                [
+                    _centre_at(np.asarray(point), x, y, heading, 0.0)
+                    for point in outline_of(thing.shape)
+                ]
+            )
+            edge = segments(outline[:, :2])
+            edge[..., 2] = (
+                self.states[thing.name].z + thing.height + self._lift
+                if isinstance(thing, BodyDescription)
+                else self._mark_z(thing, static_scene)
+            )
+            edges.append(edge)
+        return np.concatenate(edges).astype(np.float32)
+
+    def _pose(self, thing: Thing) -> Pose | None:
+        """Return where a thing is now; None for a body that is not there."""
+        state = self.states.get(thing.name)
+        if state is not None:
+            return state.x, state.y, state.heading
+        if isinstance(thing, BodyDescription):
+            return None
+        return (*thing.position, math.radians(thing.heading_deg))
 
     def _move_handles(self, static_scene: StaticScene) -> None:
         if self._boxes is not None:
@@ -402,8 +346,10 @@ class Handles:
             state = self.states.get(name)
             if state is not None and body is not None:
                 x, y, _ = event.start_position
-                self._start_drag(Drag(body, DragAction.MOVE, state.x - x, state.y - y))
-                self._on_choose(name)
+                pose = state.x, state.y, state.heading
+                self._start_drag(Drag.start(body, DragAction.MOVE, pose, x, y))
+                if not self._along:
+                    self._on_choose(name)
         self._update_drag(event)
 
     def _mark_dragged(self, action: DragAction) -> Callable[[SceneNodeDragEvent[Any]], Any]:
@@ -417,16 +363,10 @@ class Handles:
     def _start_mark_drag(
         self, thing: Thing, action: DragAction, event: SceneNodeDragEvent[Any]
     ) -> None:
-        state = self.states.get(thing.name)
-        if state is not None:
-            x, y, heading = state.x, state.y, state.heading
-        elif isinstance(thing, BodyDescription):
-            return
-        else:
-            (x, y), heading = thing.position, math.radians(thing.heading_deg)
-        if action is DragAction.MOVE:
-            x, y = x - event.start_position[0], y - event.start_position[1]
-        self._start_drag(Drag(thing, action, x, y, heading))
+        pose = self._pose(thing)
+        if pose is not None:
+            x, y, _ = event.start_position
+            self._start_drag(Drag.start(thing, action, pose, x, y))
 
     def _listen(self, is_on: bool) -> None:
         """Add or remove the Escape key's command."""
@@ -446,8 +386,10 @@ class Handles:
         with self._lock:
             drag, goal, self.drag = self.drag, self._goal, None
             if drag is not None and goal is not None and drag.is_live:
-                self._editor.cancel_drag(drag.name)
-        if drag is not None and drag.action is DragAction.RESIZE:
+                for name in (drag.name, *self._along_bodies):
+                    self._editor.cancel_drag(name)
+        self._mark.show_value(None)
+        if drag is not None and not drag.is_live:
             self._mark.show_shape(drag.thing.shape)
         return drag is not None
 
@@ -460,8 +402,21 @@ class Handles:
             self.cancel_drag()
 
     def _start_drag(self, drag: Drag) -> None:
+        chosen = (self._mark.thing, *self._other_things)
+        things = [thing for thing in chosen if thing is not None]
+        pose, along = self._pose(drag.thing), {}
+        if drag.action is DragAction.MOVE and drag.thing in things and pose is not None:
+            for thing in things:
+                other = self._pose(thing)
+                if other is not None and thing != drag.thing:
+                    along[thing.name] = other[0] - pose[0], other[1] - pose[1]
         with self._lock:
-            self.drag, self._goal = drag, None
+            self.drag, self._goal, self._along = drag, None, along
+
+    @property
+    def _along_bodies(self) -> list[str]:
+        """Names of the bodies that the dragged thing takes along, which move with it at once."""
+        return [name for name in self._along if name in self.states]
 
     def _update_drag(self, event: SceneNodeDragEvent[Any]) -> None:
         with self._lock:
@@ -474,7 +429,9 @@ class Handles:
             self._goal = goal = drag.goal(x, y, self.snap_m, is_free=is_free) or self._goal
         if event.phase == "end":
             self._drop()
-        elif drag.is_live:
+            return
+        self._mark.show_value(goal)
+        if drag.is_live:
             self._send_drag()
         elif goal is not None:
             self._show_preview(drag, goal)
@@ -495,9 +452,12 @@ class Handles:
         """
         with self._lock:
             drag, goal = self.drag, self._goal
-            is_idle = self._pending is None or self._pending.done()
+            is_idle = all(future.done() for future in self._pending)
             if drag is not None and drag.is_live and goal is not None and is_idle:
-                self._pending = self._editor.drag(drag.name, *goal[:3])
+                self._pending = [self._editor.drag(drag.name, *goal[:3])]
+                for name in self._along_bodies:
+                    dx, dy = self._along[name]
+                    self._pending.append(self._editor.drag(name, goal.x + dx, goal.y + dy))
 
     def _drop(self) -> None:
         with self._lock:
@@ -507,8 +467,14 @@ class Handles:
             if goal.shape is not None:
                 shape = goal.shape.model_dump(mode="json")
                 future = self._editor.change_body(drag.name, {"shape": shape})
+            elif goal.height is not None:
+                future = self._editor.change_body(drag.name, {"height": goal.height})
             else:
-                future = self._editor.move_body(drag.name, *goal[:3])
+                others = {
+                    name: (goal.x + dx, goal.y + dy, None) for name, (dx, dy) in self._along.items()
+                }
+                future = self._editor.move_things({drag.name: goal[:3], **others})
+        self._mark.show_value(None)
         self._on_drop(future)
 
 
@@ -518,6 +484,13 @@ def _listen_to_drags(
     """Listen to drags without a key, and to those with the key for free places."""
     handle.on_drag(report_errors(on_drag))
     handle.on_drag("left", modifier=FREE_MODIFIER)(report_errors(on_drag))
+
+
+def _looks(thing: Thing | None) -> Thing | None:
+    """Return a body at the origin: its mark is moved, and built again for another shape only."""
+    if not isinstance(thing, BodyDescription):
+        return thing
+    return thing.model_copy(update={"position": (0.0, 0.0), "heading_deg": 0.0})
 
 
 def _name(things: tuple[Thing, ...], index: int | None) -> str:
@@ -554,11 +527,11 @@ class PageHandles:
                 )
             handles = self.pages[number]
             handles.snap_m = client.snap_m
-            handles.draw(snapshot, client.selected, on=client.is_move_mode)
+            handles.draw(snapshot, client.selected, client.others, on=client.is_move_mode)
 
 
 def _select_for(client: ViewerClient, name: str) -> None:
-    client.selected = name
+    client.selected, client.others = name, ()
     if client.panel is not None:
         client.panel.on_selected(name)
 
