@@ -12,6 +12,7 @@ import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
 import { DriveTab } from "./drive/tab.js";
 import { focusWorld, returnFocus } from "./focus.js";
+import { MissionCard } from "../missions/card.js";
 import { Layout } from "./layout.js";
 import { Notices } from "./notices.js";
 import { segments } from "./widgets/parts.js";
@@ -138,7 +139,8 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
       this.#top,
       element("div", { className: "ai4u-panel-rest" }, element("h2", { className: "ai4u-hidden-text", textContent: "Tabs" }), ...this.#tabs.elements),
     );
-    this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
+    const mission = new MissionCard(this);
+    this.element.append(this.layout.handle, head, mission.element, this.#body, this.#notices.element);
     returnFocus(this.element);
     this.#setDetails(this.details);
     this.addEventListener("part:scene", ({ detail }) => this.#onScene(detail));
@@ -223,6 +225,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     return this.#run.watch;
   }
 
+  /** Name of the open tab; null before the first one is open. */
+  get tab() {
+    return this.#tabs.open;
+  }
+
   /** @param {string} name */
   openTab(name) {
     this.#tabs.choose(name);
@@ -284,6 +291,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     setAttributes(this.#fold, { "aria-expanded": isFolded ? "false" : "true", "aria-label": label, title: label });
     this.#body.inert = isFolded;
     this.#showPalette();
+    this.dispatchEvent(new Event("tab"));
   }
 
   /** Show the palette while a tab is open that builds the world. */
@@ -357,6 +365,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     this.layout.widen(name === "code");
     this.#showTop();
     this.#showPalette();
+    this.dispatchEvent(new Event("tab"));
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);
       try {

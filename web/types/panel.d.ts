@@ -256,4 +256,6 @@ export interface PanelEvents extends PartEvents {
   shown: null;
   stand_in: StandInMessage;
   thought: null;
+  /** Another tab is open, or the panel was folded or opened. */
+  tab: null;
 }
