@@ -13,10 +13,12 @@ from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.behaviour_cloning import UPDATES, DriveData, clone_drives
 from ai4u_edu.learn.small.onnx_file import read_network, write_network
+from ai4u_edu.learn.small.opponents import FILE, PLAYER, SELF, Opponents, kinds_of_opponents
 from ai4u_edu.learn.small.ppo import PpoSettings
 from ai4u_edu.learn.small.ppo_training import PolicyCheck, PpoTraining
 from ai4u_edu.learn.training.demonstrations import Cloned, demonstrations
@@ -29,6 +31,8 @@ from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.scenes import Scene
+
+__all__ = ["clone", "kinds_of_opponents", "resume", "train"]
 
 PACKAGES = ("ai4u-edu", "numpy", "pymunk", "gymnasium")
 MIN_INTERVAL_S = 1.0
@@ -46,6 +50,7 @@ def train(
     seed: int = 0,
     begin_with: Path | None = None,
     reward_weights: Mapping[str, float] | None = None,
+    against: str = "",
     overwrite: bool = False,
     quiet: bool = False,
 ) -> Trained:
@@ -60,11 +65,15 @@ def train(
         seed: of the network, of what is tried out, and of the worlds.
         begin_with: file of a network of the small learner to improve, such as a clone.
         reward_weights: factor of each reward term by its name; 1 for one that is left out.
+        against: who plays the other side of the scene: ``"player"``, ``"self"`` or a network's
+            file; see :class:`~ai4u_edu.learn.small.opponents.Opponents`. Left out, all other
+            agents are driven as the scene says.
         overwrite: True replaces a training that is in the folder.
         quiet: True shows nothing.
 
     Raises:
-        SetupError: the agent or a file doesn't fit, or the folder holds a training already.
+        SetupError: the agent, a file or the opponent doesn't fit, or the folder holds a training
+            already.
     """
     if settings.observation != "flat":
         raise SetupError(
@@ -77,16 +86,22 @@ def train(
             f"{settings.without_reward}=0"
         )
     settings = with_learner(scene, settings, quiet=quiet)
-    prepared = prepare(scene, settings)
+    opponents = _opponents(scene, settings, against)
+    prepared = prepare(scene, settings) if opponents is None else opponents.scene
     sim = prepared.build()
     agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
     training = PpoTraining(
         prepared,
-        PpoSettings(check_episodes=settings.check_episodes, enough=settings.enough),
+        PpoSettings(
+            check_episodes=settings.check_episodes,
+            # who beats the scene's player can still get better than that
+            enough=0 if against == SELF else settings.enough,
+        ),
         seed=seed,
         agent=agent.id,
         begin_with=None if begin_with is None else read_network(begin_with.read_bytes(), agent),
         reward_weights=reward_weights,
+        opponents=opponents,
     )
     run = Run(folder)
     config = Config(
@@ -97,10 +112,15 @@ def train(
         settings=settings,
         versions={name: version(name) for name in PACKAGES},
         trainer="small",
+        against=FILE if against not in ("", PLAYER, SELF) else against,
     )
+    # read before what is in the folder is deleted, which may be this very file
+    opponent = Path(against).read_bytes() if config.against == FILE else b""
     if overwrite:
         run.clear()
     run.begin(config, scene)
+    if opponent:
+        write_atomically(run.opponent, opponent)
     return _learn(run, config, training, quiet=quiet)
 
 
@@ -117,8 +137,10 @@ def resume(folder: Path, *, steps: int | None = None, quiet: bool = False) -> Tr
     """
     run = Run(folder)
     config = run.config()
-    prepared = prepare(run.scene(), config.settings)
-    training = PpoTraining.resume(run.state, prepared)
+    against = str(run.opponent) if config.against == FILE else config.against
+    opponents = _opponents(run.scene(), config.settings, against)
+    prepared = prepare(run.scene(), config.settings) if opponents is None else opponents.scene
+    training = PpoTraining.resume(run.state, prepared, opponents)
     config = config.model_copy(update={"steps": steps or config.steps})
     if training.ppo.decisions >= config.steps:
         raise SetupError(
@@ -189,6 +211,19 @@ def clone(
         held_out=result.held_out,
         remarks=result.remarks,
     )
+
+
+def _opponents(scene: Scene, settings: Settings, against: str) -> Opponents | None:
+    """Return who plays the other side, in a scene in which all learners decide as the settings say.
+
+    Raises:
+        SetupError: there is no other side, or nobody who could play it.
+    """
+    if not against:
+        return None
+    for learner in Opponents(scene, settings.agent, against).learners:
+        scene = prepare(scene, settings.model_copy(update={"agent": learner}))
+    return Opponents(scene, settings.agent, against)
 
 
 def _learn(run: Run, config: Config, training: PpoTraining, *, quiet: bool) -> Trained:
