@@ -39,6 +39,9 @@ class PracticeRequest(Struct, frozen=True):
     """Factors of reward terms by name; 1 for one that is left out."""
     begin_with: str = ""
     """File of a network to begin with; empty for a new one."""
+    against: str = ""
+    """Who plays the other side: ``player``, ``self`` or a network's file; empty for nobody else
+    than in the scene."""
     blocks: list[str] = []
     """Python files with blocks that the scene has."""
 

@@ -47,6 +47,7 @@ def _practise(request: PracticeRequest) -> None:
         seed=request.seed,
         begin_with=Path(request.begin_with) if request.begin_with else None,
         reward_weights=request.weights,
+        against=request.against,
         overwrite=True,
         quiet=True,
     )

@@ -664,6 +664,8 @@ export interface TeachPart {
   learning: LearningState | null;
   /** Names of the agent's reward terms. */
   rewards: string[];
+  /** Who can play the other side in a practice; empty in a scene without one. */
+  opponents: ("file" | "player" | "self")[];
   /** The latest practice of the agent; null if there was none since the start. */
   practice: PracticeState | null;
   /** Networks of this scene, the latest first. */
@@ -1158,6 +1160,10 @@ export interface PractiseForRewards {
   weights: Record<string, number>;
   /** Number of a network to begin with; null for a new one. */
   begin_with?: number | null;
+  /** Who plays the other side; null if all others are driven as the scene says. */
+  against?: "file" | "player" | "self" | null;
+  /** Number of the network that plays the other side; null for none. */
+  opponent?: number | null;
 }
 
 /** Begin an episode with the same start, against a ghost of the chosen one. */
