@@ -171,7 +171,9 @@ def test_a_network_that_learned_against_itself_goes_on_and_drives_both_sides(
 
 def test_a_network_to_learn_against_is_kept_in_the_folder(tmp_path: Path) -> None:
     first, out = tmp_path / "first", tmp_path / "run"
-    train("sumo", steps=256, against="player", agent="orange", out=first, settings=BRIEF)
+    train(
+        "sumo", steps=256, against="player", agent="orange", out=first, settings=BRIEF, quiet=True
+    )
     assert Run(first).config().settings.agent == "orange"
     network = first / "best.onnx"
     train("sumo", steps=256, against=network, out=out, settings=BRIEF, quiet=True)
@@ -179,8 +181,8 @@ def test_a_network_to_learn_against_is_kept_in_the_folder(tmp_path: Path) -> Non
     network.unlink()
     assert train(resume=True, out=out, steps=768, quiet=True).steps == 1024
     best = Run(out).best_network.read_bytes()
-    again = {"against": out / "best.onnx", "overwrite": True, "settings": BRIEF}
-    train("sumo", steps=256, out=out, quiet=True, **again)
+    network = out / "best.onnx"
+    train("sumo", steps=256, against=network, out=out, settings=BRIEF, overwrite=True, quiet=True)
     assert Run(out).opponent.read_bytes() == best
 
 

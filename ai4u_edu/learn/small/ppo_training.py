@@ -83,7 +83,8 @@ class PpoTraining:
         opponents: Opponents | None = None,
     ) -> None:
         settings = settings or PpoSettings()
-        worlds, self.league = None, None
+        worlds: Worlds | None = None
+        self.league: League | None = None
         if opponents is not None and opponents.against == SELF:
             self.league = League(seed)
             worlds = Games(settings.worlds, opponents, self.league)

@@ -159,12 +159,9 @@ def test_who_plays_both_sides_learns_from_both() -> None:
 
 
 def test_a_game_ends_for_both_sides_at_once() -> None:
-    opponents = sumo()
-    plain = opponents.scene.plain()
-    plain["agents"][0]["max_steps_per_episode"] = 3
-    games = Games(
-        4, Opponents(Scene(type(opponents.scene.description)(**plain)), "", SELF), League(0)
-    )
+    limit = "max_steps_per_episode: "
+    text = Scene.load("sumo").dumps().replace(f"{limit}720", f"{limit}3", 1)  # of blue alone
+    games = Games(4, Opponents(Scene.loads(text), "", SELF), League(seed=0))
     for row in range(4):
         games.reset(row, row)
     for _ in range(3):
