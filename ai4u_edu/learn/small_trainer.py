@@ -10,6 +10,7 @@ the same seed gives the same network on the same machine.
 
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
@@ -35,6 +36,9 @@ from ai4u_edu.scenes import Scene
 __all__ = ["clone", "kinds_of_opponents", "resume", "train"]
 
 PACKAGES = ("ai4u-edu", "numpy", "pymunk", "gymnasium")
+GAMES = PpoSettings(steps=128, batch=256, rate=1e-3, discount=0.99)
+"""Settings against somebody. A game may pay at its end only, so a round is long enough for some
+ends; and the other side changes, so that the network changes more slowly."""
 MIN_INTERVAL_S = 1.0
 """Shortest time between two writes of the network as it is."""
 BLOCK_S = 2.0
@@ -92,7 +96,8 @@ def train(
     agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
     training = PpoTraining(
         prepared,
-        PpoSettings(
+        replace(
+            PpoSettings() if opponents is None else GAMES,
             check_episodes=settings.check_episodes,
             # who beats the scene's player can still get better than that
             enough=0 if against == SELF else settings.enough,

@@ -159,7 +159,7 @@ def test_a_network_that_learned_against_itself_goes_on_and_drives_both_sides(
     train("sumo", steps=256, against="self", out=out, settings=BRIEF, quiet=True)
     config = Run(out).config()
     assert (config.trainer, config.against, config.settings.agent) == ("small", "self", "blue")
-    assert train(resume=True, out=out, steps=768, quiet=True).steps == 1024
+    assert train(resume=True, out=out, steps=2304, quiet=True).steps == 4096
     network = str(Run(out).best_network)
     drivers = [f"{agent}={network}" for agent in ("blue", "orange")]
     sim, _ = with_drivers(Scene.load("sumo"), drivers)
@@ -179,7 +179,7 @@ def test_a_network_to_learn_against_is_kept_in_the_folder(tmp_path: Path) -> Non
     train("sumo", steps=256, against=network, out=out, settings=BRIEF, quiet=True)
     assert Run(out).opponent.read_bytes() == network.read_bytes()
     network.unlink()
-    assert train(resume=True, out=out, steps=768, quiet=True).steps == 1024
+    assert train(resume=True, out=out, steps=2304, quiet=True).steps == 4096
     best = Run(out).best_network.read_bytes()
     network = out / "best.onnx"
     train("sumo", steps=256, against=network, out=out, settings=BRIEF, overwrite=True, quiet=True)
@@ -191,7 +191,7 @@ def test_the_command_says_who_can_play_the_other_side(tmp_path: Path) -> None:
     words = ["train", "tag", "--against", "self", "--agent", "chaser", "--out", str(out)]
     done = CliRunner().invoke(app, words)
     assert done.exit_code == 1
-    assert "'chaser' can't play against itself" in " ".join(done.output.split())
+    assert "'chaser' can't play against itself" in str(done.exception)
     assert not out.exists()
 
 
