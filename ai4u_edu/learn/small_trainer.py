@@ -19,7 +19,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.behaviour_cloning import UPDATES, DriveData, clone_drives
 from ai4u_edu.learn.small.onnx_file import read_network, write_network
-from ai4u_edu.learn.small.opponents import FILE, PLAYER, SELF, Opponents, kinds_of_opponents
+from ai4u_edu.learn.small.opponents import FILE, SELF, Opponents, kinds_of_opponents
 from ai4u_edu.learn.small.ppo import PpoSettings
 from ai4u_edu.learn.small.ppo_training import PolicyCheck, PpoTraining
 from ai4u_edu.learn.training.demonstrations import Cloned, demonstrations
@@ -117,7 +117,7 @@ def train(
         settings=settings,
         versions={name: version(name) for name in PACKAGES},
         trainer="small",
-        against=FILE if against not in ("", PLAYER, SELF) else against,
+        against="" if opponents is None else opponents.kind,
     )
     # read before what is in the folder is deleted, which may be this very file
     opponent = Path(against).read_bytes() if config.against == FILE else b""

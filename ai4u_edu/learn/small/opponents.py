@@ -32,11 +32,10 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
-from gymnasium.vector.utils import create_empty_array
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import BlockError, SetupError, suggest
@@ -52,6 +51,7 @@ from ai4u_edu.scenes import Scene
 
 PLAYER, SELF, FILE = "player", "self", "file"
 """Kinds of opponents: the scene's player, the learner itself, a network in a file."""
+Kind = Literal["player", "self", "file"]
 MAX_MEMBERS = 9
 """Members of a league at most; each earlier network takes a pass through it at each decision."""
 FIRST_SCORE = 0.5
@@ -72,6 +72,7 @@ class Opponents:
 
     Attributes:
         scene, against: as given.
+        kind: of the opponent.
         learners: ids of the agents as which the learner plays in turn: itself, and its counterpart
             where both sides have the same robots.
 
@@ -82,6 +83,9 @@ class Opponents:
 
     def __init__(self, scene: Scene, agent: str, against: str) -> None:
         self.scene, self.against = scene, against
+        self.kind: Kind = "file"
+        if against in (PLAYER, SELF):
+            self.kind = "player" if against == PLAYER else "self"
         if against not in (PLAYER, SELF) and Path(against).suffix != ".onnx":
             raise SetupError(
                 f"against: expected {PLAYER!r}, {SELF!r} or a network (.onnx), got {against!r}; "
@@ -283,7 +287,7 @@ class Games(Worlds):
         self._league = league
         self._games = []
         # learners, then opponents: those that learn come first in both
-        self._seen = create_empty_array(self.envs[0].observation_space, 2 * count)
+        self._seen = np.zeros((2 * count, self.observations.shape[1]), np.float32)
         self.observations = self._seen[:rows]
         self._write = [env.observer.writer(self._seen, row) for row, env in enumerate(self.envs)]
         self._write_opponent = []
