@@ -86,6 +86,7 @@ def _practise(request: PracticeRequest) -> None:
             seed=request.seed,
             begin_with=Path(request.begin_with) if request.begin_with else None,
             reward_weights=request.weights,
+            against=request.against,
             overwrite=True,
             on_round=replays.after_round,
             quiet=True,
