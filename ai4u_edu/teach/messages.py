@@ -9,6 +9,8 @@ from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.teach.drives import MAX_DRIVES
 from ai4u_edu.teach.networks import MAX_TITLE_CHARS
 
+Opponent = Literal["player", "self", "file"]
+"""Player of the other side in a practice: the scene's player, the network itself, a network."""
 MIN_STEPS, MAX_STEPS = 256, 1_000_000
 """Fewest and most decisions of a practice."""
 
@@ -35,6 +37,10 @@ class PractiseForRewards(PageCommand, tag="teach_practise"):
     """Factors of reward terms by name; 1 for one that is left out."""
     begin_with: Number | None = None
     """Number of a network to begin with; null for a new one."""
+    against: Opponent | None = None
+    """Player of the other side; null if all others are driven as the scene says."""
+    opponent: Number | None = None
+    """Number of the network that plays the other side; null for none."""
 
 
 class PutRewards(PageCommand, tag="teach_put_rewards"):
@@ -188,6 +194,8 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """The latest learning of the agent; null if there was none since the start."""
     rewards: list[str]
     """Names of the agent's reward terms."""
+    opponents: list[Opponent]
+    """Possible players of the other side in a practice; empty in a scene without one."""
     practice: PracticeState | None
     """The practice that runs or is paused, or the agent's latest one; null if there is none."""
     decisions_per_s: float | None

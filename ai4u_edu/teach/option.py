@@ -16,7 +16,7 @@ from typing import TypeVar
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError, SetupError
-from ai4u_edu.base.options import OptionTab
+from ai4u_edu.base.options import SMALL_TRAINER, OptionTab, load_option
 from ai4u_edu.blocks import LocalBrain, NeuralNetController
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.drivers import NETWORK
@@ -46,6 +46,9 @@ from ai4u_edu.teach.tries import TryingPages
 
 T = TypeVar("T")
 
+OPPONENTS = {None: "", "player": " against the scene's player", "self": " against itself"}
+"""Player of the other side in a practice, in words."""
+
 _logger = logging.getLogger(__name__)
 
 
@@ -60,6 +63,8 @@ class _SceneWork:
     """Drives by the agent, the latest first."""
     rewards: Mapping[str, Sequence[str]] = field(default_factory=dict)
     """Names of an agent's reward terms, by its id."""
+    opponents: Mapping[str, Sequence[m.Opponent]] = field(default_factory=dict)
+    """Possible opponents of an agent in a practice, by its id."""
     networks: tuple[KeptNetwork, ...] = ()
     """The latest first."""
     scene_name: str = ""
@@ -281,6 +286,7 @@ class TeachOption:
             drives=list(work.drives.get(agent, ())),
             learning=None if learning is None or learning.agent != agent else _state_of(learning),
             rewards=list(work.rewards.get(agent, ())),
+            opponents=list(work.opponents.get(agent, ())),
             practice=None if practice is None else self._practice_state(practice, work, agent),
             decisions_per_s=None if practice is None else practice.decisions_per_s,
             networks=[
@@ -360,17 +366,20 @@ class TeachOption:
         sim.reset(0)
         described = export_scene(sim, scene.description)
         drives = list(reversed(self._drives.drives(scene.description.name)))
+        kinds_of_opponents = load_option(SMALL_TRAINER, "teaching").kinds_of_opponents
         self._work = _SceneWork(
             version=self._work.version + 1,
             problems={agent.id: reason_against_teaching(agent) for agent in sim.agents},
             drives={agent.id: tuple(_shown(drives, agent, described)) for agent in sim.agents},
             rewards={agent.id: reward_names(editor.state.agent(agent.id)) for agent in sim.agents},
+            opponents=kinds_of_opponents(scene, sim),
             networks=tuple(reversed(self._networks.networks(scene.description.name))),
             scene_name=scene.description.name,
             scene_text=scene.dumps(),
             warning=self._work.warning,
         )
-        self._find_practice(scene.description.name)
+        if self._scene == scene.description.name:  # else another one was opened meanwhile
+            self._find_practice(scene.description.name)
 
     def _find_practice(self, scene: str) -> None:
         """Offer to go on with a practice of the present scene that an earlier process began."""
@@ -433,6 +442,7 @@ class TeachOption:
             raise SetupError(
                 f"this scene has {MAX_NETWORKS} networks already; delete one that you do not need"
             )
+        against, opponent = self._opponent(agent, command)
         scene = editor.scene
         request = PracticeRequest(
             scene=scene.dumps(),
@@ -443,6 +453,8 @@ class TeachOption:
             seed=0,
             weights={name: each for name, each in command.weights.items() if each != 1.0},
             begin_with=begin_with,
+            against=against,
+            opponent=opponent,
         )
         try:
             folder, request = self._practices.add(scene.description.name, request)
@@ -462,6 +474,19 @@ class TeachOption:
             raise SetupError("there is no practice that could go on; begin another one")
         self._check_free(practice.request.agent)
         practice.go_on()
+
+    def _opponent(self, agent: str, command: m.PractiseForRewards) -> tuple[str, str]:
+        """Return who plays the other side, for the practice and in words."""
+        if command.against and command.against not in self._work.opponents.get(agent, ()):
+            raise SetupError("nobody can play against this robot in that way here; choose another")
+        if command.against != "file":
+            return command.against or "", OPPONENTS[command.against]
+        number = command.opponent
+        if number is None:
+            raise SetupError("expected the network to play against; choose one")
+        path = self._networks.file(self._scene, number).absolute()
+        titles = {each.number: each.title for each in self._work.networks}
+        return str(path), f" against {titles.get(number, f'Network {number}')}"
 
     def _begin_learning(self, agent: str, numbers: list[int]) -> None:
         self._check_free(agent)
@@ -522,7 +547,10 @@ class TeachOption:
         checks = practice.progress.curve
         share = max((each.success or 0.0 for each in checks), default=0.0)
         reached = "" if checks[-1].success is None else f", goal reached from {share:.0%} of starts"
-        how = f"practised for {practice.progress.decisions} decisions{reached}"
+        how = (
+            f"practised for {practice.progress.decisions} decisions"
+            f"{practice.request.opponent}{reached}"
+        )
         about = KeptNetwork(0, "", practice.request.agent, how, facts=practice.facts)
         brains = [agent.brain for agent in self._runner.sim.agents if agent.id == about.agent]
         # whoever has taken over goes on driving

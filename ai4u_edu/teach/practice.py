@@ -51,6 +51,11 @@ class PracticeRequest(Struct, frozen=True):
     """Folder of the training."""
     begin_with: str = ""
     """File of a network to begin with; empty for a new one."""
+    against: str = ""
+    """Player of the other side: ``player``, ``self`` or a network's file; empty for nobody else
+    than in the scene."""
+    opponent: str = ""
+    """The same in words, which follow "decisions"."""
     blocks: list[str] = []
     """Python files with blocks that the scene has."""
 
@@ -254,6 +259,10 @@ class PracticeFolder:
             begin_with = folder / "begin_with.onnx"
             shutil.copyfile(request.begin_with, begin_with)
             request = msgspec.structs.replace(request, begin_with=str(begin_with))
+        if request.against.endswith(".onnx"):
+            opponent = folder / "opponent.onnx"
+            shutil.copyfile(request.against, opponent)
+            request = msgspec.structs.replace(request, against=str(opponent))
         write_atomically(folder / "request.json", msgspec.json.encode(request), mode=0o600)
         return folder, request
 

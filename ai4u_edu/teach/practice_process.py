@@ -86,6 +86,7 @@ def _practise(request: PracticeRequest) -> None:
             seed=request.seed,
             begin_with=Path(request.begin_with) if request.begin_with else None,
             reward_weights=request.weights,
+            against=request.against,
             overwrite=True,
             on_round=replays.after_round,
             quiet=True,
@@ -123,11 +124,12 @@ class _Replays:
             network: its file.
             decisions: those that it has learned from.
         """
-        sim = self._scene.build()
-        recorder = Recorder(sim, scene=self._scene.description)
-        agent = sim.agent(self._request.agent)
         controller = NeuralNetController(model_path=str(network.absolute()))
-        agent.use_brain(LocalBrain(controller=controller, **controller.network.rhythm))
+        brain = LocalBrain(controller=controller, **controller.network.rhythm)
+        name = self._request.agent
+        sim = self._scene.build(brains=lambda agent: brain if agent.id == name else None)
+        recorder = Recorder(sim, scene=self._scene.description)
+        agent = sim.agent(name)
         sim.reset(REPLAY_SEED)
         for _ in range(MAX_REPLAY_DECISIONS):
             sim.step()

@@ -63,6 +63,7 @@ def test_a_robot_practises_for_rewards_until_it_is_stopped(
         tab.get_by_role("button", name="Practise").click()
         expect(page.get_by_text("Each reward needs a number")).to_be_visible()
         touch.fill("2")
+        expect(tab.get_by_label("Against")).to_be_hidden()
         tab.get_by_label("Length").select_option("Long")
         tab.get_by_role("button", name="Practise").click()
         expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
@@ -99,3 +100,23 @@ def test_a_slider_shows_how_a_network_got_better(chromium: Browser, tmp_path: Pa
         until(lambda: not room.runner.latest.past)
         page.get_by_role("tab", name="Past").click()
         expect(page.get_by_text("network 1 after 1,024 decisions").first).to_be_visible()
+
+
+def test_a_robot_practises_against_the_side_that_was_chosen(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    with teach_tab(chromium, tmp_path, scene="sumo") as (tab, _):
+        against = tab.get_by_label("Against")
+        expect(against).to_have_value("player")
+        expect(against.get_by_role("option")).to_have_text(["The scene's player", "Itself"])
+        against.select_option("Itself")
+        tab.get_by_role("button", name="Practise", exact=True).click()
+        card = tab.get_by_role("article")
+        expect(card).to_contain_text("decisions against itself, goal reached")
+        expect(against.get_by_role("option")).to_have_count(3)
+        against.select_option("Network 1")
+        tab.get_by_label("Length").select_option("Long")
+        tab.get_by_role("button", name="Practise", exact=True).click()
+        expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
+        tab.get_by_role("button", name="Stop").click()
+        expect(tab.get_by_text("The practice was stopped.")).to_be_visible()

@@ -240,6 +240,30 @@ def test_a_practice_that_can_not_begin_says_why(page: PanelPage) -> None:
     assert page.done("teach_stop_practising")["text"] == "Nothing practises now."
 
 
+def test_a_scene_with_one_side_offers_no_opponent(page: PanelPage) -> None:
+    assert page.parts["teach"]["opponents"] == []
+    answer = page.failed("teach_practise", steps=SOON, weights={}, against="self")
+    assert "nobody can play against this robot in that way" in answer["text"]
+
+
+def test_a_network_practises_against_the_scenes_player_itself_and_a_network(tmp_path: Path) -> None:
+    with teaching_room(tmp_path, "sumo") as room, room.page() as page:
+        part = page.part("teach", lambda part: part["rewards"])
+        assert part["opponents"] == ["player", "self", "file"]
+        page.done("teach_practise", steps=SOON, weights={}, against="player")
+        page.part("teach", lambda part: len(part["networks"]) == 1)
+        page.done("teach_practise", steps=SOON, weights={}, against="self")
+        part = page.part("teach", lambda part: len(part["networks"]) == 2)
+        assert part["practice"]["problem"] == ""
+        assert "against itself" in part["networks"][0]["how"]
+        assert "against the scene's player" in part["networks"][1]["how"]
+        answer = page.failed("teach_practise", steps=SOON, weights={}, against="file")
+        assert "expected the network to play against" in answer["text"]
+        page.done("teach_practise", steps=SOON, weights={}, against="file", opponent=2)
+        part = page.part("teach", lambda part: len(part["networks"]) == 3)
+        assert "against Network 2" in part["networks"][0]["how"]
+
+
 def test_whoever_has_taken_over_goes_on_driving(room: PanelRoom, page: PanelPage) -> None:
     page.done("teach_practise", steps=4 * SOON, weights={})
     until(lambda: controller(room) is not None)

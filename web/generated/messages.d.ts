@@ -678,6 +678,8 @@ export interface TeachPart {
   learning: LearningState | null;
   /** Names of the agent's reward terms. */
   rewards: string[];
+  /** Possible players of the other side in a practice; empty in a scene without one. */
+  opponents: ("file" | "player" | "self")[];
   /** The practice that runs or is paused, or the agent's latest one; null if there is none. */
   practice: PracticeState | null;
   /** Decisions that such a practice learns from in a second; null before the first check. */
@@ -1250,6 +1252,10 @@ export interface PractiseForRewards {
   weights: Record<string, number>;
   /** Number of a network to begin with; null for a new one. */
   begin_with?: number | null;
+  /** Player of the other side; null if all others are driven as the scene says. */
+  against?: "file" | "player" | "self" | null;
+  /** Number of the network that plays the other side; null for none. */
+  opponent?: number | null;
 }
 
 /** Multiply the scene's own rewards of the page's agent by factors. */
