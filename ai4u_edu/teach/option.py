@@ -37,8 +37,10 @@ from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach import messages as m
+from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.drives import Drive, DriveFolder, persons_decisions
-from ai4u_edu.teach.learning import Learning
+from ai4u_edu.teach.learning import ClassLearner, Learned, Learner, LocalLearner
+from ai4u_edu.teach.networks import FOLDER as NETWORKS
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
 from ai4u_edu.teach.practice import Practice, PracticeRequest
 from ai4u_edu.teach.teachable import reason_against_teaching
@@ -88,7 +90,6 @@ class TeachOption:
         self.tab: OptionTab | None = None
         self.commands: Mapping[type[PageCommand], Handler] = {}
         self._work = _SceneWork()
-        self._learning: Learning | None = None
         self._practice: Practice | None = None
         self._tasks = SimpleQueue[Callable[[], object] | None]()
         folder = None if editor is None else editor.work_folder
@@ -98,16 +99,28 @@ class TeachOption:
         self.commands = {
             m.LearnFromDrives: self._learn,
             m.StopLearning: self._stop_learning,
-            m.PractiseForRewards: self._practise,
-            m.StopPractising: self._stop_practising,
             m.ForgetDrive: self._forget_drive,
             m.DriveNetwork: self._drive_network,
             m.RenameNetwork: self._rename_network,
             m.DeleteNetwork: self._delete_network,
             m.DownloadNetwork: self._download_network,
         }
-        self._drives = DriveFolder(folder / "drives")
-        self._networks = NetworkFolder(folder / "networks")
+        self._drives = DriveFolder(folder / DRIVES)
+        self._networks = NetworkFolder(folder / NETWORKS)
+        trainings = editor.class_trainings
+        self._learner: Learner
+        if trainings is None:
+            self.commands = {
+                **self.commands,
+                m.PractiseForRewards: self._practise,
+                m.StopPractising: self._stop_practising,
+            }
+            self._learner = LocalLearner(
+                lambda learned: self._tasks.put(partial(self._take, learned))
+            )
+        else:
+            self._learner = ClassLearner(trainings, folder, self._take)
+            trainings.listeners.append(lambda: self._tasks.put(self._learner.collect))
         editor.offer(self._offered)
         editor.listeners.append(lambda _: self._tasks.put(self._look))
         if runner.recorder is not None:
@@ -119,13 +132,12 @@ class TeachOption:
         """Yield what the page's agent can learn from, and its networks."""
         if self.tab is None or self._editor is None:
             return
-        work, learning, agent = self._work, self._learning, view.agent
+        work, learning, agent = self._work, self._learner.key, view.agent
         with suppress(AI4UError):  # the world has other agents already
             driver = self._editor.driver_of(agent)
             practice = self._practice
-            progress = None if learning is None else (len(learning.errors), learning.is_over)
             reached = None if practice is None else (practice.progress, practice.is_over)
-            key = "teach", work.version, agent, driver, learning, progress, practice, reached
+            key = "teach", work.version, agent, driver, learning, practice, reached
             yield (
                 "teach",
                 context.cache.by_key(key, lambda: self._part(work, agent, driver)),
@@ -140,9 +152,10 @@ class TeachOption:
 
     def stop(self) -> None:
         """End the learning and the thread."""
-        for process in (self._learning, self._practice):
-            if process is not None:
-                process.stop()
+        if self.tab is not None:
+            self._learner.close()
+        if self._practice is not None:
+            self._practice.stop()
         self._tasks.put(None)
 
     # -- in the server's event loop ----------------------------------------------------------------
@@ -152,11 +165,8 @@ class TeachOption:
         return Answer("It learns.")
 
     async def _stop_learning(self, _page: Page, _command: m.StopLearning) -> Answer:
-        learning = self._learning
-        if learning is None or learning.is_over:
-            return Answer("Nothing learns now.")
-        learning.stop()
-        return Answer("The learning is stopped.")
+        is_stopped = await self._done(self._learner.stop)
+        return Answer("The learning is stopped." if is_stopped else "Nothing learns now.")
 
     async def _practise(self, page: Page, command: m.PractiseForRewards) -> Answer:
         await self._done(lambda: self._begin_practice(page.view.agent, command))
@@ -203,6 +213,7 @@ class TeachOption:
         def task() -> None:
             change(self._scene)
             self._look()
+            self._learner.collect()
 
         await self._done(task)
 
@@ -220,7 +231,7 @@ class TeachOption:
         return await result_of(future)
 
     def _part(self, work: _SceneWork, agent: str, driver: str) -> m.TeachPart:
-        learning, practice = self._learning, self._practice
+        practice = self._practice
 
         def is_driving(network: KeptNetwork) -> bool:
             with suppress(SetupError):
@@ -231,7 +242,7 @@ class TeachOption:
             agent=agent,
             problem=work.problems.get(agent, ""),
             drives=list(work.drives.get(agent, ())),
-            learning=None if learning is None or learning.agent != agent else _state_of(learning),
+            learning=self._learner.state(agent),
             rewards=list(work.rewards.get(agent, ())),
             practice=(
                 None
@@ -290,30 +301,48 @@ class TeachOption:
             version=self._work.version + 1,
             problems={agent.id: reason_against_teaching(agent) for agent in sim.agents},
             drives={agent.id: tuple(_shown(drives, agent, described)) for agent in sim.agents},
-            rewards={agent.id: reward_names(editor.state.agent(agent.id)) for agent in sim.agents},
+            rewards={
+                agent.id: reward_names(editor.state.agent(agent.id))
+                for agent in sim.agents
+                if editor.class_trainings is None  # a class lets no network practise yet
+            },
             networks=tuple(reversed(self._networks.networks(scene.description.name))),
             warning=self._work.warning,
         )
 
     def _keep_network(
         self, scene: str, network: bytes, about: KeptNetwork, *, drives: bool = True
-    ) -> None:
-        """Keep a network that has learned, and let it drive."""
+    ) -> bool:
+        """Keep a network that has learned, and let it drive; return False if it can't be kept."""
         try:
             kept = self._networks.add(scene, network, about)
         except (OSError, SetupError) as error:
             reason = error.strerror if isinstance(error, OSError) else error
             self._work = replace(self._work, warning=f"The network could not be kept: {reason}.")
             self._look()
-            return
+            return False
         self._work = replace(self._work, warning="")
         self._look()
         if self._scene == scene and drives:
             file = self._networks.file(scene, kept.number)
             self._required_editor().set_driver(about.agent, f"{NETWORK}{file.name}")
+        return True
+
+    def _take(self, learned: Learned) -> bool:
+        """Keep a network that has learned from drives; return False if it can't be kept."""
+        drives = f"{learned.drives} drive{'s' if learned.drives != 1 else ''}"
+        about = KeptNetwork(
+            number=0,
+            title="",
+            agent=learned.agent,
+            how=f"learned from {drives} with {learned.decisions} decisions",
+            alike=learned.alike,
+        )
+        return self._keep_network(learned.scene, learned.network, about)
 
     def _check_free(self, agent: str) -> None:
-        if any(each is not None and not each.is_over for each in (self._learning, self._practice)):
+        practice = self._practice
+        if self._learner.is_busy or (practice is not None and not practice.is_over):
             raise SetupError("the robot learns already; wait until it is done, or stop it")
         if problem := self._work.problems.get(agent, ""):
             raise SetupError(problem)
@@ -354,26 +383,7 @@ class TeachOption:
             raise SetupError(f"expected drives that this robot can learn from, got {missing}")
         scene = self._scene
         files = [self._drives.file(scene, number) for number in sorted(set(numbers))]
-        self._learning = Learning(
-            files,
-            agent,
-            seed=0,
-            on_done=lambda learning, out: self._on_learned(scene, learning, out),
-        )
-
-    # -- in the thread of the learning -------------------------------------------------------------
-
-    def _on_learned(self, scene: str, learning: Learning, out: Path) -> None:
-        note = learning.note
-        drives = f"{learning.drives} drive{'s' if learning.drives != 1 else ''}"
-        about = KeptNetwork(
-            number=0,
-            title="",
-            agent=learning.agent,
-            how=f"learned from {drives} with {note.decisions} decisions",
-            alike=note.alike,
-        )
-        self._tasks.put(partial(self._keep_network, scene, out.read_bytes(), about))
+        self._learner.begin(scene, files, agent)
 
     # -- in the thread of the practice -------------------------------------------------------------
 
@@ -445,18 +455,4 @@ def _practice_state(practice: Practice) -> m.PracticeState:
         total=progress.total,
         rewards=[round(point.reward, 3) for point in progress.curve],
         success=progress.curve[-1].success if progress.curve else None,
-    )
-
-
-def _state_of(learning: Learning) -> m.LearningState:
-    note = learning.note
-    return m.LearningState(
-        is_over=learning.is_over,
-        problem=note.problem,
-        errors=[round(error, 4) for _, error in learning.errors],
-        drives=learning.drives,
-        decisions=note.decisions,
-        alike=round(note.alike, 3),
-        commonest=round(note.commonest, 3),
-        remarks=list(note.remarks),
     )
