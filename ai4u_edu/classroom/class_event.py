@@ -184,7 +184,7 @@ def _learning(training: Training | None) -> str:
         return ""
     drives = f"{training.drives} drive{'s' if training.drives != 1 else ''}"
     if training.is_done:
-        return f"learned from {drives}: {training.alike:.0%} alike"
+        return f"learned: {training.alike:.0%} alike"
     if training.problem:
         return "could not learn"
     return f"waits to learn, place {training.place}" if training.place else f"learns from {drives}"

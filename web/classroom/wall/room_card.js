@@ -61,7 +61,7 @@ export function updateCard(card, room, state, realNames) {
   setText(part("status").firstElementChild, status.sign);
   setText(part("status").lastElementChild, status.text);
   setText(part("why"), why);
-  setText(part("scene"), [room.scene, room.learning].filter(Boolean).join(" · "));
+  setText(part("scene"), [room.learning, room.scene].filter(Boolean).join(" · "));
   const dots = progressOf(seats, state);
   showProgress(part("progress"), dots);
   setAttributes(box, { "data-status": room.status, "data-help": needsHelp(room), "data-solved": room.is_solved });
