@@ -18,6 +18,8 @@ from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
+from ai4u_edu.teach.learning import STOPPED
+from ai4u_edu.wire.class_link import Training
 
 _AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
@@ -86,7 +88,7 @@ class ClassEvents:
         }
         if is_projected:
             for room in event["rooms"]:
-                del room["help"], room["why"], room["look_in"]
+                del room["help"], room["why"], room["look_in"], room["learning"]
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
         event["handed_in"] = networks_event(live.tournament)
@@ -161,6 +163,7 @@ class ClassEvents:
             "episodes": state.episodes if state else 0,
             "falls": state.falls if state else 0,
             "is_solved": state.is_solved if state else False,
+            "learning": _learning(self._live.trainings.of_room(room.id)),
             "error": (state.error if state else "") or room.problem,
             "help": score[0],
             "why": score[1],
@@ -173,6 +176,18 @@ def _look_in(room: LiveRoom) -> str:
         return f"./r/{room.id}/"
     has_page = room.link is not None and room.state is not None and bool(room.state.page)
     return f"./teacher/look/{room.id}" if has_page else ""
+
+
+def _learning(training: Training | None) -> str:
+    """Return how the learning of a room's network goes, or went; empty if it has none."""
+    if training is None or training.problem == STOPPED:
+        return ""
+    drives = f"{training.drives} drive{'s' if training.drives != 1 else ''}"
+    if training.is_done:
+        return f"learned: {training.alike:.0%} alike"
+    if training.problem:
+        return "could not learn"
+    return f"waits to learn, place {training.place}" if training.place else f"learns from {drives}"
 
 
 def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:

@@ -33,11 +33,13 @@ from ai4u_edu.wire.class_link import (
     FromClass,
     FromRoom,
     HandedInNetwork,
+    Learn,
     LinkHello,
     LinkProblem,
     Poses,
     Result,
     State,
+    StopTraining,
     Work,
     decode_from_room,
     encode_from_class,
@@ -194,6 +196,9 @@ class LinkEndpoint:
             case HandedInNetwork():
                 await self._take_network(room, link, message)
                 return
+            case Learn() | StopTraining():
+                await self._take_training(room, link, message)
+                return
             case Drawing():
                 room.note_drawing(message)
                 return
@@ -231,6 +236,26 @@ class LinkEndpoint:
             link.close_later()
             return
         link.add(Ack(network.key))
+
+    async def _take_training(
+        self, room: LiveRoom, link: "LinkSender", message: Learn | StopTraining
+    ) -> None:
+        """Take what a room asks for, and acknowledge it when it is on disk."""
+        if room.seat:
+            text = f"{message.__struct_config__.tag}: expected a room on the class's machine"
+            link.add(LinkProblem("message", text))
+            link.add(Ack(message.key))  # sent again it would be refused again
+            return
+        trainings = self._live.trainings
+        try:
+            if isinstance(message, Learn):
+                await trainings.add(room.id, message)
+            else:
+                await trainings.stop(room.id, message.training)
+        except StoreError:
+            link.close_later()
+            return
+        link.add(Ack(message.key))
 
     def _take_result(self, room: LiveRoom, link: "LinkSender", result: Result) -> None:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():

@@ -25,6 +25,7 @@ from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, SeatState
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
+from ai4u_edu.classroom.trainings import Trainings
 from ai4u_edu.member.room_state import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
@@ -35,6 +36,7 @@ from ai4u_edu.wire.class_link import (
     LinkWelcome,
     People,
     Person,
+    RoomTrainings,
     Work,
 )
 
@@ -86,6 +88,7 @@ class LiveClass:
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.tournament = TournamentRunner(store, self._tell_networks, self.note_change)
+        self.trainings = Trainings(store, self._tell_training, self.note_change)
         self.results = ResultWriter(
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
@@ -112,6 +115,7 @@ class LiveClass:
                     self.tell_attention()
                 self.race.tick()
                 self.tournament.tick()
+                self.trainings.tick()
                 await asyncio.to_thread(self.attention.save_rest)
                 await self._measure_folder()
             except Exception as error:  # a full disk, say: the next tick tries again
@@ -193,6 +197,8 @@ class LiveClass:
         link.send(self.race.messages()(room.id))
         if room.seat:
             link.send(self._handed_in(room.seat))
+        else:
+            link.send(self._training(room.id))
         self.tell_people()
 
     def disconnect(self, room: LiveRoom, link: OpenLink) -> None:
@@ -252,6 +258,15 @@ class LiveClass:
         room = self.rooms.get(remote_id(seat))
         if room is not None and room.link is not None:
             room.link.send(self._handed_in(seat))
+
+    def _tell_training(self, room: str) -> None:
+        live = self.rooms.get(room)
+        if live is not None and live.link is not None:
+            live.link.send(self._training(room))
+
+    def _training(self, room: str) -> RoomTrainings:
+        training = self.trainings.of_room(room)
+        return RoomTrainings(() if training is None else (training,))
 
     def _handed_in(self, seat: int) -> HandedIn:
         return HandedIn(
@@ -318,6 +333,7 @@ class LiveClass:
         self.stars.read()
         self.races.read()
         self.tournament.read()
+        self.trainings.read()
         self.shown = Shown()
         self.tell_people()
 

@@ -411,6 +411,7 @@ async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     await asyncio.gather(*(live.host.end(each) for each in rooms))
     await live.results.finish()
     await live.tournament.end()
+    await live.trainings.end()
     live.attention.end()  # so that no message of the teacher is saved again
     await asyncio.to_thread(_delete, live)
     live.begin_anew()

@@ -5,12 +5,12 @@ import secrets
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from msgspec.structs import replace
 
-from ai4u_edu.base.errors import shorten
+from ai4u_edu.base.errors import SetupError, shorten
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.member.assigned_scenes import (
     OPEN_TIMEOUT_S,
@@ -40,10 +40,14 @@ from ai4u_edu.wire.class_link import (
     CurrentRace,
     EpisodeResult,
     FromClass,
+    Learn,
     LinkProblem,
     LinkWelcome,
     People,
+    RoomTrainings,
     State,
+    StopTraining,
+    Training,
     Work,
 )
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
@@ -130,6 +134,8 @@ class ClassMember:
             else link(self._receive)
         )
         """The link with the class."""
+        self.trainings = MemberTrainings(self.link)
+        """Trainings of a world on the class's machine."""
 
     def start(self) -> None:
         """Join the class, in the background."""
@@ -167,6 +173,8 @@ class ClassMember:
                 self.view.set_people(message)
                 rests_at = math.inf if message.is_visited else self._clock() + REST_AFTER_S
                 self._holds.for_absence(rests_at)
+            case RoomTrainings():
+                self.trainings.receive(message)
             case Attention():
                 with self._attention_lock:
                     self._pay_attention(message)
@@ -302,6 +310,74 @@ class ClassMember:
         self._work_version, self._work_sent_at = version, now
         if len(text) <= MAX_SCENE_CHARS:
             self.link.send(Work(shorten(editor.title, MAX_TEXT_CHARS), text))
+
+
+class MemberTrainings:
+    """Trainings in the class's process; see :class:`ai4u_edu.page.editing.editor.ClassTrainings`.
+
+    Args:
+        link: with the class.
+    """
+
+    def __init__(self, link: ClassLink) -> None:
+        self._link = link
+        self._lock = threading.Lock()
+        self._asked: Training | None = None
+        """Training that the class does not know yet."""
+        self._known: Training | None = None
+        self.listeners: list[Callable[[], object]] = []
+
+    @property
+    def latest(self) -> Training | None:
+        """The room's latest training; None before the first one."""
+        return self._asked or self._known
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the class can be reached."""
+        return self._link.is_connected
+
+    def learn(self, scene: str, agent: str, drives: Sequence[str]) -> None:
+        """Have a network learn from drives.
+
+        Raises:
+            SetupError: a name is too long to be sent.
+        """
+        for what, name in (("scene", scene), ("agent", agent)):
+            if len(name) > MAX_TEXT_CHARS:  # the class would refuse it again and again
+                raise SetupError(
+                    f"expected a name of the {what} of at most {MAX_TEXT_CHARS} characters, got "
+                    f"{len(name)}; give it a shorter one"
+                )
+        request = Learn(secrets.token_urlsafe(12), scene, agent, tuple(drives))
+        with self._lock:
+            self._asked = Training(request.key, scene, agent, len(drives))
+        self._link.send_result(request)
+        self._tell()
+
+    def stop(self, problem: str) -> None:
+        """End the latest training without a result; until the class answers, show a problem."""
+        with self._lock:
+            latest = self.latest
+            if latest is None or latest.is_over:
+                return
+            self._asked = replace(latest, place=0, problem=problem)
+        self._link.send_result(StopTraining(secrets.token_urlsafe(12), latest.key))
+        self._tell()
+
+    def receive(self, message: RoomTrainings) -> None:
+        """Take what the class says of the room's trainings."""
+        with self._lock:
+            self._known = message.trainings[-1] if message.trainings else None
+            asked, known = self._asked, self._known
+            if asked is not None and known is not None and asked.key == known.key:
+                # one that was stopped here goes on there until the class has heard of it
+                self._asked = asked if asked.is_over and not known.is_over else None
+        self._tell()
+
+    def _tell(self) -> None:
+        for listener in self.listeners:
+            listener()
 
 
 def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> ClassLink:

@@ -24,6 +24,7 @@ from ai4u_edu.wire.class_link import (
     Assignment,
     Attention,
     CurrentRace,
+    Delivery,
     ExerciseResult,
     FromClass,
     HandedIn,
@@ -31,7 +32,6 @@ from ai4u_edu.wire.class_link import (
     LinkProblem,
     LinkWelcome,
     People,
-    Result,
     State,
 )
 
@@ -228,7 +228,7 @@ class WorldLink:
             self._last = message if isinstance(message, State) else self._last
             self._connection.client.send(message)
 
-    def send_result(self, result: Result) -> None:
+    def send_result(self, result: Delivery) -> None:
         """Deliver a result."""
         self._connection.client.send_result(result)
 

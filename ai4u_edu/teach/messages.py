@@ -124,6 +124,8 @@ class LearningState(Struct, frozen=True):
     """True once it is done, has failed or was stopped."""
     problem: str
     """Sentence about why it brought nothing; empty if it is under way or done."""
+    waiting: str
+    """Sentence about what it waits for; empty if it learns or is over."""
     errors: list[float]
     """Errors on held-out moments, at equal distances of gradient steps."""
     drives: int

@@ -12,6 +12,8 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.teach.scene_folder import SceneFolder, number_of
 
+FOLDER = "networks"
+"""Folder of networks in a folder of work."""
 MAX_NETWORKS = 20
 """Networks that are kept for a scene."""
 MAX_TITLE_CHARS = 40

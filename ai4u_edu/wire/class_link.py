@@ -7,9 +7,10 @@ message, then its fields. The room begins::
     class   welcome                     whose link this is
     class   people, assignment, attention, race      the present ones, and again at each change
     room    drawing, poses, state, work              the present ones, and again at each change
-    room    episodeResult, exerciseResult, network   each with a key
-    class   ack                         the result with that key is stored
+    room    episodeResult, exerciseResult, network, learn, stopTraining   each with a key
+    class   ack                         the message with that key is stored
     class   handedIn                    the seat's networks, and again at each change
+    class   trainings                   the room's latest, and again at each change
 
 All messages except those with a key describe a present state: the latest one counts, and after a
 reconnect each side sends its own again. A room sends what has a key again, with the same key, until
@@ -28,7 +29,7 @@ from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
 from ai4u_edu.wire.validation import LIST, MAX_TEXT_CHARS, Finite, Int, Text
 
-VERSION = 1
+VERSION = 2
 SUBPROTOCOL = f"ai4u-edu-class.v{VERSION}"
 """The WebSocket's subprotocol."""
 PATH = "/link"
@@ -40,6 +41,8 @@ MAX_EPISODE_BYTES = 2**20
 MAX_NETWORK_BYTES = 5 * 2**20
 """Size of a network that a student hands in."""
 MAX_STARTING_PROGRAM_CHARS = 20_000
+MAX_TAUGHT_DRIVES = 50
+"""Drives from which a network learns."""
 MAX_MESSAGE_CHARS = 200
 """Longest message of a teacher."""
 POSES_PER_S = 4
@@ -181,6 +184,26 @@ class HandedInNetwork(TaggedMessage, frozen=True, tag="network"):
     """An ONNX file."""
 
 
+class Learn(TaggedMessage, frozen=True):
+    """A room of the class's machine has a network learn from drives, in a process of the class."""
+
+    key: Key
+    """Names the training."""
+    scene: Text
+    """Name of the scene."""
+    agent: Text
+    """Id of the agent."""
+    drives: Annotated[tuple[Text, ...], Meta(min_length=1, max_length=MAX_TAUGHT_DRIVES)]
+    """Names of files in the room's folder of drives."""
+
+
+class StopTraining(TaggedMessage, frozen=True, tag="stopTraining"):
+    """A training of the room is to end without a result."""
+
+    key: Key
+    training: Key
+
+
 class Applied(TaggedMessage, frozen=True):
     """The room has opened an assignment's scene, or could not."""
 
@@ -225,6 +248,45 @@ class HandedIn(TaggedMessage, frozen=True):
     """All networks that the seat has handed in."""
 
     networks: Annotated[tuple[CheckedNetwork, ...], LIST]
+
+
+class Training(Record, frozen=True):
+    """A network that learns in the class's process, or has learned there."""
+
+    key: Text
+    scene: Text
+    agent: Text
+    drives: Int
+    """Count of the drives that it learns from."""
+    place: Int = 0
+    """Place in the line, from 1; 0 if it learns or is over."""
+    errors: _Numbers = ()
+    """Errors on held-out moments, at equal distances of gradient steps."""
+    is_done: bool = False
+    """True if the network lies in the room's folder, for the room to take."""
+    problem: Text = ""
+    """Sentence about why it brought nothing; empty if it is under way or done."""
+    decisions: Int = 0
+    """Decisions that it learned from; 0 until it is done."""
+    alike: Finite = 0.0
+    """Share of held-out moments in which the network acts like the person."""
+    commonest: Finite = 0.0
+    """The same share for always doing what was done most often."""
+    held_out: Int = 0
+    """Held-out moments."""
+    remarks: Annotated[tuple[Text, ...], LIST] = ()
+    """Sentences about what is wrong with the drives."""
+
+    @property
+    def is_over(self) -> bool:
+        """True once it is done, has failed or was stopped."""
+        return self.is_done or bool(self.problem)
+
+
+class RoomTrainings(TaggedMessage, frozen=True, tag="trainings"):
+    """The latest training of a room; none before the first one."""
+
+    trainings: Annotated[tuple[Training, ...], LIST]
 
 
 class Person(Record, frozen=True):
@@ -330,13 +392,23 @@ FromRoom = (
     | EpisodeResult
     | ExerciseResult
     | HandedInNetwork
+    | Learn
+    | StopTraining
     | Applied
 )
 FromClass = (
-    LinkWelcome | Ack | HandedIn | People | Assignment | Attention | CurrentRace | LinkProblem
+    LinkWelcome
+    | Ack
+    | HandedIn
+    | RoomTrainings
+    | People
+    | Assignment
+    | Attention
+    | CurrentRace
+    | LinkProblem
 )
 Result = EpisodeResult | ExerciseResult
-Delivery = Result | HandedInNetwork
+Delivery = Result | HandedInNetwork | Learn | StopTraining
 """Messages that a room sends again until they are acknowledged."""
 
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)

@@ -9,7 +9,11 @@ from playwright.sync_api import Browser, expect
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.teach.drives import DriveFolder
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
+from tests.browser.plain_page import CLASS_ROOM, WITHOUT_VISER
 from tests.browser.teach_tab import teach_tab
+from tests.chromium import new_page
+from tests.classroom.served_class import served_class
+from tests.classroom.test_trainings import driver, learn, learner, page_of
 from tests.teach.driving import SEEDS, drive
 from tests.waiting import until
 
@@ -120,3 +124,35 @@ def test_a_robot_practises_against_the_side_that_was_chosen(
         expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
         tab.get_by_role("button", name="Stop").click()
         expect(tab.get_by_text("The practice was stopped.")).to_be_visible()
+
+
+@pytest.mark.slow
+def test_a_student_in_a_class_waits_for_a_turn_and_gets_the_network(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    WITHOUT_VISER.serve(page, CLASS_ROOM)
+    with served_class(tmp_path) as served:
+        ada, ben = driver(served), driver(served)
+        for name, value in ben.client.cookies.items():
+            page.context.add_cookies([{"name": name, "value": value, "url": served.url}])
+        with page_of(ada) as hers:
+            learn(hers)
+            process = learner(served)
+            page.goto(ben.address)
+            page.get_by_role("tab", name="Teach").click()
+            tab = page.get_by_role("tabpanel", name="Teach")
+            button = tab.get_by_role("button", name="Learn from 5 drives")
+            button.click()
+            expect(tab.get_by_text("Your place in the line: 2.")).to_be_visible()
+            expect(button).to_be_disabled()
+            process.resume()
+            expect(tab.get_by_text("It acts like you in")).to_contain_text("drives now")
+            expect(tab.get_by_role("article").get_by_text("drives", exact=True)).to_be_visible()
+            expect(tab.get_by_role("button", name="Practise")).to_be_hidden()
+        page.goto(f"{served.url}teacher?token={served.token}")
+        cards = page.get_by_role("button", name=re.compile("learned: [0-9]+% alike"))
+        expect(cards).to_have_count(2)
+        page.context.close()
+    assert problems == []

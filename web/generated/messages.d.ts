@@ -610,6 +610,8 @@ export interface LearningState {
   is_over: boolean;
   /** Sentence about why it brought nothing; empty if it is under way or done. */
   problem: string;
+  /** Sentence about what it waits for; empty if it learns or is over. */
+  waiting: string;
   /** Errors on held-out moments, at equal distances of gradient steps. */
   errors: number[];
   /** Drives that it learns from. */

@@ -23,7 +23,8 @@ export interface Room {
   falls: number;
   is_solved: boolean;
   error: string;
-  /** These three are for the teacher alone. */
+  /** These four are for the teacher alone. */
+  learning?: string;
   help?: number;
   why?: string;
   look_in?: string;

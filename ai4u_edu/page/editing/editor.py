@@ -1,9 +1,9 @@
 """The editor of a running world's scene."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from ai4u_edu.base.errors import AI4UError, SetupError, shown
 from ai4u_edu.blocks import Brain
@@ -23,7 +23,42 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.yaml.file import YamlFile
+from ai4u_edu.wire.class_link import Training
 from ai4u_edu.world import BodyDescription
+
+
+class ClassTrainings(Protocol):
+    """Lets networks learn in the class's process; a room there may start none. Thread-safe."""
+
+    listeners: list[Callable[[], object]]
+    """Functions called after each change of :attr:`latest`, in any thread."""
+
+    @property
+    def latest(self) -> Training | None:
+        """The room's latest training; None before the first one."""
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the class can be reached; what is asked for meanwhile is sent later."""
+
+    def learn(self, scene: str, agent: str, drives: Sequence[str]) -> None:
+        """Have a network learn from drives, as soon as it is the room's turn.
+
+        Args:
+            scene: name of the scene.
+            agent: id of the agent.
+            drives: names of files in the room's folder of drives.
+
+        Raises:
+            SetupError: a name is too long to be sent.
+        """
+
+    def stop(self, problem: str) -> None:
+        """End the latest training without a result.
+
+        Args:
+            problem: shown as the training's until the class has answered.
+        """
 
 
 class SceneEditor:
@@ -62,6 +97,8 @@ class SceneEditor:
         """Keeps scenes by name for pages; without it a page can only download them."""
         self.work_folder: Path | None = None
         """Folder for what a person makes here beside scenes; without it, that is not kept."""
+        self.class_trainings: ClassTrainings | None = None
+        """Lets networks learn in a class's process; without it, this process starts its own."""
         self.listeners = self._transactions.listeners
         """Functions called with the state after each change, in the runner's thread."""
         self.listeners.append(self._on_change)
