@@ -18,8 +18,6 @@ from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
-from ai4u_edu.teach.learning import STOPPED
-from ai4u_edu.wire.class_link import Training
 
 _AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
@@ -88,7 +86,8 @@ class ClassEvents:
         }
         if is_projected:
             for room in event["rooms"]:
-                del room["help"], room["why"], room["look_in"], room["learning"]
+                del room["help"], room["why"], room["look_in"]
+                del room["learning"], room["is_learning"]
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
         event["handed_in"] = networks_event(live.tournament)
@@ -163,11 +162,23 @@ class ClassEvents:
             "episodes": state.episodes if state else 0,
             "falls": state.falls if state else 0,
             "is_solved": state.is_solved if state else False,
-            "learning": _learning(self._live.trainings.of_room(room.id)),
+            "learning": self._learning(room.id),
+            "is_learning": self._is_learning(room.id),
             "error": (state.error if state else "") or room.problem,
             "help": score[0],
             "why": score[1],
         }
+
+    def _learning(self, room: str) -> str:
+        """Return how the networks of a room learn, or have learned; empty if it has none."""
+        sentences = self._live.trainings.sentence(room), self._live.practices.sentence(room)
+        return "; ".join(filter(None, sentences))
+
+    def _is_learning(self, room: str) -> bool:
+        training = self._live.trainings.of_room(room)
+        practices = self._live.practices.of_room(room)
+        is_cloning = training is not None and not training.is_over
+        return is_cloning or any(not practice.is_over for practice in practices)
 
 
 def _look_in(room: LiveRoom) -> str:
@@ -176,18 +187,6 @@ def _look_in(room: LiveRoom) -> str:
         return f"./r/{room.id}/"
     has_page = room.link is not None and room.state is not None and bool(room.state.page)
     return f"./teacher/look/{room.id}" if has_page else ""
-
-
-def _learning(training: Training | None) -> str:
-    """Return how the learning of a room's network goes, or went; empty if it has none."""
-    if training is None or training.problem == STOPPED:
-        return ""
-    drives = f"{training.drives} drive{'s' if training.drives != 1 else ''}"
-    if training.is_done:
-        return f"learned: {training.alike:.0%} alike"
-    if training.problem:
-        return "could not learn"
-    return f"waits to learn, place {training.place}" if training.place else f"learns from {drives}"
 
 
 def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:

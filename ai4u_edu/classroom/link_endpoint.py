@@ -37,6 +37,7 @@ from ai4u_edu.wire.class_link import (
     LinkHello,
     LinkProblem,
     Poses,
+    Practise,
     Result,
     State,
     StopTraining,
@@ -196,7 +197,7 @@ class LinkEndpoint:
             case HandedInNetwork():
                 await self._take_network(room, link, message)
                 return
-            case Learn() | StopTraining():
+            case Learn() | Practise() | StopTraining():
                 await self._take_training(room, link, message)
                 return
             case Drawing():
@@ -238,7 +239,7 @@ class LinkEndpoint:
         link.add(Ack(network.key))
 
     async def _take_training(
-        self, room: LiveRoom, link: "LinkSender", message: Learn | StopTraining
+        self, room: LiveRoom, link: "LinkSender", message: Learn | Practise | StopTraining
     ) -> None:
         """Take what a room asks for, and acknowledge it when it is on disk."""
         if room.seat:
@@ -246,12 +247,16 @@ class LinkEndpoint:
             link.add(LinkProblem("message", text))
             link.add(Ack(message.key))  # sent again it would be refused again
             return
-        trainings = self._live.trainings
+        live = self._live
         try:
-            if isinstance(message, Learn):
-                await trainings.add(room.id, message)
-            else:
-                await trainings.stop(room.id, message.training)
+            match message:
+                case Learn():
+                    await live.trainings.add(room.id, message)
+                case Practise():
+                    await live.practices.add(room.id, message)
+                case StopTraining(training=key):
+                    await live.trainings.stop(room.id, key)
+                    await live.practices.stop(room.id, key)
         except StoreError:
             link.close_later()
             return

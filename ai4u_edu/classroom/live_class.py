@@ -16,6 +16,7 @@ from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.practice_queue import PracticeQueue
 from ai4u_edu.classroom.programs import ProgramRuns, Programs, Stars
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import RaceRunner, Races
@@ -26,6 +27,7 @@ from ai4u_edu.classroom.seats import Seats, SeatState
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.trainings import Trainings
+from ai4u_edu.games.jobs.processes import core_count
 from ai4u_edu.member.room_state import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
@@ -88,7 +90,9 @@ class LiveClass:
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.tournament = TournamentRunner(store, self._tell_networks, self.note_change)
-        self.trainings = Trainings(store, self._tell_training, self.note_change)
+        self.trainings = Trainings(store, self.tell_trainings, self.note_change)
+        workers = max(1, core_count() - 1)
+        self.practices = PracticeQueue(store, workers, self.tell_trainings, self.note_change)
         self.results = ResultWriter(
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
@@ -116,6 +120,7 @@ class LiveClass:
                 self.race.tick()
                 self.tournament.tick()
                 self.trainings.tick()
+                self.practices.tick()
                 await asyncio.to_thread(self.attention.save_rest)
                 await self._measure_folder()
             except Exception as error:  # a full disk, say: the next tick tries again
@@ -198,7 +203,7 @@ class LiveClass:
         if room.seat:
             link.send(self._handed_in(room.seat))
         else:
-            link.send(self._training(room.id))
+            link.send(self._trainings(room.id))
         self.tell_people()
 
     def disconnect(self, room: LiveRoom, link: OpenLink) -> None:
@@ -259,14 +264,16 @@ class LiveClass:
         if room is not None and room.link is not None:
             room.link.send(self._handed_in(seat))
 
-    def _tell_training(self, room: str) -> None:
+    def tell_trainings(self, room: str) -> None:
+        """Tell a room of its trainings, and that there may be a network for it."""
         live = self.rooms.get(room)
         if live is not None and live.link is not None:
-            live.link.send(self._training(room))
+            live.link.send(self._trainings(room))
 
-    def _training(self, room: str) -> RoomTrainings:
+    def _trainings(self, room: str) -> RoomTrainings:
         training = self.trainings.of_room(room)
-        return RoomTrainings(() if training is None else (training,))
+        trainings = () if training is None else (training,)
+        return RoomTrainings(trainings, self.practices.of_room(room))
 
     def _handed_in(self, seat: int) -> HandedIn:
         return HandedIn(
@@ -334,6 +341,7 @@ class LiveClass:
         self.races.read()
         self.tournament.read()
         self.trainings.read()
+        self.practices.read()
         self.shown = Shown()
         self.tell_people()
 

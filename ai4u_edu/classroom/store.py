@@ -136,6 +136,11 @@ create table trainings (
     training text not null,
     files text not null
 ) strict;
+create table practices (
+    key text primary key,
+    room text not null,
+    state text not null
+) strict;
 create table tournaments (
     id text primary key,
     scene text not null,

@@ -20,11 +20,14 @@ from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.learning import DIED, LEARNED, STOPPED, Learning
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.wire.class_link import Learn, Training
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 MAX_CPU_S = 120.0
 """Processor time of one learning; usually it takes a few seconds."""
+SCORE_DECISIONS = 2_000
+"""Decisions with which a network is scored at most: others wait meanwhile."""
 POLL_S = 0.1
 """Interval at which the process is looked at."""
 MISSING = "a drive is not there any more; choose others, and learn again"
@@ -87,6 +90,20 @@ class Trainings:
             return replace(row.training, errors=errors)
         return replace(row.training, place=1 + self._line().index(row))
 
+    def sentence(self, room: str) -> str:
+        """Return how the learning of a room's network goes, or went; empty if it has none."""
+        training = self.of_room(room)
+        if training is None or training.problem == STOPPED:
+            return ""
+        if training.is_done:
+            return f"learned: {training.alike:.0%} alike"
+        if training.problem:
+            return "could not learn"
+        drives = f"{training.drives} drive{'s' if training.drives != 1 else ''}"
+        return (
+            f"waits to learn, place {training.place}" if training.place else f"learns from {drives}"
+        )
+
     async def add(self, room: str, request: Learn) -> None:
         """Take a room's request, which is on disk afterwards; one that came before is ignored.
 
@@ -104,12 +121,17 @@ class Trainings:
             self._tell_room(room)
             self._note_change()
 
-    async def stop(self, room: str, key: str) -> None:
-        """End a room's training without a result, if it is under way."""
+    async def stop(self, room: str, key: str = "", problem: str = STOPPED) -> bool:
+        """End a room's training without a result, if it is under way; without a key, any.
+
+        Returns:
+            False if there was none.
+        """
         row = self._rows.get(room)
-        if row is None or row.training.key != key or row.training.is_over:
-            return
-        await self._end_row(row, replace(row.training, problem=STOPPED))
+        if row is None or key not in ("", row.training.key) or row.training.is_over:
+            return False
+        await self._end_row(row, replace(row.training, problem=problem))
+        return True
 
     def tick(self) -> None:
         """Begin with those that wait, if none learns."""
@@ -146,7 +168,12 @@ class Trainings:
         keep = partial(_keep, folder / LEARNED / f"{row.training.key}.onnx", faults)
         try:
             learning = await asyncio.to_thread(
-                Learning, drives, row.training.agent, seed=0, on_done=keep
+                Learning,
+                drives,
+                row.training.agent,
+                seed=0,
+                on_done=keep,
+                score_decisions=SCORE_DECISIONS,
             )
         except OSError as error:
             return replace(row.training, problem=f"it could not begin: {reason(error)}")
@@ -209,6 +236,7 @@ class Trainings:
 def _ended(training: Training, learning: Learning, faults: Sequence[str]) -> Training:
     note = learning.note
     problem = faults[0] if faults else note.problem or ("" if note.is_done else DIED)
+    score = note.score or NetworkScore(0, 0, False, 0.0, 0.0)
     return replace(
         training,
         errors=tuple(error for _, error in learning.errors),
@@ -218,6 +246,9 @@ def _ended(training: Training, learning: Learning, faults: Sequence[str]) -> Tra
         alike=note.alike,
         commonest=note.commonest,
         held_out=note.held_out,
+        starts=score.starts,
+        successes=score.successes,
+        has_all_starts=score.has_all,
         remarks=tuple(shorten(remark, MAX_TEXT_CHARS) for remark in note.remarks),
     )
 

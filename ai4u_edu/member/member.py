@@ -44,6 +44,8 @@ from ai4u_edu.wire.class_link import (
     LinkProblem,
     LinkWelcome,
     People,
+    Practise,
+    Practised,
     RoomTrainings,
     State,
     StopTraining,
@@ -325,6 +327,10 @@ class MemberTrainings:
         self._asked: Training | None = None
         """Training that the class does not know yet."""
         self._known: Training | None = None
+        self._practices: dict[str, Practised] = {}
+        """Practices by their keys, also those that the class does not know yet."""
+        self._unknown: set[str] = set()
+        """Keys of practices that the class does not know yet."""
         self.listeners: list[Callable[[], object]] = []
 
     @property
@@ -365,6 +371,24 @@ class MemberTrainings:
         self._link.send_result(StopTraining(secrets.token_urlsafe(12), latest.key))
         self._tell()
 
+    def practice(self, key: str) -> Practised | None:
+        """Return a practice of the room; None if it was never asked for, or long ago."""
+        with self._lock:
+            return self._practices.get(key)
+
+    def practise(self, key: str, practice: str) -> None:
+        """Have a network practise; one that the class knows goes on."""
+        with self._lock:
+            if key not in self._practices:
+                self._practices[key] = Practised(key, practice)
+                self._unknown.add(key)
+        self._link.send_result(Practise(key, practice))
+        self._tell()
+
+    def stop_practice(self, key: str) -> None:
+        """End a practice; it is over as soon as the class says so."""
+        self._link.send_result(StopTraining(secrets.token_urlsafe(12), key))
+
     def receive(self, message: RoomTrainings) -> None:
         """Take what the class says of the room's trainings."""
         with self._lock:
@@ -373,6 +397,9 @@ class MemberTrainings:
             if asked is not None and known is not None and asked.key == known.key:
                 # one that was stopped here goes on there until the class has heard of it
                 self._asked = asked if asked.is_over and not known.is_over else None
+            practices = {practised.key: practised for practised in message.practices}
+            self._unknown -= practices.keys()
+            self._practices = {key: self._practices[key] for key in self._unknown} | practices
         self._tell()
 
     def _tell(self) -> None:

@@ -9,19 +9,21 @@ from pathlib import Path
 from typing import Protocol
 
 import msgspec
-import psutil
 from msgspec import Struct
 
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.page.editing.editor import ClassTrainings
-from ai4u_edu.teach.background import send_request, start_process
+from ai4u_edu.teach.background import cpu_s, send_request, start_process
 from ai4u_edu.teach.messages import LearningState
+from ai4u_edu.teach.network_score import NetworkScore
 
+SCORE_DECISIONS = 5_000
+"""Decisions with which a network is scored that learned from drives: about a second."""
 STOPPED = "stopped"
 DIED = "the program that learns has ended; learn again"
 LEARNED = "learned"
 """Folder, in that of a class's room, with networks that the room has not taken yet."""
-UNREACHABLE = "The class can't be reached now. It learns as soon as it can."
+UNREACHABLE = "The class can't be reached now. It goes on as soon as it can."
 
 
 class CloneRequest(Struct, frozen=True):
@@ -36,6 +38,8 @@ class CloneRequest(Struct, frozen=True):
     """File for the network."""
     blocks: list[str] = []
     """Python files with blocks that the scenes have."""
+    score_decisions: int = SCORE_DECISIONS
+    """Decisions from other starts at most; see :func:`score_network`."""
 
 
 class CloneNote(Struct, frozen=True, omit_defaults=True):
@@ -59,6 +63,7 @@ class CloneNote(Struct, frozen=True, omit_defaults=True):
     """Held-out moments."""
     remarks: list[str] = []
     """Sentences about what is wrong with the drives."""
+    score: NetworkScore | None = None
 
 
 class Learning:
@@ -69,6 +74,7 @@ class Learning:
         agent: id of the agent.
         seed: of the network.
         on_done: called in a thread of its own with the network's file, which is gone afterwards.
+        score_decisions: decisions with which the network is scored at most.
     """
 
     def __init__(
@@ -78,6 +84,7 @@ class Learning:
         *,
         seed: int,
         on_done: Callable[["Learning", Path], object],
+        score_decisions: int = SCORE_DECISIONS,
     ) -> None:
         self.agent = agent
         self.drives = len(drives)
@@ -89,7 +96,12 @@ class Learning:
         self._on_done = on_done
         self._stopped = ""
         self._request = CloneRequest(
-            [str(drive) for drive in drives], agent, seed, "", [str(file) for file in own_files()]
+            [str(drive) for drive in drives],
+            agent,
+            seed,
+            "",
+            [str(file) for file in own_files()],
+            score_decisions,
         )
         self._process = start_process("ai4u_edu.teach.clone_process")
 
@@ -108,10 +120,7 @@ class Learning:
 
     def cpu_s(self) -> float:
         """Return the processor time (s) that it has used; 0 after its end."""
-        with suppress(psutil.Error):
-            times = psutil.Process(self._process.pid).cpu_times()
-            return float(times.user + times.system)
-        return 0.0
+        return cpu_s(self._process)
 
     def stop(self, why: str = STOPPED) -> None:
         """End it without a result, with a sentence about why."""
@@ -155,6 +164,7 @@ class Learned:
     """Share of held-out moments in which it acts like the person."""
     held_out: int
     """Held-out moments."""
+    score: NetworkScore | None
     network: bytes
 
 
@@ -240,7 +250,7 @@ class LocalLearner:
         def on_done(learning: Learning, out: Path) -> None:
             note = learning.note
             network = out.read_bytes()
-            about = learning.drives, note.decisions, note.alike, note.held_out
+            about = learning.drives, note.decisions, note.alike, note.held_out, note.score
             self._on_learned(Learned(scene, agent, *about, network))
 
         self._learning = Learning(drives, agent, seed=0, on_done=on_done)
@@ -331,7 +341,11 @@ class ClassLearner:
         with suppress(FileNotFoundError):  # it was taken before
             network = path.read_bytes()
             about = latest.drives, latest.decisions, latest.alike, latest.held_out
-            learned = Learned(latest.scene, latest.agent, *about, network)
+            score = None
+            if latest.starts:
+                has_all = latest.has_all_starts
+                score = NetworkScore.of(latest.successes, latest.starts, has_all=has_all)
+            learned = Learned(latest.scene, latest.agent, *about, score, network)
             if self._on_learned(learned):
                 path.unlink()
 

@@ -7,6 +7,7 @@ from msgspec import Meta, Struct
 from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.teach.drives import MAX_DRIVES
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.networks import MAX_TITLE_CHARS
 
 Opponent = Literal["player", "self", "file"]
@@ -84,6 +85,16 @@ class DeleteNetwork(PageCommand, tag="teach_delete"):
     """Delete a network."""
 
     network: Number
+    even_if_driving: bool = False
+    """True deletes one that drives, too; the scene's own driver takes its place."""
+
+
+class OpenNetwork(PageCommand, tag="teach_open"):
+    """Keep the network in the file that the page has sent."""
+
+    name: Name
+    """Name of the file."""
+    size: Number
 
 
 class DownloadNetwork(PageCommand, tag="teach_download"):
@@ -146,6 +157,8 @@ class PracticeState(Struct, frozen=True):
     phase: Literal["running", "paused", "over"]
     problem: str
     """Sentence about why it ended early; empty if it did not."""
+    waiting: str
+    """Sentence about what it waits for; empty if it learns, is paused or over."""
     elsewhere: str
     """Agent and scene, if they are not what the page shows; empty otherwise."""
     is_scene_changed: bool
@@ -178,6 +191,8 @@ class TaughtNetwork(Struct, frozen=True):
     """Sentences about its rewards, drives and settings."""
     replays: list[int]
     """Decisions of its practice after which an episode was kept, ascending."""
+    score: NetworkScore | None
+    """Starts from which it reaches the goal; null if that is not known."""
     is_driving: bool
     """True if it drives the agent now."""
 
@@ -206,5 +221,7 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """Networks of this scene, the latest first."""
     max_networks: int
     """Networks that are kept for a scene."""
+    can_open: bool
+    """True if a network in a file can be opened here; a room of a class can't check one."""
     warning: str
     """Sentence about why a drive could not be kept; empty if all could."""

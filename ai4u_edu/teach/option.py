@@ -1,5 +1,6 @@
 """Teaching in the page of a running world: drives, learning, networks; and the tab's commands."""
 
+import asyncio
 import base64
 import logging
 import threading
@@ -17,6 +18,7 @@ from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.base.options import OptionTab
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.driver_options import OWN_BRAIN
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel import PanelContext
@@ -36,7 +38,14 @@ from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.drives import DriveFolder, persons_decisions
 from ai4u_edu.teach.learning import ClassLearner, Learned, Learner, LocalLearner
 from ai4u_edu.teach.networks import FOLDER as NETWORKS
-from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
+from ai4u_edu.teach.networks import (
+    HANDED_OUT,
+    MAX_NETWORKS,
+    MAX_TITLE_CHARS,
+    KeptNetwork,
+    NetworkFolder,
+)
+from ai4u_edu.teach.opened_network import open_network
 from ai4u_edu.teach.practices import Practices
 from ai4u_edu.teach.scene_work import SceneWork
 from ai4u_edu.teach.tries import TryingPages
@@ -71,6 +80,8 @@ class TeachOption:
         self.commands: dict[type[PageCommand], Handler] = {}
         self.work = SceneWork()
         """Drives and networks of the present scene."""
+        self._opening = asyncio.Lock()
+        """Held while a process opens somebody's network."""
         self._tasks = SimpleQueue[Callable[[], object] | None]()
         folder = None if editor is None else editor.work_folder
         if editor is None or folder is None:
@@ -88,19 +99,19 @@ class TeachOption:
         self._drives = DriveFolder(folder / DRIVES)
         self._networks = NetworkFolder(folder / NETWORKS)
         self._learner: Learner
-        self._practices: Practices | None = None
+        self._practices = Practices(runner, player, editor, self._networks, folder, self)
+        self.commands |= self._practices.commands
         self._tries: TryingPages | None = None
         trainings = editor.class_trainings
         if trainings is None:
             self._learner = LocalLearner(lambda learned: self.put(partial(self._take, learned)))
-            self._practices = Practices(
-                runner, player, editor, self._networks, folder / "practices", self
-            )
             self._tries = TryingPages(runner, editor, self.done)
-            self.commands |= {**self._practices.commands, **self._tries.commands}
+            self.commands |= self._tries.commands
+            self.commands[m.OpenNetwork] = self._open_network
         else:
             self._learner = ClassLearner(trainings, folder, self._take)
-            trainings.listeners.append(lambda: self.put(self._learner.collect))
+            trainings.listeners.append(lambda: self.put(self._collect))
+        self._handed_out = NetworkFolder(folder / HANDED_OUT)
         editor.offer(self._offered)
         editor.listeners.append(lambda _: self.put(self._look))
         if runner.recorder is not None:
@@ -115,8 +126,8 @@ class TeachOption:
         work, agent = self.work, view.agent
         with suppress(AI4UError):  # the world has other agents already
             driver = self._editor.driver_of(agent)
-            practice = None if self._practices is None else self._practices.key
-            key = "teach", work.version, agent, driver, self._learner.key, practice
+            reached = self._learner.key, self._practices.key
+            key = "teach", work.version, agent, driver, *reached
             yield (
                 "teach",
                 context.cache.by_key(key, lambda: self._part(work, agent, driver)),
@@ -137,8 +148,7 @@ class TeachOption:
             self._learner.close()
             if self._tries is not None:
                 self._tries.stop()
-            if self._practices is not None:
-                self.put(self._practices.leave)
+            self.put(self._practices.leave)
         self._tasks.put(None)
 
     def put(self, task: Callable[[], object]) -> None:
@@ -183,13 +193,29 @@ class TeachOption:
         await self._changed(lambda scene: self._networks.rename(scene, number, title))
         return Answer("The name is changed.")
 
-    async def _delete_network(self, _page: Page, command: m.DeleteNetwork) -> Answer:
+    async def _delete_network(self, page: Page, command: m.DeleteNetwork) -> Answer:
         file, editor = self._networks.file(self._scene, command.network), self._required_editor()
-        drivers = {editor.driver_of(agent.id) for agent in self._runner.latest.agents}
-        if f"{NETWORK}{file.name}" in drivers:
+        agents = [agent.id for agent in self._runner.latest.agents]
+        driven = [agent for agent in agents if editor.driver_of(agent) == f"{NETWORK}{file.name}"]
+        if driven and not command.even_if_driving:
             raise SetupError("this network drives an agent; choose another driver first")
+        for agent in driven:
+            await page.result(editor.set_driver(agent, f"{OWN_BRAIN}0"))
         await self._changed(lambda scene: self._networks.remove(scene, command.network))
         return Answer("The network is deleted.")
+
+    async def _open_network(self, page: Page, command: m.OpenNetwork) -> Answer:
+        data, agent = page.upload.take(command.size), page.view.agent
+        editor, scene = self._required_editor(), self._scene
+        if self._opening.locked():
+            raise SetupError("another file is being opened; wait until that is done")
+        async with self._opening:
+            score = await asyncio.to_thread(open_network, command.name, data, editor.scene, agent)
+        how = f"opened from the file {command.name}"
+        about = KeptNetwork(0, Path(command.name).stem[:MAX_TITLE_CHARS], agent, how, score=score)
+        if not await self.done(lambda: self.keep_network(scene, data, about, drives=False)):
+            raise SetupError(self.work.warning)
+        return Answer(f"Opened {about.title}.")
 
     async def _download_network(self, page: Page, command: m.DownloadNetwork) -> Answer:
         file = self._networks.file(self._scene, command.network)
@@ -202,13 +228,11 @@ class TeachOption:
         def task() -> None:
             change(self._scene)
             self._look()
-            self._learner.collect()  # there may be a place for a network now
+            self._collect()  # there may be a place for a network now
 
         await self.done(task)
 
     def _part(self, work: SceneWork, agent: str, driver: str) -> m.TeachPart:
-        practices = self._practices
-
         def is_driving(network: KeptNetwork) -> bool:
             with suppress(SetupError):
                 return driver == f"{NETWORK}{self._networks.file(self._scene, network.number).name}"
@@ -219,23 +243,25 @@ class TeachOption:
             problem=work.problems.get(agent, ""),
             drives=list(work.drives.get(agent, ())),
             learning=self._learner.state(agent),
-            rewards=[] if practices is None else list(work.rewards.get(agent, ())),
+            rewards=list(work.rewards.get(agent, ())),
             opponents=list(work.opponents.get(agent, ())),
-            practice=None if practices is None else practices.state(agent),
-            decisions_per_s=None if practices is None else practices.decisions_per_s,
+            practice=self._practices.state(agent),
+            decisions_per_s=self._practices.decisions_per_s,
             networks=[
                 m.TaughtNetwork(
                     network.number,
                     network.title,
                     network.how,
                     network.made_at,
-                    list(network.facts),
+                    [*network.facts, *([network.score.sentence] if network.score else [])],
                     list(network.replays),
+                    network.score,
                     is_driving(network),
                 )
                 for network in work.networks
             ],
             max_networks=MAX_NETWORKS,
+            can_open=m.OpenNetwork in self.commands,
             warning=work.warning,
         )
 
@@ -278,7 +304,7 @@ class TeachOption:
             self._tries.look()
         self.work = self.work.looked_at(editor, self._drives, self._networks)
         # else another scene was opened meanwhile
-        if self._practices is not None and self._scene == self.work.scene_name:
+        if self._scene == self.work.scene_name:
             self._practices.find(self._scene)
 
     def keep_network(
@@ -313,14 +339,22 @@ class TeachOption:
             self._required_editor().set_driver(about.agent, f"{NETWORK}{file.name}")
         return True
 
+    def _collect(self) -> None:
+        """Take networks that have learned elsewhere, or that a teacher gave."""
+        self._learner.collect()
+        for scene, about in self._handed_out.all():
+            with suppress(OSError, SetupError):
+                network = self._handed_out.file(scene, about.number).read_bytes()
+                if self.keep_network(scene, network, about, drives=False):
+                    self._handed_out.remove(scene, about.number)
+
     def check_free(self, agent: str) -> None:
         """Check that nothing learns, and that an agent can be taught.
 
         Raises:
             SetupError: it can't learn now; a sentence about why.
         """
-        is_practising = self._practices is not None and self._practices.is_running
-        if is_practising or self._learner.is_busy:
+        if self._practices.is_running or self._learner.is_busy:
             raise SetupError("the robot learns already; wait until it is done, or stop it")
         if problem := self.work.problems.get(agent, ""):
             raise SetupError(problem)
@@ -334,6 +368,7 @@ class TeachOption:
             agent=learned.agent,
             how=f"learned from {drives} with {learned.decisions} decisions",
             alike=learned.alike,
+            score=learned.score,
             facts=(
                 f"Alike in {learned.alike:.0%} of {learned.held_out} moments that it had not seen.",
                 "Seed: 0.",

@@ -17,7 +17,16 @@ from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
-from ai4u_edu.teach.practice import Phase, Practice, PracticeFolder, PracticeRequest
+from ai4u_edu.teach.practice import FOLDER as PRACTICES
+from ai4u_edu.teach.practice import (
+    ClassPractice,
+    Phase,
+    Practice,
+    PracticeFolder,
+    PracticeProcess,
+    PracticeRequest,
+    Practising,
+)
 from ai4u_edu.teach.scene_work import SceneWork
 
 OPPONENTS = {None: "", "player": " against the scene's player", "self": " against itself"}
@@ -75,7 +84,7 @@ class Practices:
         player: shows episodes of a practice.
         editor: has the scene.
         networks: of all scenes.
-        folder: for practices that are not over.
+        folder: of the work.
         teaching: the option.
     """
 
@@ -90,7 +99,7 @@ class Practices:
     ) -> None:
         self._runner, self._player, self._editor = runner, player, editor
         self._networks, self._teaching = networks, teaching
-        self._practices = PracticeFolder(folder)
+        self._practices = PracticeFolder(folder / PRACTICES)
         self._practice: Practice | None = None
         self._replays: dict[tuple[Path, int], int] = {}
         """Numbers of episodes in the archive, by their file and its time."""
@@ -112,7 +121,9 @@ class Practices:
     def key(self) -> object:
         """Changes, and can be hashed, whenever the answer of :meth:`state` may change."""
         practice = self._practice
-        return None if practice is None else (practice, practice.progress, practice.phase)
+        if practice is None:
+            return None
+        return practice, practice.progress, practice.phase, practice.waiting
 
     @property
     def decisions_per_s(self) -> float | None:
@@ -131,6 +142,7 @@ class Practices:
         return m.PracticeState(
             phase=practice.phase.value,
             problem=practice.problem,
+            waiting=practice.waiting,
             elsewhere="" if is_here else f"agent {request.agent} of {request.scene_name}",
             is_scene_changed=is_here and request.scene != work.scene_text,
             hint=practice.hint,
@@ -194,7 +206,9 @@ class Practices:
         if practice is not None and (self.is_running or practice.request.scene_name == scene):
             return
         self.leave()
-        self._practice = self._practices.find(scene, self._make)
+        self._practice = practice = self._practices.find(scene, self._make)
+        if practice is not None and practice.is_under_way:
+            practice.go_on()
 
     def leave(self) -> None:
         """Let the practice wait for another process."""
@@ -234,10 +248,10 @@ class Practices:
         )
         try:
             folder, request = self._practices.add(scene.description.name, request)
+            self._practice = self._make(folder, request)
+            self._practice.go_on()
         except OSError as error:
             raise SetupError(f"the practice could not be begun: {error.strerror}") from None
-        self._practice = self._make(folder, request)
-        self._practice.go_on()
 
     def _begin_again(self) -> None:
         practice = self._practice
@@ -261,7 +275,19 @@ class Practices:
         return str(path), f" against {titles.get(number, f'Network {number}')}"
 
     def _make(self, folder: Path, request: PracticeRequest) -> Practice:
-        return Practice(folder, request, on_progress=self._on_progress, on_end=self._on_end)
+        return Practice(
+            folder,
+            request,
+            start=self._start,
+            on_progress=self._on_progress,
+            on_end=self._on_end,
+        )
+
+    def _start(self, folder: Path, request: PracticeRequest) -> Practising:
+        trainings = self._editor.class_trainings
+        if trainings is None:
+            return PracticeProcess(request)
+        return ClassPractice(trainings, folder)
 
     # -- in the thread of the practice -------------------------------------------------------------
 
@@ -283,7 +309,7 @@ class Practices:
     def _on_end(self, practice: Practice) -> None:
         best = practice.run.best_network
         network = best.read_bytes() if best.is_file() and practice.progress.curve else b""
-        replays = practice.replays()
+        replays, score = practice.replays(), practice.score()
         practice.remove()
         if not network:
             return
@@ -294,7 +320,8 @@ class Practices:
             f"practised for {practice.progress.decisions} decisions"
             f"{practice.request.opponent}{reached}"
         )
-        about = KeptNetwork(0, "", practice.request.agent, how, facts=practice.facts)
+        agent = practice.request.agent
+        about = KeptNetwork(0, "", agent, how, facts=practice.facts, score=score)
         brains = [agent.brain for agent in self._runner.sim.agents if agent.id == about.agent]
         # whoever has taken over goes on driving
         drives = any(getattr(brain, "controller", 0) is practice.controller for brain in brains)

@@ -1,7 +1,9 @@
-"""Drives and networks of the present scene, as the tab "Teach" shows them."""
+"""Drives and networks of the present scene, and which of its agents can be taught."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+
+from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.options import SMALL_TRAINER, load_option
@@ -12,7 +14,16 @@ from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.drives import Drive, DriveFolder, persons_decisions
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
-from ai4u_edu.teach.teachable import reason_against_teaching
+
+NO_SENSOR = "It senses nothing that a network could learn from. Add a sensor in Build."
+NO_ACTUATOR = "It has no actuator that a network could use. Add one in Build."
+SEVERAL = (
+    "It acts by {names}, and a network learns one actuator here. Switch the others off in Build."
+)
+NO_RANGE = "The numbers of its actuator {name} have no range, so there is nothing to aim at."
+NO_NUMBERS = (
+    "Its sensor {name} reads text, and a network learns from numbers here. Switch it off in Build."
+)
 
 
 @dataclass(frozen=True)
@@ -56,12 +67,37 @@ class SceneWork:
             problems={agent.id: reason_against_teaching(agent) for agent in sim.agents},
             drives={agent.id: tuple(_shown(kept, agent, described)) for agent in sim.agents},
             rewards={agent.id: reward_names(editor.state.agent(agent.id)) for agent in sim.agents},
-            opponents={agent.id: kinds_of_opponents(scene, agent.id) for agent in sim.agents},
+            opponents=kinds_of_opponents(scene, sim),
             networks=tuple(reversed(networks.networks(name))),
             scene_name=name,
             scene_text=scene.dumps(),
             warning=self.warning,
         )
+
+
+def reason_against_teaching(agent: BasicAgent) -> str:
+    """Return why no network can learn to drive an agent, as sentences; empty if one can.
+
+    Args:
+        agent: in a world.
+    """
+    blocks = agent.bound_blocks
+    sensors = [sensor for sensor in blocks.sensors if sensor.is_input]
+    outputs = {name: each.space() for name, each in blocks.actuators.items() if each.is_output}
+    if not sensors:
+        return NO_SENSOR
+    for sensor in sensors:
+        if not isinstance(sensor.observation_space(), spaces.Box | spaces.Discrete):
+            return NO_NUMBERS.format(name=sensor.perception_key)
+    if not outputs:
+        return NO_ACTUATOR
+    if len(outputs) > 1:
+        *first, last = sorted(outputs)
+        return SEVERAL.format(names=f"{', '.join(first)} and {last}")
+    ((name, space),) = outputs.items()
+    if isinstance(space, spaces.Discrete) or (isinstance(space, spaces.Box) and space.is_bounded()):
+        return ""
+    return NO_RANGE.format(name=name)
 
 
 def _shown(

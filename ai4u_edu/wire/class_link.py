@@ -7,10 +7,11 @@ message, then its fields. The room begins::
     class   welcome                     whose link this is
     class   people, assignment, attention, race      the present ones, and again at each change
     room    drawing, poses, state, work              the present ones, and again at each change
-    room    episodeResult, exerciseResult, network, learn, stopTraining   each with a key
+    room    episodeResult, exerciseResult, network   each with a key
+    room    learn, practise, stopTraining            each with a key
     class   ack                         the message with that key is stored
     class   handedIn                    the seat's networks, and again at each change
-    class   trainings                   the room's latest, and again at each change
+    class   trainings                   those of the room, and again at each change
 
 All messages except those with a key describe a present state: the latest one counts, and after a
 reconnect each side sends its own again. A room sends what has a key again, with the same key, until
@@ -197,11 +198,21 @@ class Learn(TaggedMessage, frozen=True):
     """Names of files in the room's folder of drives."""
 
 
+class Practise(TaggedMessage, frozen=True):
+    """A room of the class's machine has a network practise, in a process of the class."""
+
+    key: Key
+    """Names the practice."""
+    practice: Text
+    """Name of its folder in the room's folder of practices."""
+
+
 class StopTraining(TaggedMessage, frozen=True, tag="stopTraining"):
-    """A training of the room is to end without a result."""
+    """A training or practice of the room must end now."""
 
     key: Key
     training: Key
+    """Key of the training or practice."""
 
 
 class Applied(TaggedMessage, frozen=True):
@@ -274,6 +285,12 @@ class Training(Record, frozen=True):
     """The same share for always doing what was done most often."""
     held_out: Int = 0
     """Held-out moments."""
+    starts: Int = 0
+    """Starts from which the network was tried; 0 if it was not."""
+    successes: Int = 0
+    """Starts from which it reached the goal."""
+    has_all_starts: bool = False
+    """True if the scene has no other starts."""
     remarks: Annotated[tuple[Text, ...], LIST] = ()
     """Sentences about what is wrong with the drives."""
 
@@ -283,10 +300,26 @@ class Training(Record, frozen=True):
         return self.is_done or bool(self.problem)
 
 
+class Practised(Record, frozen=True):
+    """A practice in the class's process; what it has reached lies in its folder."""
+
+    key: Text
+    practice: Text
+    """Name of its folder."""
+    place: Int = 0
+    """Place in the line, from 1; 0 if it practises or is over."""
+    is_over: bool = False
+    problem: Text = ""
+    """Sentence about why it ended early; empty if it did not."""
+
+
 class RoomTrainings(TaggedMessage, frozen=True, tag="trainings"):
-    """The latest training of a room; none before the first one."""
+    """The latest training of a room, and its practices."""
 
     trainings: Annotated[tuple[Training, ...], LIST]
+    """None before the first one."""
+    practices: Annotated[tuple[Practised, ...], LIST] = ()
+    """Practices that are under way, and the latest ones that are over."""
 
 
 class Person(Record, frozen=True):
@@ -393,6 +426,7 @@ FromRoom = (
     | ExerciseResult
     | HandedInNetwork
     | Learn
+    | Practise
     | StopTraining
     | Applied
 )
@@ -408,7 +442,7 @@ FromClass = (
     | LinkProblem
 )
 Result = EpisodeResult | ExerciseResult
-Delivery = Result | HandedInNetwork | Learn | StopTraining
+Delivery = Result | HandedInNetwork | Learn | Practise | StopTraining
 """Messages that a room sends again until they are acknowledged."""
 
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)

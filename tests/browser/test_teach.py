@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.teach.drives import DriveFolder
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
 from tests.browser.plain_page import CLASS_ROOM, WITHOUT_VISER
 from tests.browser.teach_tab import teach_tab
@@ -126,6 +128,35 @@ def test_a_robot_practises_against_the_side_that_was_chosen(
         expect(tab.get_by_text("The practice was stopped.")).to_be_visible()
 
 
+def test_networks_are_opened_compared_and_deleted(chromium: Browser, tmp_path: Path) -> None:
+    about = KeptNetwork(0, "First", "0", "learned", score=NetworkScore.of(7, 8, has_all=True))
+    NetworkFolder(tmp_path / "networks").add("box_chase", b"not asked to drive", about)
+    with teach_tab(chromium, tmp_path) as (tab, _):
+        page = tab.page
+        with page.expect_file_chooser() as chooser:
+            tab.get_by_role("button", name="Open a file").click()
+        chooser.value.set_files(zoo.network_of("box_chase"))
+        cards = tab.get_by_role("article")
+        expect(cards).to_have_count(2)
+        card = cards.filter(has_text="opened from the file box_chase.onnx")
+        card.get_by_role("button", name="box_chase").click()
+        expect(card.get_by_text("It reaches the goal from all 8 starts.")).to_be_visible()
+        card.get_by_role("button", name="Compare").click()
+        dialog = page.get_by_role("dialog", name="Compare networks")
+        expect(dialog.get_by_role("combobox", name="With")).to_have_value("1")
+        expect(dialog.get_by_role("row", name="Goal")).to_have_text(re.compile("100%.*88%"))
+        dialog.get_by_role("button", name="Close").click()
+        card.get_by_role("button", name="Let it drive").click()
+        expect(card.get_by_text("drives", exact=True)).to_be_visible()
+        card.get_by_role("button", name="Delete").click()
+        question = page.get_by_role("dialog", name="Delete box_chase?")
+        question.get_by_role("button", name="Cancel").click()
+        expect(cards).to_have_count(2)
+        card.get_by_role("button", name="Delete").click()
+        question.get_by_role("button", name="Delete").click()
+        expect(cards).to_have_count(1)
+
+
 @pytest.mark.slow
 def test_a_student_in_a_class_waits_for_a_turn_and_gets_the_network(
     chromium: Browser, tmp_path: Path
@@ -150,7 +181,8 @@ def test_a_student_in_a_class_waits_for_a_turn_and_gets_the_network(
             process.resume()
             expect(tab.get_by_text("It acts like you in")).to_contain_text("drives now")
             expect(tab.get_by_role("article").get_by_text("drives", exact=True)).to_be_visible()
-            expect(tab.get_by_role("button", name="Practise")).to_be_hidden()
+            expect(tab.get_by_role("button", name="Practise")).to_be_visible()
+            expect(page.get_by_text("Try many")).to_be_hidden()
         page.goto(f"{served.url}teacher?token={served.token}")
         cards = page.get_by_role("button", name=re.compile("learned: [0-9]+% alike"))
         expect(cards).to_have_count(2)

@@ -13,7 +13,7 @@ from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.teach import learning, networks
-from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeRequest
+from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeProcess, PracticeRequest
 from tests.page.panel.rooms import PanelPage, PanelRoom
 from tests.playing import Played, played
 from tests.teach.driving import teaching_room
@@ -183,7 +183,13 @@ def test_a_block_that_fails_or_hangs_is_named(tmp_path: Path, body: str, problem
         ends: list[Practice] = []
         request = PracticeRequest(scene.dumps(), "box_chase", "", "0", SOON, 0, {})
         folder, request = PracticeFolder(tmp_path / "practices").add("box_chase", request)
-        practice = Practice(folder, request, on_progress=lambda _: None, on_end=ends.append)
+        practice = Practice(
+            folder,
+            request,
+            start=lambda _, given: PracticeProcess(given),
+            on_progress=lambda _: None,
+            on_end=ends.append,
+        )
         practice.go_on()
         until(lambda: ends)
         assert problem in practice.problem

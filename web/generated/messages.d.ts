@@ -631,6 +631,8 @@ export interface PracticeState {
   phase: "over" | "paused" | "running";
   /** Sentence about why it ended early; empty if it did not. */
   problem: string;
+  /** Sentence about what it waits for; empty if it learns, is paused or over. */
+  waiting: string;
   /** Agent and scene, if they are not what the page shows; empty otherwise. */
   elsewhere: string;
   /** True if the scene was changed since; it goes on in the scene as it was. */
@@ -649,6 +651,17 @@ export interface PracticeState {
   success: number | null;
 }
 
+/** Starts from which a network reaches the goal. */
+export interface NetworkScore {
+  successes: number;
+  starts: number;
+  /** True if the scene has no other starts. */
+  has_all: boolean;
+  /** Lower end of the 95% confidence interval of the share; the share itself for all starts. */
+  low: number;
+  high: number;
+}
+
 /** A network that learned in this scene. */
 export interface TaughtNetwork {
   /** Number among those of its scene. */
@@ -662,6 +675,8 @@ export interface TaughtNetwork {
   facts: string[];
   /** Decisions of its practice after which an episode was kept, ascending. */
   replays: number[];
+  /** Starts from which it reaches the goal; null if that is not known. */
+  score: NetworkScore | null;
   /** True if it drives the agent now. */
   is_driving: boolean;
 }
@@ -690,6 +705,8 @@ export interface TeachPart {
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
   max_networks: number;
+  /** True if a network in a file can be opened here; a room of a class can't check one. */
+  can_open: boolean;
   /** Sentence about why a drive could not be kept; empty if all could. */
   warning: string;
 }
@@ -1094,6 +1111,8 @@ export interface Decision {
 /** Delete a network. */
 export interface DeleteNetwork {
   network: number;
+  /** True deletes one that drives, too; the scene's own driver takes its place. */
+  even_if_driving?: boolean;
 }
 
 /** Delete the unsaved scene. */
@@ -1214,6 +1233,13 @@ export interface Nudge {
 /** Choose a recorded episode; 0 is the one that runs. */
 export interface OpenEpisode {
   number: number;
+}
+
+/** Keep the network in the file that the page has sent. */
+export interface OpenNetwork {
+  /** Name of the file. */
+  name: string;
+  size: number;
 }
 
 /** Open the recording that was sent in binary messages before. */
@@ -1493,6 +1519,7 @@ export interface Commands {
   teach_forget_drive: ForgetDrive;
   teach_go_on: GoOnPractising;
   teach_learn: LearnFromDrives;
+  teach_open: OpenNetwork;
   teach_pause: PausePractising;
   teach_practise: PractiseForRewards;
   teach_put_rewards: PutRewards;

@@ -1,7 +1,7 @@
 /** Practice for rewards: what each of them is worth, for how long, and how it goes. */
 
 /**
- * @import { PracticeState, TeachPart } from "../generated/messages.js"
+ * @import { PracticeState, PractiseForRewards, TeachPart } from "../generated/messages.js"
  * @import { Panel } from "../panel/panel.js"
  */
 import { button, element, keyed, setText } from "../shared/dom.js";
@@ -82,7 +82,7 @@ export class PracticeView {
     }
     this.#bar.hidden = phase === "over";
     this.#bar.value = practice === null ? 0 : practice.decisions / practice.total;
-    this.#left.hidden = phase !== "running" || practice.seconds_left === null;
+    this.#left.hidden = phase !== "running" || practice.seconds_left === null || practice.waiting !== "";
     setText(this.#left, this.#left.hidden ? "" : `At most ${roughly(practice.seconds_left)} left`);
     this.#curve.update(practice?.rewards ?? []);
     setText(this.#text, practice === null ? "" : sentenceOf(practice));
@@ -95,7 +95,8 @@ export class PracticeView {
     if (weights === null) return;
     const beginWith = this.#beginWith === NEW ? null : Number(this.#beginWith);
     const opponent = /^\d+$/.test(this.#opponent) ? Number(this.#opponent) : null;
-    const against = opponent === null ? this.#opponent || null : "file";
+    const player = /** @type {PractiseForRewards["against"]} */ (this.#opponent || null);
+    const against = opponent === null ? player : /** @type {const} */ ("file");
     const more = { begin_with: beginWith, against, opponent };
     await this.#panel.send("teach_practise", { steps: Number(this.#steps), weights, ...more }, { quiet: true });
   }
@@ -131,14 +132,15 @@ function weightRow(name) {
 }
 
 /** @param {PracticeState} practice */
-function sentenceOf({ phase, problem, decisions, success, elsewhere, is_scene_changed: isSceneChanged }) {
+function sentenceOf({ phase, problem, waiting, decisions, success, elsewhere, is_scene_changed: isSceneChanged }) {
   const reached = success === null ? "" : ` It reaches the goal from ${percent(success)} of its starts.`;
   if (problem === "stopped") return `The practice was stopped.${reached}`;
   if (problem) return `It could not go on: ${problem}.`;
   const count = decisions.toLocaleString("en");
   const who = elsewhere ? `The ${elsewhere}` : "It";
   if (phase === "over") return `${who} has practised for ${count} decisions, and drives now.${reached}`;
+  if (waiting && decisions === 0) return waiting;
   const waits = phase === "paused" ? ", and waits for you" : "";
   const scene = isSceneChanged ? " It practises in the scene as it was before your changes." : "";
-  return `${who} has practised for ${count} decisions${waits}.${reached}${scene}`;
+  return `${who} has practised for ${count} decisions${waits}.${reached}${scene}${waiting && ` ${waiting}`}`;
 }

@@ -80,7 +80,7 @@ export class Tab {
     this.#learning.update(learning);
     this.#sections.practice.hidden = practice === null && (Boolean(problem) || rewards.length === 0);
     this.#practice.update(part, isLearning);
-    this.#sections.networks.hidden = networks.length === 0;
+    this.#sections.networks.hidden = networks.length === 0 && !part.can_open;
     this.#networks.update(part);
   }
 

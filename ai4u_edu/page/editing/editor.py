@@ -23,7 +23,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.yaml.file import YamlFile
-from ai4u_edu.wire.class_link import Training
+from ai4u_edu.wire.class_link import Practised, Training
 from ai4u_edu.world import BodyDescription
 
 
@@ -31,7 +31,7 @@ class ClassTrainings(Protocol):
     """Lets networks learn in the class's process; a room there may start none. Thread-safe."""
 
     listeners: list[Callable[[], object]]
-    """Functions called after each change of :attr:`latest`, in any thread."""
+    """Functions called after each change, in any thread."""
 
     @property
     def latest(self) -> Training | None:
@@ -59,6 +59,20 @@ class ClassTrainings(Protocol):
         Args:
             problem: shown as the training's until the class has answered.
         """
+
+    def practice(self, key: str) -> Practised | None:
+        """Return a practice of the room; None if it was never asked for, or long ago."""
+
+    def practise(self, key: str, practice: str) -> None:
+        """Have a network practise, as soon as it is its turn; one that the class knows goes on.
+
+        Args:
+            key: names the practice.
+            practice: name of its folder in the room's folder of practices.
+        """
+
+    def stop_practice(self, key: str) -> None:
+        """End a practice; it is over as soon as the class says so."""
 
 
 class SceneEditor:
