@@ -22,7 +22,8 @@ DRIVERS = "ai4u_edu.learn.training.assigned"
 """Lets networks and programs drive in a world: ``with_drivers`` builds it."""
 
 SMALL_TRAINER = "ai4u_edu.learn.small_trainer"
-"""Learns from rewards and from drives with NumPy alone: ``train``, ``resume``, ``clone``."""
+"""Learns from rewards and from drives with NumPy alone: ``train``, ``resume``, ``clone``; and
+``kinds_of_opponents``, which says against whom."""
 
 
 class MissingOptionError(SetupError):

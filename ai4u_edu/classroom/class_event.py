@@ -90,6 +90,7 @@ class ClassEvents:
         if is_projected:
             for room in event["rooms"]:
                 del room["help"], room["why"], room["look_in"]
+                del room["learning"], room["is_learning"]
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
         event["handed_in"] = networks_event(live.tournament)
@@ -164,10 +165,23 @@ class ClassEvents:
             "episodes": state.episodes if state else 0,
             "falls": state.falls if state else 0,
             "is_solved": state.is_solved if state else False,
+            "learning": self._learning(room.id),
+            "is_learning": self._is_learning(room.id),
             "error": (state.error if state else "") or room.problem,
             "help": score[0],
             "why": score[1],
         }
+
+    def _learning(self, room: str) -> str:
+        """Return how the networks of a room learn, or have learned; empty if it has none."""
+        sentences = self._live.trainings.sentence(room), self._live.practices.sentence(room)
+        return "; ".join(filter(None, sentences))
+
+    def _is_learning(self, room: str) -> bool:
+        training = self._live.trainings.of_room(room)
+        practices = self._live.practices.of_room(room)
+        is_cloning = training is not None and not training.is_over
+        return is_cloning or any(not practice.is_over for practice in practices)
 
 
 def _look_in(room: LiveRoom) -> str:

@@ -98,6 +98,7 @@ def class_app(
             Route("/teacher/state", teacher.state, middleware=[auth]),
             Route("/teacher/export", teacher.export, middleware=[auth]),
             Route("/teacher/programs", work.programs, middleware=[auth]),
+            Route("/teacher/networks", teacher.networks, middleware=[auth]),
             Route("/teacher/command", teacher.command, methods=["POST"], middleware=[auth]),
             *TournamentFiles(live.tournament).routes(auth),
             WebSocketRoute("/teacher/socket", WallSocket(live, events), middleware=[auth]),

@@ -33,11 +33,14 @@ from ai4u_edu.wire.class_link import (
     FromClass,
     FromRoom,
     HandedInNetwork,
+    Learn,
     LinkHello,
     LinkProblem,
     Poses,
+    Practise,
     Result,
     State,
+    StopTraining,
     Work,
     decode_from_room,
     encode_from_class,
@@ -194,6 +197,9 @@ class LinkEndpoint:
             case HandedInNetwork():
                 await self._take_network(room, link, message)
                 return
+            case Learn() | Practise() | StopTraining():
+                await self._take_training(room, link, message)
+                return
             case Drawing():
                 room.note_drawing(message)
                 return
@@ -231,6 +237,30 @@ class LinkEndpoint:
             link.close_later()
             return
         link.add(Ack(network.key))
+
+    async def _take_training(
+        self, room: LiveRoom, link: "LinkSender", message: Learn | Practise | StopTraining
+    ) -> None:
+        """Take what a room asks for, and acknowledge it when it is on disk."""
+        if room.seat:
+            text = f"{message.__struct_config__.tag}: expected a room on the class's machine"
+            link.add(LinkProblem("message", text))
+            link.add(Ack(message.key))  # sent again it would be refused again
+            return
+        live = self._live
+        try:
+            match message:
+                case Learn():
+                    await live.trainings.add(room.id, message)
+                case Practise():
+                    await live.practices.add(room.id, message)
+                case StopTraining(training=key):
+                    await live.trainings.stop(room.id, key)
+                    await live.practices.stop(room.id, key)
+        except StoreError:
+            link.close_later()
+            return
+        link.add(Ack(message.key))
 
     def _take_result(self, room: LiveRoom, link: "LinkSender", result: Result) -> None:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():

@@ -17,6 +17,7 @@ from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.errors import CommandError, StoreError
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.practice_queue import PracticeQueue
 from ai4u_edu.classroom.programs import ProgramRuns, Programs, Stars
 from ai4u_edu.classroom.progress import Progress
 from ai4u_edu.classroom.race import RaceRunner, Races
@@ -26,6 +27,8 @@ from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, SeatState
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
+from ai4u_edu.classroom.trainings import Trainings
+from ai4u_edu.games.jobs.processes import core_count
 from ai4u_edu.member.room_state import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
@@ -37,6 +40,7 @@ from ai4u_edu.wire.class_link import (
     LinkWelcome,
     People,
     Person,
+    RoomTrainings,
     Switches,
     Work,
 )
@@ -95,6 +99,9 @@ class LiveClass:
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.tournament = TournamentRunner(store, self._tell_networks, self.note_change)
+        self.trainings = Trainings(store, self.tell_trainings, self.note_change)
+        workers = max(1, core_count() - 1)
+        self.practices = PracticeQueue(store, workers, self.tell_trainings, self.note_change)
         self.results = ResultWriter(
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
@@ -121,6 +128,8 @@ class LiveClass:
                     self.tell_attention()
                 self.race.tick()
                 self.tournament.tick()
+                self.trainings.tick()
+                self.practices.tick()
                 await asyncio.to_thread(self.attention.save_rest)
                 await self._measure_folder()
             except Exception as error:  # a full disk, say: the next tick tries again
@@ -203,6 +212,8 @@ class LiveClass:
         link.send(self.race.messages()(room.id))
         if room.seat:
             link.send(self._handed_in(room.seat))
+        else:
+            link.send(self._trainings(room.id))
         self.tell_people()
 
     def disconnect(self, room: LiveRoom, link: OpenLink) -> None:
@@ -279,6 +290,17 @@ class LiveClass:
         if room is not None and room.link is not None:
             room.link.send(self._handed_in(seat))
 
+    def tell_trainings(self, room: str) -> None:
+        """Tell a room of its trainings, and that there may be a network for it."""
+        live = self.rooms.get(room)
+        if live is not None and live.link is not None:
+            live.link.send(self._trainings(room))
+
+    def _trainings(self, room: str) -> RoomTrainings:
+        training = self.trainings.of_room(room)
+        trainings = () if training is None else (training,)
+        return RoomTrainings(trainings, self.practices.of_room(room))
+
     def _handed_in(self, seat: int) -> HandedIn:
         return HandedIn(
             tuple(
@@ -345,6 +367,8 @@ class LiveClass:
         self.stars.read()
         self.races.read()
         self.tournament.read()
+        self.trainings.read()
+        self.practices.read()
         self.shown = Shown()
         self.tell_people()
 

@@ -32,7 +32,7 @@ _ENDINGS = ("", "-wal", "-shm", "-journal")
 """Endings of the files of the database, to be put after its name."""
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 11
+VERSION = 12
 """Version of the tables; a file with another one is not opened."""
 _TABLES = """
 create table settings (name text primary key, value text not null) strict;
@@ -129,6 +129,17 @@ create table networks (
     verdict text not null check (verdict in ('open', 'right', 'refused')),
     reason text not null,
     request text not null
+) strict;
+create table trainings (
+    room text primary key,
+    key text not null,
+    training text not null,
+    files text not null
+) strict;
+create table practices (
+    key text primary key,
+    room text not null,
+    state text not null
 ) strict;
 create table tournaments (
     id text primary key,

@@ -6,7 +6,7 @@ import secrets
 import shutil
 from dataclasses import replace
 from functools import lru_cache
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 from urllib.parse import quote
 
 import segno
@@ -16,7 +16,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from ai4u_edu.base.atomic_write import reason
-from ai4u_edu.base.errors import SceneError, shorten
+from ai4u_edu.base.errors import SceneError, SetupError, shorten
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.classroom.assignments import AssignedScene
 from ai4u_edu.classroom.attention import MAX_SECONDS
@@ -40,6 +40,8 @@ from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.standalone import standalone_page
 from ai4u_edu.scenes import Scene
+from ai4u_edu.teach.networks import FOLDER as TAUGHT
+from ai4u_edu.teach.networks import HANDED_OUT, KeptNetwork, NetworkFolder
 from ai4u_edu.wire.class_link import (
     MAX_MESSAGE_CHARS,
     MAX_SCENE_CHARS,
@@ -48,6 +50,8 @@ from ai4u_edu.wire.class_link import (
 
 MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
 MAX_COUNTDOWN_S = 60.0
+HANDED_OUT_TITLE = "From your teacher"
+STOPPED_BY_TEACHER = "your teacher has stopped it"
 _RoomId = Annotated[str, Field(max_length=40)]
 _Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
 _Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]
@@ -201,6 +205,24 @@ class _Sleep(_Command):
     room: _RoomId
 
 
+class _StopTraining(_Command):
+    """End what learns or waits to learn in a room."""
+
+    do: Literal["stop training"]
+    room: _RoomId
+
+
+class _HandOut(_Command):
+    """Give all other rooms a copy of a network that learned in a room."""
+
+    do: Literal["hand out"]
+    room: _RoomId
+    scene: str = Field(max_length=400)
+    """Name of the network's scene."""
+    network: int = Field(ge=0, le=10**9)
+    """Its number among those of the scene."""
+
+
 _AnyCommand = (
     _SeatCommand
     | _GiveMoveCode
@@ -214,6 +236,8 @@ _AnyCommand = (
     | _HideBoard
     | _Show
     | _Sleep
+    | _StopTraining
+    | _HandOut
 )
 
 
@@ -248,6 +272,14 @@ class Teacher:
     async def export(self, _: Request) -> Response:
         """Return a ZIP file with the work of the class."""
         return zip_response(await asyncio.to_thread(class_zip, self._live), "class.zip")
+
+    async def networks(self, request: Request) -> Response:
+        """Return the networks that learned in a room."""
+        room = request.query_params.get("room", "")
+        if room not in self._seats.scenes():
+            return problem("room: there is no such room on this machine", 404)
+        networks = await asyncio.to_thread(_networks_of, self._live, room)
+        return JSONResponse({"networks": networks}, headers=NO_STORE)
 
     async def command(self, request: Request) -> Response:
         """Do what the teacher wants; answer with a sentence if it can't be done."""
@@ -303,6 +335,17 @@ class Teacher:
             case _Sleep(room=room):
                 self._check_room(room)
                 await live.host.end(room)
+            case _StopTraining(room=room):
+                self._check_room(room)
+                is_cloning = await live.trainings.stop(room, problem=STOPPED_BY_TEACHER)
+                if not (await live.practices.stop(room, problem=STOPPED_BY_TEACHER) or is_cloning):
+                    raise CommandError("nothing learns in this room any more")
+            case _HandOut(room=room, scene=name, network=number):
+                self._check_local(room)
+                others = [other for other in self._seats.scenes() if other != room]
+                await asyncio.to_thread(_hand_out, live, room, name, number, others)
+                for other in others:
+                    live.tell_trainings(other)
 
     async def _do_seat(self, wanted: _SeatCommand) -> None:
         match wanted.do:
@@ -350,6 +393,10 @@ class Teacher:
             self._check_room(each)
         await asyncio.to_thread(live.assignments.assign, scene, rooms, seed)
         live.tell_assignments()
+
+    def _check_local(self, room: str) -> None:
+        if room not in self._seats.scenes():
+            raise CommandError(f"room: there is no room {room[:40]!r} on this machine")
 
     def _check_room(self, room: str) -> None:
         if room not in self._live.rooms and room not in self._seats.scenes():
@@ -406,6 +453,42 @@ def _text_of_room(live: LiveClass, room: str) -> str:
         raise CommandError("room: its scene is not known yet; it was not changed") from None
 
 
+def _taught(live: LiveClass, room: str, folder: str) -> NetworkFolder:
+    return NetworkFolder(live.store.folder / "rooms" / room / folder)
+
+
+def _networks_of(live: LiveClass, room: str) -> list[dict[str, Any]]:
+    """Return the networks that learned in a room, the latest first; a thread does it."""
+    networks = _taught(live, room, TAUGHT).all()
+    return [
+        {"scene": scene, "number": about.number, "title": about.title, "how": about.how}
+        for scene, about in sorted(networks, key=lambda pair: pair[1].made_at, reverse=True)
+    ]
+
+
+def _hand_out(live: LiveClass, room: str, scene: str, number: int, others: list[str]) -> None:
+    """Give other rooms a copy of a network, which names neither its seat nor its title.
+
+    Each takes it as soon as it runs.
+
+    Raises:
+        CommandError: it can't be read, or a copy can't be written.
+    """
+    own = _taught(live, room, TAUGHT)
+    try:
+        network = own.file(scene, number).read_bytes()
+        (agent,) = [
+            about.agent for name, about in own.all() if (name, about.number) == (scene, number)
+        ]
+        about = KeptNetwork(0, HANDED_OUT_TITLE, agent, "handed out by your teacher")
+        for other in others:
+            _taught(live, other, HANDED_OUT).add(scene, network, about)
+    except (SetupError, ValueError):
+        raise CommandError("network: it is not there any more; choose another one") from None
+    except OSError as error:
+        raise CommandError(f"network: it can't be handed out: {reason(error)}") from None
+
+
 async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     """Delete everything of a class but the secret of the teacher's page, and set a new code.
 
@@ -423,6 +506,8 @@ async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     await asyncio.gather(*(live.host.end(each) for each in rooms))
     await live.results.finish()
     await live.tournament.end()
+    await live.trainings.end()
+    await live.practices.end()
     live.attention.end()  # so that no message of the teacher is saved again
     await asyncio.to_thread(_delete, live)
     live.begin_anew()

@@ -31,6 +31,7 @@ from ai4u_edu.classroom.tournament.runner import VIEW
 from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.lessons import progress_file
 from ai4u_edu.scenes import Scene
+from ai4u_edu.teach.networks import FOLDER as TAUGHT
 
 CHUNK_BYTES = 2**18
 HEADER = ("seat", "name", "exercise", "state", "checks", "hints", "minutes")
@@ -179,10 +180,14 @@ def _tournaments(live: LiveClass) -> Files:
 
 
 def _room_files(live: LiveClass, room: str) -> Files:
-    """Yield the scene of a room, and the scenes that were saved there."""
+    """Yield the scene of a room, the scenes that were saved there, and networks that learned."""
     folder = live.store.folder / "rooms" / room
-    for path in [folder / SCENE_FILE, *sorted((folder / SCENES).glob("*.yaml"))]:
-        if path.is_file():
+    saved, taught = (
+        sorted((folder / SCENES).glob("*.yaml")),
+        sorted((folder / TAUGHT).glob("*.onnx")),
+    )
+    for path in [folder / SCENE_FILE, *saved, *taught]:
+        if path.is_file() and not path.name.startswith(PREFIX):
             yield path.relative_to(folder).as_posix(), path.read_bytes()
 
 

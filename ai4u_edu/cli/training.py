@@ -51,6 +51,8 @@ def train(
     trainer: o.Trainer = "",
     begin_with: o.BeginWith = None,
     reward: o.RewardWeights = None,
+    agent: o.LearningAgent = "",
+    against: o.Against = "",
     own_blocks: OwnBlocks = None,
 ) -> None:
     r"""Train an agent in a scene. Ctrl-C ends it early and keeps what was learned.
@@ -80,6 +82,8 @@ def train(
             trainer=trainer,
             begin_with=begin_with,
             reward_weights=dict(map(_weight, reward or ())),
+            agent=agent,
+            against=against,
         )
         typer.echo(_summary(result))
         if page and not result.interrupted:

@@ -70,6 +70,22 @@ RewardWeights = Annotated[
         show_default=False,
     ),
 ]
+LearningAgent = Annotated[
+    str,
+    typer.Option(
+        help="Id of the agent that learns, where there are several. Default: the first one.",
+        show_default=False,
+    ),
+]
+Against = Annotated[
+    str,
+    typer.Option(
+        help="Who plays the other side, in a scene with two: player (the scene's own), self (the "
+        "network itself, as it is and as it was, and the scene's player), or a network (.onnx); "
+        "only with --trainer small. Default: all others are driven as the scene says.",
+        show_default=False,
+    ),
+]
 Resume = Annotated[bool, typer.Option("--resume", help="Continue the training in --out.")]
 Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Start again and delete the training in --out.")

@@ -10,13 +10,16 @@ the same seed gives the same network on the same machine.
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.behaviour_cloning import UPDATES, DriveData, clone_drives
 from ai4u_edu.learn.small.onnx_file import read_network, write_network
+from ai4u_edu.learn.small.opponents import FILE, SELF, Opponents, kinds_of_opponents
 from ai4u_edu.learn.small.ppo import PpoSettings
 from ai4u_edu.learn.small.ppo_training import PolicyCheck, PpoTraining
 from ai4u_edu.learn.training.demonstrations import Cloned, demonstrations
@@ -30,7 +33,12 @@ from ai4u_edu.recording.player import Player
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.scenes import Scene
 
+__all__ = ["clone", "kinds_of_opponents", "resume", "train"]
+
 PACKAGES = ("ai4u-edu", "numpy", "pymunk", "gymnasium")
+GAMES = PpoSettings(steps=128, batch=256, rate=1e-3, discount=0.99)
+"""Settings against somebody. A game may pay at its end only, so a round is long enough for some
+ends; and the other side changes, so that the network changes more slowly."""
 MIN_INTERVAL_S = 1.0
 """Shortest time between two writes of the present state."""
 OnRound = Callable[[int, Callable[[Path], object]], object]
@@ -49,6 +57,7 @@ def train(
     seed: int = 0,
     begin_with: Path | None = None,
     reward_weights: Mapping[str, float] | None = None,
+    against: str = "",
     overwrite: bool = False,
     on_round: OnRound = lambda _decisions, _write: None,
     quiet: bool = False,
@@ -64,12 +73,16 @@ def train(
         seed: of the network, of what is tried out, and of the worlds.
         begin_with: file of a network of the small learner to improve, such as a clone.
         reward_weights: factor of each reward term by its name; 1 for one that is left out.
+        against: who plays the other side of the scene: ``"player"``, ``"self"`` or a network's
+            file; see :class:`~ai4u_edu.learn.small.opponents.Opponents`. Left out, all other
+            agents are driven as the scene says.
         overwrite: True replaces a training that is in the folder.
         on_round: called before the first round, and after each.
         quiet: True shows nothing.
 
     Raises:
-        SetupError: the agent or a file doesn't fit, or the folder holds a training already.
+        SetupError: the agent, a file or the opponent doesn't fit, or the folder holds a training
+            already.
     """
     if settings.observation != "flat":
         raise SetupError(
@@ -82,16 +95,23 @@ def train(
             f"{settings.without_reward}=0"
         )
     settings = with_learner(scene, settings, quiet=quiet)
-    prepared = prepare(scene, settings)
+    opponents = _opponents(scene, settings, against)
+    prepared = prepare(scene, settings) if opponents is None else opponents.scene
     sim = prepared.build()
     agent = sim.agent(settings.agent) if settings.agent else sim.agents[0]
     training = PpoTraining(
         prepared,
-        PpoSettings(check_episodes=settings.check_episodes, enough=settings.enough),
+        replace(
+            PpoSettings() if opponents is None else GAMES,
+            check_episodes=settings.check_episodes,
+            # who beats the scene's player can still get better than that
+            enough=0 if against == SELF else settings.enough,
+        ),
         seed=seed,
         agent=agent.id,
         begin_with=None if begin_with is None else read_network(begin_with.read_bytes(), agent),
         reward_weights=reward_weights,
+        opponents=opponents,
     )
     run = Run(folder)
     config = Config(
@@ -102,10 +122,15 @@ def train(
         settings=settings,
         versions={name: version(name) for name in PACKAGES},
         trainer="small",
+        against="" if opponents is None else opponents.kind,
     )
+    # read before what is in the folder is deleted, which may be this very file
+    opponent = Path(against).read_bytes() if config.against == FILE else b""
     if overwrite:
         run.clear()
     run.begin(config, scene)
+    if opponent:
+        write_atomically(run.opponent, opponent)
     return _learn(run, config, training, on_round, quiet=quiet)
 
 
@@ -132,8 +157,11 @@ def resume(
     """
     run = Run(folder)
     config = run.config()
-    prepared = prepare(scene or run.scene(), config.settings)
-    training = PpoTraining.resume(run.state, prepared)
+    scene = scene or run.scene()
+    against = str(run.opponent) if config.against == FILE else config.against
+    opponents = _opponents(scene, config.settings, against)
+    prepared = prepare(scene, config.settings) if opponents is None else opponents.scene
+    training = PpoTraining.resume(run.state, prepared, opponents)
     config = config.model_copy(update={"steps": steps or config.steps})
     if training.ppo.decisions >= config.steps:
         raise SetupError(
@@ -223,6 +251,19 @@ def clone(
         held_out=result.held_out,
         remarks=result.remarks,
     )
+
+
+def _opponents(scene: Scene, settings: Settings, against: str) -> Opponents | None:
+    """Return who plays the other side, in a scene in which all learners decide as the settings say.
+
+    Raises:
+        SetupError: there is no other side, or nobody who could play it.
+    """
+    if not against:
+        return None
+    for learner in Opponents(scene, settings.agent, against).learners:
+        scene = prepare(scene, settings.model_copy(update={"agent": learner}))
+    return Opponents(scene, settings.agent, against)
 
 
 def _learn(

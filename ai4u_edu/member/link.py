@@ -6,9 +6,8 @@ from typing import Literal, Protocol
 
 from ai4u_edu.wire.class_link import (
     Applied,
+    Delivery,
     Drawing,
-    EpisodeResult,
-    ExerciseResult,
     FromClass,
     Poses,
     State,
@@ -72,5 +71,5 @@ class ClassLink(Protocol):
     def send(self, message: Drawing | Poses | State | Work | Applied) -> None:
         """Send a present state, which replaces an earlier one of its kind."""
 
-    def send_result(self, result: EpisodeResult | ExerciseResult) -> None:
+    def send_result(self, result: Delivery) -> None:
         """Deliver a result; it may wait for the disk."""

@@ -5,12 +5,12 @@ import secrets
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from msgspec.structs import replace
 
-from ai4u_edu.base.errors import shorten
+from ai4u_edu.base.errors import SetupError, shorten
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.member.assigned_scenes import (
     OPEN_TIMEOUT_S,
@@ -41,10 +41,16 @@ from ai4u_edu.wire.class_link import (
     CurrentRace,
     EpisodeResult,
     FromClass,
+    Learn,
     LinkProblem,
     LinkWelcome,
     People,
+    Practise,
+    Practised,
+    RoomTrainings,
     State,
+    StopTraining,
+    Training,
     Work,
 )
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
@@ -131,6 +137,8 @@ class ClassMember:
             else link(self._receive)
         )
         """The link with the class."""
+        self.trainings = MemberTrainings(self.link)
+        """Trainings of a world on the class's machine."""
 
     def start(self) -> None:
         """Join the class, in the background."""
@@ -168,6 +176,8 @@ class ClassMember:
                 self.view.set_people(message)
                 rests_at = math.inf if message.is_visited else self._clock() + REST_AFTER_S
                 self._holds.for_absence(rests_at)
+            case RoomTrainings():
+                self.trainings.receive(message)
             case Attention():
                 with self._attention_lock:
                     self._pay_attention(message)
@@ -305,6 +315,99 @@ class ClassMember:
         self._work_version, self._work_sent_at = version, now
         if len(text) <= MAX_SCENE_CHARS:
             self.link.send(Work(shorten(editor.title, MAX_TEXT_CHARS), text))
+
+
+class MemberTrainings:
+    """Trainings in the class's process; see :class:`ai4u_edu.page.editing.editor.ClassTrainings`.
+
+    Args:
+        link: with the class.
+    """
+
+    def __init__(self, link: ClassLink) -> None:
+        self._link = link
+        self._lock = threading.Lock()
+        self._asked: Training | None = None
+        """Training that the class does not know yet."""
+        self._known: Training | None = None
+        self._practices: dict[str, Practised] = {}
+        """Practices by their keys, also those that the class does not know yet."""
+        self._unknown: set[str] = set()
+        """Keys of practices that the class does not know yet."""
+        self.listeners: list[Callable[[], object]] = []
+
+    @property
+    def latest(self) -> Training | None:
+        """The room's latest training; None before the first one."""
+        return self._asked or self._known
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the class can be reached."""
+        return self._link.is_connected
+
+    def learn(self, scene: str, agent: str, drives: Sequence[str]) -> None:
+        """Have a network learn from drives.
+
+        Raises:
+            SetupError: a name is too long to be sent.
+        """
+        for what, name in (("scene", scene), ("agent", agent)):
+            if len(name) > MAX_TEXT_CHARS:  # the class would refuse it again and again
+                raise SetupError(
+                    f"expected a name of the {what} of at most {MAX_TEXT_CHARS} characters, got "
+                    f"{len(name)}; give it a shorter one"
+                )
+        request = Learn(secrets.token_urlsafe(12), scene, agent, tuple(drives))
+        with self._lock:
+            self._asked = Training(request.key, scene, agent, len(drives))
+        self._link.send_result(request)
+        self._tell()
+
+    def stop(self, problem: str) -> None:
+        """End the latest training without a result; until the class answers, show a problem."""
+        with self._lock:
+            latest = self.latest
+            if latest is None or latest.is_over:
+                return
+            self._asked = replace(latest, place=0, problem=problem)
+        self._link.send_result(StopTraining(secrets.token_urlsafe(12), latest.key))
+        self._tell()
+
+    def practice(self, key: str) -> Practised | None:
+        """Return a practice of the room; None if it was never asked for, or long ago."""
+        with self._lock:
+            return self._practices.get(key)
+
+    def practise(self, key: str, practice: str) -> None:
+        """Have a network practise; one that the class knows goes on."""
+        with self._lock:
+            if key not in self._practices:
+                self._practices[key] = Practised(key, practice)
+                self._unknown.add(key)
+        self._link.send_result(Practise(key, practice))
+        self._tell()
+
+    def stop_practice(self, key: str) -> None:
+        """End a practice; it is over as soon as the class says so."""
+        self._link.send_result(StopTraining(secrets.token_urlsafe(12), key))
+
+    def receive(self, message: RoomTrainings) -> None:
+        """Take what the class says of the room's trainings."""
+        with self._lock:
+            self._known = message.trainings[-1] if message.trainings else None
+            asked, known = self._asked, self._known
+            if asked is not None and known is not None and asked.key == known.key:
+                # one that was stopped here goes on there until the class has heard of it
+                self._asked = asked if asked.is_over and not known.is_over else None
+            practices = {practised.key: practised for practised in message.practices}
+            self._unknown -= practices.keys()
+            self._practices = {key: self._practices[key] for key in self._unknown} | practices
+        self._tell()
+
+    def _tell(self) -> None:
+        for listener in self.listeners:
+            listener()
 
 
 def _client(settings: ClassLinkSettings, receive: Receive, folder: Path | None) -> ClassLink:

@@ -6,7 +6,7 @@
     scenes/NAME.yaml        saved scenes
     episodes/NAME.episode   recorded episodes
     programs/NAME.py        programs in Python, which are not opened
-    networks/NAME.onnx      networks that were handed in for tournaments
+    networks/NAME.onnx      networks that learned, or were handed in for tournaments
     progress.json           progress in the lessons
 
 Everything else in the file is ignored.
@@ -41,7 +41,7 @@ MAX_EPISODES = 300
 MAX_PROGRAMS = 50
 MAX_PROGRAM_BYTES = 4 * 100_000
 """A class keeps programs of 100,000 characters, each of at most four bytes."""
-MAX_NETWORKS = 20
+MAX_NETWORKS = 100
 MAX_PROGRESS_BYTES = 4 * 2**20
 MAX_FOLDERS = 100
 """Limit of folders for ZIP files of the same name."""
@@ -49,7 +49,7 @@ MARK = ".my-work"
 """File with the digest of the ZIP file that a folder was made from."""
 _MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS  # no character takes more bytes
 _PROGRAM = re.compile(r"[\w&-][\w &-]{0,180}\.py")
-_NETWORK = re.compile(r"[a-z][a-z0-9_-]{0,100}\.onnx")
+_NETWORK = re.compile(r"[\w-]{1,180}\.onnx")
 _EPISODE = re.compile(r"[A-Za-z0-9_][\w. -]{0,180}\.episode")
 
 

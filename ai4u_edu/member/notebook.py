@@ -25,6 +25,7 @@ from ai4u_edu.wire.class_link import (
     Attention,
     ClassSettings,
     CurrentRace,
+    Delivery,
     ExerciseResult,
     FromClass,
     HandedIn,
@@ -32,7 +33,6 @@ from ai4u_edu.wire.class_link import (
     LinkProblem,
     LinkWelcome,
     People,
-    Result,
     State,
 )
 
@@ -229,7 +229,7 @@ class WorldLink:
             self._last = message if isinstance(message, State) else self._last
             self._connection.client.send(message)
 
-    def send_result(self, result: Result) -> None:
+    def send_result(self, result: Delivery) -> None:
         """Deliver a result."""
         self._connection.client.send_result(result)
 

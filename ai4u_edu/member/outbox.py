@@ -8,8 +8,6 @@ from ai4u_edu.base.atomic_write import reason, write_atomically
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     Delivery,
-    EpisodeResult,
-    ExerciseResult,
     HandedInNetwork,
     decode_from_room,
     encode_from_room,
@@ -127,7 +125,7 @@ class ResultOutbox:
                 result = decode_from_room(frame)
             except (OSError, WireError):
                 continue
-            if isinstance(result, EpisodeResult | ExerciseResult | HandedInNetwork):
+            if isinstance(result, Delivery):
                 self._keep(result, frame)
                 self._files[result.key] = path
         self._drop_oldest()

@@ -82,6 +82,8 @@ class Room:
                 settings.class_folder,
                 show_ghosts=self._ghosts.race_all,
             )
+            if settings.learns_in_class:
+                self.editor.class_trainings = self.class_member.trainings
         self._script_report = None if tell is None else ScriptReport(self.runner, tell)
         self._page: ServedWorld | None = None
         self._ending = ExitStack()

@@ -60,6 +60,8 @@ class RoomSettings:
     """Folder for a person's drives and networks; None keeps none."""
     class_link: ClassLinkSettings | None = None
     """Link to the class that the room belongs to; None for none."""
+    learns_in_class: bool = False
+    """True if networks learn in the class's process, which has the folder :attr:`work`, too."""
     class_folder: Path | None = None
     """Folder, which exists, for what the class must not lose: the last assignment, and results that
     were not delivered."""

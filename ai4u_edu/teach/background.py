@@ -3,8 +3,10 @@
 import os
 import subprocess
 import sys
+from contextlib import suppress
 
 import msgspec
+import psutil
 from msgspec import Struct
 
 from ai4u_edu.base.numeric_threads import ONE_THREAD
@@ -17,7 +19,7 @@ MAX_MEMORY_BYTES = 512 * 2**20
 def start_process(module: str) -> "subprocess.Popen[bytes]":
     """Start a module as a process that waits for its request, and writes to a pipe."""
     return subprocess.Popen(  # noqa: S603 - a module of ours, named in the code
-        [sys.executable, "-m", module],
+        [sys.executable, "-m", module, str(os.getpid())],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=os.environ | ONE_THREAD,
@@ -35,11 +37,22 @@ def send_request(process: "subprocess.Popen[bytes]", request: Struct) -> None:
     process.stdin.close()
 
 
+def cpu_s(process: "subprocess.Popen[bytes]") -> float:
+    """Return the processor time (s) that a process has used; 0 after its end."""
+    with suppress(psutil.Error):
+        times = psutil.Process(process.pid).cpu_times()
+        return float(times.user + times.system)
+    return 0.0
+
+
 def leave_the_processor_to_others() -> None:
-    """Give this process the lowest priority and little memory, and end it with its parent."""
+    """Give this process the lowest priority and little memory, and end it with its parent.
+
+    Its first argument is the parent's id: a parent that was killed before this has another one.
+    """
     if sys.platform == "win32":
         return
-    end_with_parent(os.getppid())
+    end_with_parent(int(sys.argv[1]))
     import resource
 
     os.nice(NICENESS)

@@ -13,8 +13,10 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.options import SMALL_TRAINER, load_option
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.recording import Episode
+from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
 from ai4u_edu.teach.learning import CloneNote, CloneRequest
+from ai4u_edu.teach.network_score import score_network
 
 
 def main() -> None:
@@ -33,8 +35,10 @@ def main() -> None:
 
 
 def _learn(request: CloneRequest) -> CloneNote:
+    drives = [Episode.load(path) for path in request.drives]
+    scene = Scene(drives[-1].scene)
     result = load_option(SMALL_TRAINER, "teaching").clone(
-        [Episode.load(path) for path in request.drives],
+        drives,
         Path(request.out),
         agent=request.agent,
         seed=request.seed,
@@ -42,6 +46,7 @@ def _learn(request: CloneRequest) -> CloneNote:
         on_error=lambda update, error: _say(CloneNote(update, error)),
         quiet=True,
     )
+    out = Path(request.out)
     return CloneNote(
         is_done=True,
         decisions=result.decisions,
@@ -49,6 +54,7 @@ def _learn(request: CloneRequest) -> CloneNote:
         commonest=result.commonest,
         held_out=result.held_out,
         remarks=list(result.remarks),
+        score=score_network(scene, request.agent, out, request.score_decisions),
     )
 
 

@@ -13,6 +13,8 @@ from ai4u_edu.recording.scene_export import without_brains
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach.scene_folder import SceneFolder, number_of
 
+FOLDER = "drives"
+"""Folder of drives in a folder of work."""
 MAX_DRIVES = 50
 """Drives that are kept for a scene; the oldest go first."""
 MAX_DECISIONS = 20_000

@@ -7,8 +7,11 @@ from msgspec import Meta, Struct
 from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.teach.drives import MAX_DRIVES
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.networks import MAX_TITLE_CHARS
 
+Opponent = Literal["player", "self", "file"]
+"""Player of the other side in a practice: the scene's player, the network itself, a network."""
 MIN_STEPS, MAX_STEPS = 256, 1_000_000
 """Fewest and most decisions of a practice."""
 
@@ -35,6 +38,10 @@ class PractiseForRewards(PageCommand, tag="teach_practise"):
     """Factors of reward terms by name; 1 for one that is left out."""
     begin_with: Number | None = None
     """Number of a network to begin with; null for a new one."""
+    against: Opponent | None = None
+    """Player of the other side; null if all others are driven as the scene says."""
+    opponent: Number | None = None
+    """Number of the network that plays the other side; null for none."""
 
 
 class PutRewards(PageCommand, tag="teach_put_rewards"):
@@ -78,6 +85,16 @@ class DeleteNetwork(PageCommand, tag="teach_delete"):
     """Delete a network."""
 
     network: Number
+    even_if_driving: bool = False
+    """True deletes one that drives, too; the scene's own driver takes its place."""
+
+
+class OpenNetwork(PageCommand, tag="teach_open"):
+    """Keep the network in the file that the page has sent."""
+
+    name: Name
+    """Name of the file."""
+    size: Number
 
 
 class DownloadNetwork(PageCommand, tag="teach_download"):
@@ -118,6 +135,8 @@ class LearningState(Struct, frozen=True):
     """True once it is done, has failed or was stopped."""
     problem: str
     """Sentence about why it brought nothing; empty if it is under way or done."""
+    waiting: str
+    """Sentence about what it waits for; empty if it learns or is over."""
     errors: list[float]
     """Errors on held-out moments, at equal distances of gradient steps."""
     drives: int
@@ -138,6 +157,8 @@ class PracticeState(Struct, frozen=True):
     phase: Literal["running", "paused", "over"]
     problem: str
     """Sentence about why it ended early; empty if it did not."""
+    waiting: str
+    """Sentence about what it waits for; empty if it learns, is paused or over."""
     elsewhere: str
     """Agent and scene, if they are not what the page shows; empty otherwise."""
     is_scene_changed: bool
@@ -170,6 +191,8 @@ class TaughtNetwork(Struct, frozen=True):
     """Sentences about its rewards, drives and settings."""
     replays: list[int]
     """Decisions of its practice after which an episode was kept, ascending."""
+    score: NetworkScore | None
+    """Starts from which it reaches the goal; null if that is not known."""
     is_driving: bool
     """True if it drives the agent now."""
 
@@ -188,6 +211,8 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """The latest learning of the agent; null if there was none since the start."""
     rewards: list[str]
     """Names of the agent's reward terms."""
+    opponents: list[Opponent]
+    """Possible players of the other side in a practice; empty in a scene without one."""
     practice: PracticeState | None
     """The practice that runs or is paused, or the agent's latest one; null if there is none."""
     decisions_per_s: float | None
@@ -196,5 +221,7 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """Networks of this scene, the latest first."""
     max_networks: int
     """Networks that are kept for a scene."""
+    can_open: bool
+    """True if a network in a file can be opened here; a room of a class can't check one."""
     warning: str
     """Sentence about why a drive could not be kept; empty if all could."""

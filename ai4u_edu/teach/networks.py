@@ -4,14 +4,21 @@ import json
 import shutil
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
+import msgspec
+
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.scene_folder import SceneFolder, number_of
 
+FOLDER = "networks"
+"""Folder of networks in a folder of work."""
+HANDED_OUT = "handed_out"
+"""Folder of networks, in that of a class's room, which a teacher gave it."""
 MAX_NETWORKS = 20
 """Networks that are kept for a scene."""
 MAX_TITLE_CHARS = 40
@@ -37,6 +44,8 @@ class KeptNetwork:
     """Sentences about its rewards, drives and settings."""
     replays: tuple[int, ...] = ()
     """Decisions of its practice after which an episode was kept, ascending."""
+    score: NetworkScore | None = None
+    """Starts from which it reaches the goal; None if that is not known."""
 
 
 class NetworkFolder:
@@ -86,17 +95,26 @@ class NetworkFolder:
             made_at=time.time(),
             replays=tuple(sorted(replays)),
         )
-        write_atomically(path, network, over=False, mode=0o600)
+        self._write(scene, kept)
         for decisions, episode in replays.items():
             file = self.replay(scene, number, decisions)
             file.parent.mkdir(mode=0o700, exist_ok=True)
             write_atomically(file, episode, mode=0o600)
-        self._write(scene, kept)
+        # last, so that whoever sees it finds the rest
+        write_atomically(path, network, over=False, mode=0o600)
         return kept
 
     def networks(self, scene: str) -> Sequence[KeptNetwork]:
         """Return a scene's networks, the oldest first."""
         return [self._read(scene, number_of(path)) for path in self._networks.files(scene)]
+
+    def all(self) -> Sequence[tuple[str, KeptNetwork]]:
+        """Return the networks of all scenes, each with its scene's name as files have it."""
+        return [
+            (scene, network)
+            for scene in self._networks.scenes()
+            for network in self.networks(scene)
+        ]
 
     def file(self, scene: str, number: int) -> Path:
         """Return the file of a network.
@@ -143,11 +161,12 @@ class NetworkFolder:
                 made_at=float(plain.get("made_at", 0.0)),
                 facts=tuple(str(fact) for fact in plain.get("facts", ())),
                 replays=tuple(int(decisions) for decisions in plain.get("replays", ())),
+                score=msgspec.convert(plain.get("score"), NetworkScore | None),
             )
         except (OSError, ValueError, TypeError, KeyError):  # somebody put the network there
             return KeptNetwork(number, f"Network {number}", "", "")
 
     def _write(self, scene: str, about: KeptNetwork) -> None:
         write_atomically(
-            self._about.file(scene, about.number), json.dumps(asdict(about)), mode=0o600
+            self._about.file(scene, about.number), msgspec.json.encode(about), mode=0o600
         )

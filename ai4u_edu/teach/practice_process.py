@@ -26,10 +26,14 @@ from ai4u_edu.learn.training.settings import settings_for
 from ai4u_edu.recording import Recorder
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.runtime.tick_monitor import Stall
+from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
-from ai4u_edu.teach.practice import PracticeEnd, PracticeRequest
+from ai4u_edu.teach.network_score import score_network
+from ai4u_edu.teach.practice import SCORE, PracticeEnd, PracticeRequest
 
+SCORE_DECISIONS = 100_000
+"""Decisions with which the network is scored at most."""
 MAX_CALL_S = 20.0
 """Longest time that a call of a person's own block may take."""
 CALL_POLL_S = 1.0
@@ -75,10 +79,13 @@ def _practise(request: PracticeRequest) -> None:
     trainer = load_option(SMALL_TRAINER, "teaching")
     folder = Path(request.folder)
     replays = _Replays(folder.parent / "replays", scene, request)
-    if Run(folder).state.is_file():
-        done = trainer.resume(folder, scene=scene, on_round=replays.after_round, quiet=True)
+    run = Run(folder)
+    if run.state.is_file():
+        # a process that was killed at its very end leaves nothing to learn
+        if not _progress_of(run).is_over:
+            trainer.resume(folder, scene=scene, on_round=replays.after_round, quiet=True)
     else:
-        done = trainer.train(
+        trainer.train(
             scene,
             settings_for(scene.description.name, changes={"agent": request.agent}),
             folder,
@@ -86,12 +93,20 @@ def _practise(request: PracticeRequest) -> None:
             seed=request.seed,
             begin_with=Path(request.begin_with) if request.begin_with else None,
             reward_weights=request.weights,
+            against=request.against,
             overwrite=True,
             on_round=replays.after_round,
             quiet=True,
         )
     # the last one is of the network that is kept
-    replays.keep(Run(folder).best_network, done.steps)
+    replays.keep(run.best_network, _progress_of(run).decisions)
+    if not request.against:  # else the checks were games
+        score = score_network(scene, request.agent, run.best_network, SCORE_DECISIONS)
+        write_atomically(folder.parent / SCORE, msgspec.json.encode(score), mode=0o600)
+
+
+def _progress_of(run: Run) -> TrainingProgress:
+    return TrainingProgress.model_validate_json(run.progress.read_bytes())
 
 
 class _Replays:
@@ -123,11 +138,12 @@ class _Replays:
             network: its file.
             decisions: those that it has learned from.
         """
-        sim = self._scene.build()
-        recorder = Recorder(sim, scene=self._scene.description)
-        agent = sim.agent(self._request.agent)
         controller = NeuralNetController(model_path=str(network.absolute()))
-        agent.use_brain(LocalBrain(controller=controller, **controller.network.rhythm))
+        brain = LocalBrain(controller=controller, **controller.network.rhythm)
+        name = self._request.agent
+        sim = self._scene.build(brains=lambda agent: brain if agent.id == name else None)
+        recorder = Recorder(sim, scene=self._scene.description)
+        agent = sim.agent(name)
         sim.reset(REPLAY_SEED)
         for _ in range(MAX_REPLAY_DECISIONS):
             sim.step()

@@ -25,6 +25,11 @@ class SceneFolder:
         files = self._folder.glob(f"*{self._ending}")
         return sorted((file for file in files if name.fullmatch(file.name)), key=number_of)
 
+    def scenes(self) -> Sequence[str]:
+        """Return the names of scenes that have files, as the files' names have them."""
+        names = (file.stem.rpartition("-") for file in self._folder.glob(f"*-*{self._ending}"))
+        return sorted({name for name, _, number in names if number.isdecimal()})
+
     def file(self, scene: str, number: int) -> Path:
         """Return the path of a scene's file."""
         return self._folder / f"{_safe(scene)}-{number}{self._ending}"

@@ -9,8 +9,10 @@ message, then its fields. The room begins::
     class   settings                                 likewise
     room    drawing, poses, state, work              the present ones, and again at each change
     room    episodeResult, exerciseResult, network   each with a key
-    class   ack                         the result with that key is stored
+    room    learn, practise, stopTraining            each with a key
+    class   ack                         the message with that key is stored
     class   handedIn                    the seat's networks, and again at each change
+    class   trainings                   those of the room, and again at each change
 
 All messages except those with a key describe a present state: the latest one counts, and after a
 reconnect each side sends its own again. A room sends what has a key again, with the same key, until
@@ -41,6 +43,8 @@ MAX_EPISODE_BYTES = 2**20
 MAX_NETWORK_BYTES = 5 * 2**20
 """Size of a network that a student hands in."""
 MAX_STARTING_PROGRAM_CHARS = 20_000
+MAX_TAUGHT_DRIVES = 50
+"""Drives from which a network learns."""
 MAX_MESSAGE_CHARS = 200
 """Longest message of a teacher."""
 POSES_PER_S = 4
@@ -182,6 +186,36 @@ class HandedInNetwork(TaggedMessage, frozen=True, tag="network"):
     """An ONNX file."""
 
 
+class Learn(TaggedMessage, frozen=True):
+    """A room of the class's machine has a network learn from drives, in a process of the class."""
+
+    key: Key
+    """Names the training."""
+    scene: Text
+    """Name of the scene."""
+    agent: Text
+    """Id of the agent."""
+    drives: Annotated[tuple[Text, ...], Meta(min_length=1, max_length=MAX_TAUGHT_DRIVES)]
+    """Names of files in the room's folder of drives."""
+
+
+class Practise(TaggedMessage, frozen=True):
+    """A room of the class's machine has a network practise, in a process of the class."""
+
+    key: Key
+    """Names the practice."""
+    practice: Text
+    """Name of its folder in the room's folder of practices."""
+
+
+class StopTraining(TaggedMessage, frozen=True, tag="stopTraining"):
+    """A training or practice of the room must end now."""
+
+    key: Key
+    training: Key
+    """Key of the training or practice."""
+
+
 class Applied(TaggedMessage, frozen=True):
     """The room has opened an assignment's scene, or could not."""
 
@@ -226,6 +260,67 @@ class HandedIn(TaggedMessage, frozen=True):
     """All networks that the seat has handed in."""
 
     networks: Annotated[tuple[CheckedNetwork, ...], LIST]
+
+
+class Training(Record, frozen=True):
+    """A network that learns in the class's process, or has learned there."""
+
+    key: Text
+    scene: Text
+    agent: Text
+    drives: Int
+    """Count of the drives that it learns from."""
+    place: Int = 0
+    """Place in the line, from 1; 0 if it learns or is over."""
+    errors: _Numbers = ()
+    """Errors on held-out moments, at equal distances of gradient steps."""
+    is_done: bool = False
+    """True if the network lies in the room's folder, for the room to take."""
+    problem: Text = ""
+    """Sentence about why it brought nothing; empty if it is under way or done."""
+    decisions: Int = 0
+    """Decisions that it learned from; 0 until it is done."""
+    alike: Finite = 0.0
+    """Share of held-out moments in which the network acts like the person."""
+    commonest: Finite = 0.0
+    """The same share for always doing what was done most often."""
+    held_out: Int = 0
+    """Held-out moments."""
+    starts: Int = 0
+    """Starts from which the network was tried; 0 if it was not."""
+    successes: Int = 0
+    """Starts from which it reached the goal."""
+    has_all_starts: bool = False
+    """True if the scene has no other starts."""
+    remarks: Annotated[tuple[Text, ...], LIST] = ()
+    """Sentences about what is wrong with the drives."""
+
+    @property
+    def is_over(self) -> bool:
+        """True once it is done, has failed or was stopped."""
+        return self.is_done or bool(self.problem)
+
+
+class Practised(Record, frozen=True):
+    """A practice in the class's process; what it has reached lies in its folder."""
+
+    key: Text
+    practice: Text
+    """Name of its folder."""
+    place: Int = 0
+    """Place in the line, from 1; 0 if it practises or is over."""
+    is_over: bool = False
+    problem: Text = ""
+    """Sentence about why it ended early; empty if it did not."""
+
+
+class RoomTrainings(TaggedMessage, frozen=True, tag="trainings"):
+    """The latest training of a room, and its practices."""
+
+    trainings: Annotated[tuple[Training, ...], LIST]
+    """None before the first one."""
+    practices: Annotated[tuple[Practised, ...], LIST] = ()
+    """Practices that are under way, and the latest ones that are over."""
 
 
 class Person(Record, frozen=True):
@@ -344,12 +439,16 @@ FromRoom = (
     | EpisodeResult
     | ExerciseResult
     | HandedInNetwork
+    | Learn
+    | Practise
+    | StopTraining
     | Applied
 )
 FromClass = (
     LinkWelcome
     | Ack
     | HandedIn
+    | RoomTrainings
     | People
     | Assignment
     | Attention
@@ -358,7 +457,7 @@ FromClass = (
     | LinkProblem
 )
 Result = EpisodeResult | ExerciseResult
-Delivery = Result | HandedInNetwork
+Delivery = Result | HandedInNetwork | Learn | Practise | StopTraining
 """Messages that a room sends again until they are acknowledged."""
 
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)

@@ -13,11 +13,13 @@ from tests.teach.driving import teaching_room
 
 
 @contextmanager
-def teach_tab(chromium: Browser, folder: Path) -> Iterator[tuple[Locator, PanelRoom]]:
-    """Open the tab of box_chase with a work folder; no script of the page may fail."""
+def teach_tab(
+    chromium: Browser, folder: Path, *, scene: str = "box_chase"
+) -> Iterator[tuple[Locator, PanelRoom]]:
+    """Open the tab of a scene with a work folder; no script of the page may fail."""
     page, problems = new_page(chromium), list[str]()
     page.on("pageerror", lambda error: problems.append(str(error)))
-    with teaching_room(folder) as room:
+    with teaching_room(folder, scene) as room:
         WITHOUT_VISER.serve(page, room.url)
         page.goto(room.url)
         page.get_by_role("tab", name="Teach").click()

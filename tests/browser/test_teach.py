@@ -6,10 +6,16 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 
+from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.teach.drives import DriveFolder
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
+from tests.browser.plain_page import CLASS_ROOM, WITHOUT_VISER
 from tests.browser.teach_tab import teach_tab
+from tests.chromium import new_page
+from tests.classroom.served_class import served_class
+from tests.classroom.test_trainings import driver, learn, learner, page_of
 from tests.teach.driving import SEEDS, drive
 from tests.waiting import until
 
@@ -63,6 +69,7 @@ def test_a_robot_practises_for_rewards_until_it_is_stopped(
         tab.get_by_role("button", name="Practise").click()
         expect(page.get_by_text("Each reward needs a number")).to_be_visible()
         touch.fill("2")
+        expect(tab.get_by_label("Against")).to_be_hidden()
         tab.get_by_label("Length").select_option("Long")
         tab.get_by_role("button", name="Practise").click()
         expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
@@ -99,3 +106,85 @@ def test_a_slider_shows_how_a_network_got_better(chromium: Browser, tmp_path: Pa
         until(lambda: not room.runner.latest.past)
         page.get_by_role("tab", name="Past").click()
         expect(page.get_by_text("network 1 after 1,024 decisions").first).to_be_visible()
+
+
+def test_a_robot_practises_against_the_side_that_was_chosen(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    with teach_tab(chromium, tmp_path, scene="sumo") as (tab, _):
+        against = tab.get_by_label("Against")
+        expect(against).to_have_value("player")
+        expect(against.get_by_role("option")).to_have_text(["The scene's player", "Itself"])
+        against.select_option("Itself")
+        tab.get_by_role("button", name="Practise", exact=True).click()
+        card = tab.get_by_role("article")
+        expect(card).to_contain_text("decisions against itself, goal reached")
+        expect(against.get_by_role("option")).to_have_count(3)
+        against.select_option("Network 1")
+        tab.get_by_label("Length").select_option("Long")
+        tab.get_by_role("button", name="Practise", exact=True).click()
+        expect(tab.get_by_role("progressbar", name="Practice")).to_be_visible()
+        tab.get_by_role("button", name="Stop").click()
+        expect(tab.get_by_text("The practice was stopped.")).to_be_visible()
+
+
+def test_networks_are_opened_compared_and_deleted(chromium: Browser, tmp_path: Path) -> None:
+    about = KeptNetwork(0, "First", "0", "learned", score=NetworkScore.of(7, 8, has_all=True))
+    NetworkFolder(tmp_path / "networks").add("box_chase", b"not asked to drive", about)
+    with teach_tab(chromium, tmp_path) as (tab, _):
+        page = tab.page
+        with page.expect_file_chooser() as chooser:
+            tab.get_by_role("button", name="Open a file").click()
+        chooser.value.set_files(zoo.network_of("box_chase"))
+        cards = tab.get_by_role("article")
+        expect(cards).to_have_count(2)
+        card = cards.filter(has_text="opened from the file box_chase.onnx")
+        card.get_by_role("button", name="box_chase").click()
+        expect(card.get_by_text("It reaches the goal from all 8 starts.")).to_be_visible()
+        card.get_by_role("button", name="Compare").click()
+        dialog = page.get_by_role("dialog", name="Compare networks")
+        expect(dialog.get_by_role("combobox", name="With")).to_have_value("1")
+        expect(dialog.get_by_role("row", name="Goal")).to_have_text(re.compile("100%.*88%"))
+        dialog.get_by_role("button", name="Close").click()
+        card.get_by_role("button", name="Let it drive").click()
+        expect(card.get_by_text("drives", exact=True)).to_be_visible()
+        card.get_by_role("button", name="Delete").click()
+        question = page.get_by_role("dialog", name="Delete box_chase?")
+        question.get_by_role("button", name="Cancel").click()
+        expect(cards).to_have_count(2)
+        card.get_by_role("button", name="Delete").click()
+        question.get_by_role("button", name="Delete").click()
+        expect(cards).to_have_count(1)
+
+
+@pytest.mark.slow
+def test_a_student_in_a_class_waits_for_a_turn_and_gets_the_network(
+    chromium: Browser, tmp_path: Path
+) -> None:
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    WITHOUT_VISER.serve(page, CLASS_ROOM)
+    with served_class(tmp_path) as served:
+        ada, ben = driver(served), driver(served)
+        for name, value in ben.client.cookies.items():
+            page.context.add_cookies([{"name": name, "value": value, "url": served.url}])
+        with page_of(ada) as hers:
+            learn(hers)
+            process = learner(served)
+            page.goto(ben.address)
+            page.get_by_role("tab", name="Teach").click()
+            tab = page.get_by_role("tabpanel", name="Teach")
+            button = tab.get_by_role("button", name="Learn from 5 drives")
+            button.click()
+            expect(tab.get_by_text("Your place in the line: 2.")).to_be_visible()
+            expect(button).to_be_disabled()
+            process.resume()
+            expect(tab.get_by_text("It acts like you in")).to_contain_text("drives now")
+            expect(tab.get_by_role("article").get_by_text("drives", exact=True)).to_be_visible()
+            expect(tab.get_by_role("button", name="Practise")).to_be_visible()
+            expect(page.get_by_text("Try many")).to_be_hidden()
+        page.goto(f"{served.url}teacher?token={served.token}")
+        cards = page.get_by_role("button", name=re.compile("learned: [0-9]+% alike"))
+        expect(cards).to_have_count(2)
+        page.context.close()
+    assert problems == []

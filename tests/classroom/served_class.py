@@ -66,6 +66,12 @@ class ServedClass:
         found: dict[str, Any] = answer.json()
         return found
 
+    def networks(self, room: str) -> list[dict[str, Any]]:
+        """Return the networks that learned in a room, as the teacher's page lists them."""
+        url = f"{self.url}teacher/networks?room={room}"
+        answer = http_client.get(url, headers=self._auth())
+        return list(answer.json()["networks"])
+
     def command(self, do: str, **rest: Any) -> httpx.Response:
         """Send a teacher's command."""
         body = {"do": do, **rest}

@@ -17,6 +17,7 @@ from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.cli.main import app
 from ai4u_edu.learn.training import clone, demonstrate, evaluate, export, train
+from ai4u_edu.learn.training.assigned import with_drivers
 from ai4u_edu.learn.training.run import Run
 from tests.learn.small.corridor import corridor
 from tests.waiting import LIMIT_S, until
@@ -152,12 +153,59 @@ def test_a_clone_of_the_command_line_says_how_good_it_is(scene: str, tmp_path: P
     assert "c.onnx" in done.output
 
 
+BRIEF = {"check_episodes": 2, "max_steps": 20}
+
+
+def test_a_network_that_learned_against_itself_goes_on_and_drives_both_sides(
+    tmp_path: Path,
+) -> None:
+    out = tmp_path / "run"
+    train("sumo", steps=256, against="self", out=out, settings=BRIEF, quiet=True)
+    config = Run(out).config()
+    assert (config.trainer, config.against, config.settings.agent) == ("small", "self", "blue")
+    assert train(resume=True, out=out, steps=2304, quiet=True).steps == 4096
+    network = str(Run(out).best_network)
+    drivers = [f"{agent}={network}" for agent in ("blue", "orange")]
+    sim, _ = with_drivers(Scene.load("sumo"), drivers)
+    sim.reset(1)
+    for agent in sim.agents:
+        sim.step(agent)
+        assert agent.last_action["move"]
+
+
+def test_a_network_to_learn_against_is_kept_in_the_folder(tmp_path: Path) -> None:
+    first, out = tmp_path / "first", tmp_path / "run"
+    train(
+        "sumo", steps=256, against="player", agent="orange", out=first, settings=BRIEF, quiet=True
+    )
+    assert Run(first).config().settings.agent == "orange"
+    network = first / "best.onnx"
+    train("sumo", steps=256, against=network, out=out, settings=BRIEF, quiet=True)
+    assert Run(out).opponent.read_bytes() == network.read_bytes()
+    network.unlink()
+    assert train(resume=True, out=out, steps=2304, quiet=True).steps == 4096
+    best = Run(out).best_network.read_bytes()
+    network = out / "best.onnx"
+    train("sumo", steps=256, against=network, out=out, settings=BRIEF, overwrite=True, quiet=True)
+    assert Run(out).opponent.read_bytes() == best
+
+
+def test_the_command_says_who_can_play_the_other_side(tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    words = ["train", "tag", "--against", "self", "--agent", "chaser", "--out", str(out)]
+    done = CliRunner().invoke(app, words)
+    assert done.exit_code == 1
+    assert "'chaser' can't play against itself" in str(done.exception)
+    assert not out.exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         ({"trainer": "smal"}, "trainer: expected one of sb3, small, got 'smal'; did you mean"),
         ({"trainer": "small", "algo": "sac"}, "algo: the trainer 'small' has no such choice"),
         ({"trainer": "small", "watch": True}, "watch: the trainer 'small' has no such choice"),
+        ({"trainer": "sb3", "against": "self"}, "against: the trainer 'sb3' has no such choice"),
         ({"trainer": "sb3", "begin_with": "a.onnx"}, "begin_with: the trainer 'sb3' has no such"),
         ({"reward_weights": {"toch": 2.0}}, "no reward term is called 'toch'; did you mean"),
     ],

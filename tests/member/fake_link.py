@@ -13,10 +13,10 @@ from ai4u_edu.recording import Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.class_link import (
+    Delivery,
     EpisodeResult,
     FromClass,
     FromRoom,
-    Result,
     State,
     decode_from_room,
     encode_from_room,
@@ -34,7 +34,7 @@ class FakeLink:
     def __init__(self, receive: Receive) -> None:
         self.receive = receive
         self.sent: list[FromRoom] = []
-        self.results: list[Result] = []
+        self.results: list[Delivery] = []
         self._is_connected = True
         self.asked = 0
         """Number of times that the member has asked for a link: a few in each poll."""
@@ -59,7 +59,7 @@ class FakeLink:
         assert decode_from_room(encode_from_room(message)) == message
         self.sent.append(message)
 
-    def send_result(self, result: Result) -> None:
+    def send_result(self, result: Delivery) -> None:
         assert decode_from_room(encode_from_room(result)) == result
         self.results.append(result)
 

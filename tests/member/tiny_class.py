@@ -16,14 +16,13 @@ from ai4u_edu.wire.class_link import (
     SUBPROTOCOL,
     VERSION,
     Ack,
-    EpisodeResult,
-    ExerciseResult,
+    Delivery,
     FromClass,
     FromRoom,
-    HandedInNetwork,
     LinkHello,
     LinkProblem,
     LinkWelcome,
+    Result,
     State,
     decode_from_room,
     encode_from_class,
@@ -67,7 +66,7 @@ class TinyClass:
     @property
     def results(self) -> list[str]:
         """Keys of the results, each time that they came."""
-        return [each.key for each in self.got if isinstance(each, EpisodeResult | ExerciseResult)]
+        return [each.key for each in self.got if isinstance(each, Result)]
 
     @property
     def states(self) -> list[State]:
@@ -131,10 +130,7 @@ class TinyClass:
             while True:
                 message = decode_from_room(connection.recv(decode=False))
                 self.got.append(message)
-                if (
-                    isinstance(message, EpisodeResult | ExerciseResult | HandedInNetwork)
-                    and self.is_acknowledging
-                ):
+                if isinstance(message, Delivery) and self.is_acknowledging:
                     send(Ack(message.key))
         except ConnectionClosed:
             pass

@@ -13,7 +13,7 @@ from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.teach import learning, networks
-from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeRequest
+from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeProcess, PracticeRequest
 from tests.page.panel.rooms import PanelPage, PanelRoom
 from tests.playing import Played, played
 from tests.teach.driving import teaching_room
@@ -183,7 +183,13 @@ def test_a_block_that_fails_or_hangs_is_named(tmp_path: Path, body: str, problem
         ends: list[Practice] = []
         request = PracticeRequest(scene.dumps(), "box_chase", "", "0", SOON, 0, {})
         folder, request = PracticeFolder(tmp_path / "practices").add("box_chase", request)
-        practice = Practice(folder, request, on_progress=lambda _: None, on_end=ends.append)
+        practice = Practice(
+            folder,
+            request,
+            start=lambda _, given: PracticeProcess(given),
+            on_progress=lambda _: None,
+            on_end=ends.append,
+        )
         practice.go_on()
         until(lambda: ends)
         assert problem in practice.problem
@@ -238,6 +244,30 @@ def test_a_practice_that_can_not_begin_says_why(page: PanelPage) -> None:
         in page.failed("teach_practise", steps=SOON, weights={}, begin_with=7)["text"]
     )
     assert page.done("teach_stop_practising")["text"] == "Nothing practises now."
+
+
+def test_a_scene_with_one_side_offers_no_opponent(page: PanelPage) -> None:
+    assert page.parts["teach"]["opponents"] == []
+    answer = page.failed("teach_practise", steps=SOON, weights={}, against="self")
+    assert "nobody can play against this robot in that way" in answer["text"]
+
+
+def test_a_network_practises_against_the_scenes_player_itself_and_a_network(tmp_path: Path) -> None:
+    with teaching_room(tmp_path, "sumo") as room, room.page() as page:
+        part = page.part("teach", lambda part: part["rewards"])
+        assert part["opponents"] == ["player", "self", "file"]
+        page.done("teach_practise", steps=SOON, weights={}, against="player")
+        page.part("teach", lambda part: len(part["networks"]) == 1)
+        page.done("teach_practise", steps=SOON, weights={}, against="self")
+        part = page.part("teach", lambda part: len(part["networks"]) == 2)
+        assert part["practice"]["problem"] == ""
+        assert "against itself" in part["networks"][0]["how"]
+        assert "against the scene's player" in part["networks"][1]["how"]
+        answer = page.failed("teach_practise", steps=SOON, weights={}, against="file")
+        assert "expected the network to play against" in answer["text"]
+        page.done("teach_practise", steps=SOON, weights={}, against="file", opponent=2)
+        part = page.part("teach", lambda part: len(part["networks"]) == 3)
+        assert "against Network 2" in part["networks"][0]["how"]
 
 
 def test_whoever_has_taken_over_goes_on_driving(room: PanelRoom, page: PanelPage) -> None:

@@ -14,10 +14,10 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.recording import Episode
-from ai4u_edu.teach import learning, teachable
+from ai4u_edu.teach import learning, scene_work
 from ai4u_edu.teach.drives import DriveFolder
 from ai4u_edu.teach.messages import TeachPart
-from ai4u_edu.teach.teachable import reason_against_teaching
+from ai4u_edu.teach.scene_work import reason_against_teaching
 from tests.page.panel.rooms import Message, PanelPage, PanelRoom
 from tests.teach.driving import SEEDS, drive, steer, teaching_room
 from tests.waiting import until
@@ -219,9 +219,9 @@ def test_an_agent_that_can_not_be_taught_has_a_reason() -> None:
 
     assert reason() == ""
     blind = [(f"- type: {each}", f"- is_input: false\n        type: {each}") for each in SENSORS]
-    assert reason(*blind) == teachable.NO_SENSOR
+    assert reason(*blind) == scene_work.NO_SENSOR
     free = ("- type: RBMoveActuator", "- is_output: false\n        type: RBMoveActuator")
-    assert reason(free) == teachable.NO_ACTUATOR
+    assert reason(free) == scene_work.NO_ACTUATOR
     soccer = Scene.load("soccer").build()
     soccer.reset(0)
     assert {reason_against_teaching(agent) for agent in soccer.agents} == {""}

@@ -664,6 +664,8 @@ export interface LearningState {
   is_over: boolean;
   /** Sentence about why it brought nothing; empty if it is under way or done. */
   problem: string;
+  /** Sentence about what it waits for; empty if it learns or is over. */
+  waiting: string;
   /** Errors on held-out moments, at equal distances of gradient steps. */
   errors: number[];
   /** Drives that it learns from. */
@@ -683,6 +685,8 @@ export interface PracticeState {
   phase: "over" | "paused" | "running";
   /** Sentence about why it ended early; empty if it did not. */
   problem: string;
+  /** Sentence about what it waits for; empty if it learns, is paused or over. */
+  waiting: string;
   /** Agent and scene, if they are not what the page shows; empty otherwise. */
   elsewhere: string;
   /** True if the scene was changed since; it goes on in the scene as it was. */
@@ -701,6 +705,17 @@ export interface PracticeState {
   success: number | null;
 }
 
+/** Starts from which a network reaches the goal. */
+export interface NetworkScore {
+  successes: number;
+  starts: number;
+  /** True if the scene has no other starts. */
+  has_all: boolean;
+  /** Lower end of the 95% confidence interval of the share; the share itself for all starts. */
+  low: number;
+  high: number;
+}
+
 /** A network that learned in this scene. */
 export interface TaughtNetwork {
   /** Number among those of its scene. */
@@ -714,6 +729,8 @@ export interface TaughtNetwork {
   facts: string[];
   /** Decisions of its practice after which an episode was kept, ascending. */
   replays: number[];
+  /** Starts from which it reaches the goal; null if that is not known. */
+  score: NetworkScore | null;
   /** True if it drives the agent now. */
   is_driving: boolean;
 }
@@ -732,6 +749,8 @@ export interface TeachPart {
   learning: LearningState | null;
   /** Names of the agent's reward terms. */
   rewards: string[];
+  /** Possible players of the other side in a practice; empty in a scene without one. */
+  opponents: ("file" | "player" | "self")[];
   /** The practice that runs or is paused, or the agent's latest one; null if there is none. */
   practice: PracticeState | null;
   /** Decisions that such a practice learns from in a second; null before the first check. */
@@ -740,6 +759,8 @@ export interface TeachPart {
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
   max_networks: number;
+  /** True if a network in a file can be opened here; a room of a class can't check one. */
+  can_open: boolean;
   /** Sentence about why a drive could not be kept; empty if all could. */
   warning: string;
 }
@@ -1200,6 +1221,8 @@ export interface Decision {
 /** Delete a network. */
 export interface DeleteNetwork {
   network: number;
+  /** True deletes one that drives, too; the scene's own driver takes its place. */
+  even_if_driving?: boolean;
 }
 
 /** Delete the unsaved scene. */
@@ -1344,6 +1367,13 @@ export interface OpenMission {
   step?: number;
 }
 
+/** Keep the network in the file that the page has sent. */
+export interface OpenNetwork {
+  /** Name of the file. */
+  name: string;
+  size: number;
+}
+
 /** Open the recording that was sent in binary messages before. */
 export interface OpenRecording {
   name: string;
@@ -1388,6 +1418,10 @@ export interface PractiseForRewards {
   weights: Record<string, number>;
   /** Number of a network to begin with; null for a new one. */
   begin_with?: number | null;
+  /** Player of the other side; null if all others are driven as the scene says. */
+  against?: "file" | "player" | "self" | null;
+  /** Number of the network that plays the other side; null for none. */
+  opponent?: number | null;
 }
 
 /** Multiply the scene's own rewards of the page's agent by factors. */
@@ -1662,6 +1696,7 @@ export interface Commands {
   teach_forget_drive: ForgetDrive;
   teach_go_on: GoOnPractising;
   teach_learn: LearnFromDrives;
+  teach_open: OpenNetwork;
   teach_pause: PausePractising;
   teach_practise: PractiseForRewards;
   teach_put_rewards: PutRewards;

@@ -29,10 +29,11 @@ export class LearningView {
 }
 
 /** @param {LearningState} learning */
-function sentenceOf({ is_over: isOver, problem, drives, alike, commonest }) {
+function sentenceOf({ is_over: isOver, problem, waiting, drives, alike, commonest }) {
   const from = `${drives} drive${drives === 1 ? "" : "s"}`;
   if (problem === "stopped") return "The learning was stopped.";
   if (problem) return `It could not learn: ${problem}.`;
+  if (waiting) return waiting;
   if (!isOver) return `It learns from ${from}…`;
   return `It acts like you in ${percent(alike)} of moments that it had not seen, and drives now. Always doing the same would be alike in ${percent(commonest)}.`;
 }

@@ -4,11 +4,15 @@
  * @import { TaughtNetwork, TeachPart } from "../generated/messages.js"
  * @import { Panel } from "../panel/panel.js"
  */
-import { button, element, keyed, setText } from "../shared/dom.js";
+import { ask } from "../shared/dialog.js";
+import { button, element, keyed, setText, tableHead } from "../shared/dom.js";
 import { field, showForm } from "../shared/form_dialog.js";
+import { percent } from "../shared/numbers.js";
 import { Card } from "../panel/widgets/card.js";
+import { choice } from "../panel/widgets/parts.js";
 
 const MAX_TITLE_CHARS = 40;
+const MAX_NETWORK_MB = 5;
 
 export class Networks {
   #panel;
@@ -20,18 +24,27 @@ export class Networks {
   #open = /** @type {number | null} */ (null);
   /** @type {TeachPart | null} */
   #part = null;
-  element = element("div", { className: "ai4u-card-list" });
+  #list = element("div", { className: "ai4u-card-list" });
+  #file = element("input", { type: "file", accept: ".onnx", hidden: true });
+  #opener = button("Open a file", () => this.#file.click(), { icon: "open" });
+  element = element("div", {}, this.#list, element("div", { className: "ai4u-tools" }, this.#opener, this.#file));
 
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
+    this.#file.addEventListener("change", () => {
+      const [file] = this.#file.files;
+      this.#file.value = ""; // the same file can be chosen again
+      if (file) void this.#openFile(file);
+    });
   }
 
   /** @param {TeachPart} part */
   update(part) {
     this.#part = part;
+    this.#opener.hidden = !part.can_open;
     keyed(
-      this.element,
+      this.#list,
       part.networks,
       ({ number }) => number,
       (network) => this.#card(network).element,
@@ -47,16 +60,16 @@ export class Networks {
         if (this.#part) this.update(this.#part);
       },
     });
-    const send = (/** @type {"teach_drive" | "teach_delete"} */ command) => this.#panel.send(command, { network: number });
     card.body.append(
       element(
         "div",
         { className: "ai4u-tools" },
-        button("Let it drive", () => send("teach_drive"), { icon: "play", kind: "main" }),
+        button("Let it drive", () => this.#panel.send("teach_drive", { network: number }), { icon: "play", kind: "main" }),
         button("Why?", () => void this.#explain(number), { icon: "rays", title: "Let it drive, and see in Drive why it acts so" }),
         button("Rename", () => void this.#rename(number), { icon: "text" }),
         button("Download", () => void this.#download(number), { icon: "download" }),
-        button("Delete", () => send("teach_delete"), { icon: "trash", kind: "danger" }),
+        button("Compare", () => void this.#compare(number), { icon: "race" }),
+        button("Delete", () => void this.#delete(number), { icon: "trash", kind: "danger" }),
       ),
     );
     const details = new Details(this.#panel, number);
@@ -82,12 +95,52 @@ export class Networks {
 
   /** @param {number} number */
   async #rename(number) {
-    const network = this.#part?.networks.find((each) => each.number === number);
-    const input = element("input", { type: "text", maxLength: MAX_TITLE_CHARS, value: network?.title ?? "", required: true });
+    const { title } = this.#network(number);
+    const input = element("input", { type: "text", maxLength: MAX_TITLE_CHARS, value: title, required: true });
     await showForm({ title: "Rename the network", content: [field("Name", input)], yes: "Rename" }, async () => {
       const answer = await this.#panel.send("teach_rename", { network: number, title: input.value }, { quiet: true });
       if (!answer.ok) throw new Error(answer.text);
     });
+  }
+
+  /** @param {File} file */
+  async #openFile(file) {
+    if (file.size > MAX_NETWORK_MB * 2 ** 20) {
+      const text = `expected a network (.onnx) of at most ${MAX_NETWORK_MB} MB, got ${(file.size / 2 ** 20).toFixed(1)} MB`;
+      this.#panel.notice(`${file.name}: ${text}.`, "error");
+      return;
+    }
+    this.#opener.disabled = true;
+    await this.#panel.sendFile("teach_open", file);
+    this.#opener.disabled = false;
+  }
+
+  /** Ask before the driver of the robot is deleted. @param {number} number */
+  async #delete(number) {
+    const { title, is_driving: isDriving } = this.#network(number);
+    const text = "It drives the robot now. The scene's own driver takes its place.";
+    if (isDriving && !(await ask({ title: `Delete ${title}?`, text, yes: "Delete" }))) return;
+    await this.#panel.send("teach_delete", { network: number, even_if_driving: isDriving });
+  }
+
+  /** Show a network beside another one. @param {number} number */
+  async #compare(number) {
+    const others = this.#part.networks.filter((network) => network.number !== number);
+    if (others.length === 0) {
+      this.#panel.notice("There is no other network of this scene to compare it with.", "error");
+      return;
+    }
+    const table = element("table", { className: "ai4u-table" });
+    const draw = (/** @type {string} */ other) => table.replaceChildren(...comparison(this.#network(number), this.#network(Number(other))));
+    const chosen = choice("With", draw);
+    chosen.set(others.map((other) => ({ value: String(other.number), text: other.title })), String(others[0].number));
+    draw(String(others[0].number));
+    await showForm({ title: "Compare networks", content: [chosen.element, table], no: "Close" });
+  }
+
+  /** @param {number} number */
+  #network(number) {
+    return this.#part.networks.find((network) => network.number === number);
   }
 
   /** @param {number} number */
@@ -99,6 +152,31 @@ export class Networks {
     element("a", { href: url, download: name }).click();
     URL.revokeObjectURL(url);
   }
+}
+
+/**
+ * Return the rows of a table about two networks.
+ * @param {TaughtNetwork} one
+ * @param {TaughtNetwork} other
+ */
+function comparison(one, other) {
+  /** @type {[string, (network: TaughtNetwork) => string][]} */
+  const rows = [
+    ["Goal", ({ score }) => (score === null ? "not tried" : percent(score.successes / score.starts))],
+    ["From", ({ score }) => (score === null ? "" : score.has_all ? `all ${score.starts} starts` : `${score.starts} new starts`)],
+    ["95% between", ({ score }) => (score === null || score.has_all ? "" : `${percent(score.low)} and ${percent(score.high)}`)],
+    ["Learned", ({ how }) => how],
+    ["Made on", ({ made_at: madeAt }) => (madeAt ? new Date(1000 * madeAt).toLocaleString() : "")],
+  ];
+  const line = (/** @type {string} */ name, /** @type {(network: TaughtNetwork) => string} */ cell) =>
+    element(
+      "tr",
+      {},
+      element("th", { scope: "row", textContent: name }),
+      ...[one, other].map((network) => element("td", { textContent: cell(network) })),
+    );
+  const differing = rows.filter(([, cell]) => cell(one) || cell(other));
+  return [tableHead("", one.title, other.title), element("tbody", {}, ...differing.map(([name, cell]) => line(name, cell)))];
 }
 
 /** The making of a network in words, and a slider through the episodes of its practice. */

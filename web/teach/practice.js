@@ -1,7 +1,7 @@
 /** Practice for rewards: what each of them is worth, for how long, and how it goes. */
 
 /**
- * @import { PracticeState, TeachPart } from "../generated/messages.js"
+ * @import { PracticeState, PractiseForRewards, TeachPart } from "../generated/messages.js"
  * @import { Panel } from "../panel/panel.js"
  */
 import { button, element, keyed, setText } from "../shared/dom.js";
@@ -16,6 +16,9 @@ const LENGTHS = [
   { value: "131072", text: "Long" },
 ];
 const NEW = "";
+/** Players of the other side, besides networks, by the name in the command. */
+const OPPONENTS = { player: "The scene's player", self: "Itself" };
+const NOBODY = "";
 
 export class PracticeView {
   #panel;
@@ -23,6 +26,8 @@ export class PracticeView {
   #beginWith = NEW;
   #weights = element("div", { role: "group", ariaLabel: "Worth of each reward" });
   #length = choice("Length", (value) => (this.#steps = value));
+  #opponent = NOBODY;
+  #against = choice("Against", (value) => (this.#opponent = value));
   #begin = choice("Begin with", (value) => (this.#beginWith = value));
   #start = button("Practise", () => void this.#practise(), { icon: "target", kind: "main" });
   #put = button("Put into the scene", () => void this.#putIntoScene(), { icon: "scenes" });
@@ -41,7 +46,7 @@ export class PracticeView {
   constructor(panel) {
     this.#panel = panel;
     this.#tools = element("div", { className: "ai4u-tools" }, this.#start, this.#goOn, this.#pause, this.#stop, this.#put);
-    const settings = [this.#weights, this.#length.element, this.#begin.element];
+    const settings = [this.#weights, this.#against.element, this.#length.element, this.#begin.element];
     this.element.append(...settings, this.#tools, this.#bar, this.#left, this.#curve.element, this.#text, this.#hint);
   }
 
@@ -49,7 +54,7 @@ export class PracticeView {
    * @param {TeachPart} part
    * @param {boolean} isLearning true while a network learns from drives
    */
-  update({ decisions_per_s: speed, networks, practice, rewards }, isLearning) {
+  update({ decisions_per_s: speed, networks, opponents, practice, rewards }, isLearning) {
     this.#length.set(
       LENGTHS.map(({ value, text }) => ({ value, text: speed ? `${text}, about ${roughly(Number(value) / speed)}` : text })),
       this.#steps,
@@ -58,6 +63,12 @@ export class PracticeView {
     const kept = networks.map(({ number, title }) => ({ value: String(number), text: title }));
     if (!kept.some(({ value }) => value === this.#beginWith)) this.#beginWith = NEW;
     this.#begin.set([{ value: NEW, text: "A new network" }, ...kept], this.#beginWith);
+    const others = opponents.flatMap((kind) => (kind === "file" ? kept : [{ value: kind, text: OPPONENTS[kind] }]));
+    // a keyboard's player rests, and practice against nobody is better than none
+    if (!opponents.includes("player")) others.unshift({ value: NOBODY, text: "Nobody" });
+    if (!others.some(({ value }) => value === this.#opponent)) this.#opponent = others[0].value;
+    this.#against.element.hidden = opponents.length === 0;
+    this.#against.set(others, this.#opponent);
     const phase = practice === null ? "over" : practice.phase;
     const focused = document.activeElement;
     this.#start.hidden = phase !== "over";
@@ -71,7 +82,7 @@ export class PracticeView {
     }
     this.#bar.hidden = phase === "over";
     this.#bar.value = practice === null ? 0 : practice.decisions / practice.total;
-    this.#left.hidden = phase !== "running" || practice.seconds_left === null;
+    this.#left.hidden = phase !== "running" || practice.seconds_left === null || practice.waiting !== "";
     setText(this.#left, this.#left.hidden ? "" : `At most ${roughly(practice.seconds_left)} left`);
     this.#curve.update(practice?.rewards ?? []);
     setText(this.#text, practice === null ? "" : sentenceOf(practice));
@@ -83,7 +94,11 @@ export class PracticeView {
     const weights = this.#chosenWeights();
     if (weights === null) return;
     const beginWith = this.#beginWith === NEW ? null : Number(this.#beginWith);
-    await this.#panel.send("teach_practise", { steps: Number(this.#steps), weights, begin_with: beginWith }, { quiet: true });
+    const opponent = /^\d+$/.test(this.#opponent) ? Number(this.#opponent) : null;
+    const player = /** @type {PractiseForRewards["against"]} */ (this.#opponent || null);
+    const against = opponent === null ? player : /** @type {const} */ ("file");
+    const more = { begin_with: beginWith, against, opponent };
+    await this.#panel.send("teach_practise", { steps: Number(this.#steps), weights, ...more }, { quiet: true });
   }
 
   /** The factors become the scene's own amounts, so that they are 1 then. */
@@ -117,14 +132,15 @@ function weightRow(name) {
 }
 
 /** @param {PracticeState} practice */
-function sentenceOf({ phase, problem, decisions, success, elsewhere, is_scene_changed: isSceneChanged }) {
+function sentenceOf({ phase, problem, waiting, decisions, success, elsewhere, is_scene_changed: isSceneChanged }) {
   const reached = success === null ? "" : ` It reaches the goal from ${percent(success)} of its starts.`;
   if (problem === "stopped") return `The practice was stopped.${reached}`;
   if (problem) return `It could not go on: ${problem}.`;
   const count = decisions.toLocaleString("en");
   const who = elsewhere ? `The ${elsewhere}` : "It";
   if (phase === "over") return `${who} has practised for ${count} decisions, and drives now.${reached}`;
+  if (waiting && decisions === 0) return waiting;
   const waits = phase === "paused" ? ", and waits for you" : "";
   const scene = isSceneChanged ? " It practises in the scene as it was before your changes." : "";
-  return `${who} has practised for ${count} decisions${waits}.${reached}${scene}`;
+  return `${who} has practised for ${count} decisions${waits}.${reached}${scene}${waiting && ` ${waiting}`}`;
 }

@@ -25,10 +25,21 @@ export interface Room {
   falls: number;
   is_solved: boolean;
   error: string;
-  /** These three are for the teacher alone. */
+  /** These five are for the teacher alone. */
+  learning?: string;
+  is_learning?: boolean;
   help?: number;
   why?: string;
   look_in?: string;
+}
+
+/** A network that learned in a room. */
+export interface RoomNetwork {
+  scene: string;
+  /** Number among those of the scene. */
+  number: number;
+  title: string;
+  how: string;
 }
 
 export interface Attention {

@@ -39,7 +39,7 @@ class ProcessEngine:
     """
 
     def __init__(self, width: int | None = None) -> None:
-        self.width = width or _cores()
+        self.width = width or core_count()
         # in one list from before their start to after their end: Ctrl-C may come at any moment, and
         # Python waits at its end for a process that was not ended
         self._workers: list[_Worker] = []
@@ -161,7 +161,8 @@ class _Worker:
         return f"exit code {code}"
 
 
-def _cores() -> int:
+def core_count() -> int:
+    """Return the count of processor cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1

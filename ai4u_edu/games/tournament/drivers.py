@@ -126,7 +126,7 @@ def make(
     if kind == "network":
         return _network(driver, own, folder)
     if kind == "scene":
-        return _scripted(sim, sides, agent)
+        return scripted(sim, sides, agent)
     if kind == "episode":
         return _recorded(driver, sides, agent, own)
     if kind == ANSWERS:
@@ -149,7 +149,7 @@ def scripted_agents(scene: Scene, sides: Sides) -> frozenset[str]:
     found = set()
     for agent in sim.agents:
         with suppress(BlockError):
-            _scripted(sim, sides, agent)
+            scripted(sim, sides, agent)
             found.add(agent.id)
     return frozenset(found)
 
@@ -186,8 +186,12 @@ def _network(driver: Driver, own: Brain, folder: Path) -> Made:
     return Made(controller, given.skip_frame, given.repeat_action)
 
 
-def _scripted(sim: ControlRequestor, sides: Sides, agent: BasicAgent) -> Made:
-    """Return the scene's scripted controller for an agent, or that of its counterpart."""
+def scripted(sim: ControlRequestor, sides: Sides, agent: BasicAgent) -> Made:
+    """Return the scene's scripted controller for an agent, or that of its counterpart.
+
+    Raises:
+        BlockError: neither has one.
+    """
     for name in filter(None, (agent.id, sides.counterpart(agent.id))):
         for brain in sim.agent(name).brains:
             controller = getattr(brain, "controller", None)

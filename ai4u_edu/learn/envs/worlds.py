@@ -1,5 +1,6 @@
 """Many copies of a scene in one process that share one set of arrays."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,24 +17,33 @@ class Worlds:
     Args:
         count: number of worlds.
         scene: a name out of the library, a YAML file, or a Scene.
+        agents: ids of the agents that learn; the worlds take turns with them. Left out, the one
+            that the options name, or that acts first.
         options: those of :class:`SceneEnv`.
 
     Attributes:
         envs: one environment a world.
+        agents: those that learn, one a row of the arrays.
         space, action_space: of all worlds together, as Gymnasium batches them.
         observations: the latest of each world; written in place.
         rewards: (count,) float64, of the last decisions.
         terminated, truncated: (count,) bool, by the last decisions.
     """
 
-    def __init__(self, count: int, scene: SceneLike, **options: Any) -> None:
+    def __init__(
+        self, count: int, scene: SceneLike, *, agents: Sequence[str] = (), **options: Any
+    ) -> None:
         if count < 1:
             raise SetupError(f"num_envs: expected at least 1, got {count}")
         loaded = load_scene(scene)
+        if agents:
+            options["agent"] = agents[0]
         one = SceneEnv(loaded, **options)
         # what one world warns of, the others need not
-        options["agent"] = one.agent.id
-        self.envs = [one, *(SceneEnv(loaded, **options) for _ in range(count - 1))]
+        names = agents or [one.agent.id]
+        self.envs = [one]
+        for index in range(1, count):
+            self.envs.append(SceneEnv(loaded, **options | {"agent": names[index % len(names)]}))
         for env in self.envs:
             one.range_warning.watch(env.agent)
         self.space = batch_space(one.observation_space, count)
@@ -41,8 +51,8 @@ class Worlds:
         self.observations: Any = create_empty_array(one.observation_space, count)
         self.rewards = np.zeros(count)
         self.terminated, self.truncated = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        self._agents = [env.agent for env in self.envs]
-        self._ledgers = [agent.ledger for agent in self._agents]
+        self.agents = [env.agent for env in self.envs]
+        self._ledgers = [agent.ledger for agent in self.agents]
         self._write = [
             env.observer.writer(self.observations, index) for index, env in enumerate(self.envs)
         ]
@@ -68,7 +78,7 @@ class Worlds:
                 write(env.agent.percept)
             else:
                 write(env.decide(row))
-        agents = self._agents
+        agents = self.agents
         self.rewards = np.array([ledger.total for ledger in self._ledgers])
         self.terminated = np.array([agent.terminated for agent in agents])
         self.truncated = np.array([agent.truncated for agent in agents])

@@ -122,6 +122,8 @@ class Ppo:
             Less is tried out then (``first_spread_after_clone``).
         reward_weights: factor of each reward term by its name; 1 for one that is left out. They
             change what is learned from, and nothing in the world.
+        worlds: in which it learns, with as many agents that learn as the settings have worlds; left
+            out, those of the scene.
 
     Attributes:
         worlds: in which it learns.
@@ -143,10 +145,11 @@ class Ppo:
         agent: str | None = None,
         begin_with: ActorCritic | None = None,
         reward_weights: Mapping[str, float] | None = None,
+        worlds: Worlds | None = None,
     ) -> None:
         self.settings = settings or PpoSettings()
         self.seed = _small_enough(seed)
-        self.worlds = Worlds(self.settings.worlds, scene, observation="flat", agent=agent)
+        self.worlds = worlds or Worlds(self.settings.worlds, scene, observation="flat", agent=agent)
         env = self.worlds.envs[0]
         self.agent = env.agent
         self.reward_weights = _checked_weights(reward_weights or {}, self.agent)
@@ -197,12 +200,12 @@ class Ppo:
             outputs[step] = network.actor.forward(inputs[step])
             taken[step] = _try_out(network, outputs[step], self.generator)
             worlds.step(network.to_actions(taken[step]))
-            rewards[step] = [self.reward_of(env.agent) for env in worlds.envs]
+            rewards[step] = [self.reward_of(agent) for agent in worlds.agents]
             is_over[step] = worlds.terminated | worlds.truncated
+            for index in np.flatnonzero(is_over[step] & ~worlds.terminated).tolist():
+                cut_off.append((step, index))
+                last_inputs.append(network.scaled(worlds.observations[index]))
             for index in np.flatnonzero(is_over[step]).tolist():
-                if not worlds.terminated[index]:
-                    cut_off.append((step, index))
-                    last_inputs.append(network.scaled(worlds.observations[index]))
                 # The next decision of this world is the first of another episode: no decision is
                 # spent on beginning one, so there is none without an action to learn from.
                 worlds.reset(index)

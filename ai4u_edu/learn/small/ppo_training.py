@@ -1,11 +1,11 @@
 """A training: improve, check, keep the best network, and be able to go on after a break.
 
-Before: :mod:`~ai4u_edu.learn.small.ppo`. New here is what stands around the rounds of learning. A
-policy that tries things out is not as good as it could be, and one round may spoil what the last
-one brought. So now and then the policy drives some episodes in which it tries nothing out, always
-from the same starts, which no world learns in. The network that did best there is what a training
-gives. And since learning takes minutes and a computer may be switched off, its state can be written
-to a file.
+Before: :mod:`~ai4u_edu.learn.small.opponents`. New here is what stands around the rounds of
+learning. A policy that tries things out is not as good as it could be, and one round may spoil what
+the last one brought. So now and then the policy drives some episodes in which it tries nothing out,
+always from the same starts, which no world learns in. The network that did best there is what a
+training gives. And since learning takes minutes and a computer may be switched off, its state can
+be written to a file.
 
 >>> from ai4u_edu import Scene
 >>> settings = PpoSettings(worlds=2, steps=8, check_every=32, check_episodes=2)
@@ -28,6 +28,7 @@ from ai4u_edu.base.atomic_write import partial_file
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import ActorCritic
+from ai4u_edu.learn.small.opponents import SELF, Games, League, Opponents
 from ai4u_edu.learn.small.ppo import FIRST_SEED, Array, Ppo, PpoSettings
 from ai4u_edu.scenes import Scene
 
@@ -59,11 +60,15 @@ class PpoTraining:
         settings: of the training.
         seed, agent, begin_with, reward_weights: as :class:`~ai4u_edu.learn.small.ppo.Ppo` takes
             them.
+        opponents: who plays the other side, of this scene; left out, all other agents are driven as
+            the scene says. Their agent learns then.
 
     Attributes:
         ppo: the learner, with the network as it is now.
         best: the network as it was in its best check.
         checks: all checks so far.
+        league: members that a network plays against which learns against itself, else None. It is
+            checked against the first one, the scene's player.
     """
 
     def __init__(
@@ -75,7 +80,16 @@ class PpoTraining:
         agent: str | None = None,
         begin_with: ActorCritic | None = None,
         reward_weights: Mapping[str, float] | None = None,
+        opponents: Opponents | None = None,
     ) -> None:
+        settings = settings or PpoSettings()
+        worlds: Worlds | None = None
+        self.league: League | None = None
+        if opponents is not None and opponents.against == SELF:
+            self.league = League(seed)
+            worlds = Games(settings.worlds, opponents, self.league)
+        elif opponents is not None:
+            worlds = opponents.worlds(settings.worlds)
         self.ppo = Ppo(
             scene,
             settings,
@@ -83,12 +97,15 @@ class PpoTraining:
             agent=agent,
             begin_with=begin_with,
             reward_weights=reward_weights,
+            worlds=worlds,
         )
         self.best = self.ppo.network.copy()
         self.checks: list[PolicyCheck] = []
         self._has_goal = scene.description.success is not None
-        self._check_worlds = Worlds(
-            self.ppo.settings.check_episodes, scene, observation="flat", agent=self.ppo.agent.id
+        self._check_worlds = (
+            Worlds(settings.check_episodes, scene, observation="flat", agent=self.ppo.agent.id)
+            if opponents is None
+            else opponents.worlds(settings.check_episodes)
         )
 
     def learn(
@@ -143,6 +160,8 @@ class PpoTraining:
         if all(self._rank(check) >= self._rank(other) for other in self.checks):
             self.best = ppo.network.copy()
         self.checks.append(check)
+        if self.league is not None:
+            self.league.add(ppo.network)
         return check
 
     @property
@@ -169,7 +188,9 @@ class PpoTraining:
             "optimizer_steps": optimizer.steps,
             "generator": ppo.generator.bit_generator.state,
             "checks": [asdict(check) for check in self.checks],
+            "league": None if self.league is None else self.league.state(),
         }
+        earlier = [] if self.league is None else self.league.members[1:]
         with partial_file(path) as beside, beside.open("wb") as file:
             np.savez(
                 file,
@@ -180,10 +201,11 @@ class PpoTraining:
                 size=network.size,
                 mean=optimizer.mean,
                 square=optimizer.square,
+                league=np.array([each.network.parameters for each in earlier if each.network]),
             )
 
     @classmethod
-    def resume(cls, path: Path, scene: Scene) -> "PpoTraining":
+    def resume(cls, path: Path, scene: Scene, opponents: Opponents | None = None) -> "PpoTraining":
         """Return a training that goes on where it was saved.
 
         Its worlds begin new episodes, so it is not bit for bit what it would have been without a
@@ -192,6 +214,7 @@ class PpoTraining:
         Args:
             path: as :meth:`save` wrote it.
             scene: the same as before.
+            opponents: the same as before.
 
         Raises:
             SetupError: the file is no saved training, or one of another agent.
@@ -208,6 +231,7 @@ class PpoTraining:
                 seed=state["seed"],
                 agent=state["agent"],
                 reward_weights=state["reward_weights"],
+                opponents=opponents,
             )
             training._restore(state, arrays)
         except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as error:
@@ -225,6 +249,11 @@ class PpoTraining:
         ppo.generator.bit_generator.state = state["generator"]
         ppo.decisions = int(state["decisions"])
         self.checks = [PolicyCheck(**check) for check in state["checks"]]
+        if self.league is not None:
+            earlier = [network.copy() for _ in arrays["league"]]
+            for one, parameters in zip(earlier, arrays["league"], strict=True):
+                one.parameters[:] = parameters
+            self.league.restore(state["league"], earlier)
         ppo.begin_episodes()
 
     @property

@@ -55,6 +55,8 @@ def train(
     trainer: str = "",
     begin_with: str | Path | None = None,
     reward_weights: Mapping[str, float] | None = None,
+    agent: str = "",
+    against: str | Path = "",
 ) -> "Trained":
     """Train an agent in a scene; Ctrl-C (a notebook's stop button) keeps what it learned so far.
 
@@ -86,6 +88,10 @@ def train(
             learner takes one.
         reward_weights: factor of each reward term by its name, 1 for one that is left out; only for
             the small learner.
+        agent: the id of the agent that learns; left out, as the settings say, or the first one.
+        against: who plays the other side: ``"player"`` (the scene's own), ``"self"`` (the network
+            itself, as it is and as it was, and the scene's player), or a network (.onnx); only for
+            the small learner. Left out, all others are driven as the scene says.
 
     Returns:
         Its result, with ``best`` (a check with ``success``, ``reward``, ``length``), ``checks``,
@@ -103,7 +109,11 @@ def train(
         "keep_checkpoints": keep_checkpoints,
         "algo": algo and algo.lower() != "ppo",
     }
-    for_small = {"begin_with": begin_with is not None, "reward_weights": bool(reward_weights)}
+    for_small = {
+        "begin_with": begin_with is not None,
+        "reward_weights": bool(reward_weights),
+        "against": bool(against),
+    }
     if resume:
         if out is None:
             raise SetupError("resume needs out, the folder of the training to go on with")
@@ -135,7 +145,8 @@ def train(
     loaded = _scene(scene)
     name = loaded.description.name
     changes = dict(settings) if isinstance(settings, Mapping) else {}
-    changes |= ({"policy": policy} if policy else {}) | ({"observe": observe} if observe else {})
+    chosen = {"policy": policy, "observe": observe, "agent": agent}
+    changes |= {name: value for name, value in chosen.items() if value}
     file = Path(settings) if isinstance(settings, str | Path) else None
     how = settings_for(name, file, changes)
     if who == "small":
@@ -147,6 +158,7 @@ def train(
             seed=seed,
             begin_with=None if begin_with is None else Path(begin_with),
             reward_weights=reward_weights,
+            against=str(against),
             overwrite=overwrite,
             quiet=quiet,
         )

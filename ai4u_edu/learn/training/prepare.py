@@ -47,7 +47,7 @@ def with_learner(scene: Scene, settings: Settings, *, quiet: bool = True) -> Set
     if not quiet:
         sys.stderr.write(
             f"{first!r} learns, the first of several agents ({', '.join([first, *others])}); to "
-            "choose another one, write agent: ID into a settings file\n"
+            "choose another one, say --agent ID, or agent: ID in a settings file\n"
         )
     return settings.model_copy(update={"agent": first})
 

@@ -17,6 +17,7 @@ One of the small learner has networks in place of models, and writes them withou
     DIR/best.onnx       the network that did best in a check; at first, the one that it began with
     DIR/watched.onnx    the network as it is now, at most a second old
     DIR/watched.json    decisions so far, and the learning curve
+    DIR/opponent.onnx   the network that it learns against, if it does
     DIR/state.npz       all that --resume needs, at most a second old
 """
 
@@ -54,6 +55,8 @@ class Config(BaseModel):
     versions: dict[str, str]
     """Versions of the packages that ran, by name."""
     trainer: Trainer = "sb3"
+    against: Literal["", "player", "self", "file"] = ""
+    """Opponent: the scene's player, the network itself, or one in a file; empty for none."""
 
 
 class Check(BaseModel):
@@ -112,6 +115,7 @@ class Run:
         self.tensorboard = folder / "tensorboard"
         self.best_network = folder / "best.onnx"
         self.state = folder / "state.npz"
+        self.opponent = folder / "opponent.onnx"
         self.watched_network = folder / "watched.onnx"
         self.watched_model = folder / "watched.zip"
         self.watched_weights = folder / "watched.pt"
@@ -130,7 +134,7 @@ class Run:
         """Delete what a training wrote, and nothing else in the folder."""
         for name in ("config.json", "scene.yaml", "checks.json"):
             (self.folder / name).unlink(missing_ok=True)
-        kept = (self.best, self.last, self.replay, self.best_network, self.state)
+        kept = (self.best, self.last, self.replay, self.best_network, self.state, self.opponent)
         watched = (self.watched_model, self.watched_weights, self.watched_network, self.progress)
         events = self.tensorboard.glob("events.*")
         for path in (*kept, *watched, *events, *self.checkpoints):

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from ai4u_edu.base.errors import AI4UError, SetupError, shown
 from ai4u_edu.blocks import Brain
@@ -23,7 +23,56 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.yaml.file import YamlFile
+from ai4u_edu.wire.class_link import Practised, Training
 from ai4u_edu.world import BodyDescription
+
+
+class ClassTrainings(Protocol):
+    """Lets networks learn in the class's process; a room there may start none. Thread-safe."""
+
+    listeners: list[Callable[[], object]]
+    """Functions called after each change, in any thread."""
+
+    @property
+    def latest(self) -> Training | None:
+        """The room's latest training; None before the first one."""
+
+    @property
+    def is_connected(self) -> bool:
+        """True while the class can be reached; what is asked for meanwhile is sent later."""
+
+    def learn(self, scene: str, agent: str, drives: Sequence[str]) -> None:
+        """Have a network learn from drives, as soon as it is the room's turn.
+
+        Args:
+            scene: name of the scene.
+            agent: id of the agent.
+            drives: names of files in the room's folder of drives.
+
+        Raises:
+            SetupError: a name is too long to be sent.
+        """
+
+    def stop(self, problem: str) -> None:
+        """End the latest training without a result.
+
+        Args:
+            problem: shown as the training's until the class has answered.
+        """
+
+    def practice(self, key: str) -> Practised | None:
+        """Return a practice of the room; None if it was never asked for, or long ago."""
+
+    def practise(self, key: str, practice: str) -> None:
+        """Have a network practise, as soon as it is its turn; one that the class knows goes on.
+
+        Args:
+            key: names the practice.
+            practice: name of its folder in the room's folder of practices.
+        """
+
+    def stop_practice(self, key: str) -> None:
+        """End a practice; it is over as soon as the class says so."""
 
 
 class SceneEditor:
@@ -64,6 +113,8 @@ class SceneEditor:
         """Folder for what a person makes here beside scenes; without it, that is not kept."""
         self.missions_folder: Path | None = None
         """Folder with a teacher's missions; None for none."""
+        self.class_trainings: ClassTrainings | None = None
+        """Lets networks learn in a class's process; without it, this process starts its own."""
         self.listeners = self._transactions.listeners
         """Functions called with the state after each change, in the runner's thread."""
         self.listeners.append(self._on_change)

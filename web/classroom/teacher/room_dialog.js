@@ -11,6 +11,7 @@ import { element } from "../../shared/dom.js";
 import { choices, chosenIn, closeDialogOf, showForm } from "../../shared/form_dialog.js";
 import { showMoveCode } from "./move_code_dialog.js";
 import { ask, tell } from "../../shared/dialog.js";
+import { showNetworks } from "./room_networks.js";
 import { showPrograms } from "./room_programs.js";
 import { counted, roomName, seatsOf, statusOf } from "../room_words.js";
 
@@ -35,14 +36,20 @@ export function showRoom(room, state, realNames) {
     closeDialogOf(button);
     showPrograms(room, state);
   });
+  const networks = action("Networks", (button) => {
+    closeDialogOf(button);
+    showNetworks(room, state);
+  });
   const lookIn = element("a", { className: "ai4u-button", href: room.look_in, target: "_blank", rel: "noopener", textContent: "Look in" });
   const actions = element(
     "div",
     { className: "ai4u-actions" },
     room.look_in && lookIn,
     isLocal && code,
+    isLocal && networks,
     act("Show to all", { do: "show", kind: "room", room: room.id }),
     assign,
+    room.is_learning && act("Stop learning", { do: "stop training", room: room.id }),
     isLocal && room.is_running && act("Put to sleep", { do: "sleep", room: room.id }),
   );
   const content = [
@@ -65,6 +72,7 @@ function facts(room) {
     ...pair("Now", first),
     ...pair("Scene", room.scene),
     ...pair("Driven by", room.driver || "nobody"),
+    ...(room.learning ? pair("Network", room.learning) : []),
     ...pair("So far", counts),
   );
 }

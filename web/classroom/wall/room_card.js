@@ -61,14 +61,14 @@ export function updateCard(card, room, state, realNames) {
   setText(part("status").firstElementChild, status.sign);
   setText(part("status").lastElementChild, status.text);
   setText(part("why"), why);
-  setText(part("scene"), room.scene);
+  setText(part("scene"), [room.learning, room.scene].filter(Boolean).join(" · "));
   const dots = progressOf(seats, state);
   showProgress(part("progress"), dots);
   setAttributes(box, { "data-status": room.status, "data-help": needsHelp(room), "data-solved": room.is_solved });
   if (box.localName !== "button") return;
   const solved = dots.filter((each) => each.state === "solved").length;
   const progress = dots.length ? `${solved} of ${dots.length} exercises of lesson ${dots[0].lesson} solved` : "";
-  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && "solved before", why, room.scene, progress];
+  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && "solved before", why, room.scene, room.learning, progress];
   setAttributes(box, { "aria-label": told.filter(Boolean).join(", ") });
 }
 
