@@ -109,7 +109,7 @@ def draw_thing(
     if isinstance(thing, BodyDescription):
         heading = math.radians(thing.heading_deg)
         state = BodyState(thing.name, 0, 0, 0, heading, 0, 0, 0, 0, on_ground=True, fallen=False)
-        canvas._body(thing, state)
+        canvas._body(thing, state, {})
         canvas._polygon(_placed(thing.shape.outline(), 0.0, 0.0, heading), 255, None, pen)
     else:
         if isinstance(thing, FloorDescription):
