@@ -75,7 +75,7 @@ class Viewer:
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
             (SpeechBubbles(server), TEXTS_PER_S),
             (GhostBodies(server, ghosts or Ghosts()), senses_per_s),
-            (RobotMotion(bodies), senses_per_s),
+            (RobotMotion(bodies), senses_per_s / 2),  # enough for wheels
             (Actions(server, bodies), senses_per_s),
             (Trails(viewer_clients), senses_per_s),
         ]

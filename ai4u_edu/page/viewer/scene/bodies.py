@@ -314,6 +314,8 @@ class Bodies:
         self._pulse = Pulse(is_motion_reduced=is_motion_reduced)
         self._slow_fall = SlowFall(is_motion_reduced=is_motion_reduced)
         self._puff: BatchedMeshHandle | None = None
+        self.moving_parts: dict[str, MovingParts] = {}
+        """Parts that move on robots that are nodes, by the name of the body."""
         self.nodes: dict[str, str] = {}
         """Names of the scene nodes of bodies that have their own, by the name of the body."""
 
@@ -349,19 +351,15 @@ class Bodies:
             self.nodes = {
                 node: f"{parent}/{number}" for number, (_, node) in enumerate(members) if node
             }
+            self.moving_parts = {
+                group.names[0]: group.moving_parts
+                for group in self._groups
+                if group.moving_parts is not None
+            }
             for group in self._groups:
                 if group.names[0] in static_scene.agent_of:
                     group.listen(self._on_agent)
         self._built_for = wanted
-
-    @property
-    def moving_parts(self) -> dict[str, MovingParts]:
-        """Parts that move on robots that are nodes, by the name of the body."""
-        return {
-            group.names[0]: group.moving_parts
-            for group in self._groups
-            if group.moving_parts is not None
-        }
 
     def draw(self, snapshot: Snapshot) -> None:
         """Move all bodies to their current poses."""
