@@ -154,6 +154,8 @@ class MissionRun:
 
     def __init__(self, mission: Mission, step: int = 0) -> None:
         self.mission = mission
+        self.token = object()
+        """Key of caches, which must not keep this mission of a page that has left."""
         self.agent = ""
         """Id of the agent whose decisions count; empty for any."""
         self.is_watching = False
@@ -318,7 +320,7 @@ class MissionOption:
         if mission is not chosen.run.mission:  # its file was saved
             chosen = self._choose(view, chosen.name, mission, chosen.run.index)
         name, run = chosen
-        key = KEY, id(run), run.version
+        key = KEY, run.token, run.version
         yield KEY, context.cache.by_key(key, lambda: mission_part(name, run, missions))
 
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002 - an option without a picture needs none

@@ -146,7 +146,7 @@ def sumo() -> Policy:
 
 
 def sense_1(do: Doing) -> None:
-    do.open("drive")
+    do.drive(move(0.5, 0))
     do.drive(lambda agent: STOP if faces_box(agent) > 0.99 else move(0, 0.3)(agent))
     do.drive(lambda agent: STOP if faces_box(agent) < -0.97 else move(0, 0.3)(agent))
     do.answer(f"{float(do.agent.percept['orientation'][1]):.2f}")
@@ -159,7 +159,6 @@ def sense_2(do: Doing) -> None:
 
 
 def sense_3(do: Doing) -> None:
-    do.open("drive")
     do.drive(line_program, through=True)
 
 

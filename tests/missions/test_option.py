@@ -60,11 +60,11 @@ def test_an_unknown_mission_is_refused_with_a_suggestion(page: PanelPage) -> Non
 
 def test_a_tab_and_a_number_are_seen(room: PanelRoom, page: PanelPage) -> None:
     room.runner.reset(1).result(LIMIT_S)
-    page.done("mission_open", mission="sense-1")
-    page.done("mission_see", tab="drive")
-    page.part("mission", is_done=True)
+    page.done("mission_open", mission="code-1")
+    page.done("mission_see", tab="code")
+    page.part("mission", mission="code-1", is_done=True)
     page.done("mission_open", mission="sense-1", step=3)
-    page.part("mission", step=3)
+    page.part("mission", mission="sense-1", step=3)
     drive(room, decisions=1)
     page.done("mission_answer", answer="7")
     page.part("mission", words="Not 7. Look at the number again.")
