@@ -373,7 +373,7 @@ class Attention(TaggedMessage, frozen=True):
 
 
 class Switches(Record, frozen=True):
-    """What the teacher has turned on for the whole class. Each is off at first."""
+    """Switches of the whole class, which its teacher turns. All are off at first."""
 
     sound: bool = False
     """Students' pages may make sounds."""

@@ -1057,7 +1057,7 @@ export interface StateEvent {
   collects: number;
 }
 
-/** What the teacher has turned on for the whole class. Each is off at first. */
+/** Switches of the whole class, which its teacher turns. All are off at first. */
 export interface Switches {
   /** Students' pages may make sounds. */
   sound: boolean;
