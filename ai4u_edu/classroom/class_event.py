@@ -174,7 +174,7 @@ class ClassEvents:
 
     def _learning(self, room: str) -> str:
         """Return how the networks of a room learn, or have learned; empty if it has none."""
-        sentences = self._live.trainings.sentence(room), self._live.practices.sentence(room)
+        sentences = self._live.practices.sentence(room), self._live.trainings.sentence(room)
         return "; ".join(filter(None, sentences))
 
     def _is_learning(self, room: str) -> bool:

@@ -52,6 +52,8 @@ class _Row:
     decisions: int = 0
     total: int = 0
     checks: int = 0
+    is_game: bool = False
+    """True if the episodes of its checks are games against somebody."""
     success: float | None = None
     """Best share of a check's starts from which it reached the goal; None before a check."""
     cpu_s: float = 0.0
@@ -59,6 +61,8 @@ class _Row:
     process: PracticeProcess | None = None
     checks_before: int = 0
     """Checks before the present process."""
+    is_ending: bool = False
+    """True from when its end is certain; its room learns of it when the process has ended."""
 
     @property
     def remaining(self) -> int:
@@ -113,11 +117,13 @@ class PracticeQueue:
         if not rows or rows[-1].state.problem == STOPPED:
             return ""
         row = rows[-1]
-        goal = "" if row.success is None else f", goal from {row.success:.0%} of starts"
+        goal = "" if row.success is None else f", goal {row.success:.0%}"
+        if row.success is not None and row.is_game:
+            goal = f", won {row.success:.0%}"
         if row.state.place:
             return f"waits to practise, place {row.state.place}"
         if not row.state.is_over:
-            return f"practises, {row.decisions:,} of {row.total:,} decisions{goal}"
+            return f"practises, {row.decisions / max(1, row.total):.0%} done{goal}"
         return f"practised{goal}" if row.checks else "could not practise"
 
     async def add(self, room: str, request: Practise) -> None:
@@ -168,7 +174,7 @@ class PracticeQueue:
             await asyncio.gather(self._task, return_exceptions=True)
 
     def _open(self) -> list[_Row]:
-        return [row for row in self._rows.values() if not row.state.is_over]
+        return [row for row in self._rows.values() if not (row.state.is_over or row.is_ending)]
 
     def _waiting(self) -> list[_Row]:
         """Return those that wait, the next one first."""
@@ -196,7 +202,7 @@ class PracticeQueue:
     async def _follow(self, row: _Row) -> None:
         """Look whether a process has ended, or must."""
         process = row.process
-        if process is None or row.state.is_over:
+        if process is None or row.is_ending:
             return
         if process.wait(0):
             problem = await asyncio.to_thread(lambda: process.problem)
@@ -234,17 +240,18 @@ class PracticeQueue:
             await self._end_row(row, problem)
             return False
         row.process = process
-        if row.state.is_over or self._rows.get(row.state.key) is not row:  # stopped meanwhile
+        if row.is_ending or self._rows.get(row.state.key) is not row:  # stopped meanwhile
             await asyncio.to_thread(self._end_process, row)
             return False
         return True
 
     async def _end_row(self, row: _Row, problem: str) -> None:
         """End a practice; its room takes the network out of the folder."""
+        row.is_ending = True
+        await asyncio.to_thread(self._end_process, row)
         row.state = replace(
             row.state, place=0, is_over=True, problem=shorten(problem, MAX_TEXT_CHARS)
         )
-        await asyncio.to_thread(self._end_process, row)
         with suppress(StoreError):  # a full disk: it begins again in the class's next process
             await asyncio.to_thread(self._write, row)
             await self._forget_ended(row.room)
@@ -304,7 +311,8 @@ class PracticeQueue:
             with suppress(OSError, ValueError, ValidationError, msgspec.MsgspecError):
                 folder = self._folder(row)
                 if not row.total:
-                    row.total = self._request(row).steps
+                    request = self._request(row)
+                    row.total, row.is_game = request.steps, bool(request.against)
                 if row.process is None:
                     with suppress(FileNotFoundError):
                         row.cpu_s = float((folder / CPU_FILE).read_text())

@@ -111,6 +111,7 @@ class PracticeProcess:
         self._process = start_process("ai4u_edu.teach.practice_process")
         with suppress(OSError):  # it has ended already
             send_request(self._process, request)
+        self._lock = threading.Lock()
         self._last: bytes | None = None
 
     def wait(self, seconds: float) -> bool:
@@ -123,10 +124,11 @@ class PracticeProcess:
     @property
     def problem(self) -> str | None:
         """Sentence about why it ended early: empty if it is done, None if it was killed."""
-        if self._last is None:
-            with self._process as process:
-                assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
-                self._last = process.stdout.read()
+        with self._lock:  # two may ask for it at its end
+            if self._last is None:
+                with self._process as process:
+                    assert process.stdout is not None  # noqa: S101 - start_process asks for it
+                    self._last = process.stdout.read()
         try:
             return msgspec.json.decode(self._last, type=PracticeEnd).problem
         except msgspec.DecodeError:

@@ -151,6 +151,7 @@ class Practices:
             total=progress.total,
             rewards=[round(point.reward, 3) for point in progress.curve],
             success=progress.curve[-1].success if progress.curve else None,
+            is_game=bool(request.against),
         )
 
     # -- in the server's event loop ----------------------------------------------------------------
@@ -315,7 +316,11 @@ class Practices:
             return
         checks = practice.progress.curve
         share = max((check.success or 0.0 for check in checks), default=0.0)
-        reached = "" if checks[-1].success is None else f", goal reached from {share:.0%} of starts"
+        reached = f", goal reached from {share:.0%} of starts"
+        if practice.request.against:
+            reached = f", won {share:.0%} of its games"
+        if checks[-1].success is None:
+            reached = ""
         how = (
             f"practised for {practice.progress.decisions} decisions"
             f"{practice.request.opponent}{reached}"

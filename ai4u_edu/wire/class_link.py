@@ -380,7 +380,7 @@ class Switches(Record, frozen=True):
 
 
 class ClassSettings(TaggedMessage, frozen=True, tag="settings"):
-    """What holds in all rooms."""
+    """Settings that hold in all rooms."""
 
     switches: Switches
 

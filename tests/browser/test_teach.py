@@ -118,7 +118,10 @@ def test_a_robot_practises_against_the_side_that_was_chosen(
         against.select_option("Itself")
         tab.get_by_role("button", name="Practise", exact=True).click()
         card = tab.get_by_role("article")
-        expect(card).to_contain_text("decisions against itself, goal reached")
+        expect(card).to_contain_text(
+            re.compile("decisions against itself, won [0-9]+% of its games")
+        )
+        expect(tab.get_by_text(re.compile("It wins [0-9]+% of its games"))).to_be_visible()
         expect(against.get_by_role("option")).to_have_count(3)
         against.select_option("Network 1")
         tab.get_by_label("Length").select_option("Long")

@@ -106,7 +106,7 @@ def test_the_shortest_practice_learns_first_and_takes_the_place_of_a_longer_one(
         await until_async(lambda: not asking.state("a", "long").place)
         assert asking.state("b", "longer").place == 1
         assert float((folder / CPU_FILE).read_text()) > 0.0
-        assert "goal from" in asking.queue.sentence("a")
+        assert "% done, goal " in asking.queue.sentence("a")
         assert asking.queue.sentence("b") == "waits to practise, place 1"
         assert {"a", "b", "c"} <= {*asking.told}
         assert await asking.queue.stop("a", "long")
@@ -219,6 +219,7 @@ def test_a_student_practises_waits_pauses_and_gets_the_network(served: ServedCla
         before = hers.parts["teach"]["practice"]["decisions"]
         hers.done("teach_go_on")
         hers.part("teach", lambda p: p["practice"]["decisions"] > before)
+        hers.part("teach", lambda p: p["practice"]["rewards"])
         hers.done("teach_stop_practising")
         part = hers.part("teach", lambda p: p["practice"]["phase"] == "over")
         assert part["practice"]["problem"] == STOPPED
@@ -236,11 +237,11 @@ def test_a_teacher_sees_who_practises_stops_it_and_hands_the_network_out(
         assert answer.json()["problem"] == "nothing learns in this room any more"
         hers.done("teach_practise", steps=LATE, weights=AWAY)
         hers.part("teach", lambda p: p["practice"] and p["practice"]["rewards"])
-        until(lambda: re.match(r"practises, [0-9,]+ of 1,000,000 ", learning_of(served, room)))
+        until(lambda: re.match("practises, [0-9]+% done, goal ", learning_of(served, room)))
         assert served.command("stop training", room=room).status_code == 200
         part = hers.part("teach", lambda p: p["practice"]["phase"] == "over")
         assert part["practice"]["problem"] == "your teacher has stopped it"
-        assert learning_of(served, room).startswith("practised, goal from ")
+        assert learning_of(served, room).startswith("practised, goal ")
         hers.part("teach", lambda p: len(p["networks"]) == 1)
         hers.done("teach_rename", network=1, title="Ada's best")
         (network,) = served.networks(room)

@@ -15,7 +15,7 @@ from ai4u_edu.classroom.course_index import known_exercises
 from ai4u_edu.classroom.progress import MAX_GAP_S, Progress, SeatProgress
 from ai4u_edu.classroom.store import FILE
 from ai4u_edu.lessons.exercise import find
-from ai4u_edu.wire.class_link import Ack, ExerciseResult, LinkHello, LinkWelcome
+from ai4u_edu.wire.class_link import VERSION, Ack, ExerciseResult, LinkHello, LinkWelcome
 from tests.classroom.link_client import RawLink, check
 from tests.classroom.served_class import ServedClass, served_class
 from tests.waiting import LIMIT_S
@@ -83,7 +83,7 @@ def test_acknowledged_results_survive_sigkill_and_count_once(tmp_path: Path) -> 
             served.process.wait(LIMIT_S)
         token = ada.token
     with served_class(tmp_path) as served:
-        with RawLink(served, token, hello=LinkHello(1, token, "notebook")) as link:
+        with RawLink(served, token, hello=LinkHello(VERSION, token, "notebook")) as link:
             link.next(LinkWelcome)
             whys = [room["why"] for room in served.state()["rooms"]]
             assert "the same wrong answer 3 times in 04.2" in whys

@@ -9,6 +9,7 @@ from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu import Scene
 from ai4u_edu.wire.class_link import (
+    VERSION,
     Applied,
     Assignment,
     Attention,
@@ -217,7 +218,7 @@ def test_a_room_that_sleeps_is_shown_so(served: ServedClass) -> None:
 def test_a_rooms_link_needs_its_own_secret(served: ServedClass) -> None:
     ada = served.joined()
     ada.get("healthz")
-    with RawLink(served, "", hello=LinkHello(1, ada.room.split("/")[2], "room")) as link:
+    with RawLink(served, "", hello=LinkHello(VERSION, ada.room.split("/")[2], "room")) as link:
         _, problem = link.end()
         assert problem is not None
         assert problem.code == "secret"

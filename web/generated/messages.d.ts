@@ -703,6 +703,8 @@ export interface PracticeState {
   rewards: number[];
   /** Share of the episodes of the latest check that reached the goal; null if there was none. */
   success: number | null;
+  /** True if these episodes are games against somebody. */
+  is_game: boolean;
 }
 
 /** Starts from which a network reaches the goal. */

@@ -130,7 +130,7 @@ export class Networks {
       this.#panel.notice("There is no other network of this scene to compare it with.", "error");
       return;
     }
-    const table = element("table", { className: "ai4u-table" });
+    const table = element("table", { className: "ai4u-table ai4u-compare" });
     const draw = (/** @type {string} */ other) => table.replaceChildren(...comparison(this.#network(number), this.#network(Number(other))));
     const chosen = choice("With", draw);
     chosen.set(others.map((other) => ({ value: String(other.number), text: other.title })), String(others[0].number));

@@ -132,8 +132,9 @@ function weightRow(name) {
 }
 
 /** @param {PracticeState} practice */
-function sentenceOf({ phase, problem, waiting, decisions, success, elsewhere, is_scene_changed: isSceneChanged }) {
-  const reached = success === null ? "" : ` It reaches the goal from ${percent(success)} of its starts.`;
+function sentenceOf({ phase, problem, waiting, decisions, success, is_game: isGame, elsewhere, is_scene_changed: isSceneChanged }) {
+  const share = success === null ? "" : percent(success);
+  const reached = share && (isGame ? ` It wins ${share} of its games.` : ` It reaches the goal from ${share} of its starts.`);
   if (problem === "stopped") return `The practice was stopped.${reached}`;
   if (problem) return `It could not go on: ${problem}.`;
   const count = decisions.toLocaleString("en");
