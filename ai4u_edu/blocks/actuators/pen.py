@@ -116,8 +116,8 @@ class PenActuator(Actuator):
         if not self._is_down:
             return
         here = self._point(body)
-        if body.on_ground and not body.fallen and self._last is not None:
-            view.ink.draw(self._last, here, body.z, self._width, self._code)
+        if self._last is not None:
+            body.draw(self._last, here, width=self._width, code=self._code)
         self._last = here
 
     def _point(self, body: Body) -> tuple[float, float]:
