@@ -92,8 +92,9 @@ class AgentView(Protocol):
     """Number of other agents in its world."""
     paused: bool
 
-    fields: Mapping[str, tuple[str, ...]]
-    """Fields that an AI4U script sent with its last message, by name."""
+    @property
+    def fields(self) -> Mapping[str, tuple[str, ...]]:
+        """Fields that an AI4U script sent with its last message, by name."""
 
     def take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> str:
         """Take an AI4U script's fields; return a sentence about those that do not fit."""
