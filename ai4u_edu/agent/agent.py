@@ -117,6 +117,8 @@ class BasicAgent(Parameterized):
         self.paused = False
         self.stopped = False
         self.last_action: dict[str, Numbers] = {}
+        self.fields: dict[str, tuple[str, ...]] = {}
+        """Fields that an AI4U script sent with its last message, by name (AI4U's GetField...)."""
         self.latest_input: AgentInput | None = None
         """The last numbers that a script gave to one of its sensors."""
         self._action_handler: Callable[..., None] | None = None
@@ -321,6 +323,25 @@ class BasicAgent(Parameterized):
             SetupError: the value is none of these, or the brain does not fit the agent.
         """
         self.bound_blocks.swap_brain(_as_brain(brain))
+
+    def take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> str:
+        """Take the fields that an AI4U script sent besides its action.
+
+        They are in :attr:`fields`, and an AgentArraySensor of a field's name reads its numbers.
+
+        Returns:
+            A sentence about the fields that do not fit their sensors; empty if all do.
+        """
+        self.fields = dict(fields)
+        problems = []
+        for sensor in self.bound_blocks.array_sensors():
+            texts = fields.get(sensor.perception_key)
+            if texts is not None:
+                try:
+                    sensor.set_values([float(text) for text in texts])
+                except (ReadingError, ValueError) as error:
+                    problems.append(f"field {sensor.perception_key!r} had no effect: {error}")
+        return "; ".join(problems)
 
     def note_input(self, given: AgentInput) -> None:
         """Tell recorders that a script gave numbers to the agent."""

@@ -92,6 +92,13 @@ class AgentView(Protocol):
     """Number of other agents in its world."""
     paused: bool
 
+    @property
+    def fields(self) -> Mapping[str, tuple[str, ...]]:
+        """Fields that an AI4U script sent with its last message, by name."""
+
+    def take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> str:
+        """Take an AI4U script's fields; return a sentence about those that do not fit."""
+
     def note_input(self, given: AgentInput) -> None:
         """Tell recorders that a script gave numbers to the agent."""
 

@@ -83,7 +83,9 @@ def _copied(value: Any) -> Any:
 @cache
 def _carried_by(cls: type) -> tuple[str, ...]:
     """Return the attributes that a class and its bases declare."""
-    return tuple(name for base in cls.__mro__ for name in vars(base).get("carried", ()))
+    declared = (vars(base).get("carried", ()) for base in cls.__mro__)
+    # a block of somebody else's may have a parameter of this name
+    return tuple(name for names in declared if isinstance(names, tuple) for name in names)
 
 
 @cache

@@ -1,7 +1,7 @@
 """An agent in the terms of AI4U's protocol."""
 
 import base64
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -102,17 +102,25 @@ class AgentCodec:
         (name, args), *fields = orders
         return {each: numbers for each, numbers in fields if each in self._known} | {name: args}
 
-    def find_dropped(self, orders: Sequence[ReplyCommand], *, is_action: bool) -> str:
+    def fields(self, orders: Sequence[ReplyCommand]) -> dict[str, tuple[str, ...]]:
+        """Return the fields of a reply that name no actuator; of several of a name, the last."""
+        return {name: args for name, args in orders[1:] if name not in self._known}
+
+    def find_dropped(
+        self, orders: Sequence[ReplyCommand], *, is_action: bool, readable: Collection[str] = ()
+    ) -> str:
         """Return a sentence about the fields of a reply that have no effect; empty for none.
 
         Args:
             orders: the reply: its command and its fields.
-            is_action: whether the command is an action; another one's fields have no effect at all.
+            is_action: whether the command is an action; another one's fields drive no actuator.
+            readable: names of fields that the agent's sensors read.
         """
         if len(orders) == 1:
             return ""
         command, *names = (name for name, _ in orders)
         usable = set(self._known) - {command} if is_action else set()
+        usable |= set(readable)
         dropped = [
             name
             for index, name in enumerate(names)
@@ -123,8 +131,9 @@ class AgentCodec:
         listed = ", ".join(map(shown, dropped[:MAX_LISTED_FIELDS]))
         listed += ", ..." if len(dropped) > MAX_LISTED_FIELDS else ""
         who = f"{'field' if len(dropped) == 1 else 'fields'} {listed} of {shown(command)}"
+        things = "actuators or sensors of numbers" if readable else "actuators"
         expected = (
-            f"expected names of other actuators ({suggest(dropped[0], sorted(usable))}), once each"
+            f"expected names of other {things} ({suggest(dropped[0], sorted(usable))}), once each"
             if usable
             else "expected no fields, since nothing here reads them"
         )

@@ -17,6 +17,9 @@ _set_velocity, _set_angular_velocity = MOTION.set_velocity, MOTION.set_angular_v
 _CENTRE = MOTION.vector()
 
 
+_Place = tuple[float, float]
+
+
 class _Physics(Protocol):
     """Protocol of what moves and joins bodies (Physics does)."""
 
@@ -39,11 +42,31 @@ class _Physics(Protocol):
         """Release the body that a holder holds."""
 
 
+class _Ink(Protocol):
+    """Protocol of the ink on the floors (Ink is one)."""
+
+    def draw(self, start: _Place, end: _Place, z: float, width: float, code: int) -> None:
+        """Draw a straight stroke."""
+
+
+class _Messages(Protocol):
+    """Protocol of what bodies say to each other (Messages is one)."""
+
+    def say(self, speaker: "BodyView", numbers: tuple[float, ...], reach: float) -> None:
+        """Say something."""
+
+
 class _World(Protocol):
     """Protocol of the world that a body is in (World is one)."""
 
     @property
     def _physics(self) -> _Physics: ...
+
+    @property
+    def ink(self) -> _Ink: ...
+
+    @property
+    def messages(self) -> _Messages: ...
 
     def put_back(self, name: str) -> None:
         """Put a body back to its described place."""
@@ -212,6 +235,22 @@ class Body(BodyView):
         if not math.isfinite(x + y + angle + (z or 0.0)):
             self._refuse("place", (x, y, angle, z or 0.0))
         self._world._physics.place(self, x, y, angle, z)
+
+    def draw(self, start: _Place, end: _Place, *, width: float, code: int) -> None:
+        """Draw a stroke of ink from one point to another, on the floor that the body stands on.
+
+        Args:
+            start: metres.
+            end: metres.
+            width: metres.
+            code: of the colour (:func:`~ai4u_edu.world.ink.ink_code`); 0 wipes ink away.
+        """
+        if self.on_ground and not self.fallen:
+            self._world.ink.draw(start, end, self.z, width, code)
+
+    def say(self, numbers: tuple[float, ...], reach: float) -> None:
+        """Say some numbers to all bodies within reach (metres)."""
+        self._world.messages.say(self, numbers, reach)
 
     def leave(self) -> None:
         """Take the body out of the world, as if it had fallen out, until it is put somewhere."""

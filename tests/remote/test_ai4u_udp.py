@@ -410,6 +410,59 @@ def test_fields_that_actuators_take_are_no_mistake(script: UDPScript) -> None:
     brain.close()
 
 
+def array_sim(script: UDPScript) -> tuple[ControlRequestor, RemoteBrain]:
+    """An agent with a sensor of two numbers, which the script sets by a field."""
+    brain = remote_brain(script)
+    return small_sim([AgentArraySensor(perception_key="goal", size=2)], brains=[brain]), brain
+
+
+def test_fields_reach_the_agent_and_its_sensor_of_numbers(script: UDPScript) -> None:
+    sim, brain = array_sim(script)
+    state = script.meet(sim)
+    assert state["goal"].tolist() == [0, 0]
+    script.say(f"{AHEAD}@goal;2;0.25;1@note;1;hello")
+    state = script.next(sim)
+    assert state["goal"].tolist() == [0.25, 1]
+    assert sim.agents[0].fields == {"goal": ("0.25", "1"), "note": ("hello",)}
+    assert brain.status().warning == (
+        "field 'note' of 'move' had no effect: expected names of other actuators or sensors of "
+        "numbers (known are 'goal'), once each"
+    )
+    script.say(AHEAD)
+    assert script.next(sim)["goal"].tolist() == [0.25, 1]
+    assert sim.agents[0].fields == {}
+    brain.close()
+
+
+def test_fields_of_a_reset_are_in_its_first_percept(script: UDPScript) -> None:
+    sim, brain = array_sim(script)
+    script.meet(sim)
+    script.say(f"{RESET}@goal;2;0.5;0.75")
+    assert script.next(sim)["goal"].tolist() == [0.5, 0.75]
+    assert brain.status().warnings == 0
+    sim.reset()
+    assert sim.agents[0].percept["goal"].tolist() == [0, 0]
+    brain.close()
+
+
+@pytest.mark.parametrize(
+    ("field", "says"),
+    [
+        ("goal;1;0.5", "expected 2 values, got 1"),
+        ("goal;2;0.5;7", "expected values from 0 to 1, got 7.0"),
+        ("goal;2;0.5;far", "could not convert string to float: 'far'"),
+    ],
+)
+def test_fields_that_do_not_fit_are_reported(script: UDPScript, field: str, says: str) -> None:
+    sim, brain = array_sim(script)
+    script.meet(sim)
+    script.say(f"{AHEAD}@{field}")
+    assert script.next(sim)["goal"].tolist() == [0, 0]
+    assert "field 'goal' had no effect" in brain.status().warning
+    assert says in brain.status().warning
+    brain.close()
+
+
 def test_a_message_that_is_no_command_is_named_with_the_next_reply(script: UDPScript) -> None:
     sim, brain = remote_sim(script)
     script.meet(sim)

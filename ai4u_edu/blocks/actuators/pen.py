@@ -11,8 +11,10 @@ from ai4u_edu.base.parameters import Metres, quantity
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.world import Body, WorldView
-from ai4u_edu.world.ink import ink_code
+from ai4u_edu.world.ink import CELL_M, ink_code
 
+LEAST_STROKE_M = 0.8 * CELL_M
+"""Way after which a pen that moves draws the next stroke."""
 PenColour = Literal[
     "black",
     "orange",
@@ -60,7 +62,13 @@ class PenActuator(Actuator):
     ahead: Metres = 0.0
     """Distance of the pen in front of the body's centre; negative: behind it."""
 
-    carried: ClassVar[tuple[str, ...]] = ("_is_down", "_code", "_width", "_last")
+    carried: ClassVar[tuple[str, ...]] = (
+        "_is_down",
+        "_code",
+        "_width",
+        "_last",
+        "_is_fresh",
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -71,6 +79,9 @@ class PenActuator(Actuator):
         self._is_down = False
         self._code, self._width = self._codes[0], self.width
         self._last: tuple[float, float] | None = None
+        """End of the last stroke while the pen is down."""
+        self._is_fresh = False
+        """True until the first stroke."""
 
     @property
     def is_down(self) -> bool:
@@ -106,19 +117,25 @@ class PenActuator(Actuator):
             self._code = self._codes[round(action[1])]
         if self.max_width is not None:
             self._width = self.width + action[-1] * (self.max_width - self.width)
-        if not self._is_down:
+        if self._is_down and self._last is None:
+            self._last, self._is_fresh = self._point(body), True
+        elif not self._is_down and self._last is not None:
+            self._draw(body, self._point(body))
             self._last = None
-        elif self._last is None:
-            self._last = self._point(body)
 
     def on_tick(self, body: Body, view: WorldView) -> None:
         """Draw the way of this tick."""
-        if not self._is_down:
+        if not self._is_down or self._last is None:
             return
         here = self._point(body)
-        if body.on_ground and not body.fallen and self._last is not None:
-            view.ink.draw(self._last, here, body.z, self._width, self._code)
-        self._last = here
+        # a stroke takes as long for a few millimetres as for a cell
+        if self._is_fresh or math.dist(self._last, here) >= LEAST_STROKE_M:
+            self._draw(body, here)
+
+    def _draw(self, body: Body, here: tuple[float, float]) -> None:
+        if self._last is not None:
+            body.draw(self._last, here, width=self._width, code=self._code)
+        self._last, self._is_fresh = here, False
 
     def _point(self, body: Body) -> tuple[float, float]:
         (x, y), ahead = body.position, self.ahead

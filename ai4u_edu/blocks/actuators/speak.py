@@ -8,8 +8,7 @@ from pydantic import Field
 
 from ai4u_edu.base.parameters import PositiveMetres
 from ai4u_edu.blocks.actuators.actuator import Actuator
-from ai4u_edu.blocks.agent_view import AgentView
-from ai4u_edu.world import Body, WorldView
+from ai4u_edu.world import Body
 
 MAX_NUMBERS = 8
 
@@ -41,14 +40,10 @@ class SpeakActuator(Actuator):
         """Return the names of the numbers."""
         return ("speak", *numbers_named(self.size))
 
-    def on_setup(self, agent: AgentView, view: WorldView) -> None:
-        """Store the world's view."""
-        self._view = view
-
     def act(self, body: Body, action: tuple[float, ...]) -> None:
         """Say the numbers, or nothing."""
         if action[0] > 0.5:
-            self._view.messages.say(body, action[1:], self.reach)
+            body.say(action[1:], self.reach)
 
 
 def numbers_named(size: int) -> tuple[str, ...]:

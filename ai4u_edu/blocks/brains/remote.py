@@ -1,7 +1,7 @@
 """A brain whose script runs in another process, or on another machine."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal, Self, assert_never
 
 from pydantic import Field
@@ -88,6 +88,7 @@ class RemoteBrain(Brain):
         """The script asked for no more decisions in this episode."""
         self._is_resetting = False
         """The reset that is under way was asked for by the script."""
+        self._reset_fields: Mapping[str, tuple[str, ...]] = {}
         self._must_truncate = False
         """The script has yet to answer that its episode was cut off."""
 
@@ -155,6 +156,8 @@ class RemoteBrain(Brain):
         is_unexpected = not self._is_resetting and not agent.steps
         is_in_episode = asked is not None and (self._must_truncate or not asked.done)
         self._must_truncate = is_unexpected and is_in_episode
+        if self._is_resetting:
+            self._take_fields(self._reset_fields)
         self._is_resetting = self._is_stopped = False
         self._current = None
         if self.override is not None:
@@ -293,8 +296,11 @@ class RemoteBrain(Brain):
     def _carry_out(self, link: Link, reply: Reply, observation: Observation) -> Answer:
         """Return a reply as the decision cycle takes it."""
         answer, agent = reply.answer, self._agent
+        if not isinstance(answer, ResetRequest):
+            self._take_fields(reply.fields)
         if isinstance(answer, ResetRequest):
             self._warn(reply.warning)
+            self._reset_fields = reply.fields
             self._is_resetting, self._must_truncate = True, False
             self._seed = answer.seed
             is_for_world = not agent.other_agents or answer.seed is not None
@@ -322,6 +328,11 @@ class RemoteBrain(Brain):
         self._warn(reply.warning)
         self._status.accept(clipped, self._patience.now())
         return action
+
+    def _take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> None:
+        """Give the agent what a script sent besides the action, and report what does not fit."""
+        if fields or self._agent.fields:
+            self._warn(self._agent.take_fields(fields))
 
     def _reason_without_effect(self, action: Action, observation: Observation) -> str:
         """Say why an action has no effect, whatever it is."""

@@ -13,6 +13,7 @@ from ai4u_edu import (
     GridSensor,
     GroupTouchSensor,
     HeadingSensor,
+    HearSensor,
     IDSensor,
     LightSensor,
     LinearRayCastingSensor,
@@ -44,6 +45,14 @@ def remove_ball(agent: BasicAgent, decision: int) -> None:
         ball.leave()
 
 
+def let_box_speak(agent: BasicAgent, decision: int) -> None:
+    """Let the box say something now and then, as another agent would."""
+    box = agent.view["box"]
+    assert isinstance(box, Body)
+    if decision % 3 == 0:
+        box.say((math.sin(decision),), 50.0)
+
+
 SAMPLES = (
     Sample(AgentArraySensor(size=2), script=set_array),
     AreaOrientationSensor(target_group="target", group_code={"target": 2, "wall": 4}, radius=3),
@@ -52,6 +61,7 @@ SAMPLES = (
     FloatArrayCompositeSensor(sensors=[BearingSensor(target="box"), HeadingSensor()]),
     GridSensor(rows=14, columns=14, cell_size=0.5, group_code=CODES, self_exclude=False),
     GroupTouchSensor(group="target"),
+    Sample(HearSensor(), script=let_box_speak),
     Sample(IDSensor(), always_same="an agent keeps its id"),
     LineSensor(group="goal"),
     LightSensor(group="target", angle_deg=40),

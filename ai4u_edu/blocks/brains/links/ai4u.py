@@ -96,6 +96,7 @@ class AI4ULink:
         """Begin to look for a script."""
         self.close("the agent is set up again")
         self._codec = AI4UCodec(spec)
+        self._readable = spec.fields
         self._dialogue = AI4UDialogue(
             spec.agent,
             metadata=self._codec.metadata,
@@ -255,6 +256,7 @@ class AI4ULink:
     def _handle(self, received: AI4UReply) -> Reply | None:
         """Return what a reply means for the agent; None if it means nothing."""
         kind, observation = received.kind, self._asked
+        fields = self._codec.fields(received.orders)
         self._time_requests = self._time_requests + 1 if kind is ReplyKind.WAIT else 0
         if (
             self.state is not LinkState.CONNECTED
@@ -268,26 +270,28 @@ class AI4ULink:
             case ReplyKind.WAIT:
                 self.time_asked_at = self._clock()
             case ReplyKind.RESET:
-                return Reply(ResetRequest(), observation, self._warning(received))
+                return Reply(ResetRequest(), observation, self._warning(received), fields)
             case ReplyKind.HALT:
                 self._end_session(LinkState.WAITING, f"the script at {self.where} has ended")
             case ReplyKind.ACTION if self.expects_reply:
                 action = self._codec.action(received.orders)
-                return Reply(action, observation, self._warning(received))
+                return Reply(action, observation, self._warning(received), fields)
             case ReplyKind.ACTION:
                 self._malformed = (
                     f"action {shown(received.orders[0].name)} had no effect: expected '__reset__' "
                     "first, with which an episode begins"
                 )
             case _ if self.expects_reply:
-                return Reply(COMMANDS[kind], observation, self._warning(received))
+                return Reply(COMMANDS[kind], observation, self._warning(received), fields)
         return None
 
     def _warning(self, received: AI4UReply) -> str:
         """Return a sentence about what had no effect, in a reply and in messages before it."""
         malformed, self._malformed = self._malformed, ""
         is_action = received.kind is ReplyKind.ACTION
-        dropped = self._codec.find_dropped(received.orders, is_action=is_action)
+        dropped = self._codec.find_dropped(
+            received.orders, is_action=is_action, readable=self._readable
+        )
         return "; ".join(filter(None, (malformed, dropped)))
 
     def _check_timeout(self, looked_at: float) -> None:

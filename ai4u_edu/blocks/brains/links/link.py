@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 from typing import Any, NamedTuple, Protocol
 
 from gymnasium import spaces
@@ -10,6 +11,7 @@ from gymnasium import spaces
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Answer
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.blocks.sensors import AgentArraySensor
 
 
 class LinkState(StrEnum):
@@ -63,6 +65,8 @@ class AgentSpec:
     outputs: tuple[OutputSpec, ...]
     rewards: tuple[str, ...]
     """Names of the reward's terms."""
+    fields: tuple[str, ...] = ()
+    """Names of fields of an AI4U script that sensors read."""
 
 
 class Observation(NamedTuple):
@@ -108,6 +112,8 @@ class Reply(NamedTuple):
     """None if it answers no observation, such as a reset by a script that has just connected."""
     warning: str = ""
     """A sentence about parts of it, or messages before it, that have no effect; empty for none."""
+    fields: Mapping[str, tuple[str, ...]] = MappingProxyType({})
+    """Fields that an AI4U script sends besides the action, by name."""
 
 
 class Link(Protocol):
@@ -215,4 +221,9 @@ def describe_agent(
             if actuator.is_active
         ),
         rewards=tuple(reward.name for reward in agent.rewards if reward.is_active),
+        fields=tuple(
+            sensor.perception_key
+            for sensor in agent.sensors
+            if sensor.is_active and isinstance(sensor, AgentArraySensor)
+        ),
     )
