@@ -74,6 +74,10 @@ INDEX = """<!doctype html>
   }}
   const panel = (window.panel = new FakePanel());
   installShortcuts(panel);
+  if ("{part}" === "world") {{
+    const {{ Palette }} = await import("./web/panel/world/palette.js");
+    panel.palette = new Palette(panel);
+  }}
   const tab = new {name}(document.querySelector("[role=tabpanel]"), panel);
   window.isReady = true;
 </script>

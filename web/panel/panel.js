@@ -32,9 +32,8 @@ const MAX_FILE_NAME_CHARS = 80;
  * @type {Record<string, Show["tabs"][number]>}
  */
 const PART_OF_TAB = { drive: "agent", build: "blocks", world: "world", code: "agent", past: "past" };
-/** Parts that tabs need besides their own. @type {Record<string, Show["tabs"]>} */
+/** @type {Record<string, Show["tabs"]>} parts that tabs need besides their own */
 const MORE_PARTS = { code: ["past"], build: ["world"] };
-/** Tabs that build the world, with the palette under it. */
 const BUILDING = ["build", "world"];
 /** @typedef {{update(part: Parts[keyof Parts]): void}} Tab takes each part of its name */
 /** @typedef {new (root: HTMLElement, panel: Panel) => Tab} TabClass */

@@ -1,15 +1,7 @@
-/** Shortcuts for changing the world: undo and redo anywhere; delete, copy, paste and nudge for the selected things. */
+/** Shortcuts for changing the world: undo and redo anywhere; the others come with the palette (world/palette.js). */
 
 /** @import { Panel } from "./panel.js" */
 import { isTextInput } from "../page/keys.js";
-import { choose, duplicateSelected, removeSelected, selected } from "./world/selection.js";
-
-/** Distance by which an arrow key moves a thing if there is no grid, or while Alt is held (m). */
-const FREE_STEP_M = 0.05;
-/** Angle by which an arrow key rotates a thing while Shift is held (degrees). */
-const TURN_STEP_DEG = 15;
-/** @type {Record<string, [right: number, up: number]>} */
-const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @type {Panel | null} */
 let panel = null;
@@ -42,41 +34,8 @@ addEventListener(
  * Return what a key does as a function; null if it does nothing here.
  * @param {KeyboardEvent} event
  */
-function commandOf(event) {
-  const { key, code } = event;
-  const isBuilding = panel.shown.tabs.includes("world");
-  const names = isBuilding ? selected(panel) : [];
-  if (event.ctrlKey || event.metaKey) {
-    const letter = key.toLowerCase();
-    if (letter === "z") return () => panel.send(event.shiftKey ? "redo" : "undo");
-    if (letter === "y") return () => panel.send("redo");
-    if (letter === "v" && isBuilding) return () => panel.palette?.bar.paste();
-    if (names.length === 0) return null;
-    if (letter === "d") return () => duplicateSelected(panel);
-    if (letter === "c" && getSelection().isCollapsed) return () => panel.palette?.bar.copy();
-    return null;
-  }
-  if (names.length === 0) return null;
-  if (key === "Delete" || key === "Backspace") return () => removeSelected(panel);
-  if (key === "Escape" && !panel.part("world")?.is_dragging) return () => choose(panel, null);
-  if (code in DIRECTIONS && panel.part("world")?.is_move_mode && !usesArrows(event.target)) return () => nudge(names, event);
-  return null;
-}
-
-/** @param {EventTarget} target */
-function usesArrows(target) {
-  return target instanceof Element && target.matches("[role=tab], [role=slider], input, select");
-}
-
-/**
- * @param {string[]} names
- * @param {KeyboardEvent} event
- */
-async function nudge(names, { code, shiftKey, altKey }) {
-  const [right, up] = DIRECTIONS[code];
-  const step = (!altKey && panel.part("world")?.snap) || FREE_STEP_M;
-  const turn = shiftKey ? -right * TURN_STEP_DEG : 0;
-  const [dx, dy] = shiftKey ? [0, 0] : [right * step, up * step];
-  const answer = await panel.send("nudge", { names, dx, dy, turn_deg: turn }, { quiet: true });
-  if (answer.ok) panel.palette?.say(answer.text);
+function commandOf({ key, ctrlKey, metaKey, shiftKey }) {
+  const letter = ctrlKey || metaKey ? key.toLowerCase() : "";
+  if (letter === "z") return () => panel.send(shiftKey ? "redo" : "undo");
+  return letter === "y" ? () => panel.send("redo") : null;
 }

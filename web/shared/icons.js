@@ -60,7 +60,6 @@ const PATHS = {
   copy: "M8 8h12v12H8zM16 8V4H4v12h4",
   duplicate: "M8 8h12v12H8zM16 8V4H4v12h4M14 11v6M11 14h6",
   paste: "M7 5H5v16h14V5h-2M9 3h6v4H9zM9 12h6M9 16h6",
-  frame: "M4 8V4h4M11 4h2M16 4h4v4M20 11v2M20 16v4h-4M13 20h-2M8 20H4v-4M4 13v-2M9 9h6v6H9z",
   align_row: "M3 12h18M5 8h4v8H5zM14 6h5v12h-5z",
   align_column: "M12 3v18M8 5h8v4H8zM6 14h12v5H6z",
   spread: "M3 5v14M21 5v14M9 8h6v8H9z",

@@ -52,7 +52,7 @@ export class BuildTab {
       return made;
     });
     root.append(
-      element("h3", { className: "ai4u-add-title", textContent: "Add to the robot" }),
+      element("h3", { textContent: "Add to the robot" }),
       element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add to the robot" }, ...adding),
       this.#driver.element,
     );

@@ -13,7 +13,7 @@ import { element, setAttributes, setText } from "../../shared/dom.js";
 import { recall } from "../../shared/storage.js";
 import { Ground, onGrid } from "./ground.js";
 import { chooseAdded, setMoveMode } from "./selection.js";
-import { SelectionBar } from "./selection_bar.js";
+import { DIRECTIONS, SelectionBar } from "./selection_bar.js";
 
 /** Keys under which the page remembers whether things are moved by the mouse, and the distance of the grid (m). */
 export const MOVES_KEY = "move-things";
@@ -29,8 +29,6 @@ const GROUND_MS = 400;
 /** Step of an arrow key (m) without a grid, and with Alt. */
 const STEP_M = 0.25;
 const FINE_STEP_M = 0.05;
-/** @type {Record<string, [right: number, up: number]>} */
-const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 /** @typedef {Pick<PointerEvent, "clientX" | "clientY" | "altKey">} Aim */
 
@@ -74,7 +72,7 @@ export class Palette {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    this.bar = new SelectionBar(panel);
+    this.bar = new SelectionBar(panel, (text) => this.say(text));
     this.#layer.append(this.#ghost);
     this.element.append(this.bar.element, this.#hint, this.#entries, this.#says);
     this.#layer.addEventListener("pointermove", (event) => this.#follow(event));
@@ -96,14 +94,15 @@ export class Palette {
   }
 
   /**
-   * Return what a key does while a thing is held, as a function; null if it does nothing here.
+   * Return what a key does, as a function; null if it does nothing here.
    * @param {KeyboardEvent} event
    */
-  commandOf({ key, code, altKey, ctrlKey, metaKey, repeat }) {
-    if (this.#held === null || ctrlKey || metaKey) return null;
+  commandOf(event) {
+    const { key, code, altKey, ctrlKey, metaKey, repeat } = event;
+    if (this.#held === null || ctrlKey || metaKey) return this.bar.commandOf(event);
     if (key === "Escape") return () => this.#drop("Put away.");
     if (key === "Enter") return () => repeat || this.#put(); // the press that took it may still go on
-    if (!(code in DIRECTIONS)) return null;
+    if (!(code in DIRECTIONS)) return this.bar.commandOf(event);
     const step = altKey ? FINE_STEP_M : this.#snap || STEP_M;
     const [right, up] = DIRECTIONS[code];
     return () => {

@@ -9,12 +9,22 @@ import { isTextInput } from "../../page/keys.js";
 import { Ground } from "./ground.js";
 import { alignSelected, choose, chooseMore, copySelected, duplicateSelected, paste, removeSelected, selected } from "./selection.js";
 
+/** Distance by which an arrow key moves a thing if there is no grid, or while Alt is held (m). */
+const FREE_STEP_M = 0.05;
+/** Angle by which an arrow key rotates a thing while Shift is held (degrees). */
+const TURN_STEP_DEG = 15;
+/**
+ * Directions of arrow keys.
+ * @type {Record<string, [right: number, up: number]>}
+ */
+export const DIRECTIONS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 /** Size (px) from which a pulled frame is one; a smaller one is a click. */
 const MIN_FRAME_PX = 6;
 
 export class SelectionBar {
   #panel;
-  #several = button("", () => this.#setMode(!this.#isMode), { icon: "frame", label: "Select several" });
+  #say;
+  #several = button("", () => this.#setMode(!this.#isMode), { icon: "area", label: "Select several" });
   #count = element("p", { className: "ai4u-selection-count", role: "status" });
   #one;
   #many;
@@ -36,12 +46,16 @@ export class SelectionBar {
    */
   #pointer = null;
 
-  /** @param {Panel} panel */
-  constructor(panel) {
+  /**
+   * @param {Panel} panel
+   * @param {(text: string) => void} say says something to screen readers
+   */
+  constructor(panel, say) {
     this.#panel = panel;
+    this.#say = say;
     setAttributes(this.#several, { "aria-pressed": "false" });
     this.#one = [
-      button("", () => this.copy(), { icon: "copy", label: "Copy (Ctrl+C)" }),
+      button("", () => this.#copy(), { icon: "copy", label: "Copy (Ctrl+C)" }),
       button("", () => duplicateSelected(panel), { icon: "duplicate", label: "Duplicate (Ctrl+D)" }),
       button("", () => removeSelected(panel), { icon: "trash", label: "Delete" }),
     ];
@@ -72,15 +86,50 @@ export class SelectionBar {
     if (!isOn) this.#setMode(false);
   }
 
-  /** Copy the selected things. */
-  copy() {
+  /**
+   * Return what a key does to the selected things, as a function; null if it does nothing here.
+   * @param {KeyboardEvent} event
+   */
+  commandOf(event) {
+    const { key, code } = event;
+    const panel = this.#panel;
+    if (!panel.shown.tabs.includes("world")) return null;
+    const names = selected(panel);
+    if (event.ctrlKey || event.metaKey) {
+      const letter = key.toLowerCase();
+      if (letter === "v") return () => this.#pasteHere();
+      if (names.length === 0) return null;
+      if (letter === "d") return () => duplicateSelected(panel);
+      return letter === "c" && getSelection().isCollapsed ? () => this.#copy() : null;
+    }
+    if (names.length === 0) return null;
+    if (key === "Delete" || key === "Backspace") return () => removeSelected(panel);
+    if (key === "Escape" && !panel.part("world")?.is_dragging) return () => choose(panel, null);
+    const moves = code in DIRECTIONS && panel.part("world")?.is_move_mode && !usesArrows(event.target);
+    return moves ? () => this.#nudge(names, event) : null;
+  }
+
+  /**
+   * @param {string[]} names
+   * @param {KeyboardEvent} event
+   */
+  async #nudge(names, { code, shiftKey, altKey }) {
+    const [right, up] = DIRECTIONS[code];
+    const step = (!altKey && this.#panel.part("world")?.snap) || FREE_STEP_M;
+    const turn = shiftKey ? -right * TURN_STEP_DEG : 0;
+    const [dx, dy] = shiftKey ? [0, 0] : [right * step, up * step];
+    const answer = await this.#panel.send("nudge", { names, dx, dy, turn_deg: turn }, { quiet: true });
+    if (answer.ok) this.#say(answer.text);
+  }
+
+  #copy() {
     this.#hasCopy = true;
     copySelected(this.#panel);
     this.#update();
   }
 
   /** Paste where the pointer is, or beside where it was copied. */
-  async paste() {
+  async #pasteHere() {
     const place = this.#pointer;
     const ground = place && (await this.#ground());
     await paste(this.#panel, ground ? ground.at(place) : null);
@@ -161,6 +210,11 @@ export class SelectionBar {
     const isThere = target instanceof HTMLCanvasElement || target === this.#layer;
     this.#pointer = isThere ? { x, y } : null;
   }
+}
+
+/** @param {EventTarget} target */
+function usesArrows(target) {
+  return target instanceof Element && target.matches("[role=tab], [role=slider], input, select");
 }
 
 /**
