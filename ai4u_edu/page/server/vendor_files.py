@@ -14,7 +14,7 @@ from pathlib import Path
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 
-from ai4u_edu.page.server.web_files import ALWAYS_ASK, NEVER_ASK, web_folder
+from ai4u_edu.page.server.web_files import ALWAYS_ASK, NEVER_ASK, takes_gzip, web_folder
 
 _PROGRAM = Path(__file__).resolve().parents[2] / "program"
 _PACKED = ".gz"
@@ -54,7 +54,7 @@ class VendorFiles:
         if path is None:
             return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
         suffix = Path(name).suffix
-        is_packed = _takes_gzip(request) and (suffix in _SCRIPTS or path.suffix == _PACKED)
+        is_packed = takes_gzip(request) and (suffix in _SCRIPTS or path.suffix == _PACKED)
         etag = await asyncio.to_thread(_etag, path, path.stat().st_mtime_ns, is_packed=is_packed)
         headers = {
             **(NEVER_ASK if "v" in request.query_params else ALWAYS_ASK),
@@ -83,11 +83,6 @@ async def program_zip(request: Request) -> Response:
     if request.headers.get("if-none-match") == etag:
         return Response(status_code=304, headers=headers)
     return Response(content, headers=headers, media_type="application/zip")
-
-
-def _takes_gzip(request: Request) -> bool:
-    offers = request.headers.get("accept-encoding", "").lower().split(",")
-    return any(each.partition(";")[0].strip() == "gzip" for each in offers)
 
 
 @lru_cache(maxsize=64)

@@ -1,5 +1,6 @@
 """Our scripts and styles, which pages load from ``web/``."""
 
+import gzip
 import hashlib
 import posixpath
 import re
@@ -75,12 +76,17 @@ class WebFiles:
             if name not in files:
                 return PlainTextResponse(f"no file is called {name[:80]!r}\n", 404)
         content, etag = _read(files[name] for name in names)
+        is_packed = takes_gzip(request)
+        etag = f'"{etag}-gzip"' if is_packed else f'"{etag}"'
         is_present = request.path_params.get("version") == self.version
         headers = {**(NEVER_ASK if is_present else ALWAYS_ASK), "ETag": etag}
+        headers["Vary"] = "Accept-Encoding"
         if names[0] in _POLICIES:
             headers["Content-Security-Policy"] = _POLICIES[names[0]]
         if request.headers.get("if-none-match") == etag:
             return Response(status_code=304, headers=headers)
+        if is_packed:
+            content, headers["Content-Encoding"] = _pack(content), "gzip"
         return Response(content, headers=headers, media_type=_MEDIA_TYPES[files[names[0]].suffix])
 
     @property
@@ -146,4 +152,15 @@ def _read(paths: Iterable[Path]) -> tuple[bytes, str]:
 def _read_once(files: tuple[tuple[Path, int], ...]) -> tuple[bytes, str]:
     """Do so for files of a time of change (ns)."""
     content = b"\n".join(path.read_bytes() for path, _ in files)
-    return content, f'"{hashlib.sha256(content).hexdigest()[:32]}"'
+    return content, hashlib.sha256(content).hexdigest()[:32]
+
+
+@lru_cache(maxsize=256)
+def _pack(content: bytes) -> bytes:
+    return gzip.compress(content, mtime=0)
+
+
+def takes_gzip(request: Request) -> bool:
+    """Return True if a browser reads what is packed with gzip."""
+    offers = request.headers.get("accept-encoding", "").lower().split(",")
+    return any(each.partition(";")[0].strip() == "gzip" for each in offers)

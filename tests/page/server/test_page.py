@@ -106,6 +106,19 @@ def test_a_file_that_is_known_is_not_sent_again(room: Room) -> None:
 
 
 @pytest.mark.parametrize("name", ["page/main.js", "all_styles.css"])
+def test_a_file_is_sent_packed_to_whoever_reads_that(room: Room, name: str) -> None:
+    packed, plain = (
+        http_client.get(f"{room.url}web/{name}", headers={"Accept-Encoding": offered})
+        for offered in ("gzip, br", "identity")
+    )
+    assert packed.headers["Content-Encoding"] == "gzip"
+    assert "Content-Encoding" not in plain.headers
+    assert packed.content == plain.content
+    assert int(packed.headers["Content-Length"]) < len(plain.content) / 2
+    assert packed.headers["ETag"] != plain.headers["ETag"]
+
+
+@pytest.mark.parametrize("name", ["page/main.js", "all_styles.css"])
 def test_a_browser_keeps_what_has_the_present_version(room: Room, name: str) -> None:
     kept = http_client.get(f"{room.url}web-{WebFiles().version}/{name}")
     assert "immutable" in kept.headers["Cache-Control"]
