@@ -128,6 +128,9 @@ class PenActuator(Actuator):
         if not self._is_down or self._last is None:
             return
         here = self._point(body)
+        if not body.on_ground:  # it draws again where it lands
+            self._last, self._is_fresh = here, True
+            return
         # a stroke takes as long for a few millimetres as for a cell
         if self._is_fresh or math.dist(self._last, here) >= LEAST_STROKE_M:
             self._draw(body, here)
