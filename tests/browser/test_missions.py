@@ -13,6 +13,7 @@ from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
 from tests.page.panel import rooms
 from tests.page.server.rooms import Room
+from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.browser
 
@@ -235,7 +236,7 @@ def test_a_person_does_the_first_steps_by_keys(chromium: Browser) -> None:
         )
         page.goto(served.url)
         expect(page.get_by_text("Step 1 of 4")).to_be_visible()
-        served.runner.resume().result()
+        served.runner.resume().result(LIMIT_S)
         press_until_done(page, "KeyW")
         page.get_by_role("button", name="Next", exact=True).click()
         expect(page.get_by_text("Step 2 of 4")).to_be_visible()
@@ -249,7 +250,6 @@ def test_a_person_does_the_first_steps_by_keys(chromium: Browser) -> None:
 
 
 def press_until_done(page: Page, key: str) -> None:
-    page.locator("body").click(position={"x": 5, "y": 300})
     page.keyboard.down(key)
     expect(page.locator(".ai4u-mission-done")).to_contain_text("✓")
     page.keyboard.up(key)
@@ -266,7 +266,7 @@ LIGHTS = sorted(
 
 
 def test_only_controls_that_exist_are_lit(chromium: Browser) -> None:
-    """Open each tab of an empty plate and of a scene, and find every name there."""
+    """Find each name that a mission may light in one of the tabs."""
     found: set[str] = set()
     page = new_page(chromium)
     script = """names => import("./web/missions/lights.js").then(({ Lights }) => {
@@ -281,10 +281,12 @@ def test_only_controls_that_exist_are_lit(chromium: Browser) -> None:
     with rooms.panel_room() as served:
         WITHOUT_VISER.serve(page, served.url)
         page.goto(served.url)
+        served.runner.resume().result(LIMIT_S)
+        expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
         page.get_by_role("button", name="Details").click()
         for tab in ("Drive", "Build", "World", "Code"):
             page.get_by_role("tab", name=tab, exact=True).click()
-            expect(page.get_by_role("tabpanel").locator("button").first).to_be_visible()
+            expect(page.locator(".ai4u-tabpanel:visible button:visible").first).to_be_visible()
             found |= set(page.evaluate(script, list(CONTROLS)))
         page.context.close()
     # the tab Teach needs a folder for a person's work

@@ -77,9 +77,13 @@ def open_start(page: Page, world: World) -> None:
 
 
 def test_a_scene_is_played_by_keyboard_alone(world: World, page: Page) -> None:
-    for name in ("Back to “Maze”", "Missions", "Play", "Build"):
+    page.goto(f"{world.url}start")
+    for name in ("Back to “Maze”", "Missions", "Play"):
         page.keyboard.press("Tab")
         expect(page.get_by_role("link" if "Back" in name else "button", name=name)).to_be_focused()
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Build")).to_be_focused()
     scene = page.get_by_role("button", name="Sumo", exact=True)
     while not scene.evaluate("button => button === document.activeElement"):
         page.keyboard.press("Tab")

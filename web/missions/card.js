@@ -35,7 +35,7 @@ export class MissionCard {
   #problem = element("p", { className: "ai4u-mission-problem" });
   #news = element("div", { role: "status" }, this.#done, this.#problem);
   #stars = element("ul", { className: "ai4u-mission-stars" });
-  #question = element("form", { className: "ai4u-mission-question" });
+  #question = element("div", { className: "ai4u-mission-question" });
   #elsewhere = button("Open", () => this.#openScene(), { kind: "main" });
   #before = button("", () => this.#go(this.#part.step - 1), { icon: "back", label: "Step before", kind: "quiet" });
   #next = button("Next", () => this.#goOn(), {});
@@ -191,10 +191,7 @@ export class MissionCard {
     const input = element("input", { type: "text", inputMode: "decimal", autocomplete: "off", id: freeId() });
     const label = element("label", { htmlFor: input.id, textContent: question.text });
     this.#question.append(label, input, button("Check", () => send(input.value), {}));
-    this.#question.onsubmit = (event) => {
-      event.preventDefault();
-      send(input.value);
-    };
+    input.addEventListener("keydown", ({ key, isComposing }) => key === "Enter" && !isComposing && send(input.value));
   }
 
   /** Go on: to the next step, or to the next mission, or to the map. */
