@@ -131,7 +131,13 @@ def test_every_field_of_every_block(harness: Attacked, kind: str, name: str) -> 
     assert as_suggested or name in UNFIT, "all was refused for another reason"
 
 
-UNFIT = {"HomeostaticSensor", "LineSensor", "BodyInAreaRewardFunc", "ParkedRewardFunc"}
+UNFIT = {
+    "BodyInAreaRewardFunc",
+    "FigureReward",
+    "HomeostaticSensor",
+    "LineSensor",
+    "ParkedRewardFunc",
+}
 """Blocks that need more than this scene has."""
 CONTROLLERS = [
     name
