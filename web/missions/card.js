@@ -42,7 +42,7 @@ export class MissionCard {
   #again = button("From the start", () => this.#go(0), {});
   #map = element("a", { className: "ai4u-plain", href: MAP, textContent: "Map" });
   #everything = button("Show everything", () => this.#hide(true), { kind: "quiet", title: "Put this card and its lights away" });
-  #buttons = element("div", { className: "ai4u-buttons" }, this.#before, this.#elsewhere, this.#next, this.#again, this.#map, this.#everything);
+  #buttons = element("div", { className: "ai4u-mission-buttons" }, this.#before, this.#elsewhere, this.#next, this.#again, this.#map, this.#everything);
   #card;
   #pillText = element("span");
   #pill = button("", () => this.#hide(false), { kind: "quiet", title: "Show the mission again" });
