@@ -105,14 +105,12 @@ def _take(
 
 
 def _take_blocks(chromium: Browser, path: Path, size: tuple[int, int], scheme: Scheme) -> None:
-    """Take the picture of blocks that drive through the maze, beside the steps that lead there."""
+    """Take the picture of blocks that drive through the maze, beside their Python."""
     viewport: Any = {"width": size[0], "height": size[1]}
     is_phone = size == PHONE
     context = chromium.new_context(
         viewport=viewport, color_scheme=scheme, has_touch=is_phone, is_mobile=is_phone
     )
-    script = "localStorage.setItem('ai4u-blocks-steps', '2')"
-    context.add_init_script(script)
     with (
         played("maze", "--seed", SEED, "--time-scale", TIME_SCALE) as server,
         contextlib.closing(context),

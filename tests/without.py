@@ -14,6 +14,7 @@ OPTIONS = {
     "games": ["ai4u_edu.games"],
     "learn": ["ai4u_edu.learn"],
     "lessons": ["ai4u_edu.lessons"],
+    "missions": ["ai4u_edu.missions"],
     "program": ["ai4u_edu.program"],
     "teach": ["ai4u_edu.teach"],
 }

@@ -11,13 +11,13 @@ from typing import NamedTuple, Protocol
 
 from ai4u_edu.base.errors import SetupError
 
-PAGE_OPTIONS = ("ai4u_edu.explain.page", "ai4u_edu.teach")
+PAGE_OPTIONS = ("ai4u_edu.explain.page", "ai4u_edu.teach", "ai4u_edu.missions")
 """Add to the page of a world: each has a function ``page_option``; see
 :class:`ai4u_edu.room.served_world.Option`."""
 ENV_PAGE = "ai4u_edu.room.env_page"
 """Shows an environment's world: ``EnvPage`` makes its :class:`LivePage`."""
-COURSE = "ai4u_edu.lessons.course"
-"""Module of the lessons that a start page lists: ``lessons`` returns them."""
+MISSIONS = "ai4u_edu.missions"
+"""The missions of a start page: ``mission_map`` returns the function that lists them."""
 DRIVERS = "ai4u_edu.learn.training.assigned"
 """Lets networks and programs drive in a world: ``with_drivers`` builds it."""
 

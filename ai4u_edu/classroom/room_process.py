@@ -16,8 +16,8 @@ from ai4u_edu.base.process_signals import ask_to_end
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
-from ai4u_edu.lessons.course import lessons
 from ai4u_edu.member import ClassLinkSettings
+from ai4u_edu.missions import mission_map
 from ai4u_edu.page.server import Rules, serve
 from ai4u_edu.page.server.app import RoomMount
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
@@ -96,7 +96,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         # the class checks both: the name under which a browser has the page is in its requests
         allowed_hosts=("*",),
         rules=_rules(order),
-        lessons=lessons,
+        missions=mission_map(),
         saved_scenes=order.folder / "scenes",
         class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
         class_folder=order.folder,

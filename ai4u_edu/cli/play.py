@@ -1,6 +1,6 @@
 """``ai4u-edu play``: serve a scene in the browser."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import typer
 
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
-from ai4u_edu.base.options import COURSE, DRIVERS, MissingOptionError, load_option
+from ai4u_edu.base.options import DRIVERS, MISSIONS, MissingOptionError, load_option
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, expect_scene, load_own_blocks
 
 if TYPE_CHECKING:
-    from ai4u_edu.page.server.start_page import ListedLesson
+    from ai4u_edu.page.server.start_page import MissionsView
     from ai4u_edu.room import Room, RoomSettings
 
 
@@ -42,6 +42,7 @@ def play(
     ghost: o.GhostFile = None,
     offer: o.Offers = None,
     kept_scenes: o.SavedScenes = None,
+    missions: o.MissionsFolder = None,
     restore: o.Restore = False,
     autosave: o.AutosaveFlag = True,
     class_url: o.ClassUrl = "",
@@ -65,7 +66,8 @@ def play(
         allowed_hosts=hosts_for(host),
         proxy_hosts=tuple(allow_host or ()),
         rules=Rules(grace, receive_timeout, token, seeded_resets, lockstep, on_missing or ""),
-        lessons=_lessons(),
+        missions=_mission_map(missions),
+        missions_folder=missions,
         record=record,
         keep=keep,
         ghost=ghost,
@@ -85,15 +87,24 @@ def play(
     _serve(settings, host, port, open_page, connections)
 
 
-def _lessons() -> "Callable[[], Sequence[ListedLesson]]":
-    """Return the function that lists the course's lessons; without the course there are none."""
+def _mission_map(folder: Path | None) -> "Callable[[], MissionsView]":
+    """Return the function that lists missions, and warn of those that can't be read.
+
+    Args:
+        folder: of a teacher; None for none.
+    """
+    from ai4u_edu.page.server import MissionsView
+
     try:
-        lessons: Callable[[], Sequence[ListedLesson]] = load_option(
-            COURSE, "the start page"
-        ).lessons
+        missions = load_option(MISSIONS, "--missions" if folder else "the start page")
     except MissingOptionError:
-        return list
-    return lessons
+        if folder is not None:
+            raise
+        return MissionsView
+    show: Callable[[], MissionsView] = missions.mission_map(folder)
+    for problem in show().problems:
+        _warn(problem)
+    return show
 
 
 def _own_scenes() -> Path | None:

@@ -140,6 +140,14 @@ SavedScenes = Annotated[
         "pages can only download them.",
     ),
 ]
+MissionsFolder = Annotated[
+    Path | None,
+    typer.Option(
+        "--missions",
+        help="Folder with missions of your own (YAML files), which are read again when you save "
+        "them. Default: only those that come with AI4U Edu.",
+    ),
+]
 Restore = Annotated[
     bool,
     typer.Option(

@@ -62,6 +62,7 @@ class Room:
         self.editor = SceneEditor(self.runner, scene, offers=[*settings.offers])
         self.editor.recovery.autosave = self._autosave
         self.editor.work_folder = settings.work
+        self.editor.missions_folder = settings.missions_folder
         if settings.saved_scenes is not None:
             self.editor.scene_store = SceneStore(settings.saved_scenes)
         if restored is not None:
@@ -106,7 +107,7 @@ class Room:
             allowed_hosts=settings.allowed_hosts,
             proxy_hosts=settings.proxy_hosts,
             viser_secret=settings.viser_secret,
-            lessons=settings.lessons,
+            missions=settings.missions,
             class_feed=None if self.class_member is None else self.class_member.view,
             script_report=self._script_report,
         )

@@ -20,7 +20,7 @@ from ai4u_edu.page.server import LOOPBACK, Rules, ServerThread, lock_viser_port,
 from ai4u_edu.page.server.class_feed import ClassFeed
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.scripts import ScriptLog
-from ai4u_edu.page.server.start_page import ListedLesson
+from ai4u_edu.page.server.start_page import MissionsView
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption
@@ -56,7 +56,7 @@ def serve_world(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     viser_secret: str = PROXY_SECRET,
-    lessons: Callable[[], Sequence[ListedLesson]] | None = None,
+    missions: Callable[[], MissionsView] | None = None,
     class_feed: ClassFeed | None = None,
     script_report: ScriptLog | None = None,
     options: Sequence[str] = PAGE_OPTIONS,
@@ -81,8 +81,8 @@ def serve_world(
         allowed_hosts: host names of requests; see :mod:`ai4u_edu.page.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
         viser_secret: secret of the world's viser; only a proxy may know it.
-        lessons: returns the lessons on the start page, at which pages also open other scenes; left
-            out, there is no start page. It needs an editor.
+        missions: returns the missions on the start page, at which pages also open other scenes;
+            left out, there is no start page. It needs an editor.
         class_feed: of the class that the world belongs to; pages show it.
         script_report: of what happens with scripts.
         options: modules that add to the page, each with a function ``page_option``, which takes the
@@ -120,8 +120,8 @@ def serve_world(
         rules=rules,
         panel=PanelSockets(context, [*added, _TabList(tabs)] if tabs else added),
         tab_scripts={tab.name: tab.script for tab in tabs},
-        editor=None if lessons is None else editor,
-        lessons=lessons or list,
+        editor=None if missions is None else editor,
+        missions=missions or MissionsView,
         class_feed=class_feed,
         script_report=script_report,
         timeouts=timeouts,

@@ -1,6 +1,6 @@
 """Settings of a room."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.member import ClassLinkSettings
 from ai4u_edu.page.server import Rules
 from ai4u_edu.page.server.host_origin import LOOPBACK
-from ai4u_edu.page.server.start_page import ListedLesson
+from ai4u_edu.page.server.start_page import MissionsView
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, MIN_FRAMES_PER_S
 from ai4u_edu.scenes import Scene
@@ -42,8 +42,10 @@ class RoomSettings:
     """Secret of the room's viser; only a proxy may know it."""
     build: Callable[[Scene], tuple[ControlRequestor, Scene]] = build_scene
     """Builds the scene's world, and returns the scene as its agents are used to observe it."""
-    lessons: Callable[[], Sequence[ListedLesson]] = list
-    """Returns the lessons that the start page lists."""
+    missions: Callable[[], MissionsView] = MissionsView
+    """Returns the missions that the start page shows."""
+    missions_folder: Path | None = None
+    """Folder with a teacher's missions; None for none."""
     record: Path | None = None
     keep: int = DEFAULT_KEPT_EPISODES
     ghost: Path | None = None

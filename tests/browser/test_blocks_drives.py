@@ -69,7 +69,7 @@ def opened(page: Page, server: Played) -> BlocksTab:
     return BlocksTab(page)
 
 
-def test_one_block_is_the_first_step(page: Page) -> None:
+def test_one_block_drives(page: Page) -> None:
     with played("maze", "--seed", "4", *WORLD_WAITS) as server:
         sent = SentFrames(page)
         tab = opened(page, server)
@@ -80,8 +80,6 @@ def test_one_block_is_the_first_step(page: Page) -> None:
         assert server.snapshot()["agents"][0]["pose"] == before
         tab.keys("Control+Enter")
         expect(page.locator(".ai4u-blocks-ran")).to_have_count(2)
-        status = page.locator(".ai4u-steps-status")
-        expect(status).to_contain_text("“Drive” is done")
 
 
 def test_blocks_reach_the_box_from_ten_starts(page: Page) -> None:

@@ -1,4 +1,4 @@
-"""The start page leads to a scene, to an empty plate, and to the lessons."""
+"""The start page leads to missions, to a scene, and to an empty plate."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -8,10 +8,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from ai4u_edu.missions import mission_map
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.autosave import Autosave
 from ai4u_edu.page.editing.scene_store import SceneStore
-from ai4u_edu.page.server import LessonView, room_app
+from ai4u_edu.page.server import room_app
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from tests.browser.contrast import low_contrasts
@@ -25,10 +26,7 @@ pytestmark = pytest.mark.browser
 
 MIN_SIDE_PX, MIN_TOUCH_PX = 28, 40
 SIZES = [(1920, 1080, False), (820, 1180, True), (390, 844, True), (844, 390, True)]
-LESSONS = [
-    LessonView(number="00", title="Start here", duration="45 minutes"),
-    LessonView(number="15", title="Project: <your> own world", duration="Three to five hours"),
-]
+MISSIONS = mission_map()
 
 
 @dataclass
@@ -54,7 +52,7 @@ def world(tmp_path: Path, shared_server: SharedServer) -> Iterator[World]:
         viser_port=NOWHERE,
         title=lambda: editor.title,
         editor=editor,
-        lessons=lambda: LESSONS,
+        missions=MISSIONS,
     )
     runner.start()
     try:
@@ -74,14 +72,18 @@ def page(chromium: Browser, world: World) -> Iterator[Page]:
 
 
 def open_start(page: Page, world: World) -> None:
-    page.goto(f"{world.url}start")
+    page.goto(f"{world.url}start#play")
     expect(page.locator("#scenes li")).to_have_count(len(Scene.names()))
 
 
 def test_a_scene_is_played_by_keyboard_alone(world: World, page: Page) -> None:
-    for name in ("Back to “Maze”", "Play", "Build", "Learn"):
+    page.goto(f"{world.url}start")
+    for name in ("Back to “Maze”", "Missions", "Play"):
         page.keyboard.press("Tab")
         expect(page.get_by_role("link" if "Back" in name else "button", name=name)).to_be_focused()
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Build")).to_be_focused()
     scene = page.get_by_role("button", name="Sumo", exact=True)
     while not scene.evaluate("button => button === document.activeElement"):
         page.keyboard.press("Tab")
@@ -121,7 +123,7 @@ def test_pictures_come_when_they_come_into_view(
     page = quick_page(chromium, extra_http_headers=ASKED)
     page.on("request", lambda each: asked.append(each.url))
     page.add_init_script(FAR_BELOW)
-    page.goto(f"{world.url}start")
+    page.goto(f"{world.url}start#play")
     saved, last = page.locator("#saved img"), page.locator("#library img").last
     expect(saved).to_have_attribute("alt", "My sumo from above")
     until(lambda: is_loaded(saved))
@@ -155,12 +157,35 @@ def test_scenes_have_the_stars_that_programs_have_earned(page: Page) -> None:
     expect(page.get_by_role("img", name="0 of 3 stars")).to_have_count(len(Scene.names()) - 2)
 
 
-def test_learn_lists_the_lessons(page: Page) -> None:
-    page.get_by_role("button", name="Learn").click()
-    expect(page.get_by_role("heading", name="Lessons")).to_be_visible()
+def test_the_map_comes_first_and_shows_progress(world: World, chromium: Browser) -> None:
+    page = quick_page(chromium, extra_http_headers=ASKED)
+    kept = {"drive-1": {"steps": 4, "stars": 2}, "drive-2": {"steps": 1}}
+    page.goto(f"{world.url}start")
+    page.evaluate("kept => (localStorage['ai4u-missions-'] = JSON.stringify(kept))", kept)
+    page.reload()
     expect(page.get_by_role("heading", name="Scenes")).to_be_hidden()
-    rows = [f"{each.number}{each.title}{each.duration}" for each in LESSONS]
-    expect(page.locator("#lessons li")).to_have_text(rows)
+    expect(page.locator(".ai4u-island h3")).to_contain_text(
+        ["Drive1 of 3", "Sense", "Think", "Code", "Build", "Teach"]
+    )
+    expect(page.locator("#map li")).to_have_count(len(MISSIONS().missions))
+    done = page.get_by_role("button", name="First drive, done, 2 of 3 stars")
+    expect(done).to_contain_text("✓ First drive")
+    begun = page.get_by_role("button", name="Round the ring, the next one, 0 of 3 stars")
+    expect(begun).to_contain_text("1 of 3 steps")
+    begun.click()
+    page.wait_for_url(world.url)
+    assert world.scene == "donut"
+    kept_now = page.evaluate("JSON.parse(localStorage['ai4u-mission-'])")
+    assert kept_now == {"mission": "drive-2", "step": 1}
+    close_page(page)
+
+
+def test_a_mission_in_the_present_scene_opens_it_as_it_is(world: World, page: Page) -> None:
+    world.editor.change_settings({"title": "My maze"}).result(LIMIT_S)
+    page.get_by_role("button", name="Missions").click()
+    page.get_by_role("button", name="Feel the walls").click()
+    page.wait_for_url(world.url)
+    assert world.editor.title == "My maze"
 
 
 def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
@@ -185,8 +210,8 @@ def test_its_controls_can_be_read_in_all_states(
     page = quick_page(chromium, extra_http_headers=ASKED, color_scheme=scheme)
     open_start(page, world)
     assert low_contrasts(page, controls=len(Scene.names()) + 3) == []
-    page.get_by_role("button", name="Learn").click()
-    assert low_contrasts(page, controls=4) == []
+    page.get_by_role("button", name="Missions").click()
+    assert low_contrasts(page, controls=len(MISSIONS().missions) + 4) == []
     close_page(page)
 
 

@@ -79,8 +79,8 @@ def test_play_scripts_and_environments_work_without_an_option(option: str) -> No
                 assert answer["text"].startswith("no command is called 'why'")
             else:
                 page.done("why", on=True)
-        lessons = httpx.get(f"{world.url}api/lessons", timeout=LIMIT_S).json()["lessons"]
-        assert bool(lessons) == (option != "lessons")
+        missions = httpx.get(f"{world.url}api/missions", timeout=LIMIT_S).json()["missions"]
+        assert bool(missions) == (option != "missions")
         steps = "" if option == "learn" else STEPS
         command = [sys.executable, "-c", code_without(refused, steps + ACT.format(url=world.url))]
         done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -3,8 +3,6 @@
 /** @import { PythonPart } from "../generated/messages.js" */
 /** @import { Panel } from "../panel/panel.js" */
 /** @import { AgentBlocks } from "./agent.js" */
-/** @import { Starts } from "./checks.js" */
-/** @import { BlockSteps } from "./steps.js" */
 /** @import { Program } from "./text.js" */
 /** @import { BlocksWorkspace } from "./workspace.js" */
 
@@ -20,7 +18,7 @@ const HELP =
   "T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. " +
   "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
 
-/** @typedef {typeof import("./agent.js") & typeof import("./python.js") & typeof import("./workspace.js") & typeof import("./steps.js")} Modules */
+/** @typedef {typeof import("./agent.js") & typeof import("./python.js") & typeof import("./workspace.js")} Modules */
 
 export class BlocksMode {
   /**
@@ -64,10 +62,6 @@ export class BlocksMode {
   #words = element("p", { className: "ai4u-soft", role: "status" });
   #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
   #frame = element("div", { className: "ai4u-blocks-editor" });
-  /** @type {BlockSteps | null} */
-  #steps = null;
-  /** The steps that lead to a program; filled with the first blocks. */
-  steps = element("div", {});
   bar = this.#ways.element;
   element = element("div", { className: "ai4u-blocks", dataset: { ai4uKeys: "" } }, this.#words, this.#frame, this.#help);
 
@@ -78,7 +72,6 @@ export class BlocksMode {
    * @param {() => void} tab.changed called when the person has changed the blocks
    * @param {(text: string) => void} tab.replace called with another program
    * @param {(way: "run" | "step") => void} tab.run called when the person runs the program with a shortcut
-   * @param {(scene: string) => void} tab.openScene opens a scene of the library, and keeps to blocks
    */
   constructor(panel, tab) {
     this.#panel = panel;
@@ -106,7 +99,6 @@ export class BlocksMode {
     if (text === this.#agentText) return;
     [this.#agentText, this.#part] = [text, part];
     if (this.#loaded === null) return;
-    this.#steps.setAgent(part);
     this.#agent = this.#loaded.agentBlocks(part);
     this.#workspace?.setAgent(this.#agent);
     if (this.#isOn) this.#show(this.#blocks);
@@ -159,27 +151,6 @@ export class BlocksMode {
     return Boolean(block);
   }
 
-  /** A run or a test begins. */
-  begin() {
-    if (this.#isOn) this.#steps?.begin();
-  }
-
-  /**
-   * Look at a decision of a run.
-   * @param {Parameters<BlockSteps["note"]>[0]} detail
-   */
-  note(detail) {
-    if (this.#isOn) this.#steps?.note(detail);
-  }
-
-  /**
-   * Look at the starts of a test.
-   * @param {Starts} rows
-   */
-  tested(rows) {
-    if (this.#isOn) this.#steps?.tested(rows);
-  }
-
   // -- the switch --------------------------------------------------------------------------------
 
   /** Show the program's blocks, or a first one. */
@@ -214,7 +185,7 @@ export class BlocksMode {
   }
 
   #draw() {
-    this.#frame.hidden = this.#help.hidden = this.steps.hidden = !this.#isOn;
+    this.#frame.hidden = this.#help.hidden = !this.#isOn;
     this.#ways.set(this.#isOn ? "blocks" : "python");
     this.#say("");
   }
@@ -269,19 +240,14 @@ export class BlocksMode {
     if (this.#loaded !== null) return this.#loaded;
     this.#say("Loading the blocks …");
     try {
-      const names = ["agent", "python", "workspace", "steps"];
+      const names = ["agent", "python", "workspace"];
       const modules = await retried(() => Promise.all(names.map((name) => import(`./${name}.js`))));
       this.#loaded = Object.assign({}, ...modules);
     } catch {
       this.#say(FAILED);
       return null;
     }
-    this.#steps = new this.#loaded.BlockSteps(this.#panel, this.#tab.openScene);
-    this.steps.append(this.#steps.element);
-    if (this.#part !== null) {
-      this.#agent = this.#loaded.agentBlocks(this.#part);
-      this.#steps.setAgent(this.#part);
-    }
+    if (this.#part !== null) this.#agent = this.#loaded.agentBlocks(this.#part);
     this.#draw();
     return this.#loaded;
   }

@@ -52,8 +52,8 @@ export class CodeTab {
   #nameList = new NameList((code) => this.#editor.insert(code));
   #examples = new ExampleList((example) => this.#chooseExample(example));
   /**
-   * The scene that the person opens to go on there with blocks or an example.
-   * @type {{scene: string, example: Example | null, isOfBlocks: boolean} | null}
+   * The example that the person takes in a scene that is being opened.
+   * @type {{example: Example, isOfBlocks: boolean} | null}
    */
   #next = null;
   /** @type {string | null} */
@@ -133,7 +133,6 @@ export class CodeTab {
       changed: () => this.#onChange(),
       replace: (text) => this.#program.replace(text),
       run: (way) => this.#go(way),
-      openScene: (scene) => this.#openScene(scene),
     });
     this.#program = new ProgramSection(panel, {
       text: () => this.#blocks.join(this.#editor.text),
@@ -147,7 +146,7 @@ export class CodeTab {
     const head = element("div", { className: "ai4u-code-head" }, buttons, this.#stateRow);
     const way = element("div", { className: "ai4u-code-way" }, this.#program.bar, this.#blocks.bar);
     const body = element("div", { className: "ai4u-code-body" }, this.#blocks.element, element("div", {}, frame, help));
-    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, way, this.#blocks.steps, body, this.#mistake];
+    const both = [this.#moment.element, this.#program.offer, this.#program.shared.element, way, body, this.#mistake];
     root.append(head, ...both, ...sections);
     this.#listen();
     this.#drawState();
@@ -185,7 +184,6 @@ export class CodeTab {
     for (const run of [this.#run, this.#test]) this.#watch(run);
     this.#test.addEventListener("end", ({ detail }) => {
       this.#onEnd({ ...detail, summary: testWords(this.#test) });
-      if (detail.reason === "tested") this.#blocks.tested(this.#test.rows);
     });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) {
@@ -198,7 +196,6 @@ export class CodeTab {
     this.#run.addEventListener("decision", ({ detail }) => {
       this.#latest = detail;
       this.#variables.note(detail.variables);
-      this.#blocks.note(detail);
       this.#drawSoon();
     });
     this.#run.addEventListener("end", ({ detail }) => this.#onEnd(detail));
@@ -243,26 +240,22 @@ export class CodeTab {
     this.#program.open(scene, this.#agent.id, startProgram(this.#names));
     const next = this.#next;
     this.#next = null;
-    if (next?.scene !== scene) return;
-    if (next.example !== null) this.#takeExample(next.example, next.isOfBlocks);
-    else if (next.isOfBlocks) this.#blocks.open();
+    if (next?.example.scene === scene) this.#takeExample(next.example, next.isOfBlocks);
   }
 
   /**
-   * Open a scene of the library, and go on there with an example, or with blocks if there are some here.
-   * @param {string} scene
-   * @param {Example | null} [example]
+   * Take an example in its own scene.
+   * @param {Example} example
    */
-  async #openScene(scene, example = null) {
-    this.#next = { scene, example, isOfBlocks: this.#blocks.isWanted };
-    const { ok } = await this.#panel.send("open_scene", { name: scene, is_saved: false });
+  async #chooseExample(example) {
+    const isOfBlocks = this.#blocks.isWanted;
+    if (this.#panel.part("scene")?.scene === example.scene) {
+      this.#takeExample(example, isOfBlocks, true);
+      return;
+    }
+    this.#next = { example, isOfBlocks };
+    const { ok } = await this.#panel.send("open_scene", { name: example.scene, is_saved: false });
     if (!ok) this.#next = null;
-  }
-
-  /** @param {Example} example */
-  #chooseExample(example) {
-    if (this.#panel.part("scene")?.scene === example.scene) this.#takeExample(example, this.#blocks.isWanted, true);
-    else this.#openScene(example.scene, example);
   }
 
   /**
@@ -350,7 +343,6 @@ export class CodeTab {
    */
   #noteStart(source) {
     this.#forget();
-    this.#blocks.begin();
     this.#program.ran(this.#blocks.join(source));
   }
 

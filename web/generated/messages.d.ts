@@ -317,6 +317,58 @@ export interface CurvePart {
   points: [number, number, number][];
 }
 
+/** A question of a step. */
+export interface MissionQuestion {
+  text: string;
+  /** Answers to choose from; empty if a number has to be typed. */
+  options: string[];
+}
+
+/** A star of a mission. */
+export interface MissionStar {
+  text: string;
+  is_earned: boolean;
+}
+
+/** The mission that the page shows. */
+export interface MissionPart {
+  type: "part";
+  name: "mission";
+  /** Its name; empty if the page shows none. */
+  mission: string;
+  title: string;
+  island: string;
+  /** Name of its scene. */
+  scene: string;
+  scene_title: string;
+  /** False if the world has another scene. */
+  is_here: boolean;
+  /** The present step, from 0. */
+  step: number;
+  /** Number of steps. */
+  steps: number;
+  /** The sentence about what to do; what stands in stars is bold. */
+  say: string;
+  /** Names of controls; the last one that can be seen is lit. */
+  light: string[];
+  /** True if the step is done. */
+  is_done: boolean;
+  /** The sentence about what happened; empty before the step is done. */
+  done: string;
+  /** Progress of the step in words; empty if there is nothing to say. */
+  words: string;
+  /** Sentence about what went wrong; empty if nothing did. */
+  hint: string;
+  /** Sentence about another driver than the step asks for; empty if there is none. */
+  driver: string;
+  question: MissionQuestion | null;
+  /** The first one is for doing the mission. */
+  stars: MissionStar[];
+  /** Name of the mission that follows; empty after the last one. */
+  next: string;
+  next_title: string;
+}
+
 /** A recorded episode that is kept. */
 export interface KeptEpisode {
   /** Number from 1, in order of arrival; never reused. */
@@ -861,6 +913,7 @@ export interface PanelParts {
   agent: AgentPart;
   blocks: BlocksPart;
   curve: CurvePart;
+  mission: MissionPart;
   past: PastPart;
   python: PythonPart;
   run: RunPart;
@@ -1014,6 +1067,11 @@ export interface AddBody {
   y?: number | null;
 }
 
+/** Answer the question of the step. */
+export interface AnswerMission {
+  answer: string;
+}
+
 /** Return the action at another pose, and show it; by default where the agent stands now. */
 export interface AskElsewhere {
   x?: number | null;
@@ -1066,6 +1124,10 @@ export interface ChangeBody {
 /** Change texts or settings of the scene. */
 export interface ChangeSettings {
   values: Record<string, unknown>;
+}
+
+/** Show no mission on this page. */
+export interface CloseMission {
 }
 
 /** Return where two drivers first disagree in the chosen episode; empty for the present one. */
@@ -1212,6 +1274,13 @@ export interface OpenEpisode {
   number: number;
 }
 
+/** Show a mission's step on this page, and begin to check it. */
+export interface OpenMission {
+  mission: string;
+  /** From 0. */
+  step?: number;
+}
+
 /** Open the recording that was sent in binary messages before. */
 export interface OpenRecording {
   name: string;
@@ -1313,6 +1382,14 @@ export interface Resume {
 export interface SaveScene {
   name: string;
   over?: boolean;
+}
+
+/** Tell what the person sees and does in this page. */
+export interface SeeMission {
+  /** Name of the open tab of the panel; empty if the panel is folded. */
+  tab: string;
+  /** True if another page drives the robot: what it does is not this person's. */
+  is_watching?: boolean;
 }
 
 /** Select a thing. */
@@ -1446,6 +1523,10 @@ export interface Commands {
   load_text: LoadText;
   lock_seed: LockSeed;
   maps: ShowMaps;
+  mission_answer: AnswerMission;
+  mission_close: CloseMission;
+  mission_open: OpenMission;
+  mission_see: SeeMission;
   move_block: MoveBlock;
   move_body: MoveBody;
   move_mode: MoveMode;

@@ -1,8 +1,9 @@
-/** The start page: play a scene of the library, build one, or learn. */
+/** The start page: a map of missions, the scenes of the library to play, and an empty one to build. */
 
 import { syncStars } from "../classroom/student/stars.js";
 import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
+import { progressOf, setOpenMission } from "../missions/progress.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
 import { timesText } from "../page/results.js";
@@ -14,26 +15,32 @@ const EMPTY_SCENE = "my_scene";
 const goToWorld = () => location.assign("./");
 /** Sections by the card that shows them; one of them is open at a time. */
 const sections = new Map([
+  [find("#learn"), find("#missions")],
   [find("#play"), find("#scenes")],
-  [find("#learn"), find("#lessons")],
 ]);
 let isOpening = false;
 let cards = 0;
 
 for (const [card, section] of sections) {
   card.addEventListener("click", () => {
-    for (const [each, its] of sections) {
-      its.hidden = its !== section;
-      each.setAttribute("aria-expanded", String(its === section));
-    }
+    show(section);
     section.scrollIntoView({ block: "nearest" });
   });
 }
+if (location.hash === "#play") show(find("#scenes"));
 find("#build").addEventListener("click", () => open({ name: EMPTY_SCENE }, "My scene"));
 watchSharedScene(goToWorld);
 showPresent();
 showScenes();
-showLessons();
+showMissions();
+
+/** @param {HTMLElement} shown the section that is open from now on */
+function show(shown) {
+  for (const [card, section] of sections) {
+    section.hidden = section !== shown;
+    card.setAttribute("aria-expanded", String(section === shown));
+  }
+}
 
 /**
  * @typedef {object} Card a scene of the library, or one that somebody saved
@@ -113,17 +120,78 @@ function sceneCard({ name, title, goal, level, minutes, stars, key, picture }, w
   return element("li", {}, button);
 }
 
-async function showLessons() {
-  /** @type {{lessons: {number: string, title: string, duration: string}[]}} */
-  const { lessons } = await request("api/lessons");
-  const items = lessons.map(({ number, title, duration }) =>
-    element(
-      "li",
-      {},
-      element("span", { className: "ai4u-number", textContent: number }),
-      element("span", { textContent: title }),
-      element("span", { className: "ai4u-facts", textContent: duration }),
-    ),
-  );
-  find("#lessons ol").replaceChildren(...items);
+/**
+ * @typedef {object} Mission
+ * @property {string} name
+ * @property {string} title
+ * @property {string} island
+ * @property {number} minutes
+ * @property {number} steps
+ * @property {number} stars that can be earned
+ * @property {string} idea the word that it is about
+ * @property {string} scene
+ */
+
+async function showMissions() {
+  const map = find("#map");
+  try {
+    /** @type {{missions: Mission[], problems: string[]}} */
+    const { missions, problems } = await request("api/missions");
+    const islands = [...new Set(missions.map(({ island }) => island))];
+    const next = missions.find(({ name, steps }) => progressOf(name).steps < steps);
+    map.replaceChildren(...islands.map((island) => islandOf(island, missions.filter((mission) => mission.island === island), next)));
+    find("#missions [role=status]").replaceChildren(...problems.map((problem) => element("span", { className: "ai4u-problem", textContent: problem })));
+  } catch (error) {
+    find("#missions [role=status]").textContent = error.message;
+  }
+  map.removeAttribute("aria-busy");
+}
+
+/**
+ * @param {string} island
+ * @param {Mission[]} missions
+ * @param {Mission | undefined} next the first one on the map that is not done
+ */
+function islandOf(island, missions, next) {
+  cards += 1;
+  const done = missions.filter(({ name, steps }) => progressOf(name).steps >= steps).length;
+  const heading = element("h3", { id: `island-${cards}` }, island, element("span", { className: "ai4u-facts", textContent: `${done} of ${missions.length}` }));
+  const list = element("ol", {}, ...missions.map((mission) => missionCard(mission, mission === next)));
+  const made = element("section", { className: "ai4u-island" }, heading, list);
+  made.setAttribute("aria-labelledby", heading.id);
+  made.toggleAttribute("data-done", done === missions.length);
+  return made;
+}
+
+/**
+ * @param {Mission} mission
+ * @param {boolean} isNext
+ */
+function missionCard(mission, isNext) {
+  const { name, title, minutes, steps, stars, idea } = mission;
+  const reached = progressOf(name);
+  const isDone = reached.steps >= steps;
+  const state = isDone ? "done" : reached.steps ? `${reached.steps} of ${steps} steps` : `${minutes} min`;
+  const facts = element("span", { className: "ai4u-facts", textContent: [idea, state].filter(Boolean).join(" · ") });
+  const row = starRow(reached.stars, stars).element;
+  row.title = "Stars of this mission";
+  const button = element("button", { type: "button" }, element("span", { className: "ai4u-name", textContent: `${isDone ? "✓ " : ""}${title}` }), facts, row);
+  button.toggleAttribute("data-done", isDone);
+  button.toggleAttribute("data-next", isNext);
+  button.setAttribute("aria-label", [title, isDone ? "done" : isNext ? "the next one" : "", row.getAttribute("aria-label")].filter(Boolean).join(", "));
+  button.title = mission.scene === EMPTY_SCENE ? "My scene" : "";
+  button.addEventListener("click", () => begin(mission, isDone ? 0 : reached.steps));
+  return element("li", {}, button);
+}
+
+/**
+ * Open a mission in the world, in its scene.
+ * @param {Mission} mission
+ * @param {number} step
+ */
+async function begin({ name, title, scene, steps }, step) {
+  setOpenMission({ mission: name, step: Math.min(step, steps - 1) });
+  const { name: present } = await request("api/scene");
+  if (present === scene) goToWorld();
+  else await open({ name: scene }, title);
 }

@@ -11,6 +11,7 @@ import { button, element, setAttributes } from "../shared/dom.js";
 import { openDialog } from "./dialog.js";
 import { DriveTab } from "./drive/tab.js";
 import { focusWorld, returnFocus } from "./focus.js";
+import { MissionCard } from "../missions/card.js";
 import { Layout } from "./layout.js";
 import { Notices } from "./notices.js";
 import { segments } from "./widgets/parts.js";
@@ -126,7 +127,8 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
       this.#top,
       element("div", { className: "ai4u-panel-rest" }, ...this.#tabs.elements),
     );
-    this.element.append(this.layout.handle, head, this.#body, this.#notices.element);
+    const mission = new MissionCard(this);
+    this.element.append(this.layout.handle, head, mission.element, this.#body, this.#notices.element);
     returnFocus(this.element);
     this.#setDetails(this.details);
     this.addEventListener("part:scene", ({ detail }) => this.#onScene(detail));
@@ -205,6 +207,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     return this.#parts[name] ?? null;
   }
 
+  /** Name of the open tab; null before the first one is open. */
+  get tab() {
+    return this.#tabs.open;
+  }
+
   /** @param {string} name */
   openTab(name) {
     this.#tabs.choose(name);
@@ -265,6 +272,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     const label = isFolded ? "Open the panel" : "Fold the panel";
     setAttributes(this.#fold, { "aria-expanded": isFolded ? "false" : "true", "aria-label": label, title: label });
     this.#body.inert = isFolded;
+    this.dispatchEvent(new Event("tab"));
   }
 
   /** @param {boolean} isConnected */
@@ -323,6 +331,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     this.#showHistory();
     this.layout.widen(name === "code");
     this.#showTop();
+    this.dispatchEvent(new Event("tab"));
     if (!this.#opened.has(name)) {
       this.#opened.set(name, null);
       try {

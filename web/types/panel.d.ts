@@ -240,4 +240,6 @@ export interface PanelEvents extends PartEvents {
   driver: DriverView;
   selected: SelectedMessage;
   stand_in: StandInMessage;
+  /** Another tab is open, or the panel was folded or opened. */
+  tab: null;
 }

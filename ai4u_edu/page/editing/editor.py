@@ -62,6 +62,8 @@ class SceneEditor:
         """Keeps scenes by name for pages; without it a page can only download them."""
         self.work_folder: Path | None = None
         """Folder for what a person makes here beside scenes; without it, that is not kept."""
+        self.missions_folder: Path | None = None
+        """Folder with a teacher's missions; None for none."""
         self.listeners = self._transactions.listeners
         """Functions called with the state after each change, in the runner's thread."""
         self.listeners.append(self._on_change)

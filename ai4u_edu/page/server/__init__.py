@@ -6,7 +6,7 @@ from ai4u_edu.page.server.host_origin import LOOPBACK, hosts_for
 from ai4u_edu.page.server.limits.timeouts import Timeouts
 from ai4u_edu.page.server.scripts import Rules
 from ai4u_edu.page.server.serve import ServerThread, serve
-from ai4u_edu.page.server.start_page import LessonView
+from ai4u_edu.page.server.start_page import MissionsView
 from ai4u_edu.page.server.startup_banner import open_on_desktop, startup_banner
 from ai4u_edu.page.server.token_auth import token_for, with_token
 from ai4u_edu.page.server.viser_lockdown import lock_viser_port
@@ -14,7 +14,7 @@ from ai4u_edu.page.server.viser_lockdown import lock_viser_port
 __all__ = [
     "LOOPBACK",
     "AddressError",
-    "LessonView",
+    "MissionsView",
     "PortTakenError",
     "RoomMount",
     "Rules",

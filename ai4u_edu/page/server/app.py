@@ -1,6 +1,6 @@
 """The web app of one room: a running world, its page, and the API."""
 
-from collections.abc import Awaitable, Callable, Collection, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Collection, Mapping
 from functools import partial
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from ai4u_edu.page.server.past import Past
 from ai4u_edu.page.server.proxy import ViserProxy
 from ai4u_edu.page.server.scene_routes import SceneRoutes
 from ai4u_edu.page.server.scripts import RemoteSockets, Rules, ScriptLog
-from ai4u_edu.page.server.start_page import ListedLesson, StartPage
+from ai4u_edu.page.server.start_page import MissionsView, StartPage
 from ai4u_edu.page.server.state_routes import StateRoutes
 from ai4u_edu.page.server.token_auth import TokenAuth
 from ai4u_edu.page.server.token_page import PUBLIC_FILES, TokenPage
@@ -46,7 +46,7 @@ def room_app(
     panel: ASGIApp | None = None,
     tab_scripts: Mapping[str, Path] | None = None,
     editor: SceneEditor | None = None,
-    lessons: Callable[[], Sequence[ListedLesson]] = list,
+    missions: Callable[[], MissionsView] = MissionsView,
     class_feed: ClassFeed | None = None,
     script_report: ScriptLog | None = None,
     timeouts: Timeouts = DEFAULT_TIMEOUTS,
@@ -66,7 +66,7 @@ def room_app(
         tab_scripts: modules of the tabs that options bring, by the tab's name.
         editor: lets pages open and share scenes; without it the scene stays as it is, and there is
             no start page.
-        lessons: returns the lessons that the start page lists.
+        missions: returns the missions that the start page shows.
         class_feed: of the class that the room belongs to; pages show it.
         script_report: of what happens with scripts, for whoever runs the room.
         timeouts: time limits of the room's answers; those of connections belong to the server.
@@ -86,7 +86,7 @@ def room_app(
     if editor is not None:
         scenes = _scene_routes(
             SceneRoutes(runner, editor, timeouts.open_scene),
-            StartPage(lessons, editor),
+            StartPage(missions, editor),
             auth,
             page_auth,
         )
@@ -162,7 +162,7 @@ def _scene_routes(
         Route("/api/scene/link", scenes.describe, methods=["POST"], middleware=auth),
         Route("/api/scenes", start.scenes, middleware=auth),
         Route(PICTURE_PATH, library_picture_route, middleware=auth),
-        Route("/api/lessons", start.lessons, middleware=auth),
+        Route("/api/missions", start.missions, middleware=auth),
     ]
 
 

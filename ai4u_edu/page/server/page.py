@@ -44,6 +44,7 @@ STYLES = (
     "styles/panel/why.css",
     "styles/panel/maps.css",
     "styles/panel/teach.css",
+    "styles/missions.css",
     "styles/question.css",
     "styles/classroom/bar.css",
 )

@@ -1,8 +1,8 @@
-"""HTTP routes of the start page: the page, the library's scenes with pictures, and the lessons."""
+"""HTTP routes of the start page: the page, the library's scenes with pictures, and the missions."""
 
 import asyncio
-from collections.abc import Callable, Sequence
-from typing import Literal, Protocol
+from collections.abc import Callable
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
@@ -42,38 +42,30 @@ class ScenesView(BaseModel):
     saved: list[LibrarySceneView]
 
 
-class ListedLesson(Protocol):
-    """A lesson of the course, as the start page lists it."""
-
-    @property
-    def number(self) -> str:
-        """Two digits."""
-
-    @property
-    def title(self) -> str:
-        """Its heading, which may begin with the number."""
-
-    @property
-    def duration(self) -> str:
-        """The time that it takes, in words."""
-
-
-class LessonView(BaseModel):
-    """A lesson of the course."""
+class MissionView(BaseModel):
+    """A mission, as the map shows it."""
 
     model_config = ConfigDict(extra="forbid")
 
-    number: str
+    name: str
     title: str
-    duration: str = Field(description="in words, such as 45 minutes")
+    island: str
+    minutes: int
+    steps: int
+    stars: int = Field(description="number of stars that can be earned")
+    idea: str = Field("", description="the word that it is about")
+    scene: str
 
 
-class LessonsView(BaseModel):
-    """The lessons of the course, in order."""
+class MissionsView(BaseModel):
+    """All missions, in the order of the map."""
 
     model_config = ConfigDict(extra="forbid")
 
-    lessons: list[LessonView]
+    missions: list[MissionView] = Field(default_factory=list)
+    problems: list[str] = Field(
+        default_factory=list, description="sentences about files that can't be read"
+    )
 
 
 class StartPage:
@@ -82,12 +74,12 @@ class StartPage:
     They are async; scenes are read, and saved ones drawn, in worker threads, one at a time.
 
     Args:
-        lessons: returns the lessons of the course.
+        missions: returns the missions of the map.
         editor: has the store of saved scenes, if there is one.
     """
 
-    def __init__(self, lessons: Callable[[], Sequence[ListedLesson]], editor: SceneEditor) -> None:
-        self._lessons, self._editor = lessons, editor
+    def __init__(self, missions: Callable[[], MissionsView], editor: SceneEditor) -> None:
+        self._missions, self._editor = missions, editor
         self._drawing = asyncio.Lock()
 
     async def page(self, _: Request) -> Response:
@@ -107,12 +99,9 @@ class StartPage:
             )
         )
 
-    async def lessons(self, _: Request) -> Response:
-        """Return the lessons."""
-        return _json(await asyncio.to_thread(self._lesson_views))
-
-    def _lesson_views(self) -> LessonsView:
-        return LessonsView(lessons=[_lesson_view(lesson) for lesson in self._lessons()])
+    async def missions(self, _: Request) -> Response:
+        """Return the missions."""
+        return _json(await asyncio.to_thread(self._missions))
 
 
 def _library_views() -> list[LibrarySceneView]:
@@ -125,11 +114,6 @@ def _library_views() -> list[LibrarySceneView]:
 def _saved_view(card: Card) -> LibrarySceneView:
     about = {name: value for name, value in card._asdict().items() if name != "png"}
     return LibrarySceneView.model_validate(about | {"picture": card.picture_url})
-
-
-def _lesson_view(lesson: ListedLesson) -> LessonView:
-    title = lesson.title.removeprefix(lesson.number).strip()
-    return LessonView(number=lesson.number, title=title, duration=lesson.duration)
 
 
 def _json(view: BaseModel) -> Response:

@@ -19,7 +19,7 @@ from ai4u_edu.page.server.scene_routes import (
     SceneView,
     SharedView,
 )
-from ai4u_edu.page.server.start_page import LessonsView, ScenesView
+from ai4u_edu.page.server.start_page import MissionsView, ScenesView
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 
@@ -34,7 +34,7 @@ _SCENE_ANSWERS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/scene": ("The scene that runs.", SceneView),
     "/api/scene/link": ("A link to the scene that runs.", LinkView),
     "/api/scenes": ("The library's scenes.", ScenesView),
-    "/api/lessons": ("The lessons of the course.", LessonsView),
+    "/api/missions": ("The missions of the map.", MissionsView),
 }
 _SCENE_REQUESTS: dict[str, tuple[str, type[BaseModel]]] = {
     "/api/scene": ("Open a scene.", OpenRequest),

@@ -23,6 +23,7 @@ FOLDERS = (
     "blocks",
     "classroom",
     "code",
+    "missions",
     "page",
     "pages",
     "panel",

@@ -1,4 +1,4 @@
-"""The start page: its scenes with pictures, and its lessons."""
+"""The start page: its scenes with pictures, and its missions."""
 
 import io
 import re
@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from ai4u_edu.page.editing import SceneEditor
-from ai4u_edu.page.server import LessonView, Rules
+from ai4u_edu.page.server import MissionsView, Rules
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.description import LEVELS
@@ -17,7 +17,23 @@ from tests.page.server.rooms import Room, served
 from tests.page.server.test_api import checker
 
 TOKEN = "open sesame"
-LESSON = LessonView(number="00", title="Start here", duration="45 minutes")
+MISSIONS = MissionsView.model_validate(
+    {
+        "missions": [
+            {
+                "name": "go",
+                "title": "Go",
+                "island": "Drive",
+                "minutes": 3,
+                "steps": 2,
+                "stars": 1,
+                "idea": "body",
+                "scene": "maze",
+            }
+        ],
+        "problems": ["a.yaml, line 1: wrong"],
+    }
+)
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +44,7 @@ def editor() -> SceneEditor:
 
 @pytest.fixture(scope="module")
 def room(editor: SceneEditor) -> Iterator[Room]:
-    with served(editor=editor, lessons=lambda: [LESSON]) as room:
+    with served(editor=editor, missions=lambda: MISSIONS) as room:
         yield room
 
 
@@ -70,8 +86,8 @@ def test_unknown_scene_pictures_get_404(room: Room, name: str) -> None:
     assert http_client.get(f"{room.url}api/scenes/{name}").status_code == 404
 
 
-def test_lessons_are_listed(room: Room) -> None:
-    assert http_client.get(room.url + "api/lessons").json() == {"lessons": [LESSON.model_dump()]}
+def test_missions_are_listed(room: Room) -> None:
+    assert http_client.get(room.url + "api/missions").json() == MISSIONS.model_dump()
 
 
 def test_the_page_runs_our_files_only(room: Room) -> None:
@@ -93,7 +109,7 @@ def test_another_site_may_lead_a_person_to_the_page(room: Room) -> None:
 def test_the_routes_are_described(room: Room) -> None:
     document = http_client.get(room.url + "api/openapi.json").json()
     assert "/api/scenes/{file}" in document["paths"]
-    for path in ("/api/scenes", "/api/lessons"):
+    for path in ("/api/scenes", "/api/missions"):
         described = document["paths"][path]["get"]["responses"]["200"]["content"]
         answer = http_client.get(room.url + path[1:]).json()
         checker(document, described["application/json"]["schema"]).validate(answer)
@@ -104,7 +120,7 @@ def test_the_token_is_asked_for_and_leads_back_to_the_page(editor: SceneEditor) 
         served(editor=editor, rules=Rules(token=TOKEN)) as room,
         http_client.Client(base_url=room.url) as browser,
     ):
-        paths = ("start", "api/scenes", "api/scenes/maze.png", "api/lessons")
+        paths = ("start", "api/scenes", "api/scenes/maze.png", "api/missions")
         for path in paths:
             assert browser.get(path).status_code == 401
         asked = browser.get("start", headers={"Accept": "text/html"})

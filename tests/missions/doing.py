@@ -1,0 +1,115 @@
+"""A person who does a mission, in the mission's own world and without a page."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ai4u_edu.agent import BasicAgent
+from ai4u_edu.blocks import DifferentialDriveActuator, LocalBrain, Percept
+from ai4u_edu.missions.checks import Driver, SeenPage, decision_of
+from ai4u_edu.missions.mission import EMPTY_SCENES, library_missions
+from ai4u_edu.missions.option import MissionRun
+from ai4u_edu.page.editing.scene_pictures import TEMPLATES
+from ai4u_edu.scenes import Scene
+
+Action = Mapping[str, Sequence[float]]
+Policy = Callable[[BasicAgent], Action]
+
+
+class Doing:
+    """Drives the first robot of a mission's scene, and goes on to the next step when one is done.
+
+    Args:
+        name: of the mission.
+        seed: of the first episode.
+        driver: drives in place of whom each step asks for; empty for that one.
+    """
+
+    def __init__(self, name: str, seed: int = 1, *, driver: Driver | None = None) -> None:
+        self.run = MissionRun(library_missions().get(name))
+        self.decisions = 0
+        self._driver = driver
+        self._seeds = np.random.default_rng(seed)
+        self._policy: Policy = lambda _: {}
+        self._enter(scene_of(self.run.mission.scene), seed)
+
+    def _enter(self, scene: Scene, seed: int) -> None:
+        self.scene = scene.description
+        self.sim = scene.build()
+        self.agent = self.sim.agents[0]
+        self.agent.use_brain(LocalBrain(controller=self._decide))
+        self.agent.percept_ready.connect(self._on_percept)
+        self.sim.reset(seed)
+        self.run.see_scene(self.scene)
+
+    def change(self, **fields: object) -> None:
+        """Change fields of the scene, as the person does in Build and World."""
+        self._enter(Scene(self.scene.model_copy(update=fields)), self.sim.world.seeds.seed)
+        self.go_on()
+
+    @property
+    def has_wheels(self) -> bool:
+        """True if the robot's action is a number for each of two wheels."""
+        return any(isinstance(each, DifferentialDriveActuator) for each in self.agent.actuators)
+
+    @property
+    def is_done(self) -> bool:
+        return self.run.is_done
+
+    def open(self, tab: str) -> None:
+        self.run.see(SeenPage(tab))
+        self.go_on()
+
+    def answer(self, text: str) -> None:
+        self.run.see_answer(text)
+        self.go_on()
+
+    def new_start(self, seed: int | None = None) -> None:
+        self.sim.reset(int(self._seeds.integers(1, 2**31)) if seed is None else seed)
+        self.go_on()
+
+    def again(self) -> None:
+        self.sim.reset(self.sim.world.seeds.seed)
+        self.go_on()
+
+    def drive(self, policy: Policy, limit: int = 1500, *, through: bool = False) -> bool:
+        """Drive until the step is done; after an episode's end, another one begins.
+
+        Args:
+            policy: returns an action.
+            limit: most decisions.
+            through: True drives on over steps, to the end of the mission.
+        """
+        index, self._policy = self.run.index, policy
+        for _ in range(limit):
+            if self.is_done or (self.run.index != index and not through):
+                break
+            if self.agent.done:
+                self.new_start()
+            else:
+                self.sim.step()
+                self.decisions += 1
+                self.go_on()
+        return self.run.index != index or self.is_done
+
+    def go_on(self) -> None:
+        """Press Next if the step is done."""
+        if self.run.is_step_done and not self.is_done:
+            self.run.begin(self.run.index + 1)
+
+    def _decide(self, percept: Percept) -> Action:
+        action = dict(self._policy(self.agent))
+        if self.has_wheels and len(action.get("move", ())) == 4:
+            forward, turn, *_ = action["move"]
+            action["move"] = [max(-1.0, min(1.0, forward + each)) for each in (turn, -turn)]
+        return action
+
+    def _on_percept(self, agent: BasicAgent) -> None:
+        asked = self.run.step.by
+        driver = self._driver or ("keys" if asked == "anyone" else asked)
+        self.run.see(replace(decision_of(self.sim, agent), driver=driver))
+
+
+def scene_of(name: str) -> Scene:
+    return Scene.load(TEMPLATES / f"{name}.yaml" if name in EMPTY_SCENES else name)

@@ -1,0 +1,190 @@
+"""Each kind of check follows what happens, and is satisfied by nothing else."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import TypeAdapter
+
+from ai4u_edu import Scene
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import ParameterError
+from ai4u_edu.missions.checks import (
+    AnyCheck,
+    Check,
+    Decision,
+    Event,
+    Following,
+    PersonAnswer,
+    SeenPage,
+    decision_of,
+)
+
+CHECK: TypeAdapter[Check] = TypeAdapter(AnyCheck)
+STILL = Decision(
+    driver="keys",
+    episode=1,
+    step=1,
+    seed=5,
+    seconds=0.0,
+    x=0.0,
+    y=0.0,
+    heading=0.0,
+    speed=0.0,
+    turning=0.0,
+    terms={},
+    outcome="",
+    percept={"eyes": np.array([0.25, 0.75]), "level": 0.5},
+    distances={"ahead": 2.0, "right": 1.0},
+)
+
+
+def following(type: str, **parameters: Any) -> Following:  # noqa: A002 - as in a file
+    return Following(CHECK.validate_python({"type": type, **parameters}))
+
+
+def moved(*places: float, **changes: Any) -> Iterator[Decision]:
+    for step, x in enumerate(places):
+        yield replace(STILL, x=x, step=step, **changes)
+
+
+def see(check: Following, *events: Event) -> bool:
+    for event in events:
+        check.see(event)
+    return check.is_done
+
+
+def test_drives_counts_the_way_along_the_heading() -> None:
+    check = following("drives", metres=2, way="forward")
+    assert not see(check, *moved(0, 1, 0, 0.9))
+    assert check.words == "1.9 of 2 m"
+    assert see(check, *moved(0.9, 1.0))
+    assert not see(following("drives", metres=2, way="backward"), *moved(0, 3))
+    assert see(following("drives", metres=2), *moved(0, -2))
+    sideways = [replace(STILL, y=y) for y in (0.0, 5.0)]
+    assert not see(following("drives", metres=2), *sideways)
+
+
+def test_a_new_start_is_no_way() -> None:
+    check = following("drives", metres=2)
+    assert not see(check, *moved(0), *moved(50, episode=2), *moved(0, episode=3))
+
+
+def test_turns_takes_off_what_is_turned_back() -> None:
+    headings = (0.0, 1.0, 0.5, 1.4)
+    check = following("turns", degrees=75, way="left")
+    assert not see(check, *(replace(STILL, heading=each) for each in headings[:3]))
+    assert see(check, replace(STILL, heading=headings[3]))
+    right = following("turns", degrees=75, way="right")
+    assert not see(right, *(replace(STILL, heading=each) for each in headings))
+
+
+def test_a_goal_counts_only_if_its_start_was_seen() -> None:
+    check = following("reaches_goal")
+    assert not see(check, replace(STILL, step=7, outcome="goal"))
+    assert not see(check, replace(STILL, episode=2), replace(STILL, episode=2, outcome="fell"))
+    assert see(check, replace(STILL, episode=3), replace(STILL, episode=3, step=9, outcome="goal"))
+
+
+def test_a_slow_goal_does_not_count() -> None:
+    slow = replace(STILL, step=90, outcome="goal", seconds=7.0)
+    assert not see(following("reaches_goal", seconds=6), STILL, slow)
+    assert see(following("reaches_goal", seconds=8), STILL, slow)
+    assert not see(following("reaches_goal", decisions=80), STILL, slow)
+
+
+def test_goals_are_counted_among_different_starts() -> None:
+    def episode(seed: int, outcome: str) -> list[Decision]:
+        begin = replace(STILL, episode=seed, seed=seed % 100)
+        end = replace(begin, step=3, outcome=outcome)  # type: ignore[arg-type]
+        return [begin, end]
+
+    check = following("reaches_goal", times=2, of=3)
+    assert not see(check, *episode(1, "goal"), *episode(101, "goal"), *episode(201, "goal"))
+    assert not see(check, *episode(2, "fell"), *episode(3, "fell"), *episode(4, "goal"))
+    assert check.words == "goal from 1 of the last 3 starts; 2 are needed"
+    assert see(check, *episode(5, "goal"))
+
+
+def test_rewards_are_counted_in_one_episode() -> None:
+    check = following("is_paid", reward="touch", times=2)
+    paid = replace(STILL, terms={"touch": 1.0})
+    assert not see(check, paid, replace(paid, episode=2), replace(STILL, terms={"touch": -1.0}))
+    assert see(check, paid, paid)
+    assert see(following("is_paid"), replace(STILL, terms={"x": 0.1}))
+
+
+def test_ranges_have_to_hold_together_and_in_a_row() -> None:
+    ranges = [{"what": "eyes[1]", "above": 0.5}, {"what": "distance ahead", "below": 3}]
+    check = following("holds", ranges=ranges, decisions=3)
+    away = replace(STILL, distances={"ahead": 4.0})
+    assert not see(check, STILL, STILL, away, STILL, STILL)
+    assert see(check, STILL)
+    half = following("holds", ranges=ranges, decisions=4, share=0.5)
+    assert see(half, STILL, away, away, STILL)
+
+
+def test_starts_are_told_apart_by_their_seeds() -> None:
+    again, other = replace(STILL, episode=2), replace(STILL, episode=3, seed=6)
+    check = following("starts", place="other")
+    assert not see(check, STILL, again)
+    assert see(check, other)
+    assert see(following("starts", place="same"), STILL, again)
+
+
+def test_pages_and_answers_are_seen() -> None:
+    check = following("opens", tab="code")
+    assert not see(check, STILL, SeenPage("drive"))
+    assert see(check, SeenPage("code"))
+    reads = following("reads", question="How far?", what="level", within=0.05)
+    assert not see(reads, PersonAnswer("0.5", None))
+    assert reads.words == "Drive a little first."
+    for wrong in ("abc", "0.6", "nan", "inf"):
+        assert not see(reads, PersonAnswer(wrong, STILL))
+    assert see(reads, PersonAnswer(" 0,52 ", STILL))
+    chooses = following("chooses", question="Which?", options=["a", "b"], right="b")
+    assert not see(chooses, PersonAnswer("a", STILL))
+    assert see(chooses, PersonAnswer("b", STILL))
+
+
+def test_what_is_built_is_counted() -> None:
+    scene = Scene.load("maze").description
+    assert see(following("builds", tag="wall", count=4), scene)
+    assert not see(following("builds", tag="moon"), scene)
+    assert see(following("builds", kind="rewards"), scene)
+    assert see(following("builds", block="HeadingSensor"), scene)
+    assert not see(following("builds", block="TouchSensor"), scene)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "text"),
+    [
+        ({"type": "drives", "metres": 0}, "metres"),
+        ({"type": "holds", "ranges": [{"what": "speed"}]}, "above, below or both"),
+        ({"type": "reaches_goal", "times": 3, "of": 2}, "at most 2"),
+        ({"type": "chooses", "question": "?", "options": ["a", "b"], "right": "c"}, "'a', 'b'"),
+        ({"type": "builds"}, "a tag, a block or a kind"),
+    ],
+)
+def test_wrong_parameters_are_refused(parameters: dict[str, Any], text: str) -> None:
+    with pytest.raises((ParameterError, ValueError), match=text):
+        CHECK.validate_python(parameters)
+
+
+def test_a_decision_has_what_the_robot_did(maze: ControlRequestor) -> None:
+    agent = maze.agents[0]
+    maze.reset(1)
+    for _ in range(24):
+        maze.step()
+    decision = decision_of(maze, agent)
+    assert (decision.driver, decision.episode, decision.step) == ("keys", 1, 24)
+    assert set(decision.distances) == {"around", "ahead", "left", "right"}
+    assert decision.distances["around"] == min(decision.distances.values()) > 0.4
+    assert decision.value_of("heading[0]") == agent.percept["heading"][0]
+
+
+@pytest.fixture
+def maze() -> ControlRequestor:
+    return Scene.load("maze").build()

@@ -1,0 +1,124 @@
+"""Each mission has a solution that passes; wrong ways do not, and chance hardly ever does."""
+
+import random
+import zlib
+
+import numpy as np
+import pytest
+
+from ai4u_edu.missions.checks import Reads
+from ai4u_edu.missions.mission import ISLANDS, LIBRARY, library_missions, read_mission
+from tests.missions.doing import Action, Doing
+from tests.missions.solutions import SOLUTIONS, STOP, move
+
+MISSIONS = library_missions().by_name
+CHANCE = random.Random(
+    zlib.crc32(b"".join(path.read_bytes() for path in sorted(LIBRARY.glob("*.yaml"))))
+)
+DRAWN = CHANCE.sample(sorted(MISSIONS), max(1, len(MISSIONS) // 10))
+"""One in ten, which are others after a change of any."""
+NOT_BY_CHANCE = [
+    name
+    for name, mission in MISSIONS.items()
+    if mission.island in ("Sense", "Think", "Code", "Compete")
+]
+CHANCE_STARTS, MOST_BY_CHANCE, FEW_STARTS = 100, 2, 10
+CHANCE_DECISIONS = 720
+"""A minute, as long as a hasty person tries."""
+HELD_DECISIONS = 12
+"""Decisions for which a random driver holds its keys."""
+KEYS = [(forward, turn) for forward in (-1, 0, 1) for turn in (-1, 0, 1)]
+
+
+def drawn(names: list[str]) -> list[object]:
+    return [
+        pytest.param(name, marks=() if name in DRAWN else pytest.mark.nightly) for name in names
+    ]
+
+
+def test_each_mission_is_as_a_file_of_a_teacher_has_to_be() -> None:
+    for path in sorted(LIBRARY.glob("*.yaml")):
+        mission = read_mission(path.read_text(encoding="utf-8"), path.name)
+        assert 3 <= mission.minutes <= 8
+        assert mission == MISSIONS[path.stem]
+    assert list(SOLUTIONS) == list(MISSIONS)
+
+
+def test_the_words_of_the_course_are_met() -> None:
+    text = " ".join(step.done for mission in MISSIONS.values() for step in mission.steps)
+    for word in ("body", "percept", "action", "decision cycle", "reward", "episode", "policy"):
+        assert f"*{word}*" in text
+
+
+def test_the_map_goes_from_island_to_island() -> None:
+    islands = [MISSIONS[name].island for name in MISSIONS]
+    assert islands == sorted(islands, key=ISLANDS.index)
+    missions = library_missions()
+    assert missions.after("drive-1") == "drive-2"
+    assert missions.after("drive-3") == "sense-1"
+    assert missions.after("teach-1") == ""
+
+
+@pytest.mark.parametrize("name", drawn(list(MISSIONS)))
+@pytest.mark.parametrize("seed", [1, 2])
+def test_its_solution_passes(name: str, seed: int) -> None:
+    do = Doing(name, seed)
+    SOLUTIONS[name](do)
+    assert do.is_done, (do.run.index, do.run.words, do.run.hint)
+
+
+@pytest.mark.parametrize("name", drawn(list(MISSIONS)))
+def test_wrong_ways_do_not_pass(name: str) -> None:
+    still = Doing(name)
+    open_all(still)
+    still.drive(lambda _: STOP, CHANCE_DECISIONS, through=True)
+    assert not still.is_done
+
+    ahead = Doing(name)
+    open_all(ahead)
+    ahead.drive(move(1, 0), CHANCE_DECISIONS, through=True)
+    assert not ahead.is_done
+
+    other = Doing(name, driver="controller")
+    SOLUTIONS[name](other)
+    assert not other.is_done
+
+
+def test_chance_does_not_pass_in_a_few_starts() -> None:
+    name = CHANCE.choice(NOT_BY_CHANCE)
+    assert sum(by_chance(name, seed) for seed in range(FEW_STARTS)) <= 1
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", NOT_BY_CHANCE)
+def test_chance_hardly_ever_passes(name: str) -> None:
+    passed = sum(by_chance(name, seed) for seed in range(CHANCE_STARTS))
+    assert passed <= MOST_BY_CHANCE
+
+
+def by_chance(name: str, seed: int) -> bool:
+    """Hold random keys for a minute, with all tabs open and a random answer; return the result."""
+    do, rng = Doing(name, seed), np.random.default_rng(seed)
+    held: Action = STOP
+
+    def policy(agent: object) -> Action:
+        nonlocal held
+        if do.decisions % HELD_DECISIONS == 0:
+            forward, turn = KEYS[rng.integers(len(KEYS))]
+            held = {"move": [forward, turn, 0, 0]}
+        return held
+
+    while do.decisions < CHANCE_DECISIONS and not do.is_done:
+        open_all(do)
+        if isinstance(do.run.step.check, Reads):
+            do.answer(f"{rng.uniform(0, 1):.2f}")
+            if not do.is_done:
+                return False
+        do.drive(policy, CHANCE_DECISIONS - do.decisions)
+    return do.is_done
+
+
+def open_all(do: Doing) -> None:
+    """Open whatever tab the step asks for."""
+    for tab in ("drive", "code", "teach"):
+        do.open(tab)

@@ -1,0 +1,112 @@
+"""A mission that is being done: steps, hints, stars, and who drives."""
+
+from dataclasses import replace
+
+import pytest
+
+from ai4u_edu import Scene
+from ai4u_edu.missions.checks import Event, SeenPage
+from ai4u_edu.missions.mission import library_missions, read_mission
+from ai4u_edu.missions.option import MissionRun, mission_part
+from tests.missions.test_checks import STILL, moved
+
+TEXT = """\
+title: Test
+scene: maze
+steps:
+  - say: Drive *2 metres*.
+    by: keys
+    check: {type: drives, metres: 2}
+    done: You drove.
+    hints:
+      - when: {type: ends, outcome: fell}
+        say: It fell.
+  - say: Open the code.
+    check: {type: opens, tab: code}
+stars:
+  - say: Reach the exit.
+    check: {type: reaches_goal}
+"""
+
+
+@pytest.fixture
+def run() -> MissionRun:
+    return MissionRun(read_mission(TEXT, "test.yaml"))
+
+
+def test_steps_are_done_one_after_another(run: MissionRun) -> None:
+    for each in moved(0, 1):
+        run.see(each)
+    assert (run.is_step_done, run.words) == (False, "1.0 of 2 m")
+    version = run.version
+    run.see(next(moved(2.5)))
+    assert (run.is_step_done, run.is_done, run.version > version) == (True, False, True)
+    run.begin(1)
+    assert (run.index, run.is_step_done) == (1, False)
+    run.see(SeenPage("code"))
+    assert run.is_done
+    assert run.stars == [True, False]
+
+
+def test_what_is_open_already_counts_for_the_next_step(run: MissionRun) -> None:
+    run.see(SeenPage("code"))
+    run.begin(1)
+    assert run.is_done
+
+
+def test_a_step_beyond_the_last_one_is_the_last_one(run: MissionRun) -> None:
+    run.begin(99)
+    assert run.index == 1
+
+
+def test_stars_are_earned_before_and_after_the_last_step(run: MissionRun) -> None:
+    goal: list[Event] = [STILL, replace(STILL, step=5, outcome="goal")]
+    for each in goal:
+        run.see(each)
+    assert run.stars == [False, False]
+    run.begin(1)
+    run.see(SeenPage("code"))
+    assert run.stars == [True, True]
+
+
+def test_a_hint_is_shown_until_the_step_is_done(run: MissionRun) -> None:
+    run.see(replace(STILL, step=4, outcome="fell"))
+    assert run.hint == "It fell."
+    for each in moved(0, 3, episode=2):
+        run.see(each)
+    assert (run.is_step_done, run.hint) == (True, "")
+
+
+def test_another_driver_does_not_count_and_is_told(run: MissionRun) -> None:
+    for x in range(30):
+        run.see(replace(STILL, x=float(x), speed=1.0, driver="program"))
+    assert not run.is_step_done
+    assert run.driver == (
+        "A program is driving. This step is for *you*: let go of the program, or choose keys "
+        "again, and drive."
+    )
+    run.see(STILL)
+    assert run.driver == ""
+
+
+def test_in_another_scene_nothing_counts(run: MissionRun) -> None:
+    run.see_scene(Scene.load("tag").description)
+    assert (run.is_here, run.counts("0")) == (False, False)
+    run.see_scene(Scene.load("maze").description)
+    assert run.counts("0")
+    run.is_watching = True
+    assert not run.counts("0")
+
+
+def test_a_page_shows_all_that_it_needs(run: MissionRun) -> None:
+    missions = library_missions()
+    part = mission_part("drive-1", MissionRun(missions.get("drive-1")), missions)
+    assert (part.title, part.island, part.scene_title) == ("First drive", "Drive", "Box chase")
+    assert (part.step, part.steps, part.light) == (0, 4, ("Keys",))
+    assert part.next == "drive-2"
+    assert [star.is_earned for star in part.stars] == [False, False, False]
+    assert part.question is None
+    reads = MissionRun(missions.get("sense-1"), 3)
+    question = mission_part("sense-1", reads, missions).question
+    assert question is not None
+    assert question.options == []

@@ -1,0 +1,268 @@
+/** The card of a mission: one sentence at a time, how far it is, and always a way on. */
+
+/**
+ * @import { MissionPart } from "../generated/messages.js"
+ * @import { Panel } from "../panel/panel.js"
+ */
+import { unsavedSentence, request } from "../scenes/api.js";
+import { ask, tell } from "../shared/dialog.js";
+import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
+import { freeId } from "../shared/ids.js";
+import { Lights } from "./lights.js";
+import { openMission, reach, setOpenMission } from "./progress.js";
+
+const MAP = "./start#missions";
+const ROOT = document.documentElement;
+
+export class MissionCard {
+  #panel;
+  /** @type {MissionPart | null} */
+  #part = null;
+  /** Key of the step whose sentence is shown. */
+  #shown = "";
+  #isConnected = false;
+  /** Name of a mission whose scene is opened, too, as soon as the room knows the mission. */
+  #wanted = "";
+  /** The latest news of this page that the room was sent. */
+  #told = "";
+  #lights;
+  #title = element("h2");
+  #count = element("span", { className: "ai4u-soft" });
+  #dots = element("ol", { className: "ai4u-mission-dots", ariaHidden: "true" });
+  #say = element("p", { className: "ai4u-mission-say", ariaLive: "polite" });
+  #words = element("p", { className: "ai4u-soft" });
+  #done = element("p", { className: "ai4u-mission-done" });
+  #problem = element("p", { className: "ai4u-mission-problem" });
+  #news = element("div", { role: "status" }, this.#done, this.#problem);
+  #stars = element("ul", { className: "ai4u-mission-stars" });
+  #question = element("div", { className: "ai4u-mission-question" });
+  #elsewhere = button("Open", () => this.#openScene(), { kind: "main" });
+  #before = button("", () => this.#go(this.#part.step - 1), { icon: "back", label: "Step before", kind: "quiet" });
+  #next = button("Next", () => this.#goOn(), {});
+  #again = button("From the start", () => this.#go(0), {});
+  #map = element("a", { className: "ai4u-plain", href: MAP, textContent: "Map" });
+  #everything = button("Show everything", () => this.#hide(true), { kind: "quiet", title: "Put this card and its lights away" });
+  #buttons = element("div", { className: "ai4u-mission-buttons" }, this.#before, this.#elsewhere, this.#next, this.#again, this.#map, this.#everything);
+  #card;
+  #pillText = element("span");
+  #pill = button("", () => this.#hide(false), { kind: "quiet", title: "Show the mission again" });
+  #row = element("div", { className: "ai4u-mission-row" }, this.#pill, button("", () => this.#leave(), { icon: "remove", label: "Leave the mission", kind: "quiet" }));
+  #invitation = element("a", { className: "ai4u-mission-invitation", href: MAP, textContent: "Missions: learn step by step" });
+  element = element("section", { className: "ai4u-mission", ariaLabel: "Mission", hidden: true });
+
+  /** @param {Panel} panel */
+  constructor(panel) {
+    this.#panel = panel;
+    const head = element("header", {}, this.#title, this.#count);
+    this.#card = element("div", { className: "ai4u-mission-card" }, head, this.#dots, this.#say, this.#question, this.#words, this.#news, this.#stars, this.#buttons);
+    this.#pill.append(this.#pillText);
+    this.element.append(this.#card, this.#row, this.#invitation);
+    this.#lights = new Lights(this.element);
+    new ResizeObserver(() => ROOT.style.setProperty("--ai4u-mission-height", `${this.element.offsetHeight}px`)).observe(this.element);
+    panel.addEventListener("part:mission", ({ detail }) => this.#receive(detail));
+    panel.addEventListener("connected", () => this.#begin());
+    panel.addEventListener("disconnected", () => (this.#isConnected = false));
+    for (const type of ["tab", "driver", "agent"]) panel.addEventListener(type, () => this.#tell());
+  }
+
+  /** Tell the room which mission this page has; it forgets that when it is started again. */
+  async #begin() {
+    this.#isConnected = true;
+    const open = openMission();
+    if (open === null) return;
+    this.#told = "";
+    const answer = await this.#panel.send("mission_open", { mission: open.mission, step: open.step }, { quiet: true });
+    if (answer.ok) this.#tell();
+    else setOpenMission(null); // a teacher has removed its file
+  }
+
+  /** Tell the room what the person sees and does in this page. */
+  #tell() {
+    if (!this.#isConnected || openMission() === null) return;
+    const news = { tab: this.#panel.layout.isFolded ? "" : (this.#panel.tab ?? ""), is_watching: this.#isWatching };
+    const text = JSON.stringify([news, this.#panel.shown.agent]);
+    if (text === this.#told) return;
+    this.#told = text;
+    this.#panel.send("mission_see", news, { quiet: true });
+  }
+
+  /** True while another page, or its program, drives the robot: then it does not count here. */
+  get #isWatching() {
+    const { driver, hasProgram } = this.#panel;
+    if (!driver || driver.control.pages < 2 || hasProgram) return false;
+    const { hello, control } = driver;
+    const isOthers = control.driver !== null && control.driver !== hello.you;
+    return isOthers || (hello.others !== "" && !/network/i.test(hello.others));
+  }
+
+  /** @param {MissionPart} part */
+  #receive(part) {
+    this.#part = part.mission && openMission() ? part : null;
+    if (this.#part && part.is_done) {
+      const stars = part.stars.filter(({ is_earned: isEarned }) => isEarned).length;
+      reach(part.mission, { steps: part.step + 1, stars });
+    }
+    this.#draw();
+    this.#tell();
+    if (this.#wanted !== part.mission) return;
+    this.#wanted = "";
+    if (this.#part && !part.is_here) this.#openScene();
+  }
+
+  #draw() {
+    const part = this.#part;
+    const isHidden = openMission()?.isHidden ?? false;
+    this.element.hidden = part === null && window.parent !== window; // a notebook's world has no start page
+    this.#card.hidden = part === null || isHidden;
+    this.#row.hidden = part === null || !isHidden;
+    this.#invitation.hidden = part !== null;
+    setAttributes(ROOT, { "data-ai4u-mission": part === null ? "none" : isHidden ? "hidden" : "open" });
+    if (part === null) {
+      this.#lights.show([]);
+      return;
+    }
+    const count = `${part.step + 1} of ${part.steps}`;
+    setText(this.#pillText, `Mission: ${part.title} (${count})`);
+    setText(this.#title, part.title);
+    setText(this.#count, `Step ${count}`);
+    const steps = Array.from({ length: part.steps }, (_, index) => index);
+    keyed(this.#dots, steps, (step) => step, () => element("li"), (dot, step) => {
+      setAttributes(dot, { "data-done": step < part.step || (step === part.step && part.is_done), "data-now": step === part.step });
+    });
+    this.#drawStep(part);
+    const isLast = part.step === part.steps - 1;
+    const isOver = isLast && part.is_done;
+    this.#drawStars(part, isOver);
+    setText(this.#next.querySelector("span"), isLast && part.next ? `Next: ${part.next_title}` : "Next");
+    setAttributes(this.#next, { "data-kind": part.is_done && part.is_here ? "main" : null, title: part.is_done ? "" : "Leave this step out" });
+    this.#before.hidden = part.step === 0 || isOver;
+    this.#again.hidden = !isOver;
+    this.#everything.hidden = isOver;
+  }
+
+  /** @param {MissionPart} part */
+  #drawStep(part) {
+    const { mission, step, say, light, is_done: isDone, is_here: isHere } = part;
+    const key = `${mission} ${step} ${say}`;
+    const isNew = key !== this.#shown;
+    if (isNew) {
+      this.#shown = key;
+      this.#say.replaceChildren(...withBold(say));
+      this.#askQuestion(part);
+    }
+    this.#elsewhere.hidden = isHere;
+    setText(this.#elsewhere.querySelector("span"), `Open ${part.scene_title}`);
+    this.#question.hidden = part.question === null || isDone || !isHere;
+    const elsewhere = isHere ? "" : `This mission is in the scene “${part.scene_title}”. What you have here is kept.`;
+    const driver = this.#isWatching ? "Somebody else drives now. This step goes on when you drive." : part.driver;
+    setBold(this.#done, isDone ? `✓ ${part.done}` : "");
+    setBold(this.#problem, isDone ? "" : elsewhere || driver || part.hint);
+    setText(this.#words, isDone || !isHere ? "" : part.words);
+    for (const line of [this.#done, this.#problem, this.#words]) line.hidden = !line.textContent;
+    const isLit = !isDone && isHere && !openMission()?.isHidden;
+    this.#lights.show(isLit ? light : []);
+    if (isNew && isLit && light.some((name) => name !== "Keys")) this.#panel.layout.fold(false);
+  }
+
+  /**
+   * @param {MissionPart} part
+   * @param {boolean} isOver
+   */
+  #drawStars({ stars }, isOver) {
+    this.#stars.hidden = !isOver;
+    keyed(this.#stars, stars.map((star, index) => ({ ...star, index })), ({ index }) => index, () => element("li", {}, element("i", { role: "img" }), element("span")), (item, star) => {
+      const isEarned = star.is_earned;
+      setText(item.firstChild, isEarned ? "★" : "☆");
+      setAttributes(item.firstElementChild, { "aria-label": isEarned ? "earned" : "not yet", "data-earned": isEarned });
+      setText(item.lastChild, star.text);
+    });
+  }
+
+  /** @param {MissionPart} part */
+  #askQuestion({ question }) {
+    this.#question.replaceChildren();
+    if (question === null) return;
+    const send = (/** @type {string} */ answer) => this.#panel.send("mission_answer", { answer }, { quiet: true });
+    if (question.options.length) {
+      const options = question.options.map((option) => button(option, () => send(option)));
+      this.#question.append(element("p", { textContent: question.text }), ...options);
+      return;
+    }
+    const input = element("input", { type: "text", inputMode: "decimal", autocomplete: "off", id: freeId() });
+    const label = element("label", { htmlFor: input.id, textContent: question.text });
+    this.#question.append(label, input, button("Check", () => send(input.value), {}));
+    input.addEventListener("keydown", ({ key, isComposing }) => key === "Enter" && !isComposing && send(input.value));
+  }
+
+  /** Go on: to the next step, or to the next mission, or to the map. */
+  #goOn() {
+    const { step, steps, next } = this.#part;
+    if (step < steps - 1) this.#go(step + 1);
+    else if (next) this.#open(next);
+    else location.assign(MAP);
+  }
+
+  /** @param {number} step of the same mission */
+  async #go(step) {
+    const { mission } = this.#part;
+    setOpenMission({ mission, step });
+    await this.#panel.send("mission_open", { mission, step }, { quiet: true });
+    this.#panel.focusWorld();
+  }
+
+  /**
+   * Open another mission in its scene.
+   * @param {string} mission
+   */
+  async #open(mission) {
+    setOpenMission({ mission, step: 0 });
+    this.#told = "";
+    this.#wanted = mission;
+    await this.#panel.send("mission_open", { mission, step: 0 }, { quiet: true });
+    this.#tell();
+    this.#panel.focusWorld();
+  }
+
+  async #openScene() {
+    try {
+      const text = await unsavedSentence();
+      if (text && !(await ask({ title: `Open ${this.#part.scene_title}?`, text, yes: "Open" }))) return;
+      await request("api/scene", { name: this.#part.scene });
+    } catch (error) {
+      await tell("The scene can't be opened", error.message);
+    }
+  }
+
+  async #leave() {
+    setOpenMission(null);
+    this.#part = null;
+    this.#draw();
+    this.#invitation.focus();
+    await this.#panel.send("mission_close", {}, { quiet: true });
+  }
+
+  /** @param {boolean} isHidden */
+  #hide(isHidden) {
+    setOpenMission({ mission: this.#part.mission, step: this.#part.step, isHidden });
+    if (isHidden) this.#panel.layout.fold(false);
+    this.#draw();
+    (isHidden ? this.#pill : this.#next).focus();
+  }
+}
+
+/**
+ * Return a text as nodes: what stands in stars is bold.
+ * @param {string} text
+ */
+function withBold(text) {
+  return text.split("*").map((part, index) => (index % 2 ? element("b", { textContent: part }) : part));
+}
+
+/**
+ * Show a text with bold words if it differs: screen readers announce every change.
+ * @param {HTMLElement} target
+ * @param {string} text
+ */
+function setBold(target, text) {
+  if (target.textContent !== text.replaceAll("*", "")) target.replaceChildren(...withBold(text));
+}

@@ -1,0 +1,85 @@
+/** Lights on the controls of the page that a mission means, found by the names that a person reads on them. */
+
+import { setAttributes } from "../shared/dom.js";
+
+const CONTROLS = "button, [role=tab], [role=switch], summary, select, a[href]";
+/**
+ * Parts of the page that are no control.
+ * @type {Record<string, string>}
+ */
+const PLACES = { Keys: ".ai4u-dpad:not(:empty), .ai4u-dock", Program: ".ai4u-code-editor, .ai4u-blocks-editor" };
+/** Interval at which controls are looked for: tabs and lists come and go (ms). */
+const LOOK_MS = 300;
+
+export class Lights {
+  /** @type {string[]} */
+  #names = [];
+  /** @type {Element[]} */
+  #lit = [];
+  #timer = 0;
+  #outside;
+
+  /** @param {Element} outside controls in it are never lit */
+  constructor(outside) {
+    this.#outside = outside;
+  }
+
+  /**
+   * Light controls. The first of them that has yet to be opened or chosen is lit; if all are, all others are lit.
+   * @param {string[]} names none to put all lights out
+   */
+  show(names) {
+    this.#names = names;
+    clearInterval(this.#timer);
+    this.look();
+    if (names.length) this.#timer = setInterval(() => this.look(), LOOK_MS);
+  }
+
+  /** Find the controls again, and light them. */
+  look() {
+    const found = this.#names.map((name) => this.#find(name)).filter((control) => control !== null);
+    const next = found.find((control) => isChoice(control) && !isChosen(control));
+    const others = found.filter((control) => !isChoice(control));
+    const lit = next ? [next] : others.length ? others : found.slice(-1);
+    for (const control of this.#lit) if (!lit.includes(control)) setAttributes(control, { "data-ai4u-lit": false });
+    for (const control of lit) setAttributes(control, { "data-ai4u-lit": true });
+    this.#lit = lit;
+  }
+
+  /**
+   * Return the control of a name that can be seen; null if there is none.
+   * @param {string} name
+   */
+  #find(name) {
+    const isThere = (/** @type {Element} */ control) => control.getClientRects().length > 0 && !this.#outside.contains(control);
+    const place = PLACES[name];
+    if (place) {
+      for (const selector of place.split(", ")) {
+        const found = [...document.querySelectorAll(selector)].find(isThere);
+        if (found) return found;
+      }
+      return null;
+    }
+    const all = [...document.querySelectorAll(CONTROLS)].filter((control) => nameOf(control).startsWith(name));
+    return all.find((control) => nameOf(control) === name && isThere(control)) ?? all.find((control) => nameOf(control).startsWith(`${name} `) && isThere(control)) ?? null;
+  }
+}
+
+/** @param {Element} control */
+function nameOf(control) {
+  return (control.getAttribute("aria-label") || control.textContent).trim();
+}
+
+/**
+ * Return true for a control that stays as it was chosen: a tab, a switch, one of several buttons, a section.
+ * @param {Element} control
+ */
+function isChoice(control) {
+  return control.localName === "summary" || ["aria-selected", "aria-pressed", "aria-checked"].some((name) => control.hasAttribute(name));
+}
+
+/** @param {Element} control */
+function isChosen(control) {
+  if (control.localName === "summary") return /** @type {HTMLDetailsElement} */ (control.parentElement).open;
+  return ["aria-selected", "aria-pressed", "aria-checked"].some((name) => control.getAttribute(name) === "true");
+}
