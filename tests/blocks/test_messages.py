@@ -8,6 +8,7 @@ import pytest
 from ai4u_edu import (
     Actuator,
     BasicAgent,
+    CallController,
     CircleShape,
     ControlRequestor,
     HearSensor,
@@ -136,6 +137,14 @@ def test_speech_bubbles() -> None:
     for _ in range(10):
         sim.step()
     assert said(capture_snapshot(sim)) == {}
+
+
+def test_two_that_call_each_other_get_there_together() -> None:
+    sim = Scene.load("call").build(brains=lambda _: LocalBrain(controller=CallController()))
+    sim.reset(1)
+    while not sim.agents[0].done:
+        sim.step()
+    assert sim.agents[0].ledger.episode_terms == {"together": 10.0}
 
 
 def test_replay_and_copy_have_the_messages() -> None:

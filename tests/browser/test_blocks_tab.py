@@ -183,23 +183,6 @@ def test_one_goes_on_in_python_and_back_and_nothing_is_lost(tab: BlocksPage) -> 
     expect(tab.editor).to_contain_text("turn = 1")
 
 
-def test_the_steps_open_their_scene_with_blocks_and_the_work_stays(tab: BlocksPage) -> None:
-    tab.to_blocks()
-    tab.choose("Actions", "turn")
-    expect(tab.editor).to_contain_text("turn = 1")
-    tab.press("Open the maze")
-    assert tab.sent() == [{"command": "open_scene", "name": "maze", "is_saved": False}]
-    for scene in ("maze", "box_chase"):
-        tab.give({**PARTS["scene"], "scene": scene}, "scene")
-        tab.give(PARTS["agent"])
-        expect(tab.page.locator(".ai4u-blocks-editor")).to_be_visible()
-        expect(tab.canvas).to_contain_text("forever")
-        if scene == "maze":
-            expect(tab.editor).not_to_contain_text("turn = 1")
-            expect(tab.page.get_by_role("button", name="Step 1: Drive")).to_be_visible()
-    expect(tab.editor).to_contain_text("turn = 1")
-
-
 def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     tab.to_blocks()
     tab.choose("Actions", "forward")

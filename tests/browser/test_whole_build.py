@@ -74,7 +74,7 @@ def put(page: Page, title: str) -> None:
 
 
 def test_a_card_of_the_start_page_opens_its_scene(page: Page, server: Played) -> None:
-    page.goto(f"{server.url}start")
+    page.goto(f"{server.url}start#play")
     page.locator("#scenes").get_by_role("button", name="Donut", exact=True).click()
     page.locator(".ai4u-panel .ai4u-scene-button", has_text="Donut").wait_for()
     press(page, "Donut")

@@ -86,6 +86,7 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "qr": join_code(ADDRESS, CODE),
         "open": True,
         "attention": {"kind": "", "message": "", "ends_in": 0.0},
+        "switches": {"sound": False},
         "shown": {"kind": "join", "room": "", "game": 0},
         "race": None,
         "tournament": None,

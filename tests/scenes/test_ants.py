@@ -2,7 +2,7 @@
 
 import pytest
 
-from ai4u_edu import LocalBrain, Scene
+from ai4u_edu import AntController, LocalBrain, Scene
 
 pytestmark = pytest.mark.slow
 
@@ -18,6 +18,15 @@ def harvest(*, has_ink: bool) -> float:
             sim.world.ink.clear()
     ants = sim.agents[1:]
     return sum(agent.ledger.episode_terms.get("harvest", 0.0) for agent in ants) / 10
+
+
+def test_the_first_one_finds_food_by_the_controller_of_the_others() -> None:
+    sim = Scene.load("ants").build()
+    sim.agents[0].use_brain(AntController())
+    sim.reset(1)
+    for _ in range(60 * 60):
+        sim.tick()
+    assert sim.agents[0].ledger.episode_terms["harvest"] > 0
 
 
 def test_without_ink_their_harvest_is_less_than_half() -> None:

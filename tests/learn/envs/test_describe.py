@@ -28,6 +28,8 @@ def expected(space: spaces.Space[Any]) -> list[tuple[float, float]]:
     """Return the bounds of a space's numbers."""
     if isinstance(space, spaces.Discrete):
         return [(float(space.start), float(space.start + space.n - 1))]
+    if isinstance(space, spaces.Dict):
+        return [pair for part in space.values() for pair in expected(part)]
     assert isinstance(space, spaces.Box)
     return list(zip(space.low.ravel().tolist(), space.high.ravel().tolist(), strict=True))
 

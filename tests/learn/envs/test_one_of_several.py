@@ -21,7 +21,8 @@ def test_any_agent_can_be_the_one_that_learns(scene: str) -> None:
     env: Any = gymnasium.make(env_id(scene), agent=learner, observation="flat").unwrapped
     check_env(env, skip_render_check=True)
     brains = [agent.brain.title() for agent in env.sim.agents]
-    assert (brains[0], brains[-1]) == ("LocalBrain(WASDRBMoveController)", "Gymnasium")
+    assert brains[0].startswith("LocalBrain(WASD")
+    assert brains[-1] == "Gymnasium"
     assert "Gymnasium" not in brains[:-1]
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gymnasium import spaces
 from gymnasium.utils.env_checker import data_equivalence
 from pettingzoo.test import max_cycles_test, parallel_api_test, parallel_seed_test, seed_test
 from pettingzoo.utils import parallel_to_aec
@@ -27,6 +28,14 @@ def drawn(env: Any) -> dict[str, Any]:
 def standing(env: Any) -> dict[str, Any]:
     """Everybody stands still."""
     return {name: np.zeros(4, np.float32) for name in env.agents}
+
+
+def moving(env: Any, name: str, turn: float) -> Any:
+    """Return an action that goes ahead and turns."""
+    space, move = env.action_space(name), np.array([1, turn, 0, 0], np.float32)
+    if not isinstance(space, spaces.Dict):
+        return move
+    return {**{key: np.zeros(each.shape, np.float32) for key, each in space.items()}, "move": move}
 
 
 def test_there_are_scenes_with_several_agents() -> None:
@@ -91,7 +100,7 @@ def test_pictures(scene: str) -> None:
     env.reset(seed=1)
     before = env.render()
     for _ in range(5):
-        env.step({name: np.array([1, 0.5, 0, 0], np.float32) for name in env.agents})
+        env.step({name: moving(env, name, 0.5) for name in env.agents})
     after = env.render()
     assert after.ndim == 3
     assert (after.shape[2], after.dtype) == (3, np.uint8)
@@ -109,9 +118,10 @@ def test_it_takes_the_same_decisions_as_the_learner_of_one_agent(scene: str) -> 
     first, *others = all_of_them.possible_agents
     for _ in range(15):
         assert data_equivalence(observation, observations[first])
-        action = np.array([1, 0.2, 0, 0], np.float32)
+        action = moving(all_of_them, first, 0.2)
         observation, reward, *_ = one.step(action)
-        told = {name: one.sim.agent(name).last_action["move"] for name in others}
+        actions = {name: one.sim.agent(name).last_action for name in others}
+        told = {name: each["move"] if len(each) == 1 else each for name, each in actions.items()}
         observations, rewards, *_ = all_of_them.step({first: action, **told})
         assert rewards[first] == reward
 

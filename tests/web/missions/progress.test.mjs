@@ -7,7 +7,7 @@ openWindow();
 const { openMission, progressOf, reach, setOpenMission } = await import("../../../web/missions/progress.js");
 const { forget } = await import("../../../web/shared/storage.js");
 
-/** What the browser keeps. */
+/** Progress that the browser keeps. */
 let kept;
 beforeEach(() => {
   ({ kept } = openWindow());
