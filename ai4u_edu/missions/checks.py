@@ -565,7 +565,7 @@ class Following:
         self.is_done = False
         self._events = check.follow()
         self.words = next(self._events)
-        """How far it is; empty if there is nothing to say."""
+        """Words on how far it is; empty if there is nothing to say."""
         if latest is not None and check.begins_with_latest:
             self.see(latest)
 

@@ -54,10 +54,10 @@ class World:
         self._registry = Registry()
         self._physics = Physics(self.settings)
         self.ink = Ink(self._registry.floors)
-        """What pens have drawn on the floors since the world's reset."""
+        """Ink that pens have left on the floors since the world's reset."""
         self.contacts = self._physics.contacts
         self.messages = Messages(self)
-        """What agents have said since the world's reset."""
+        """Messages of agents since the world's reset."""
         self._ticks_per_second = self.settings.ticks_per_second
         self.rebuild()
 

@@ -102,17 +102,21 @@ def box_by_if(agent: BasicAgent) -> Action:
     return move(1, 0)(agent) if faces_box(agent) > 0.95 else move(0, -0.6)(agent)
 
 
-def line_program(agent: BasicAgent) -> Action:
-    eyes = np.asarray(agent.percept["line"])
-    if not eyes.any():
-        return {"move": [-0.15, 0.15]} if line_program.last < 0 else {"move": [0.15, -0.15]}  # type: ignore[attr-defined]
-    side = float((eyes * np.array([-2, -1, 0, 1, 2])).sum() / eyes.sum())
-    if side:
-        line_program.last = side  # type: ignore[attr-defined]
-    return {"move": [0.35 + 0.12 * side, 0.35 - 0.12 * side]}
+class LineProgram:
+    """Follows a line, and remembers on which side it was last."""
 
+    def __init__(self) -> None:
+        self._last = 1.0
 
-line_program.last = 1.0  # type: ignore[attr-defined]
+    def __call__(self, agent: BasicAgent) -> Action:
+        """Return the speeds of both wheels."""
+        eyes = np.asarray(agent.percept["line"])
+        if not eyes.any():
+            return {"move": [-0.15, 0.15]} if self._last < 0 else {"move": [0.15, -0.15]}
+        side = float((eyes * np.array([-2, -1, 0, 1, 2])).sum() / eyes.sum())
+        if side:
+            self._last = side
+        return {"move": [0.35 + 0.12 * side, 0.35 - 0.12 * side]}
 
 
 # -- missions --------------------------------------------------------------------------------------
@@ -159,7 +163,7 @@ def sense_2(do: Doing) -> None:
 
 
 def sense_3(do: Doing) -> None:
-    do.drive(line_program, through=True)
+    do.drive(LineProgram(), through=True)
 
 
 def think_1(do: Doing) -> None:
@@ -203,7 +207,7 @@ def code_2(do: Doing) -> None:
 
 
 def code_3(do: Doing) -> None:
-    do.drive(line_program, through=True)
+    do.drive(LineProgram(), through=True)
 
 
 def thing(tag: str, number: int, position: tuple[float, float]) -> BodyDescription:

@@ -1,7 +1,6 @@
 """A person's networks: how good each is, a file that is opened, and one that drives is deleted."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -10,15 +9,8 @@ from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.teach.network_score import NetworkScore, score_network
 from tests.page.panel.rooms import Message, PanelPage, PanelRoom
-from tests.teach.driving import teaching_room
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def room(tmp_path: Path) -> Iterator[PanelRoom]:
-    with teaching_room(tmp_path) as served:
-        yield served
 
 
 @pytest.fixture

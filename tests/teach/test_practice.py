@@ -40,12 +40,6 @@ LATE = 1_000_000
 
 
 @pytest.fixture
-def room(tmp_path: Path) -> Iterator[PanelRoom]:
-    with teaching_room(tmp_path) as served:
-        yield served
-
-
-@pytest.fixture
 def page(room: PanelRoom) -> Iterator[PanelPage]:
     with room.page() as opened:
         opened.part("teach", lambda part: part["rewards"])

@@ -3,7 +3,6 @@
 import csv
 import io
 from collections.abc import Iterator
-from pathlib import Path
 
 import psutil
 import pytest
@@ -14,17 +13,10 @@ from ai4u_edu.learn.training.varying import parameter_named, try_values, with_dr
 from ai4u_edu.teach import tries
 from ai4u_edu.teach.learning import STOPPED
 from tests.page.panel.rooms import PanelPage, PanelRoom
-from tests.teach.driving import teaching_room
 
 pytestmark = pytest.mark.slow
 
 SPEED, NETWORK = "0.move.move_amount", "network:zoo:box_chase"
-
-
-@pytest.fixture
-def room(tmp_path: Path) -> Iterator[PanelRoom]:
-    with teaching_room(tmp_path) as served:
-        yield served
 
 
 @pytest.fixture
