@@ -49,6 +49,8 @@ TEACHERS_PATHS = (
     "teacher/socket",
     "projector/socket",
 )
+TOLD_LINES = 40
+"""Lines of the class's output that are shown after a run; they say why a room ended."""
 ENTERED = ("200", "open")
 """Answers to those who get in."""
 
@@ -69,7 +71,7 @@ class Attack:
 
 
 def attack_class(seconds: float, seed: int, folder: Path) -> tuple[Tally, list[str]]:
-    """Attack a class for a while; return the tally, and lines about the memory of its processes."""
+    """Attack a class for a while; return the tally, and lines about its memory and output."""
     with ExitStack() as stack:
         served = stack.enter_context(served_class(folder))
         students = [served.joined() for _ in range(ROOMS)]
@@ -106,8 +108,9 @@ def attack_class(seconds: float, seed: int, folder: Path) -> tuple[Tally, list[s
         lines = memory.judge(attack.tally, seconds)
         attack.tally.wrong += ends_at_once(served.process, LIMIT_S)
         _join(attack.tally, scripts)  # one waits as long as its world stands still
-    attack.tally.wrong += tracebacks_in("".join(served.told))
-    return attack.tally, lines
+    told = "".join(served.told)
+    attack.tally.wrong += tracebacks_in(told)
+    return attack.tally, [*lines, "The class said at the end:", *told.splitlines()[-TOLD_LINES:]]
 
 
 def misuse_panel(attack: Attack, student: Student, rng: random.Random) -> None:

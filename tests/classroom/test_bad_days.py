@@ -83,8 +83,7 @@ def test_a_pair_shares_a_world_and_sees_each_other(tmp_path: Path) -> None:
         ):
             for page in (first, second):
                 page.receive("hello")
-            until(lambda: all(each["is_here"] for each in people(first)))
-            assert {each["name"] for each in first.last["class"]["people"]} == names
+            until(lambda: {each["name"] for each in people(first) if each["is_here"]} == names)
             number = first.last["hello"]["you"]
             with first.holding("KeyW"):
                 until(lambda: second.receive("seat")["driver"] == number)
