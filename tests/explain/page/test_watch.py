@@ -92,8 +92,7 @@ def test_the_network_races_against_a_persons_drive(room: PanelRoom, page: PanelP
     page.part("watch", has_drive=True)
     assert room.runner.latest.seed != driven
     page.done("watch_network", against_my_drive=True)
-    part = page.part("watch", lambda part: part["race"])
-    assert part["watching"] == ZOO
+    part = page.part("watch", lambda part: part["race"], watching=ZOO)
     assert (part["race"]["ghost"], part["race"]["is_won"]) == ("drive", False)
     assert part["race"]["seed"] == str(driven) == str(room.runner.latest.seed)
     (ghost,) = room.context.ghosts.drives
