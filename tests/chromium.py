@@ -55,6 +55,18 @@ for (const kind of [self.WebGLRenderingContext, self.WebGL2RenderingContext]) {
 Without a graphics card, drawing takes most of a page's time."""
 
 
+WAIT_FOR_SERVER = f"""
+addEventListener("DOMContentLoaded", async () => {{
+    const addresses = [...document.scripts].map((each) => each.type === "module" && each.src);
+    const folder = /^.*[/]web(-[^/]*)?[/]/.exec(addresses.find(Boolean))?.[0];
+    if (!folder) return;
+    const {{ limits }} = await import(folder + "shared/limits.js");
+    limits.silenceMs = limits.openMs = {LIMIT_MS};
+}});
+"""
+"""Page script with which a page takes no connection for lost, however busy this machine is."""
+
+
 @contextlib.contextmanager
 def browser() -> Iterator[Browser]:
     """Headless Chromium."""
@@ -79,6 +91,7 @@ def new_page(
     """
     context = chromium.new_context(viewport={"width": width, "height": height}, **options)
     context.set_default_timeout(LIMIT_MS)
+    context.add_init_script(WAIT_FOR_SERVER)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
     context.on("page", _watch)

@@ -161,7 +161,8 @@ def test_a_world_that_is_gone_is_told(chromium: Browser) -> None:
         page.evaluate("RemoteClient.connect().then((each) => void (window.client = each))")
         page.evaluate("client.sense()")
     page.evaluate("client.act({ move: [1, 0, 0, 0] }).catch(() => {})")
-    error = told(page, "client.sense()")
+    # a world that did not wait for the page may have sent a percept before it was gone
+    error = told(page, "client.sense()") or told(page, "client.sense()")
     assert error["code"] in ("lost", "ended")
     assert told(page, "client.sense()") == error
     page.context.close()
