@@ -81,17 +81,25 @@ expect.set_options(timeout=LIMIT_MS)
 
 
 def new_page(
-    chromium: Browser, width: int = 1280, height: int = 800, *, draws: bool = False, **options: Any
+    chromium: Browser,
+    width: int = 1280,
+    height: int = 800,
+    *,
+    draws: bool = False,
+    gives_up: bool = False,
+    **options: Any,
 ) -> Page:
     """Return a page in a context of its own, which the caller closes.
 
     Args:
         draws: WebGL draws the world; only for tests that look at the picture.
+        gives_up: a silent connection is lost after the page's own time limit.
         options: more of ``Browser.new_context``.
     """
     context = chromium.new_context(viewport={"width": width, "height": height}, **options)
     context.set_default_timeout(LIMIT_MS)
-    context.add_init_script(WAIT_FOR_SERVER)
+    if not gives_up:
+        context.add_init_script(WAIT_FOR_SERVER)
     if not draws:
         context.add_init_script(DRAW_NOTHING)
     context.on("page", _watch)

@@ -41,7 +41,8 @@ def status_of_the_room(school: ServedClass) -> object:
 def test_a_minute_without_wifi(chromium: Browser, tmp_path: Path, with_connections: bool) -> None:
     pings = {"timeouts.ping": DEFAULT_TIMEOUTS.ping}  # by them the class learns of the outage
     with served_class(tmp_path, replaced=pings) as school, Wifi(school.url) as wifi:
-        teacher, ada = new_page(chromium), new_page(chromium, draws=True)
+        teacher = new_page(chromium, gives_up=True)
+        ada = new_page(chromium, draws=True, gives_up=True)
         join(ada, replace(school, url=wifi.url))
         teacher.goto(f"{wifi.url}teacher?token={school.token}")
         room = ada.url

@@ -91,7 +91,7 @@ def test_a_page_notices_that_its_network_is_gone_and_comes_back(
     """Nothing is closed: as without Wi-Fi."""
     key_clock = Clock()
     with served(sim, key_clock=key_clock) as room, Wifi(room.url) as wifi:
-        page = new_page(chromium)
+        page = new_page(chromium, gives_up=True)
         keepalives: list[str | bytes] = []
 
         def note(frame: str | bytes) -> None:
