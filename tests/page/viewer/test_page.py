@@ -42,7 +42,8 @@ def opened(viewer: Viewer) -> "Iterator[Page]":
     viewer.start()
     with browser() as chromium:
         tab = new_page(chromium, 900, 560, draws=True)
-        tab.goto(f"http://127.0.0.1:{viewer.port}")
+        # viser takes rare frames for a slow machine, and draws fewer pixels from then on
+        tab.goto(f"http://127.0.0.1:{viewer.port}?fixedDpr=1")
         tab.wait_for_function(READY)
         yield tab
 
