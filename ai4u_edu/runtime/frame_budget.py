@@ -66,6 +66,8 @@ class FrameBudget:
         """Rate at which a panel's texts are sent."""
         self.senses_per_s = min(SENSES_PER_S, max_frames_per_s / FRAMES_PER_SENSES)
         """Rate at which sensors, actions and ghosts are drawn."""
+        self.is_smooth = max_frames_per_s >= MIN_FRAMES_PER_S
+        """True if there are enough frames for a camera that moves; a class's rooms have fewer."""
         self._snapshot_at = self._due_at = -math.inf
         self._snapshot_s = 0.0
 

@@ -139,6 +139,20 @@ def test_the_camera_is_chosen(desk: PanelPage, name: str, mode: str) -> None:
     expect(desk.button("Arena")).to_have_attribute("aria-pressed", "false")
 
 
+@pytest.mark.parametrize(("width", "height"), [(1366, 768), (390, 844), (360, 740)])
+def test_the_cameras_stand_in_one_row(desk: PanelPage, width: int, height: int) -> None:
+    desk.page.set_viewport_size({"width": width, "height": height})
+    unfold = desk.page.get_by_role("button", name="Open the panel")
+    if width < 1000:
+        unfold.click()
+    cameras = desk.page.get_by_role("group", name="Camera").get_by_role("button")
+    expect(cameras).to_have_count(5)
+    boxes = [camera.bounding_box() for camera in cameras.all()]
+    assert len({box and box["y"] for box in boxes}) == 1
+    assert all(box and 0 <= box["x"] <= width - box["width"] for box in boxes)
+    desk.page.set_viewport_size({"width": 1280, "height": 1000})
+
+
 def test_the_trail_and_the_camera_are_shown_as_they_are(desk: PanelPage) -> None:
     trail = desk.page.get_by_role("switch", name="Trail")
     expect(trail).to_be_hidden()

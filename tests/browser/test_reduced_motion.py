@@ -42,3 +42,29 @@ def test_only_whoever_has_nothing_against_it_sees_motion(
         assert (moving(page) == []) == is_reduced
         # the page has sent other commands since
         assert page.panel.commands("reduce_motion") == ([{"on": True}] if is_reduced else [])
+
+
+@pytest.mark.parametrize("preference", ["reduce", "no-preference"])
+def test_a_page_opens_with_a_tilt_unless_motion_is_reduced(
+    chromium: Browser, preference: str
+) -> None:
+    with (
+        panel_room() as room,
+        panel_page(chromium, room, reduced_motion=preference) as page,
+    ):
+        opening = page.page.locator("html[data-ai4u-opening]")
+        begun = [] if preference == "reduce" else [{"on": True}]
+        page.tab("Build").focus()
+        page.page.keyboard.press("Shift")
+        ended = [{"on": False}] * len(begun)
+        page.until(lambda: page.panel.commands("opening") == begun + ended)
+        expect(opening).to_have_count(len(begun))
+        page.page.mouse.click(5, 5)  # once only
+        page.panel.change("view", opening="running")
+        page.panel.change("view", opening="over")
+        expect(opening).to_have_count(0)
+        page.panel.drop()
+        page.until(lambda: len(page.panel.urls) == 2)
+        page.tab("Build").click()
+        page.until(lambda: page.panel.shown["tabs"][0] == "blocks")
+        assert page.panel.commands("opening") == begun + ended

@@ -848,6 +848,8 @@ export interface ViewPart {
   camera: "arena" | "eyes" | "follow" | "tilted" | "turn";
   /** True if the trail of the agent that is shown is drawn. */
   has_trail: boolean;
+  /** State of the short tilt of the camera with which the page opens. */
+  opening: "ending" | "none" | "over" | "running";
 }
 
 /** A network that can drive. */
@@ -1412,6 +1414,11 @@ export interface Pin {
 export interface Play {
 }
 
+/** Open with a short tilt of the camera, or end it. */
+export interface PlayOpening {
+  on: boolean;
+}
+
 /** Have a network practise for rewards with the page's agent, and drive it meanwhile. */
 export interface PractiseForRewards {
   /** Decisions to learn from. */
@@ -1662,6 +1669,7 @@ export interface Commands {
   nudge: Nudge;
   open_recording: OpenRecording;
   open_scene: OpenScene;
+  opening: PlayOpening;
   paid: AskPaid;
   palette: ListThings;
   paste: Paste;

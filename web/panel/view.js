@@ -7,14 +7,20 @@
 import { element } from "../shared/dom.js";
 import { segments, toggle } from "./widgets/parts.js";
 
-/** @type {{value: ViewPart["camera"], text: string, title: string}[]} */
+/**
+ * Short words, for five in one row; `name` is the whole, for screen readers and missions.
+ * @type {{value: ViewPart["camera"], text: string, name?: string, title: string}[]}
+ */
 const CAMERAS = [
   { value: "arena", text: "Arena", title: "See everything from above" },
   { value: "tilted", text: "Tilted", title: "See everything at an angle, with depth" },
   { value: "follow", text: "Follow", title: "Stay above the robot" },
   { value: "turn", text: "Turn along", title: "Stay above the robot and turn with it" },
-  { value: "eyes", text: "Through its eyes", title: "See what the robot would see" },
+  { value: "eyes", text: "Its eyes", name: "Through its eyes", title: "See what the robot would see" },
 ];
+
+/** Longest time (ms) that the page waits for the end of its opening. */
+const OPENING_LIMIT_MS = 5000;
 
 const LESS_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -42,8 +48,40 @@ export class ViewControls {
     const sendMotion = () => panel.send("reduce_motion", { on: LESS_MOTION.matches }, { quiet: true });
     LESS_MOTION.addEventListener("change", sendMotion);
     panel.addEventListener("connected", () => LESS_MOTION.matches && sendMotion());
+    playOpening(panel);
     dark.set(root.dataset.ai4uScheme === "dark");
     const switches = element("div", { className: "ai4u-inline" }, trail.element, dark.element, history);
     this.element = element("section", { className: "ai4u-view", ariaLabel: "Picture" }, cameras.element, switches);
   }
+}
+
+/**
+ * Open with a short tilt of the camera, once a page load, which any key or pointer ends; data-ai4u-opening is set meanwhile.
+ * @param {Panel} panel
+ */
+function playOpening(panel) {
+  const root = document.documentElement;
+  const [listening, untouched] = [new AbortController(), new AbortController()];
+  let timer = 0;
+  const stop = () => {
+    listening.abort();
+    untouched.abort();
+    clearTimeout(timer);
+    root.toggleAttribute("data-ai4u-opening", false);
+  };
+  const end = () => {
+    untouched.abort();
+    void panel.send("opening", { on: false }, { quiet: true });
+  };
+  const begin = () => {
+    const options = { signal: listening.signal };
+    const first = { signal: untouched.signal, capture: true, passive: true };
+    for (const type of ["keydown", "pointerdown", "wheel"]) addEventListener(type, end, first);
+    panel.addEventListener("part:view", ({ detail }) => detail.opening === "over" && stop(), options);
+    panel.addEventListener("disconnected", stop, options);
+    timer = setTimeout(stop, OPENING_LIMIT_MS);
+    root.toggleAttribute("data-ai4u-opening", true);
+    void panel.send("opening", { on: true }, { quiet: true });
+  };
+  if (!LESS_MOTION.matches) panel.addEventListener("connected", begin, { once: true });
 }

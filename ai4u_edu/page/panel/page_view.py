@@ -18,6 +18,8 @@ MAX_SENSOR_CHOICES = 200
 CameraMode = Literal["arena", "tilted", "follow", "turn", "eyes"]
 """Position of a page's camera: over the arena, tilted before it, over the agent, turning with it,
 in its eye."""
+Opening = Literal["none", "running", "ending", "over"]
+"""State of the short tilt of the camera with which a page opens."""
 Tab = Literal["agent", "blocks", "world", "past"]
 
 
@@ -76,6 +78,16 @@ class Picture(Protocol):
     @property
     def camera(self) -> CameraMode:
         """Position of the camera."""
+
+    @property
+    def opening(self) -> Opening:
+        """State of the short tilt of the camera with which the page opens."""
+
+    def open(self) -> None:
+        """Open with a short tilt of the camera, unless it has done so or its pictures are few."""
+
+    def end_opening(self) -> None:
+        """End the tilt."""
 
     @property
     def ground_center(self) -> tuple[float, float]:
@@ -156,6 +168,8 @@ class PageView:
         """Trails that were switched on or off, by agent."""
         self._is_dark: bool | None = None
         self._is_motion_reduced = False
+        self._opens = False
+        """True if the next picture opens with a tilt."""
         self._curve: tuple[str, int] = ("", 0)
         self.sensors: dict[tuple[str, str], bool] = {}
         """Sensors that were switched on or off, by agent and key."""
@@ -247,6 +261,21 @@ class PageView:
         self._is_motion_reduced = on
         self._apply(self._choose_shown)
 
+    @property
+    def opening(self) -> Opening:
+        """State of the short tilt of the camera with which the page opens."""
+        return "none" if self._picture is None else self._picture.opening
+
+    def open(self) -> None:
+        """Open with a short tilt of the camera, as soon as there is a picture."""
+        self._opens = self._picture is None
+        self._apply(lambda picture: picture.open())
+
+    def end_opening(self) -> None:
+        """End the tilt."""
+        self._opens = False
+        self._apply(lambda picture: picture.end_opening())
+
     def show_sensor(self, key: str, on: bool) -> None:
         """Draw a sensor of the agent in the picture, or hide it."""
         if len(self.sensors) >= MAX_SENSOR_CHOICES:
@@ -316,6 +345,9 @@ class PageView:
         self._choose_shown(picture)
         if self.camera != picture.camera:
             picture.choose_camera(self.camera)
+        if self._opens:
+            self._opens = False
+            picture.open()
         if self._is_dark is not None and self._is_dark != picture.is_dark:
             picture.set_dark(self._is_dark)
         for (agent, key), on in self.sensors.items():

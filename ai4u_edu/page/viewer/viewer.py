@@ -29,6 +29,8 @@ MAX_PLOTTED_DECISIONS = 240
 """Decisions of an agent whose rewards the panel plots."""
 PAGE_POLL_S = 0.1
 """Poll interval for pages that open, while there are none."""
+OPENING_FRAME_S = 1 / 40
+"""Longest time between two frames while the camera of a page moves, also if the world waits."""
 MIN_PAUSE_S = 0.001
 """Pause after a frame that took longer than it may, so that other threads run."""
 
@@ -58,7 +60,9 @@ class Viewer:
     ) -> None:
         self.runner = runner
         self.server = server = LocalServer(title)
-        self.viewer_clients = viewer_clients = ViewerClients(server, first=runner.sim.agents[0].id)
+        self.viewer_clients = viewer_clients = ViewerClients(
+            server, first=runner.sim.agents[0].id, is_smooth=runner.frame_budget.is_smooth
+        )
         self._static_scene: StaticScene | None = None
         self._error_log = ErrorLog()
         self._stopping = threading.Event()
@@ -106,7 +110,8 @@ class Viewer:
     def _run(self) -> None:
         seen, due = self.runner.latest, time.monotonic()
         while not self._stopping.is_set():
-            seen = self.runner.wait(seen, PAGE_POLL_S)
+            is_opening = self.viewer_clients.is_opening
+            seen = self.runner.wait(seen, OPENING_FRAME_S if is_opening else PAGE_POLL_S)
             if (rest := due - time.monotonic()) > 0:
                 self._stopping.wait(rest)
                 seen = self.runner.latest

@@ -10,7 +10,7 @@ from viser import ClientHandle
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.framing import ground_at_center, ground_matrix
-from ai4u_edu.page.viewer.scene.view import Mode, View
+from ai4u_edu.page.viewer.scene.view import Mode, Opening, View
 from ai4u_edu.snapshot import Snapshot, StaticScene
 
 AGENT_HEADER = "X-AI4U-Edu-Agent"
@@ -45,6 +45,7 @@ class ViewerClient:
         address: of the page in the browser; empty if it is not known.
         page_id: the page's random id, if its panel is ours; else empty.
         is_dark: True for dark colours.
+        is_smooth: True if there are enough pictures a second for a camera that moves.
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class ViewerClient:
         page_id: str = "",
         *,
         is_dark: bool = False,
+        is_smooth: bool = True,
     ) -> None:
         self.client = client
         self.address = address
@@ -78,6 +80,7 @@ class ViewerClient:
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
         self.view = View(client)
         """Its camera."""
+        self._is_smooth = is_smooth
         self.agent = asked
         """Id of the agent that is shown."""
         self.sensor_choices: dict[tuple[str, str], bool] = {}
@@ -98,6 +101,22 @@ class ViewerClient:
     def choose_camera(self, mode: str) -> None:
         """Put its camera somewhere, also if it was there before and was moved since."""
         self.view.choose(Mode(mode))
+
+    @property
+    def opening(self) -> Literal["none", "running", "ending", "over"]:
+        """State of the tilt with which it opens."""
+        return self.view.opening.value
+
+    def open(self) -> None:
+        """Open with a short tilt of the camera, unless its pictures are few."""
+        if self._is_smooth:
+            self.view.open()
+        else:
+            self.view.opening = Opening.OVER
+
+    def end_opening(self) -> None:
+        """End the tilt."""
+        self.view.end_opening()
 
     @property
     def ground_center(self) -> tuple[float, float]:
@@ -148,10 +167,12 @@ class ViewerClients(Mapping[int, ViewerClient]):
     Args:
         server: viser's.
         first: id of the agent that is shown on pages that are about none in particular.
+        is_smooth: True if pages get enough pictures a second for a camera that moves.
     """
 
-    def __init__(self, server: LocalServer, first: str) -> None:
+    def __init__(self, server: LocalServer, first: str, *, is_smooth: bool = True) -> None:
         self._server = server
+        self._is_smooth = is_smooth
         self._first = first
         self._ids: tuple[str, ...] = (first,)
         self._all: dict[int, ViewerClient] = {}
@@ -169,6 +190,11 @@ class ViewerClients(Mapping[int, ViewerClient]):
     def is_motion_reduced(self) -> bool:
         """True if a user of some page prefers reduced motion."""
         return any(each.is_motion_reduced for each in tuple(self._all.values()))
+
+    @property
+    def is_opening(self) -> bool:
+        """True while the camera of some page moves, whatever the world does."""
+        return any(each.view.is_opening for each in tuple(self._all.values()))
 
     def find(self, page_id: str) -> ViewerClient | None:
         """Return the latest page with a page id; None if there is none."""
@@ -198,7 +224,9 @@ class ViewerClients(Mapping[int, ViewerClient]):
             )
             is_dark = bool(self._header(new, DARK_HEADER))
             page_id = self._header(new, PAGE_ID_HEADER)
-            viewer_client = ViewerClient(clients[new], asked, address, page_id, is_dark=is_dark)
+            viewer_client = ViewerClient(
+                clients[new], asked, address, page_id, is_dark=is_dark, is_smooth=self._is_smooth
+            )
             viewer_client.settle(self._ids)
             if is_dark:
                 viewer_client.set_dark(True)

@@ -21,6 +21,7 @@ from ai4u_edu.page.viewer.viewer_client import ViewerClient
 from ai4u_edu.recording import Recorder
 from ai4u_edu.room import serve_world
 from ai4u_edu.runtime import tick_monitor
+from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.runner import Runner
 from tests.load.clients import CAMERA
 from tests.page.server.rooms import PATIENT, open_socket
@@ -44,11 +45,14 @@ class PanelRoom:
 
 
 @contextmanager
-def panel_room(scene: str = "box_chase", *, can_edit: bool = True) -> Iterator[PanelRoom]:
+def panel_room(
+    scene: str = "box_chase", *, can_edit: bool = True, frames: FrameBudget | None = None
+) -> Iterator[PanelRoom]:
     """Serve a scene of the library, paused."""
     loaded = Scene.load(scene)
     sim = loaded.build()
-    runner = Runner(sim, seed=1, recorder=Recorder(sim, scene=loaded.description))
+    recorder = Recorder(sim, scene=loaded.description)
+    runner = Runner(sim, seed=1, recorder=recorder, frame_budget=frames)
     editor = SceneEditor(runner, loaded)
     runner.paused = True
     with patch.object(tick_monitor, "STALL_S", LIMIT_S):  # else a page is told of it

@@ -10,6 +10,7 @@ import pytest
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.page.panel.parts.agent import ScriptState, agent_part
 from ai4u_edu.page.viewer.scene.view import Mode
+from ai4u_edu.runtime.frame_budget import FrameBudget
 from tests.page.panel.rooms import PanelRoom, panel_room, picture
 from tests.waiting import until
 
@@ -215,3 +216,26 @@ def test_a_page_asks_for_an_agent(several: PanelRoom) -> None:
 def test_odd_page_ids_are_refused(room: PanelRoom) -> None:
     with room.page("?page=../../x") as page:
         assert page.end()[0] == 1008
+
+
+def test_a_page_opens_with_a_tilt_once(room: PanelRoom, page_id: str) -> None:
+    with room.page(f"?page={page_id}") as page:
+        page.part("view", opening="none")
+        page.done("opening", on=True)  # before viser's connection
+        with picture(room, page_id) as client:
+            until(lambda: client.opening != "none")
+            page.done("opening", on=False)
+            page.part("view", opening="over")
+            page.done("opening", on=True)
+            page.done("camera", mode="follow")
+            page.part("view", camera="follow", opening="over")
+
+
+def test_a_page_with_few_pictures_does_not_open_with_a_tilt(page_id: str) -> None:
+    with (
+        panel_room(frames=FrameBudget(15.5, 15.0)) as room,
+        room.page(f"?page={page_id}") as page,
+        picture(room, page_id),
+    ):
+        page.done("opening", on=True)
+        page.part("view", opening="over")

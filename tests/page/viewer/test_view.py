@@ -8,7 +8,14 @@ from viser import CameraHandle
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.arena import camera_bounds
 from ai4u_edu.page.viewer.scene.framing import Frame, frame_arena, frame_point, frame_tilted
-from ai4u_edu.page.viewer.scene.view import FOLLOW_HEIGHT_IN_RADII, Mode, View
+from ai4u_edu.page.viewer.scene.view import (
+    FOLLOW_HEIGHT_IN_RADII,
+    OPENING_S,
+    OPENING_TILT_RAD,
+    Mode,
+    Opening,
+    View,
+)
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
 from tests.page.viewer.pages import Page, page
@@ -245,3 +252,60 @@ def test_a_tilted_camera_sees_the_whole_arena_before_a_sky(
     view.update(runner.latest, "0")
     assert camera.fov < 0.1
     assert camera.up_direction == pytest.approx((0, 1, 0))
+
+
+def tilt(camera: CameraHandle) -> float:
+    """Return the angle (degrees) by which a camera is tilted from looking straight down."""
+    x, y, z = camera.position - camera.look_at
+    return float(np.degrees(np.arctan2(np.hypot(x, y), z)))
+
+
+def test_a_page_opens_with_a_tilt_in_the_same_lens(watched: Watched, runner: Runner) -> None:
+    view, camera = watched.view, watched.camera
+    view.update(runner.latest, "0")
+    lens = camera.fov
+    view.open()
+    tilts = []
+    for _ in range(30):
+        view.update(runner.latest, "0")
+        if view.opening is Opening.RUNNING:
+            tilts.append(tilt(camera))
+            assert camera.fov == lens
+        watched.now += OPENING_S / 24
+    assert tilts[0] < 1
+    assert max(tilts) == pytest.approx(np.degrees(OPENING_TILT_RAD), abs=1)
+    assert tilts[-1] < 2
+    assert view.opening is Opening.OVER
+    assert camera.position == pytest.approx(place(whole(runner.latest)))
+    before = watched.sent()
+    view.open()  # once only
+    view.update(runner.latest, "0")
+    assert watched.sent() == before
+
+
+def test_the_opening_ends_at_once_for_whoever_does_something(
+    watched: Watched, runner: Runner
+) -> None:
+    view, camera = watched.view, watched.camera
+    view.open()
+    view.update(runner.latest, "0")
+    watched.now += OPENING_S / 2
+    view.update(runner.latest, "0")
+    assert tilt(camera) > 30
+    view.end_opening()
+    view.update(runner.latest, "0")
+    assert view.opening is Opening.OVER
+    assert camera.position == pytest.approx(place(whole(runner.latest)))
+    watched.report(place(whole(runner.latest)))
+    watched.report(PLACE)  # from then on the camera is theirs
+    view.update(runner.latest, "0")
+    assert camera.position == pytest.approx(PLACE)
+
+
+def test_another_camera_ends_the_opening(watched: Watched, runner: Runner) -> None:
+    watched.view.open()
+    watched.view.update(runner.latest, "0")
+    watched.view.choose(Mode.EYES)
+    watched.view.update(runner.latest, "0")
+    assert watched.view.opening is Opening.OVER
+    assert watched.camera.fov > 1

@@ -96,12 +96,12 @@ function optionElement({ value, text, reason }) {
  * Return a row of buttons of which one is pressed.
  * @template {string} Value
  * @param {string} label
- * @param {{value: Value, text: string, title?: string}[]} options
+ * @param {{value: Value, text: string, name?: string, title?: string}[]} options `name`: accessible name, if it says more than the text
  * @param {(value: Value) => void} onChange
  */
 export function segments(label, options, onChange) {
-  const buttons = options.map(({ value, text, title = "" }) =>
-    element("button", { type: "button", textContent: text, title, value, on: { click: () => onChange(value) } }),
+  const buttons = options.map(({ value, text, name = "", title = "" }) =>
+    element("button", { type: "button", textContent: text, ...(name && { ariaLabel: name }), title, value, on: { click: () => onChange(value) } }),
   );
   const made = element("div", { className: "ai4u-segments", role: "group", ariaLabel: label }, ...buttons);
   const set = (/** @type {string | null} */ value) => {

@@ -77,6 +77,20 @@ async def _reduce_motion(page: Page, command: ReduceMotion) -> Answer:
     return Answer()
 
 
+class PlayOpening(PageCommand, tag="opening"):
+    """Open with a short tilt of the camera, or end it."""
+
+    on: bool
+
+
+async def _opening(page: Page, command: PlayOpening) -> Answer:
+    if command.on:
+        page.view.open()
+    else:
+        page.view.end_opening()
+    return Answer()
+
+
 HANDLERS: Mapping[type[PageCommand], Handler] = {
     ShowAgent: _agent,
     Camera: _camera,
@@ -84,5 +98,6 @@ HANDLERS: Mapping[type[PageCommand], Handler] = {
     ShowTrail: _trail,
     Dark: _dark,
     ReduceMotion: _reduce_motion,
+    PlayOpening: _opening,
 }
 """Handlers by the type of their command."""

@@ -7,7 +7,7 @@ from typing import Literal
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel.context import PanelContext
-from ai4u_edu.page.panel.page_view import CameraMode, PageView
+from ai4u_edu.page.panel.page_view import CameraMode, Opening, PageView
 from ai4u_edu.page.panel.parts.agent import agent_part, curve_part, python_part, shown_sensors
 from ai4u_edu.page.panel.parts.blocks import blocks_part
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -28,6 +28,8 @@ class ViewPart(PanelPart, frozen=True, kw_only=True):
     """Position of the camera."""
     has_trail: bool
     """True if the trail of the agent that is shown is drawn."""
+    opening: Opening
+    """State of the short tilt of the camera with which the page opens."""
 
 
 def due_parts(context: PanelContext, view: PageView) -> Parts:
@@ -58,8 +60,11 @@ def _view_json(context: PanelContext, view: PageView) -> bytes:
     agents = context.runner.latest.agents
     is_driven = any(each.is_driven_by_keys for each in agents if each.id == view.agent)
     has_trail = view.trails.get(view.agent, not is_driven)
-    key = "view", view.camera, has_trail
-    return context.cache.by_key(key, lambda: ViewPart(camera=view.camera, has_trail=has_trail))
+    camera, opening = view.camera, view.opening
+    return context.cache.by_key(
+        ("view", camera, has_trail, opening),
+        lambda: ViewPart(camera=camera, has_trail=has_trail, opening=opening),
+    )
 
 
 def _agent_parts(context: PanelContext, view: PageView) -> Parts:

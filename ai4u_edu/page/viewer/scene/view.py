@@ -135,8 +135,29 @@ class Mode(StrEnum):
     """In the agent's eye."""
 
 
+class Opening(StrEnum):
+    """State of the tilt with which a page opens."""
+
+    NONE = "none"
+    """It has not been asked for."""
+    RUNNING = "running"
+    ENDING = "ending"
+    """The user did something: the camera goes back with the next update."""
+    OVER = "over"
+    """The camera is back where it is else."""
+
+
+OPENING_S = 1.8
+"""Duration of the tilt."""
+OPENING_TILT_RAD = math.radians(42)
+"""Largest angle of the tilt, in its middle."""
+
+
 class View:
     """The camera of one page. Once a user has moved it, it is no longer moved for another window.
+
+    The viewer's thread alone calls :meth:`update` and moves the camera. The server's event loop
+    says what is wanted: :meth:`choose`, :meth:`open` and :meth:`end_opening` only set a value.
 
     Args:
         client: the page.
@@ -147,6 +168,9 @@ class View:
         self._client = client
         self._clock = clock
         self.mode = Mode.ARENA
+        self.opening = Opening.NONE
+        """State of the opening; only an update makes it ``OVER``."""
+        self._opened_at = math.nan
         self._bounds: Bounds | None = None
         self._aspect = 0.0
         self.frame = Frame(0.0, 0.0, 1.0)
@@ -164,6 +188,21 @@ class View:
         """Choose the camera's position, from the next update on."""
         self.mode, self._followed, self._bounds = mode, "", None
 
+    def open(self) -> None:
+        """Tilt the camera over the arena for a moment, once, from the next update on."""
+        if self.opening is Opening.NONE:
+            self.opening = Opening.RUNNING
+
+    def end_opening(self) -> None:
+        """End the tilt with the next update."""
+        if self.opening in (Opening.NONE, Opening.RUNNING):
+            self.opening = Opening.ENDING
+
+    @property
+    def is_opening(self) -> bool:
+        """True while updates move the camera, whatever the world does."""
+        return self.opening in (Opening.RUNNING, Opening.ENDING)
+
     def update(self, snapshot: Snapshot, agent_id: str) -> None:
         """Move the camera, if the mode, the arena, the agent or the window asks for it.
 
@@ -172,6 +211,10 @@ class View:
             agent_id: of the agent that the page shows.
         """
         agent = next((each for each in snapshot.agents if each.id == agent_id), None)
+        if self.is_opening:
+            self._go_on_opening(snapshot)
+            if self.is_opening:
+                return
         if self.mode in (Mode.ARENA, Mode.TILTED) or agent is None:
             self._show_all(snapshot)
             return
@@ -198,6 +241,26 @@ class View:
                 self._tilt(bounds, aspect)
             else:
                 self._put(frame_arena(bounds, aspect))
+
+    def _go_on_opening(self, snapshot: Snapshot) -> None:
+        """Tilt the camera over the arena with time, or end that."""
+        now = self._clock()
+        if math.isnan(self._opened_at):
+            self._opened_at = now
+        share = (now - self._opened_at) / OPENING_S
+        if self.opening is Opening.ENDING or share >= 1.0 or self.mode is not Mode.ARENA:
+            # the event loop may have set another mode or ENDING meanwhile: both lead here again
+            self.opening, self._bounds = Opening.OVER, None
+            return
+        self._show_all(snapshot)
+        camera, distance = self._client.camera, self.frame.distance
+        tilt = OPENING_TILT_RAD * math.sin(math.pi * share) ** 2
+        south, up = distance * math.sin(tilt), distance * math.cos(tilt)
+        position = (self.frame.x, self.frame.y - south, up)
+        self._note_sent(position)
+        with self._client.atomic():
+            camera.position = position
+            camera.look_at = (self.frame.x, self.frame.y, 0.0)
 
     def _tilt(self, bounds: Bounds, aspect: float) -> None:
         """Put the camera before the arena, tilted."""
