@@ -1,6 +1,7 @@
 """Rooms as processes of this machine."""
 
 import asyncio
+import logging
 import multiprocessing
 import secrets
 import sys
@@ -30,6 +31,8 @@ from ai4u_edu.classroom.room_process import (
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.token_auth import is_same_secret
+
+_logger = logging.getLogger(__name__)
 
 TIMEOUTS = DEFAULT_TIMEOUTS
 """Time limits of the rooms' servers."""
@@ -122,7 +125,7 @@ class LocalRooms:
             if slot.running is not None and slot.running.process.is_alive():
                 return slot.running.address
             if slot.running is not None:
-                self._note_end(slot, slot.running)
+                self._note_end(room, slot, slot.running)
             if self._clock() < slot.retry_at:
                 raise RoomError(slot.reason or "Your world ended. It starts again in a moment.")
             slot.running = await asyncio.to_thread(self._start, room, scene)
@@ -200,6 +203,7 @@ class LocalRooms:
         reason = running.watch.broken_limit()
         if reason:
             slot.reason = reason
+            _logger.warning("room %s is ended: %s", room, reason)
             running.process.kill()
         elif slot.users:
             url = f"http://{HOST}:{running.address.port}{path_of(room)}/healthz"
@@ -244,9 +248,13 @@ class LocalRooms:
         reason = answer.reason if isinstance(answer, RoomFailed) else "its process did not start"
         raise RoomError(f"Your world can't be opened: {shorten(reason, 300)}")
 
-    def _note_end(self, slot: _Slot, ended: _Running) -> None:
+    def _note_end(self, room: str, slot: _Slot, ended: _Running) -> None:
         """Note that a process ended by itself; the more often early, the longer the next waits."""
         now = self._clock()
+        if not slot.reason:  # else the log has it already
+            ended.process.join(0)  # its exit code is known from then on
+            code, life_s = ended.process.exitcode, now - ended.since
+            _logger.warning("room %s ended after %.0f s with exit code %s", room, life_s, code)
         if now - ended.since > LONG_LIFE_S:
             slot.backoff_s = 0.0
         else:

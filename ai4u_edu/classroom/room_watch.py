@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 
 import httpx
 import psutil
@@ -31,7 +32,8 @@ class RoomLimits:
     max_memory_mb: float = 600.0
     """Memory (MB) above which the process is restarted."""
     answer_timeout_s: float = 20.0
-    """Time without an answer after which the process is restarted."""
+    """Time without an answer after which the process is restarted, less the time for which it had
+    no processor (on Linux)."""
     check_s: float = 2.0
     """Interval between two checks."""
     ask_s: float = 8.0
@@ -49,14 +51,22 @@ class RoomWatch:
         pid: of the process.
         limits: to hold it to.
         clock: returns seconds; to be replaced in tests.
+        queue_clock: returns the time (s) for which each thread of the process has waited for a
+            processor, by its id; to be replaced in tests.
     """
 
     def __init__(
-        self, pid: int, limits: RoomLimits, clock: Callable[[], float] = time.monotonic
+        self,
+        pid: int,
+        limits: RoomLimits,
+        clock: Callable[[], float] = time.monotonic,
+        queue_clock: Callable[[int], dict[int, float]] | None = None,
     ) -> None:
         self._process, self._limits, self._clock = psutil.Process(pid), limits, clock
+        self._queue_clock = queue_clock or time_in_queue
         self._asked_at = -limits.ask_s
         self._unanswered_since: float | None = None
+        self._queued_before: dict[int, float] = {}
         self._is_busy = False
         self._max_file_bytes = MAX_FILE_BYTES
         with suppress(psutil.Error):
@@ -80,7 +90,9 @@ class RoomWatch:
                 "scene; make that smaller."
             )
         since = self._unanswered_since
-        if since is not None and self._clock() - since > self._limits.answer_timeout_s:
+        limit_s = self._limits.answer_timeout_s
+        # a process that gets no processor is not to blame, and to start another one costs more
+        if since is not None and self._clock() - since - self._queued_s() > limit_s:
             return "Your world did not answer any more. It starts again with its last scene."
         if (share > BUSY_SHARE) != self._is_busy:
             self._is_busy = not self._is_busy
@@ -104,10 +116,17 @@ class RoomWatch:
         self._asked_at = now
         if self._unanswered_since is None:
             self._unanswered_since = now
+            self._queued_before = self._queue_clock(self._process.pid)
         headers = {"Authorization": f"Bearer {address.token}"}
         with suppress(httpx.HTTPError):
             await client.get(url, headers=headers, timeout=HEALTH_TIMEOUT_S)
             self._unanswered_since = None
+
+    def _queued_s(self) -> float:
+        """Return how long (s) the thread that waited longest had no processor since the request."""
+        before = self._queued_before
+        now = self._queue_clock(self._process.pid)
+        return max((now[thread] - before.get(thread, 0.0) for thread in now), default=0.0)
 
     def _set_niceness(self, niceness: int) -> None:
         # lowering it again needs rights that a teacher's account may lack
@@ -123,6 +142,19 @@ class RoomWatch:
                     done |= found
             else:
                 self._process.nice(niceness)
+
+
+def time_in_queue(pid: int) -> dict[int, float]:
+    """Return how long (s) each thread of a process has waited for a processor, by thread id.
+
+    Empty where the system does not tell (it is Linux's ``schedstat``), and for a process that has
+    ended.
+    """
+    waited: dict[int, float] = {}
+    for path in Path(f"/proc/{pid}/task").glob("*/schedstat"):
+        with suppress(OSError, ValueError, IndexError):  # the thread has ended
+            waited[int(path.parent.name)] = int(path.read_text().split()[1]) / 1e9
+    return waited
 
 
 def _windows_class(niceness: int) -> int:

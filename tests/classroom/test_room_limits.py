@@ -16,10 +16,10 @@ import pytest
 from ai4u_edu.classroom import LocalRooms
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.room_host import RoomAddress
-from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits, RoomWatch
+from ai4u_edu.classroom.room_watch import NICENESS, RoomLimits, RoomWatch, time_in_queue
 from tests.page.server import http_client
 from tests.page.server.rooms import Clock
-from tests.waiting import LIMIT_S, until_async
+from tests.waiting import LIMIT_S, until, until_async
 
 pytestmark = pytest.mark.slow
 
@@ -136,23 +136,58 @@ def test_an_answer_of_any_status_is_a_sign_of_life(idle_pid: int, status: int) -
     assert len(asked) == 6, "it is not asked more often"
 
 
-def test_a_room_without_an_answer_breaks_its_limit(idle_pid: int) -> None:
+def _ask_in_vain(watch: RoomWatch) -> str:
+    """Ask a process that does not answer; return the sentence about the limit that it breaks."""
+
     def nothing(_: httpx.Request) -> httpx.Response:
         raise httpx.ReadTimeout("it is stopped")
-
-    clock = Clock(1000.0)
-    watch = RoomWatch(idle_pid, RoomLimits(max_memory_mb=1e9), clock)
 
     async def ask() -> str:
         async with httpx.AsyncClient(transport=httpx.MockTransport(nothing)) as client:
             await watch.ask(client, "http://room/healthz", RoomAddress("room", 1, "secret"))
             return watch.broken_limit()
 
-    assert asyncio.run(ask()) == ""
+    return asyncio.run(ask())
+
+
+def test_a_room_without_an_answer_breaks_its_limit(idle_pid: int) -> None:
+    clock = Clock(1000.0)
+    limits = RoomLimits(max_memory_mb=1e9)
+    watch = RoomWatch(idle_pid, limits, clock, queue_clock=lambda _pid: {1: 7.0})
+
+    assert _ask_in_vain(watch) == ""
     clock.now += 20
-    assert asyncio.run(ask()) == ""
+    assert _ask_in_vain(watch) == ""
     clock.now += 0.1
-    assert "did not answer any more" in asyncio.run(ask())
+    assert "did not answer any more" in _ask_in_vain(watch)
+
+
+def test_time_in_which_a_room_had_no_processor_does_not_count(idle_pid: int) -> None:
+    clock = Clock(1000.0)
+    queued = {1: 7.0, 2: 0.0}
+    limits = RoomLimits(max_memory_mb=1e9)
+    watch = RoomWatch(idle_pid, limits, clock, queue_clock=lambda _pid: dict(queued))
+
+    assert _ask_in_vain(watch) == ""
+    clock.now += 25
+    queued |= {1: 12.5, 3: 4.0}
+    assert _ask_in_vain(watch) == ""
+    clock.now += 1
+    assert "did not answer any more" in _ask_in_vain(watch)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells it")
+def test_a_process_beside_another_one_on_its_core_waits_for_it() -> None:
+    core = min(os.sched_getaffinity(0))
+    pin = f"import os; os.sched_setaffinity(0, [{core}])\nwhile True: pass"
+    with (
+        subprocess.Popen([sys.executable, "-c", pin]) as one,
+        subprocess.Popen([sys.executable, "-c", pin]) as other,
+    ):
+        until(lambda: max(time_in_queue(one.pid).values()) > 0.05)
+        one.kill()
+        other.kill()
+    assert time_in_queue(one.pid) == {}
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="priorities of threads are Linux's")
@@ -166,7 +201,9 @@ def test_all_threads_of_a_room_let_the_class_go_first(tmp_path: Path) -> None:
         assert asyncio.run(priorities()) == {max(own, NICENESS)}
 
 
-def test_a_room_with_too_much_memory_is_ended_and_told_why(tmp_path: Path) -> None:
+def test_a_room_with_too_much_memory_is_ended_and_told_why(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     async def twice() -> None:
         for _ in range(2):
             await rooms.enter("a", "box_chase")
@@ -179,3 +216,21 @@ def test_a_room_with_too_much_memory_is_ended_and_told_why(tmp_path: Path) -> No
     clock = Clock(1000.0)
     with local_rooms(tmp_path, clock, max_memory_mb=5.0) as rooms:
         asyncio.run(twice())
+    assert "room a is ended: Your world used" in caplog.text
+
+
+def test_the_class_logs_how_a_room_ended_by_itself(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    async def kill_one() -> None:
+        process = psutil.Process(_pid_of(await rooms.enter("a", "box_chase")))
+        clock.now += 90
+        process.kill()
+        await until_async(lambda: not rooms.is_running("a"))
+        await rooms.enter("a", "box_chase")
+
+    clock = Clock(1000.0)
+    with local_rooms(tmp_path, clock, sleep_after_s=0.0) as rooms:
+        asyncio.run(kill_one())
+    code = "-9" if sys.platform != "win32" else "15"
+    assert f"room a ended after 90 s with exit code {code}" in caplog.text

@@ -4,6 +4,8 @@ import { limits } from "./limits.js";
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
+/** Last part of a silence (ms), which begins anew after a page stood still: it hears first what has come meanwhile. */
+const HEAR_MS = 500;
 /** Close code of a refusal: the server would refuse again, so the page doesn't reconnect. */
 const CLOSE_REFUSED = 1008;
 /** Close code when another world has replaced this one. */
@@ -100,11 +102,14 @@ export class JsonSocket {
   #giveUpAfter(time) {
     const socket = this.#socket;
     clearTimeout(this.#silence);
-    this.#silence = setTimeout(() => {
+    const giveUp = () => {
       socket.onopen = socket.onmessage = socket.onclose = null;
       socket.close();
       this.#closed(0, "");
-    }, time);
+    };
+    // two timers: in a page that stood still the first is late, and goes before the messages that have come
+    const wait = () => (this.#silence = setTimeout(giveUp, HEAR_MS));
+    this.#silence = setTimeout(wait, Math.max(time - HEAR_MS, 0));
   }
 
   #reconnect() {

@@ -29,6 +29,8 @@ globalThis.WebSocket = class {
 };
 const { JsonSocket } = await import("../../../web/shared/socket.js");
 const { limits } = await import("../../../web/shared/limits.js");
+/** The last part of a silence, see HEAR_MS: a timer of its own, which this clock begins at the end of a tick. */
+const HEAR_MS = 500;
 let socket;
 let log;
 
@@ -99,7 +101,8 @@ test("a network that comes back is tried at once, and only once", () => {
 });
 
 test("a connection that does not open is given up", () => {
-  mock.timers.tick(limits.openMs - 1);
+  mock.timers.tick(limits.openMs - HEAR_MS);
+  mock.timers.tick(HEAR_MS - 1);
   assert.deepEqual(log, []);
   mock.timers.tick(1);
   assert.deepEqual(log, ["close"]);
@@ -112,8 +115,27 @@ test("silence counts only after a keepalive, which is no message", () => {
   sockets[0].onmessage({ data: '{"type":"keepalive"}' });
   mock.timers.tick(limits.silenceMs - 1);
   sockets[0].onmessage({ data: '{"type":"state"}' });
-  mock.timers.tick(limits.silenceMs - 1);
+  mock.timers.tick(limits.silenceMs - HEAR_MS);
+  mock.timers.tick(HEAR_MS - 1);
   assert.deepEqual(log, ["open", { type: "state" }, { type: "state" }]);
   mock.timers.tick(1);
   assert.deepEqual(log.at(-1), "close");
+});
+
+test("a page that stood still hears first what has come meanwhile", (t) => {
+  sockets[0].connect();
+  let now = 0;
+  const timers = [];
+  t.mock.method(globalThis, "setTimeout", (run, delay) => {
+    const timer = { run, due: now + delay };
+    timers.push(timer);
+    return timer;
+  });
+  t.mock.method(globalThis, "clearTimeout", (timer) => (timer.run = () => {}));
+  sockets[0].onmessage({ data: '{"type":"keepalive"}' });
+  timers.push({ run: () => sockets[0].onmessage?.({ data: '{"type":"state"}' }), due: limits.silenceMs + 1 });
+  now = 60_000;
+  const due = timers.filter((timer) => timer.due <= now);
+  for (const timer of due.sort((one, other) => one.due - other.due)) timer.run();
+  assert.deepEqual(log, ["open", { type: "state" }]);
 });
