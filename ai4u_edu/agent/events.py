@@ -21,7 +21,7 @@ EVENTS = (
     "end_of_step",
     "end_of_episode",
 )
-"""All events, by the names that AI4U's guide gives them (``agent_start`` came later)."""
+"""AI4U's events, by the names that AI4U's guide gives them (``agent_start`` came later)."""
 
 
 class Event(Generic[A]):

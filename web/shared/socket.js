@@ -4,7 +4,7 @@ import { limits } from "./limits.js";
 
 const MIN_RECONNECT_MS = 250;
 const MAX_RECONNECT_MS = 4000;
-/** Last part of a silence (ms), which begins anew after a page stood still: it hears first what has come meanwhile. */
+/** Last part of a silence (ms), which begins again after a page stood still: it hears first what has come meanwhile. */
 const HEAR_MS = 500;
 /** Close code of a refusal: the server would refuse again, so the page doesn't reconnect. */
 const CLOSE_REFUSED = 1008;

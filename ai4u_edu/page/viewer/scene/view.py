@@ -147,6 +147,9 @@ class Opening(StrEnum):
     """The camera is back where it is else."""
 
 
+ZOOM, TILTED_ZOOM = (12.0, 4.0), (8.0, 3.0)
+"""Factors by which a user may go nearer and farther than the camera begins, from above and tilted;
+``near`` and ``far`` of the frame have to reach as far."""
 OPENING_S = 1.8
 """Duration of the tilt."""
 OPENING_TILT_RAD = math.radians(42)
@@ -274,10 +277,9 @@ class View:
             camera.look_at = frame.target
             camera.fov = TILTED_FIELD_OF_VIEW_RAD
             camera.near, camera.far = frame.distance / 40, frame.distance * 16
-            camera.min_orbit_distance, camera.max_orbit_distance = (
-                frame.distance / 8,
-                frame.distance * 3,
-            )
+            zoom_in, zoom_out = TILTED_ZOOM
+            camera.min_orbit_distance = frame.distance / zoom_in
+            camera.max_orbit_distance = frame.distance * zoom_out
 
     def _note_sent(self, position: _Position) -> None:
         """Note that the camera is put somewhere, for it to be told from where a user puts it."""
@@ -346,7 +348,9 @@ class View:
             camera.look_at = (wanted.x, wanted.y, 0.0)
             camera.fov = FIELD_OF_VIEW_RAD
             camera.near, camera.far = wanted.near, wanted.far
-            camera.min_orbit_distance, camera.max_orbit_distance = distance / 12, distance * 4
+            zoom_in, zoom_out = ZOOM
+            camera.min_orbit_distance = distance / zoom_in
+            camera.max_orbit_distance = distance * zoom_out
 
     def _follow(self, body: BodyState, aspect: float) -> None:
         camera, now, up = self._client.camera, self._clock(), self._up(body)
