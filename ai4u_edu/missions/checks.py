@@ -18,9 +18,10 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import active_brain, has_driving_keys
 from ai4u_edu.base.errors import SetupError, suggest
-from ai4u_edu.blocks import LinearRayCastingSensor, NeuralNetController, RemoteBrain
+from ai4u_edu.blocks import Block, LinearRayCastingSensor, NeuralNetController, RemoteBrain
 from ai4u_edu.blocks.sensors.ray_sensor import spread
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.snapshot import has_fallen
 from ai4u_edu.world.shapes import Description
 
 Driver = Literal["keys", "program", "network", "controller"]
@@ -107,7 +108,7 @@ def decision_of(sim: ControlRequestor, agent: BasicAgent) -> Decision:
     outcome: Literal["", "goal", "fell", "time", "over"] = ""
     if agent.done:
         has_succeeded = agent.ledger.episode_terms.get(sim.success, 0.0) > 0
-        outcome = "fell" if body.fallen else "time" if agent.truncated else "over"
+        outcome = "fell" if has_fallen(agent) else "time" if agent.truncated else "over"
         outcome = "goal" if has_succeeded else outcome
     return Decision(
         driver=driver_of(agent),
@@ -327,8 +328,11 @@ class Range(Description):
         return self
 
     def has(self, decision: Decision) -> bool:
-        """Return True if the quantity lies in the range."""
-        value = decision.value_of(self.what)
+        """Return True if the quantity lies in the range; a robot may not sense it yet."""
+        try:
+            value = decision.value_of(self.what)
+        except (KeyError, IndexError):
+            return False
         is_above = self.above is None or value > self.above
         return is_above and (self.below is None or value < self.below)
 
@@ -457,7 +461,12 @@ class Reads(Check):
             except ValueError:
                 words = f"Type a number, such as 0.5, not “{answer.text[:20]}”."
                 continue
-            if abs(number - answer.decision.value_of(self.what)) <= self.within:
+            try:
+                value = answer.decision.value_of(self.what)
+            except (KeyError, IndexError):
+                words = f"The robot senses no {self.what} yet."
+                continue
+            if abs(number - value) <= self.within:
                 return
             words = f"Not {number:g}. Look at the number again."
 
@@ -505,12 +514,19 @@ class Builds(Check):
     """Class of the block, such as ``TouchReward``; of a first robot."""
     kind: Literal["", "sensors", "rewards", "actuators"] = ""
     """Kind of blocks, whatever class they have."""
+    values: dict[str, bool | float | str] = Field(default_factory=dict)
+    """Parameters that the blocks have, such as ``move_amount: 2``."""
     count: Times = 1
 
     @model_validator(mode="after")
     def _looks_at_something(self) -> Self:
         if not (self.tag or self.block or self.kind):
             raise ValueError("expected a tag, a block or a kind of blocks to look for, got none")
+        known = Block.types[self.block].parameters() if self.block in Block.types else self.values
+        for name in self.values:
+            if name not in known:
+                hint = suggest(name, known)
+                raise ValueError(f"{self.block} has no parameter {name!r}; {hint}")
         return self
 
     def follow(self) -> Follow:
@@ -525,7 +541,19 @@ class Builds(Check):
             return sum(self.tag in body.tags for body in scene.bodies)
         kinds = (self.kind,) if self.kind else ("sensors", "rewards", "actuators")
         blocks = [block for kind in kinds for block in scene.agents[0].get(kind, ())]
-        return sum(self.block in ("", block.get("type")) for block in blocks)
+        return sum(
+            self.block in ("", block.get("type"))
+            and all(_value_in(block, name) == value for name, value in self.values.items())
+            for block in blocks
+        )
+
+
+def _value_in(block: Mapping[str, Any], name: str) -> Any:
+    """Return a parameter of a block as it is in a scene, where defaults are left out."""
+    field = Block.types[block["type"]].parameters().get(name)
+    if name in block or field is None:
+        return block.get(name)
+    return field.get_default(call_default_factory=True)
 
 
 AnyCheck = Annotated[

@@ -31,10 +31,11 @@ Island = Literal["Drive", "Sense", "Think", "Code", "Build", "Teach", "Compete",
 ISLANDS: tuple[Island, ...] = get_args(Island)
 Title = Annotated[str, StringConstraints(min_length=1, max_length=60)]
 CONTROLS = (
-    *("Add a reward", "Arena", "Ball", "Blocks", "Box", "Build", "Code", "Details", "Drive"),
-    *("Follow", "Keys", "Learn", "New start", "Past", "Pause", "Program", "Python", "Rewards"),
-    *("Run", "Sensors", "Simple", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes"),
-    *("Trail", "Try again", "Wall", "World"),
+    *("Add a reward", "Add a sensor", "Add an actuator", "Arena", "Ball", "Blocks", "Box", "Build"),
+    *("Code", "Compare", "Details", "Drive", "Follow", "Keys", "Learn", "Let it drive"),
+    *("New start", "Past", "Pause", "Practise", "Program", "Python", "Rewards", "Run", "Sensors"),
+    *("Simple", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes", "Trail"),
+    *("Try again", "Wall", "World"),
 )
 """Controls of the page that a mission can light, by the names that they have there; ``Keys`` are
 the keys on the screen, ``Program`` is the editor of a program."""

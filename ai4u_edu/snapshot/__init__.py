@@ -6,6 +6,7 @@ from ai4u_edu.snapshot.capture import (
     capture_bodies,
     capture_snapshot,
     capture_static_scene,
+    has_fallen,
 )
 from ai4u_edu.snapshot.types import (
     AgentState,
@@ -28,4 +29,5 @@ __all__ = [
     "capture_bodies",
     "capture_snapshot",
     "capture_static_scene",
+    "has_fallen",
 ]

@@ -160,7 +160,7 @@ def capture_agent(
         remote=agent.brain.status() if isinstance(agent.brain, RemoteBrain) else None,
         episode=agent.episode,
         succeeded=ledger.episode_terms.get(success, 0.0) > 0,
-        fell=_fell(agent),
+        fell=has_fallen(agent),
         needs=tuple(_needs(agent)),
         bumps=bumps,
         collects=sum(each.passed for each in stages)
@@ -187,7 +187,8 @@ def _is_driven_by_keys(agent: BasicAgent) -> bool:
     return isinstance(getattr(brain, "controller", None), KEY_CONTROLLERS)
 
 
-def _fell(agent: BasicAgent) -> bool:
+def has_fallen(agent: BasicAgent) -> bool:
+    """Return True if an agent's episode has ended because it fell."""
     if not agent.terminated:
         return False
     low = agent.body.fallen and not agent.body.on_ground  # taken out without a fall: on ground

@@ -1,20 +1,31 @@
 """A person who does a mission, in the mission's own world and without a page."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.blocks import DifferentialDriveActuator, LocalBrain, Percept
+from ai4u_edu.blocks import (
+    CarActuator,
+    DifferentialDriveActuator,
+    ForceMoveActuator,
+    GridMoveActuator,
+    LocalBrain,
+    Percept,
+)
 from ai4u_edu.missions.checks import Driver, SeenPage, decision_of
 from ai4u_edu.missions.mission import EMPTY_SCENES, library_missions
 from ai4u_edu.missions.option import MissionRun
 from ai4u_edu.page.editing.scene_pictures import TEMPLATES
 from ai4u_edu.scenes import Scene
 
-Action = Mapping[str, Sequence[float]]
+Action = Mapping[str, Any]
 Policy = Callable[[BasicAgent], Action]
+
+MAX_OTHER_DECISIONS = 150
+"""Decisions of another driver than asked at one go: none of them counts, however many they are."""
 
 
 class Doing:
@@ -38,7 +49,9 @@ class Doing:
         self.scene = scene.description
         self.sim = scene.build()
         self.agent = self.sim.agents[0]
-        self.agent.use_brain(LocalBrain(controller=self._decide))
+        brain = self.agent.brain
+        pace = {"skip_frame": brain.skip_frame, "repeat_action": brain.repeat_action}
+        self.agent.use_brain(LocalBrain(controller=self._decide, **pace))
         self.agent.percept_ready.connect(self._on_percept)
         self.sim.reset(seed)
         self.run.see_scene(self.scene)
@@ -47,11 +60,6 @@ class Doing:
         """Change fields of the scene, as the person does in Build and World."""
         self._enter(Scene(self.scene.model_copy(update=fields)), self.sim.world.seeds.seed)
         self.go_on()
-
-    @property
-    def has_wheels(self) -> bool:
-        """True if the robot's action is a number for each of two wheels."""
-        return any(isinstance(each, DifferentialDriveActuator) for each in self.agent.actuators)
 
     @property
     def is_done(self) -> bool:
@@ -82,7 +90,7 @@ class Doing:
             through: True drives on over steps, to the end of the mission.
         """
         index, self._policy = self.run.index, policy
-        for _ in range(limit):
+        for _ in range(limit if self._driver is None else min(limit, MAX_OTHER_DECISIONS)):
             if self.is_done or (self.run.index != index and not through):
                 break
             if self.agent.done:
@@ -100,10 +108,20 @@ class Doing:
 
     def _decide(self, percept: Percept) -> Action:
         action = dict(self._policy(self.agent))
-        if self.has_wheels and len(action.get("move", ())) == 4:
-            forward, turn, *_ = action["move"]
-            action["move"] = [max(-1.0, min(1.0, forward + each)) for each in (turn, -turn)]
+        if isinstance(action.get("move"), list) and len(action["move"]) == 4:
+            action["move"] = self._moved(*action["move"][:2], action["move"])
         return action
+
+    def _moved(self, forward: float, turn: float, move: list[float]) -> Any:
+        """Return the robot's own way to move forward and turn."""
+        for actuator in self.agent.actuators:
+            if isinstance(actuator, DifferentialDriveActuator):
+                return [max(-1.0, min(1.0, forward + each)) for each in (turn, -turn)]
+            if isinstance(actuator, CarActuator | ForceMoveActuator):
+                return [forward, turn]
+            if isinstance(actuator, GridMoveActuator):
+                return 1 if forward > 0 else 2 if forward < 0 else 0 if not turn else 3 + (turn > 0)
+        return move
 
     def _on_percept(self, agent: BasicAgent) -> None:
         asked = self.run.step.by

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ai4u_edu.blocks import LinearRayCastingSensor
 from ai4u_edu.missions.checks import decision_of
 from ai4u_edu.world import BodyDescription
 from tests.missions.doing import Action, Doing, Policy
+from tests.scenes.solvers import solver_of
 
 Solution = Callable[[Doing], object]
 STOP: Action = {"move": [0.0, 0.0, 0.0, 0.0]}
@@ -117,6 +119,23 @@ class LineProgram:
         if side:
             self._last = side
         return {"move": [0.35 + 0.12 * side, 0.35 - 0.12 * side]}
+
+
+def by_solver(scene: str) -> Policy:
+    """Return the scene's solver, which sees the percept alone, as a program does."""
+    state: dict[str, Any] = {"episode": -1}
+
+    def policy(agent: BasicAgent) -> Action:
+        if state["episode"] != agent.episode:
+            state.update(episode=agent.episode, drive=solver_of(scene))
+        action: Action = state["drive"](agent.percept)
+        return action
+
+    return policy
+
+
+def solved(do: Doing) -> Policy:
+    return by_solver(do.run.mission.scene)
 
 
 # -- missions --------------------------------------------------------------------------------------
@@ -237,20 +256,297 @@ def teach_1(do: Doing) -> None:
     do.drive(move(0.2, 0.5))
 
 
+def drive_4(do: Doing) -> None:
+    do.drive(move(1, 0))
+    do.drive(move(-1, 0))
+    do.drive(solved(do), 4000)
+
+
+def drive_5(do: Doing) -> None:
+    do.drive(solved(do), through=True)
+
+
+def drive_6(do: Doing) -> None:
+    do.drive(move(1, -1))
+    do.drive(move(-1, 0))
+    do.new_start()
+    do.drive(solved(do), 4000)
+
+
+def drive_7(do: Doing) -> None:
+    do.drive(solved(do))
+    do.new_start()
+    do.drive(solved(do), 4000)
+
+
+def drive_8(do: Doing) -> None:
+    do.drive(to("block"))
+    do.new_start()
+    do.drive(solved(do), 4000)
+
+
+def drive_9(do: Doing) -> None:
+    do.drive(solved(do))
+    do.new_start()
+    do.drive(solved(do), 4000)
+
+
+def sense_4(do: Doing) -> None:
+    do.answer(f"{float(do.agent.percept['position'][0]):.2f}")
+    do.drive(to_place((3, 3)))
+    do.drive(lambda agent: move(0, -0.2 * (1 - agent.percept["heading"][0]))(agent), 3000)
+
+
+def to_place(point: tuple[float, float]) -> Policy:
+    def policy(agent: BasicAgent) -> Action:
+        return STOP if math.dist(agent.body.position, point) < 0.3 else towards(agent, point, 0.6)
+
+    return policy
+
+
+def sense_5(do: Doing) -> None:
+    do.drive(facing("block", 0.0))
+    do.drive(facing("block", math.pi / 2))
+    do.answer("block changes, position does not")
+
+
+def facing(name: str, aside: float) -> Policy:
+    """Return a policy that turns on the spot until a body is at an angle to the left (rad)."""
+
+    def policy(agent: BasicAgent) -> Action:
+        ahead, left = agent.body.to_local(*agent.view[name].position)
+        angle = math.remainder(math.atan2(left, ahead) - aside, 2 * math.pi)
+        return move(0, max(-1.0, min(1.0, -angle)))(agent)
+
+    return policy
+
+
+def sense_6(do: Doing) -> None:
+    do.answer(f"{float(do.agent.percept['inside'][0]):.2f}")
+    do.drive(hungry)
+    do.drive(solved(do), 6000)
+
+
+def hungry(agent: BasicAgent) -> Action:
+    food = min(
+        (agent.view[f"food {number}"].position for number in (1, 2)),
+        key=lambda place: math.dist(place, agent.body.position),
+    )
+    return towards(agent, food)
+
+
+def sense_7(do: Doing) -> None:
+    do.drive(facing("cube", math.pi / 2))
+    do.drive(facing("cube", -math.pi / 2))
+    do.answer("The first number of bearing")
+
+
+def think_5(do: Doing) -> None:
+    do.open("code")
+    do.drive(lambda agent: move(0, -agent.percept["bearing"][0])(agent))
+    do.new_start()
+    do.drive(by_bearing, 6000)
+
+
+def by_bearing(agent: BasicAgent) -> Action:
+    sine, cosine = map(float, agent.percept["bearing"])
+    return move(max(0.0, cosine), -sine)(agent)
+
+
+def think_6(do: Doing) -> None:
+    do.open("code")
+    do.drive(hungry)
+    do.new_start()
+    do.drive(solved(do), 6000)
+
+
+def think_7(do: Doing) -> None:
+    do.open("code")
+    do.drive(lambda _: {"move": [0.2, 0.4]})
+    do.again()
+    do.drive(LineProgram(), 6000)
+
+
+def think_8(do: Doing) -> None:
+    do.open("code")
+    do.drive(after_runner, 4000)
+    do.new_start()
+    do.drive(after_runner, 12000)
+
+
+def after_runner(agent: BasicAgent) -> Action:
+    free = agent.percept["free"]
+    number = next((place + 1 for place in range(3) if free[place]), 1)
+    left = float(agent.percept[f"runner {number}"][1])
+    if near_rays(agent)["ahead"] < 0.7:
+        return move(0.3, 1)(agent)
+    return move(0.9, max(-1.0, min(1.0, -8 * left)))(agent)
+
+
+def code_4(do: Doing) -> None:
+    do.drive(lambda agent: move(0, -agent.percept["bearing"][0])(agent))
+    do.new_start()
+    do.drive(solved(do), through=True, limit=6000)
+
+
+def code_5(do: Doing) -> None:
+    do.drive(solved(do), through=True, limit=6000)
+
+
+def code_6(do: Doing) -> None:
+    do.drive(solved(do))
+    do.new_start()
+    do.drive(solved(do), 12000)
+
+
+def code_7(do: Doing) -> None:
+    do.drive(move(0.3, 0.5))
+    do.again()
+    do.drive(solved(do), through=True, limit=6000)
+
+
+TARGET = "target 1"
+TOUCH = {"type": "TouchRewardFunc", "target": TARGET, "reward": 10, "cause_episode_to_end": True}
+
+
+def add_bodies(do: Doing, *bodies: BodyDescription) -> None:
+    do.change(bodies=(*do.scene.bodies, *bodies))
+
+
+def add_block(do: Doing, kind: str, **block: object) -> None:
+    agent = do.scene.agents[0]
+    do.change(agents=({**agent, kind: [*agent.get(kind, ()), block]},))
+
+
+def add_reward(do: Doing, **reward: object) -> None:
+    add_block(do, "rewards", **reward)
+
+
+def build_2(do: Doing) -> None:
+    add_bodies(do, thing("wall", 1, (4, 0)), thing("wall", 2, (-4, 0)))
+    add_block(do, "sensors", type="LinearRayCastingSensor", group_code={"wall": 1})
+    (sensor,) = do.scene.agents[0]["sensors"]
+    do.change(agents=({**do.scene.agents[0], "sensors": [{**sensor, "return_distance": True}]},))
+    do.drive(lambda agent: STOP if near_rays(agent)["ahead"] < 1.1 else move(0.3, 0)(agent))
+
+
+def build_3(do: Doing) -> None:
+    add_bodies(do, thing("target", 1, (4, 0)))
+    add_block(do, "sensors", type="BearingSensor", target=TARGET)
+    add_block(do, "sensors", type="TouchSensor", target=TARGET)
+    do.drive(to(TARGET))
+
+
+def build_4(do: Doing) -> None:
+    do.drive(move(1, 0))
+    (motor,) = do.scene.agents[0]["actuators"]
+    do.change(agents=({**do.scene.agents[0], "actuators": [{**motor, "move_amount": 2}]},))
+    do.drive(move(1, 0))
+
+
+def build_5(do: Doing) -> None:
+    add_bodies(do, thing("target", 1, (4, 0)))
+    add_reward(do, **TOUCH)
+    add_reward(do, type="FallReward", cause_episode_to_end=True)
+    do.drive(move(-1, 0))
+    do.again()
+    do.drive(to(TARGET))
+
+
+def build_6(do: Doing) -> None:
+    add_bodies(do, *(thing("wall", number, (2, 2 * number - 6)) for number in range(6)))
+    add_bodies(do, thing("target", 1, (-4, 0)))
+    add_reward(do, **TOUCH)
+    do.drive(to(TARGET))
+    do.again()
+    do.drive(to(TARGET))
+
+
+def teach_2(do: Doing) -> None:
+    do.open("teach")
+    do.drive(to("box"), through=True, limit=3000)
+
+
+def teach_3(do: Doing) -> None:
+    do.drive(to("box"), through=True, limit=6000)
+
+
+def teach_4(do: Doing) -> None:
+    do.drive(LineProgram())
+    do.new_start()
+    do.drive(LineProgram())
+    do.answer("To see the line, wherever it stands")
+
+
+def teach_5(do: Doing) -> None:
+    do.open("teach")
+    do.drive(to("box"), 3000)
+    do.answer("Nobody knows: 3 starts are too few")
+    do.new_start()
+    do.drive(to("box"), 3000)
+
+
+def teach_6(do: Doing) -> None:
+    do.drive(move(-1, 0), 60)
+    do.drive(sumo(), through=True, limit=9000)
+
+
+def compete(do: Doing) -> None:
+    while not do.is_done:
+        do.new_start()
+        if not do.drive(solved(do), 12000):
+            return
+
+
 SOLUTIONS: dict[str, Solution] = {
     "drive-1": drive_1,
     "drive-2": drive_2,
     "drive-3": drive_3,
+    "drive-4": drive_4,
+    "drive-5": drive_5,
+    "drive-6": drive_6,
+    "drive-7": drive_7,
+    "drive-8": drive_8,
+    "drive-9": drive_9,
     "sense-1": sense_1,
     "sense-2": sense_2,
     "sense-3": sense_3,
+    "sense-4": sense_4,
+    "sense-5": sense_5,
+    "sense-6": sense_6,
+    "sense-7": sense_7,
     "think-1": think_1,
     "think-2": think_2,
     "think-3": think_3,
     "think-4": think_4,
+    "think-5": think_5,
+    "think-6": think_6,
+    "think-7": think_7,
+    "think-8": think_8,
     "code-1": code_1,
     "code-2": code_2,
     "code-3": code_3,
+    "code-4": code_4,
+    "code-5": code_5,
+    "code-6": code_6,
+    "code-7": code_7,
+    "code-8": drive_9,
     "build-1": build_1,
+    "build-2": build_2,
+    "build-3": build_3,
+    "build-4": build_4,
+    "build-5": build_5,
+    "build-6": build_6,
     "teach-1": teach_1,
+    "teach-2": teach_2,
+    "teach-3": teach_3,
+    "teach-4": teach_4,
+    "teach-5": teach_5,
+    "teach-6": teach_6,
+    "compete-1": compete,
+    "compete-2": compete,
+    "compete-3": compete,
+    "compete-4": compete,
+    "compete-5": compete,
+    "compete-6": compete,
 }

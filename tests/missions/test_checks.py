@@ -11,6 +11,7 @@ from pydantic import TypeAdapter
 from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import ParameterError
+from ai4u_edu.blocks import LocalBrain
 from ai4u_edu.missions.checks import (
     AnyCheck,
     Check,
@@ -183,6 +184,41 @@ def test_a_decision_has_what_the_robot_did(maze: ControlRequestor) -> None:
     assert set(decision.distances) == {"around", "ahead", "left", "right"}
     assert decision.distances["around"] == min(decision.distances.values()) > 0.4
     assert decision.value_of("heading[0]") == agent.percept["heading"][0]
+
+
+def test_a_fall_that_a_reward_ends_is_a_fall() -> None:
+    """The body is not out of the world yet when its reward ends the episode."""
+    sim = Scene.load("box_chase").build()
+    agent = sim.agents[0]
+    agent.use_brain(LocalBrain(controller=lambda _: {"move": [-1, 0, 0, 0]}))
+    sim.reset(1)
+    while not agent.done:
+        sim.step()
+    assert decision_of(sim, agent).outcome == "fell"
+
+
+def test_what_a_robot_does_not_sense_yet_does_not_hold() -> None:
+    check = following("holds", ranges=[{"what": "rays[3]", "above": 0}], decisions=1)
+    blind = replace(STILL, distances={})
+    assert not see(check, blind)
+    assert not see(following("holds", ranges=[{"what": "distance left", "above": 0}]), blind)
+    reads = following("reads", question="?", what="rays[3]", within=1)
+    assert not see(reads, PersonAnswer("1", blind))
+    assert reads.words == "The robot senses no rays[3] yet."
+
+
+def test_builds_looks_at_parameters_and_their_defaults() -> None:
+    scene = Scene.load("box_chase").description
+    motor = {"block": "RBMoveActuator"}
+    (amount,) = (
+        each["move_amount"] for each in scene.agents[0]["actuators"] if "move_amount" in each
+    )
+    assert see(following("builds", **motor, values={"move_amount": amount}), scene)
+    assert not see(following("builds", **motor, values={"move_amount": amount + 1}), scene)
+    fall = {"block": "FallReward"}
+    assert see(following("builds", **fall, values={"max_rewards": 1}), scene)
+    with pytest.raises(ValueError, match="has no parameter 'move_amont'; did you mean 'move_am"):
+        following("builds", **motor, values={"move_amont": 1})
 
 
 @pytest.fixture
