@@ -85,11 +85,22 @@ def exercise(
         call_limit_s: longest time that one call of the student's function may take.
     """
 
-    def enter(judge: Judge) -> Judge:
-        EXERCISES[exercise_id] = Exercise(exercise_id, title, judge, hints, call_limit_s)
+    def register(judge: Judge) -> Judge:
+        enter(exercise_id, title, judge, hints, call_limit_s)
         return judge
 
-    return enter
+    return register
+
+
+def enter(
+    exercise_id: str,
+    title: str,
+    judge: Judge,
+    hints: Mapping[str, str],
+    call_limit_s: float = CALL_LIMIT_S,
+) -> None:
+    """Enter an exercise into the list of all."""
+    EXERCISES[exercise_id] = Exercise(exercise_id, title, judge, hints, call_limit_s)
 
 
 def find(exercise_id: Any) -> Exercise:

@@ -98,7 +98,15 @@ class PersonAnswer:
     decision: Decision | None
 
 
-Event = Decision | SeenPage | PersonAnswer | SceneDescription
+@dataclass(frozen=True)
+class Verdict:
+    """The opinion of an exercise's judge on a person's work."""
+
+    passed: bool
+    text: str
+
+
+Event = Decision | SeenPage | PersonAnswer | Verdict | SceneDescription
 
 
 def decision_of(sim: ControlRequestor, agent: BasicAgent) -> Decision:
@@ -503,6 +511,22 @@ class Chooses(Check):
             words = f"Not “{answer.text[:80]}”. Try it in the world."
 
 
+class Solves(Check):
+    """The person's function is right, as the judge of the mission's exercise says."""
+
+    listens = Verdict
+    type: Literal["solves"] = "solves"
+
+    def follow(self) -> Follow:
+        """Wait for a verdict that it is."""
+        words = ""
+        while True:
+            verdict: Verdict = yield words
+            if verdict.passed:
+                return
+            words = verdict.text
+
+
 class Builds(Check):
     """The scene has things with a tag, or the robot has blocks of a kind."""
 
@@ -568,6 +592,7 @@ AnyCheck = Annotated[
     | Opens
     | Reads
     | Chooses
+    | Solves
     | Builds,
     Field(discriminator="type"),
 ]

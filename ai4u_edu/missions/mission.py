@@ -6,13 +6,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple, get_args
+from typing import Annotated, Any, Literal, NamedTuple, Self, get_args
 
-from pydantic import AfterValidator, Field, StringConstraints, ValidationError, field_validator
+from pydantic import (
+    AfterValidator,
+    Field,
+    StringConstraints,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
 
 from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest
 from ai4u_edu.base.parameters import ParameterProblem, explain
-from ai4u_edu.missions.checks import AnyCheck, Driver, Text
+from ai4u_edu.missions.checks import AnyCheck, Driver, Solves, Text
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.world.shapes import Description
@@ -99,6 +106,14 @@ class Mission(Description):
     """The second and the third star; the first one is for doing the mission."""
     next: str = ""
     """Name of the mission that follows; default: the one that follows on the map."""
+    exercise: Annotated[str, StringConstraints(pattern=r"^(\d\d\.\d)?$")] = ""
+    """Exercise of the course that the mission is, such as ``01.4``; empty if it is none."""
+
+    @model_validator(mode="after")
+    def _has_an_exercise(self) -> Self:
+        if not self.exercise and any(isinstance(step.check, Solves) for step in self.steps):
+            raise ValueError("a step of type solves needs exercise: NUMBER in the mission")
+        return self
 
     @field_validator("scene")
     @classmethod

@@ -1,10 +1,11 @@
 """Missions in the page of a running world: their part, their commands, and the map."""
 
+import asyncio
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Annotated, Literal, NamedTuple
-from weakref import WeakSet
+from weakref import WeakKeyDictionary, WeakSet
 
 import msgspec
 from msgspec import Meta, Struct
@@ -12,6 +13,7 @@ from msgspec import Meta, Struct
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.lessons.calls import RemoteCalls, function_name, starting_text
 from ai4u_edu.missions.checks import (
     Chooses,
     Decision,
@@ -21,6 +23,8 @@ from ai4u_edu.missions.checks import (
     PersonAnswer,
     Reads,
     SeenPage,
+    Solves,
+    Verdict,
     decision_of,
 )
 from ai4u_edu.missions.mission import EMPTY_SCENES, Mission, MissionFolder, Missions
@@ -41,6 +45,8 @@ from ai4u_edu.scenes import Scene, SceneDescription
 
 KEY = "mission"
 MAX_ANSWER_CHARS = 200
+MAX_SOURCE_CHARS, MAX_VALUE_CHARS = 20_000, 20_000
+"""Length of a person's function, and of what it returned, as JSON."""
 OTHER_DRIVER_DECISIONS = 24
 """Decisions (2 s) in which another driver than asked moves the robot before the page says so."""
 MOVING_M_PER_S = 0.1
@@ -85,12 +91,38 @@ class AnswerMission(PageCommand, tag="mission_answer"):
     answer: Annotated[str, Meta(max_length=MAX_ANSWER_CHARS)]
 
 
+class JudgeFunction(PageCommand, tag="mission_judge"):
+    """Begin to check the function that this page has for the step's exercise.
+
+    The answer has the arguments of a call, or the verdict: ``passed``, ``text`` and ``hint``.
+    """
+
+    source: Annotated[str, Meta(max_length=MAX_SOURCE_CHARS)]
+    """The person's text, from which the numbers are drawn; it is not run here."""
+
+
+class FunctionReturned(PageCommand, tag="mission_returned"):
+    """Tell what the function returned, as the page's Python wrote it; answered as the check is."""
+
+    value: Annotated[str, Meta(max_length=MAX_VALUE_CHARS)]
+
+
 class MissionQuestion(Struct, frozen=True):
     """A question of a step."""
 
     text: str
     options: list[str]
     """Answers to choose from; empty if a number has to be typed."""
+
+
+class MissionExercise(Struct, frozen=True):
+    """A function to write, which the page calls and the room judges."""
+
+    id: str
+    function: str
+    """Its name."""
+    text: str
+    """Program to begin with."""
 
 
 class MissionStar(Struct, frozen=True):
@@ -132,6 +164,7 @@ class MissionPart(PanelPart, frozen=True, kw_only=True):
     driver: str = ""
     """Sentence about another driver than the step asks for; empty if there is none."""
     question: MissionQuestion | None = None
+    exercise: MissionExercise | None = None
     stars: tuple[MissionStar, ...] = ()
     """The first one is for doing the mission."""
     next: str = ""
@@ -294,6 +327,8 @@ class MissionOption:
         """The world whose agents are listened to; of the world's thread."""
         self._runs: WeakSet[MissionRun] = WeakSet()
         """Those of open pages; of the world's thread."""
+        self._calls: WeakKeyDictionary[MissionRun, RemoteCalls] = WeakKeyDictionary()
+        """Exercises that are being judged; of the event loop's thread."""
         self._folder = MissionFolder(None if editor is None else editor.missions_folder)
         if editor is None:
             return
@@ -302,6 +337,8 @@ class MissionOption:
             CloseMission: self._close,
             SeeMission: self._see,
             AnswerMission: self._answer,
+            JudgeFunction: self._judge,
+            FunctionReturned: self._take_value,
         }
         editor.listeners.append(lambda _: self._follow())
 
@@ -369,6 +406,33 @@ class MissionOption:
         await page.result(self._runner.submit(lambda: run.see_answer(command.answer)))
         return Answer()
 
+    async def _judge(self, page: Page, command: JudgeFunction) -> Answer:
+        chosen = self._chosen(page.view)
+        if chosen is None or not isinstance(chosen.run.step.check, Solves):
+            raise SetupError("this step has no function to check; open one that has")
+        exercise = chosen.run.mission.exercise
+        # it imports the lesson, and some judges drive a robot
+        calls = await asyncio.to_thread(RemoteCalls, exercise, command.source)
+        self._calls[chosen.run] = calls
+        return await self._called(page, chosen.run, calls)
+
+    async def _take_value(self, page: Page, command: FunctionReturned) -> Answer:
+        chosen = self._chosen(page.view)
+        calls = None if chosen is None else self._calls.get(chosen.run)
+        if chosen is None or calls is None or not calls.arguments:
+            raise SetupError("no function is being checked; press Check again")
+        await asyncio.to_thread(calls.answer, command.value)
+        return await self._called(page, chosen.run, calls)
+
+    async def _called(self, page: Page, run: MissionRun, calls: RemoteCalls) -> Answer:
+        """Answer with the next call; or with the verdict, which the mission sees, too."""
+        if calls.arguments:
+            return Answer(more={"arguments": calls.arguments})
+        verdict = Verdict(calls.passed, calls.text)
+        await page.result(self._runner.submit(lambda: run.see(verdict)))
+        more = {"passed": calls.passed, "text": calls.text, "hint": calls.hint}
+        return Answer(more=more)
+
     def _chosen(self, view: PageView) -> _Chosen | None:
         chosen = view.choices.get(KEY)
         return chosen if isinstance(chosen, _Chosen) else None
@@ -433,6 +497,9 @@ def mission_part(name: str, run: MissionRun, missions: Missions) -> MissionPart:
         question = MissionQuestion(check.question, list(check.options))
     elif isinstance(check, Reads):
         question = MissionQuestion(check.question, [])
+    exercise = None
+    if isinstance(check, Solves):
+        exercise = _exercise(mission.exercise)
     texts = ["Do the mission.", *(star.say for star in mission.stars)]
     return MissionPart(
         mission=name,
@@ -451,6 +518,7 @@ def mission_part(name: str, run: MissionRun, missions: Missions) -> MissionPart:
         hint=run.hint,
         driver=run.driver,
         question=question,
+        exercise=exercise,
         stars=tuple(map(MissionStar, texts, run.stars)),
         next=following,
         next_title=missions.by_name[following].title if following else "",
@@ -488,6 +556,11 @@ def mission_map(folder: Path | None = None) -> Callable[[], MissionsView]:
 def page_option(runner: Runner, _player: ReplayPlayer, editor: SceneEditor | None) -> MissionOption:
     """Return the missions of a world's pages."""
     return MissionOption(runner, editor)
+
+
+@cache
+def _exercise(exercise_id: str) -> MissionExercise:
+    return MissionExercise(exercise_id, function_name(exercise_id), starting_text(exercise_id))
 
 
 @cache

@@ -177,6 +177,7 @@ class Program:
         limit_s: float = DECISION_LIMIT_S,
         keeps_lines: bool = True,
         report_line: ReportLine | None = None,
+        has_entry: bool = True,
     ) -> Self:
         """Run a program's text, and find the function that decides.
 
@@ -191,6 +192,7 @@ class Program:
             limit_s: longest time of a decision, and of loading, seconds.
             keeps_lines: True records lines and variables of each decision.
             report_line: called with lines before they run.
+            has_entry: False for a text with functions to :meth:`call`, none of which decides.
 
         Raises:
             ProgramError: a mistake, with its line.
@@ -203,7 +205,8 @@ class Program:
             raise obstacle
         program = cls(tree, file, outputs=outputs, output=output, trace=trace)
         program._run_module()
-        program._find_entry(entry)
+        if has_entry:
+            program._find_entry(entry)
         return program
 
     def begin(self) -> None:
@@ -238,6 +241,32 @@ class Program:
             self.trace.stops = frozenset()
             self._is_deciding = False
         return _checked_action(answer, self._outputs, self.trace.last_line or self._first_line())
+
+    def call(self, name: str, arguments: Sequence[Any]) -> Any:
+        """Call one of the program's functions, with the limits and the trace of a decision.
+
+        Args:
+            name: of the function.
+            arguments: numbers, bools, texts, lists of them, or readings.
+
+        Raises:
+            ProgramError: a mistake, with its line.
+        """
+        value = self._names.get(name)
+        if not callable(value) or isinstance(value, type) or name.startswith("__"):
+            own = [
+                each
+                for each, one in self._names.items()
+                if getattr(one, "__module__", "") == _MODULE_NAME
+            ]
+            hint = suggest(name, own)
+            raise ProgramError(f"there is no function {name!r}; {hint}", 0, "entry")
+        code = getattr(value, "__code__", None)
+        wanted = getattr(code, "co_argcount", len(arguments))
+        if wanted != len(arguments) and not getattr(code, "co_flags", 0) & _VARARGS:
+            text = f"{name} is called with {len(arguments)} values, and takes {wanted}"
+            raise ProgramError(text, self._line_of(name), "parameters")
+        return self._call(value, *arguments)
 
     def variables(self) -> dict[str, str]:
         """Return the variables at the end of the last call: names, and beginnings of values."""

@@ -36,6 +36,7 @@ PART: dict[str, Any] = {
     "hint": "",
     "driver": "",
     "question": None,
+    "exercise": None,
     "stars": [{"text": "Do the mission.", "is_earned": False}],
     "next": "drive-2",
     "next_title": "Round the ring",
@@ -247,6 +248,45 @@ def test_a_person_does_the_first_steps_by_keys(chromium: Browser) -> None:
         assert progress == {"drive-1": {"steps": 2, "stars": 0}}
         page.context.close()
     assert problems == []
+
+
+def test_a_function_is_called_in_the_page_and_judged_by_the_room(chromium: Browser) -> None:
+    page, problems = new_page(chromium), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    with rooms.panel_room() as served:
+        WITHOUT_VISER.serve(page, served.url)
+        page.add_init_script(
+            'localStorage["ai4u-mission-"] ??= \'{"mission": "code-9", "step": 0}\''
+        )
+        page.goto(served.url)
+        editor = page.get_by_role("textbox", name="Your function")
+        expect(editor).to_contain_text("def speed_for(distance, seconds):")
+        check = page.get_by_role("button", name="Check", exact=True)
+        problem = page.locator(".ai4u-mission-exercise .ai4u-mission-problem")
+        check.click()
+        expect(problem).to_contain_text("For 6 m in 3 s your function says 0 m/s")
+        for line, text in (
+            ("return distance / second", "Line 2: nothing is called 'second'"),
+            ("return seconds / distance", "that is upside down"),
+            ("while True: pass", "Line 2: Your code has been running for"),
+        ):
+            write(page, editor, f"def speed_for(distance, seconds):\n    {line}")
+            check.click()
+            expect(problem).to_contain_text(text)
+        write(page, editor, "def speed_for(distance, seconds):\n    return distance / seconds")
+        check.click()
+        expect(page.locator(".ai4u-mission-done")).to_contain_text("✓ A function gets numbers in")
+        expect(problem).to_be_hidden()
+        page.reload()
+        expect(editor).to_contain_text("return distance / seconds")
+        page.context.close()
+    assert problems == []
+
+
+def write(page: Page, editor: Locator, program: str) -> None:
+    editor.click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.insert_text(program)
 
 
 def press_until_done(page: Page, key: str) -> None:

@@ -1,5 +1,6 @@
 """A person who does a mission, in the mission's own world and without a page."""
 
+import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -15,10 +16,12 @@ from ai4u_edu.blocks import (
     LocalBrain,
     Percept,
 )
-from ai4u_edu.missions.checks import Driver, SeenPage, decision_of
+from ai4u_edu.lessons.calls import RemoteCalls, function_name
+from ai4u_edu.missions.checks import Driver, SeenPage, Verdict, decision_of
 from ai4u_edu.missions.mission import EMPTY_SCENES, library_missions
 from ai4u_edu.missions.option import MissionRun
 from ai4u_edu.page.editing.scene_pictures import TEMPLATES
+from ai4u_edu.program import ProgramError, host
 from ai4u_edu.scenes import Scene
 
 Action = Mapping[str, Any]
@@ -50,8 +53,13 @@ class Doing:
         self.sim = scene.build()
         self.agent = self.sim.agents[0]
         brain = self.agent.brain
-        pace = {"skip_frame": brain.skip_frame, "repeat_action": brain.repeat_action}
-        self.agent.use_brain(LocalBrain(controller=self._decide, **pace))
+        self.agent.use_brain(
+            LocalBrain(
+                controller=self._decide,
+                skip_frame=brain.skip_frame,
+                repeat_action=brain.repeat_action,
+            )
+        )
         self.agent.percept_ready.connect(self._on_percept)
         self.sim.reset(seed)
         self.run.see_scene(self.scene)
@@ -72,6 +80,22 @@ class Doing:
     def answer(self, text: str) -> None:
         self.run.see_answer(text)
         self.go_on()
+
+    def solve(self, source: str) -> None:
+        """Have the page's Python call the function in a text, until the judge has seen enough."""
+        calls = RemoteCalls(self.run.mission.exercise, source)
+        name = function_name(calls.exercise.id)
+        self._host("load", source=source, has_entry=False)
+        while calls.arguments:
+            calls.answer(self._host("call", name=name, arguments=calls.arguments)["value"])
+        self.run.see(Verdict(calls.passed, calls.text))
+        self.go_on()
+
+    def _host(self, method: str, **said: object) -> dict[str, Any]:
+        answer: dict[str, Any] = json.loads(getattr(host, method)(json.dumps(said)))
+        if not answer["ok"]:
+            raise ProgramError(answer["text"])
+        return answer
 
     def new_start(self, seed: int | None = None) -> None:
         self.sim.reset(int(self._seeds.integers(1, 2**31)) if seed is None else seed)
@@ -109,7 +133,8 @@ class Doing:
     def _decide(self, percept: Percept) -> Action:
         action = dict(self._policy(self.agent))
         if isinstance(action.get("move"), list) and len(action["move"]) == 4:
-            action["move"] = self._moved(*action["move"][:2], action["move"])
+            forward, turn, *_ = move = action["move"]
+            action["move"] = self._moved(forward, turn, move)
         return action
 
     def _moved(self, forward: float, turn: float, move: list[float]) -> Any:

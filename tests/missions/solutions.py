@@ -9,6 +9,7 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LinearRayCastingSensor
+from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.missions.checks import decision_of
 from ai4u_edu.world import BodyDescription
 from tests.missions.doing import Action, Doing, Policy
@@ -491,6 +492,10 @@ def teach_6(do: Doing) -> None:
     do.drive(sumo(), through=True, limit=9000)
 
 
+def exercise(do: Doing) -> None:
+    do.solve(answers_to(do.run.mission.exercise).solution)
+
+
 def compete(do: Doing) -> None:
     while not do.is_done:
         do.new_start()
@@ -531,6 +536,14 @@ SOLUTIONS: dict[str, Solution] = {
     "code-6": code_6,
     "code-7": code_7,
     "code-8": drive_9,
+    "code-9": exercise,
+    "code-10": exercise,
+    "code-11": exercise,
+    "code-12": exercise,
+    "code-13": exercise,
+    "code-14": exercise,
+    "code-15": exercise,
+    "code-16": exercise,
     "build-1": build_1,
     "build-2": build_2,
     "build-3": build_3,
@@ -549,4 +562,6 @@ SOLUTIONS: dict[str, Solution] = {
     "compete-4": compete,
     "compete-5": compete,
     "compete-6": compete,
+    "compete-7": exercise,
+    "compete-8": exercise,
 }

@@ -1,5 +1,6 @@
 """Missions in the page of a running world: opened, checked, answered and left."""
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -71,6 +72,32 @@ def test_a_tab_and_a_number_are_seen(room: PanelRoom, page: PanelPage) -> None:
     distance = float(room.runner.sim.agents[0].percept["orientation"][1])
     page.done("mission_answer", answer=f"{distance:.2f}")
     page.part("mission", is_done=True)
+
+
+def test_a_function_is_judged_by_what_the_page_says_it_returned(page: PanelPage) -> None:
+    page.done("mission_open", mission="code-9")
+    part = page.part("mission", mission="code-9")
+    assert part["exercise"] == {
+        "id": "01.1",
+        "function": "speed_for",
+        "text": "def speed_for(distance, seconds):\n    return 0\n",
+    }
+    assert "no function is being checked" in page.failed("mission_returned", value="1")["text"]
+    answer = page.done("mission_judge", source="a")
+    assert answer["arguments"] == "[6, 3]"
+    answer = page.done("mission_returned", value='{"shown": "<set>"}')
+    assert (answer["passed"], answer["text"]) == (False, "Expected a number, got `<set>`.")
+    page.part("mission", words="Expected a number, got `<set>`.")
+
+    answer = page.done("mission_judge", source="a")
+    while "arguments" in answer:
+        distance, seconds = json.loads(answer["arguments"])
+        answer = page.done("mission_returned", value=json.dumps(distance / seconds))
+    assert answer["passed"]
+    page.part("mission", is_done=True)
+    page.done("mission_open", mission="drive-1")
+    page.part("mission", mission="drive-1", exercise=None)
+    assert "no function to check" in page.failed("mission_judge", source="a")["text"]
 
 
 def test_only_the_page_that_drives_goes_on(room: PanelRoom, page: PanelPage) -> None:

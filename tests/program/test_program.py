@@ -275,3 +275,44 @@ def test_readings_of_a_percept() -> None:
     assert found["f"].tolist() == [1, 2]
     assert "f" in found
     assert found.get("g") is None
+
+
+def test_the_page_calls_functions_of_a_text_with_whole_numbers_and_readings() -> None:
+    source = """
+def double(value):
+    return 2 * value
+
+def left(percept):
+    print(percept["bearing"][0])
+    return {"it": percept["bearing"].max() > 0, "set": {1}, "far": 1e999}
+
+def endless():
+    while True:
+        pass
+"""
+    said = {"source": source, "has_entry": False, "limit_s": 0.2}
+    assert json.loads(host.load(json.dumps(said)))["ok"]
+    assert called("double", "[1.0]")["value"] == "2.0"
+    assert called("double", '[{"array": [1, 2]}]')["value"] == "[2, 4]"
+    answer = called("left", '[{"percept": {"bearing": [0.5, 1]}}]')
+    assert (answer["printed"], answer["lines"]) == ("0.5\n", [6, 7])
+    shown = ["set", {"shown": "{1}"}]
+    wanted = {"table": [["it", True], shown, ["far", {"number": "inf"}]]}
+    assert json.loads(answer["value"]) == wanted
+    for name, arguments, kind in (
+        ("dubble", "[1]", "entry"),
+        ("double", "[]", "parameters"),
+        ("double", "[null]", "error"),
+        ("endless", "[]", "endless"),
+    ):
+        answer = called(name, arguments)
+        assert (answer["ok"], "value" in answer) == (False, False)
+        assert kind in (answer["kind"], "error"), answer
+    assert "did you mean 'double'?" in called("dubble", "[1]")["text"]
+
+
+def called(name: str, arguments: str) -> dict[str, Any]:
+    answer: dict[str, Any] = json.loads(
+        host.call(json.dumps({"name": name, "arguments": arguments}))
+    )
+    return answer

@@ -27,10 +27,14 @@ const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan
  * @property {Record<string, string>} [variables]
  * @property {TracedMoment[]} [moments] from a line on at which it was to stop
  * @property {Record<string, number[]>} [values] the action, by actuator
+ * @property {string} [value] what a called function returned, as JSON
  */
 /** @typedef {{line: number, variables: Record<string, string>}} TracedMoment a line that ran, and the variables before it */
 /** @typedef {{wasm: WebAssembly.Module, library: Uint8Array<ArrayBuffer>, program: Uint8Array<ArrayBuffer>}} Parts */
 /** @typedef {{outputs: Record<string, [low: number[], high: number[]]>, readings: Pick<Reading, "key" | "dtype">[]}} Facts of an agent */
+
+/** @type {Facts} */
+const NO_FACTS = { outputs: {}, readings: [] };
 
 /**
  * Files that all workers share; the compiled module, too, so that only the first worker waits for it.
@@ -109,12 +113,23 @@ export class CodeEngine {
   }
 
   /**
+   * Load functions to call, none of which decides.
+   *
+   * @param {string} source
+   * @returns {Promise<Answer>}
+   */
+  loadFunctions(source) {
+    const ends = this.#ends;
+    return this.#queue(() => this.#load(source, NO_FACTS, SPARE_DELAY_MS, () => ends !== this.#ends, false));
+  }
+
+  /**
    * @param {string} source
    * @param {Facts} facts
    * @param {number} spareDelay (ms)
    * @param {() => boolean} isOver
    */
-  async #load(source, { outputs, readings }, spareDelay, isOver) {
+  async #load(source, { outputs, readings }, spareDelay, isOver, hasEntry = true) {
     this.#isLoaded = false;
     if (this.#runtime?.isUsed) this.#replace();
     try {
@@ -125,7 +140,7 @@ export class CodeEngine {
     if (isOver()) return problem("ended", NOT_LOADED);
     this.#runtime.isUsed = true;
     const dtypes = Object.fromEntries(readings.map(({ key, dtype }) => [key, dtype]));
-    const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: limits.programS }));
+    const answer = await this.#call("load", json({ source, outputs, readings: dtypes, limit_s: limits.programS, has_entry: hasEntry }));
     this.#isLoaded = answer.ok;
     clearTimeout(this.#timer);
     if (answer.ok && !isOver()) this.#timer = setTimeout(() => (this.#spare ??= new Runtime()), spareDelay);
@@ -153,6 +168,16 @@ export class CodeEngine {
    */
   decide(percept, number, stops = []) {
     return this.#callLoaded("decide", json({ percept, decision: number, ...(stops.length ? { stops } : {}) }));
+  }
+
+  /**
+   * Call a function of the program.
+   *
+   * @param {string} name
+   * @param {string} args JSON, as host.py reads it
+   */
+  call(name, args) {
+    return this.#callLoaded("call", json({ name, arguments: args }));
   }
 
   /** End all workers. */

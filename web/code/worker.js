@@ -86,12 +86,12 @@ async function start({ wasm, library, program }) {
   python.FS.writeFile(PROGRAM_PATH, program);
   python.runPython(`import sys; sys.path.insert(0, "${PROGRAM_PATH}")`);
   const host = python.pyimport("ai4u_edu.program.host");
-  const { load, begin, decide } = host;
+  const { load, begin, decide, call } = host;
   host.watch((/** @type {number} */ line) => send({ line }));
   for (const name of ["js", "pyodide_js"]) python.unregisterJsModule(name);
   python.runPython(`import sys; [sys.modules.pop(name, None) for name in ("js", "pyodide_js")]`);
   removeConnections();
-  return { load, begin: () => begin(), decide };
+  return { load, begin: () => begin(), decide, call };
 }
 
 /** Fail unless the server has sent the worker's policy: with it, no text can become code. */

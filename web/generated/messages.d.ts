@@ -324,6 +324,15 @@ export interface MissionQuestion {
   options: string[];
 }
 
+/** A function to write, which the page calls and the room judges. */
+export interface MissionExercise {
+  id: string;
+  /** Its name. */
+  function: string;
+  /** Program to begin with. */
+  text: string;
+}
+
 /** A star of a mission. */
 export interface MissionStar {
   text: string;
@@ -362,6 +371,7 @@ export interface MissionPart {
   /** Sentence about another driver than the step asks for; empty if there is none. */
   driver: string;
   question: MissionQuestion | null;
+  exercise: MissionExercise | null;
   /** The first one is for doing the mission. */
   stars: MissionStar[];
   /** Name of the mission that follows; empty after the last one. */
@@ -1271,6 +1281,11 @@ export interface ForgetDrive {
   drive: number;
 }
 
+/** Tell what the function returned, as the page's Python wrote it; answered as the check is. */
+export interface FunctionReturned {
+  value: string;
+}
+
 /** Go on with the practice that waits. */
 export interface GoOnPractising {
 }
@@ -1286,6 +1301,12 @@ export interface Ground {
 
 /** Show no other pose any more. */
 export interface HideElsewhere {
+}
+
+/** Begin to check the function that this page has for the step's exercise. The answer has the arguments of a call, or the verdict: `passed`, `text` and `hint`. */
+export interface JudgeFunction {
+  /** The person's text, from which the numbers are drawn; it is not run here. */
+  source: string;
 }
 
 /** Have a network learn from drives of the agent that the page shows, and let it drive then. */
@@ -1660,7 +1681,9 @@ export interface Commands {
   maps: ShowMaps;
   mission_answer: AnswerMission;
   mission_close: CloseMission;
+  mission_judge: JudgeFunction;
   mission_open: OpenMission;
+  mission_returned: FunctionReturned;
   mission_see: SeeMission;
   move_block: MoveBlock;
   move_body: MoveBody;

@@ -8,6 +8,7 @@ import { unsavedSentence, request } from "../scenes/api.js";
 import { ask, tell } from "../shared/dialog.js";
 import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
 import { freeId } from "../shared/ids.js";
+import { ExerciseForm } from "./exercise.js";
 import { Lights } from "./lights.js";
 import { openMission, reach, setOpenMission } from "./progress.js";
 
@@ -26,6 +27,7 @@ export class MissionCard {
   /** The latest news of this page that the room was sent. */
   #told = "";
   #lights;
+  #exercise;
   #title = element("h2");
   #count = element("span", { className: "ai4u-soft" });
   #dots = element("ol", { className: "ai4u-mission-dots", ariaHidden: "true" });
@@ -53,8 +55,9 @@ export class MissionCard {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
+    this.#exercise = new ExerciseForm(panel);
     const head = element("header", {}, this.#title, this.#count);
-    this.#card = element("div", { className: "ai4u-mission-card" }, head, this.#dots, this.#say, this.#question, this.#words, this.#news, this.#stars, this.#buttons);
+    this.#card = element("div", { className: "ai4u-mission-card" }, head, this.#dots, this.#say, this.#question, this.#exercise.element, this.#words, this.#news, this.#stars, this.#buttons);
     this.#pill.append(this.#pillText);
     this.element.append(this.#card, this.#row, this.#invitation);
     this.#lights = new Lights(this.element);
@@ -119,6 +122,7 @@ export class MissionCard {
     setAttributes(ROOT, { "data-ai4u-mission": part === null ? "none" : isHidden ? "hidden" : "open" });
     if (part === null) {
       this.#lights.show([]);
+      this.#exercise.show(null);
       return;
     }
     const count = `${part.step + 1} of ${part.steps}`;
@@ -152,12 +156,13 @@ export class MissionCard {
     }
     this.#elsewhere.hidden = isHere;
     setText(this.#elsewhere.querySelector("span"), `Open ${part.scene_title}`);
+    this.#exercise.show(isHere && !openMission()?.isHidden ? part.exercise : null);
     this.#question.hidden = part.question === null || isDone || !isHere;
     const elsewhere = isHere ? "" : `This mission is in the scene “${part.scene_title}”. What you have here is kept.`;
     const driver = this.#isWatching ? "Somebody else drives now. This step goes on when you drive." : part.driver;
     setBold(this.#done, isDone ? `✓ ${part.done}` : "");
     setBold(this.#problem, isDone ? "" : elsewhere || driver || part.hint);
-    setText(this.#words, isDone || !isHere ? "" : part.words);
+    setText(this.#words, isDone || !isHere || part.exercise !== null ? "" : part.words);
     for (const line of [this.#done, this.#problem, this.#words]) line.hidden = !line.textContent;
     const isLit = !isDone && isHere && !openMission()?.isHidden;
     this.#lights.show(isLit ? light : []);

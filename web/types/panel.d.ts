@@ -116,6 +116,14 @@ export interface StandingPose {
   heading_deg: number;
 }
 
+/** The next call of an exercise's function, as JSON; or the verdict, if there is none. */
+export interface FunctionCall {
+  arguments: string;
+  passed: boolean;
+  text: string;
+  hint: string;
+}
+
 /** Further fields of the answers to commands that were carried out. */
 export interface AnswerFields {
   add_block: { path: (string | number)[] };
@@ -129,6 +137,8 @@ export interface AnswerFields {
   gallery: { items: GalleryBlock[] };
   find_things: { names: string[] };
   ground: { matrix: number[] };
+  mission_judge: FunctionCall;
+  mission_returned: FunctionCall;
   move_block: { path: (string | number)[] };
   open_recording: { number: number };
   paste: { bodies: string[] };

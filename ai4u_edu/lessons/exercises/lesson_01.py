@@ -17,9 +17,10 @@ from ai4u_edu.blocks import (
     RewardFunc,
     TouchRewardFunc,
 )
+from ai4u_edu.lessons.calls import Calls, function_exercise
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
@@ -168,7 +169,7 @@ MAX_WORDS = 40
 """Longest plan in 01.5."""
 
 
-@exercise(
+@function_exercise(
     "01.1",
     "How fast?",
     hints={
@@ -183,21 +184,19 @@ MAX_WORDS = 40
         "distance": "That is the distance. How much of it has to be done in each second?",
     },
 )
-def is_in_time(made: Any) -> Done:
+def is_in_time(chance: np.random.Generator) -> Calls:
     """Check ``speed_for(distance, seconds)``."""
-    a_function(made)
-    fixed = finite_number(made(6, 3))
-    if fixed == finite_number(made(6, 2)) == finite_number(made(3, 3)):
+    fixed = finite_number((yield 6, 3))
+    if fixed == finite_number((yield 6, 2)) == finite_number((yield 3, 3)):
         raise NotYet(
             f"For 6 m in 3 s your function says {fixed:g} m/s, for 6 m in 2 s and for 3 m in 3 s "
             "too.",
             hint="same" if fixed else "begin",
         )
-    chance = chance_for("01.1", made)
     for _ in range(8):
         distance = round(float(chance.uniform(2.5, 6.5)), 1)
         seconds = int(chance.integers(2, 5))
-        exact, found = distance / seconds, finite_number(made(distance, seconds))
+        exact, found = distance / seconds, finite_number((yield distance, seconds))
         done = race(found, distance, seconds)
         if not is_close(found * seconds, distance, 0.05):
             slips = {
@@ -399,7 +398,7 @@ def _lamp_mistake(actions: list[tuple[float, float]], towards: float) -> str:
     return "away" if towards < 0 else "one-side"
 
 
-@exercise(
+@function_exercise(
     "01.4",
     "How many are near?",
     hints={
@@ -415,10 +414,8 @@ def _lamp_mistake(actions: list[tuple[float, float]], towards: float) -> str:
         "sum": "You added up distances. Here each near post counts as 1, whatever its distance.",
     },
 )
-def counts_the_near_ones(count_near: Any) -> Done:
+def counts_the_near_ones(chance: np.random.Generator) -> Calls:
     """Check ``count_near(distances)`` for posts around a robot."""
-    a_function(count_near)
-    chance = chance_for("01.4", count_near)
     asked: list[tuple[list[float], float]] = []
     # near ones and far ones, of which neither the first nor the last says how many there are
     for near, far in ((2, 3), (0, 4), (5, 0), (1, 2), (3, 4), (4, 1), (2, 1), (1, 5)):
@@ -426,7 +423,7 @@ def counts_the_near_ones(count_near: Any) -> Done:
         if far:
             away[-1] = _NEAR_M  # just not near
         distances = [round(float(each), 1) for each in chance.permutation(away)]
-        asked.append((distances, finite_number(count_near(list(distances)))))
+        asked.append((distances, finite_number((yield (list(distances),)))))
     for distances, found in asked:
         exact = sum(each < _NEAR_M for each in distances)
         if not is_close(found, exact, 1e-6):
@@ -455,7 +452,7 @@ def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
     return "begin"
 
 
-@exercise(
+@function_exercise(
     "01.5",
     "A plan",
     hints={
@@ -474,13 +471,11 @@ def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
         "words": 'A plan is a list of the words "forward", "left" and "right".',
     },
 )
-def plans_the_way(plan: Any) -> Done:
+def plans_the_way(chance: np.random.Generator) -> Calls:
     """Check that a robot that carries out ``plan(ahead, left)`` gets to the flag."""
-    a_function(plan)
-    chance = chance_for("01.5", plan)
     drawn = [tuple(int(each) for each in chance.integers(1, 6, 2)) for _ in range(4)]
     for ahead, left in ((3, 1), (1, 4), (5, 2), *drawn):
-        words = _words_of(plan(ahead, left))
+        words = _words_of((yield ahead, left))
         done = _carry_out(words, ahead, left)
         x, y = done.agent.body.position
         if not math.hypot(x - ahead, y - left) < 0.3:

@@ -1,14 +1,18 @@
 """Drive: body, action, observation."""
 
 import math
+from collections.abc import Generator
 from typing import Any
+
+import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import BearingSensor, LocalBrain, OrientationSensor, RBMoveActuator
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.calls import Calls, function_exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.world import Variation
@@ -23,10 +27,10 @@ def _is_count(found: float, exact: float) -> bool:
     return is_close(found, exact, 0.55) or found in {math.floor(exact), math.ceil(exact)}
 
 
-def _count(made: Any, *given: float) -> float:
-    """Return a student's number of decisions."""
+def _count(*given: float) -> Generator[tuple[float, ...], Any, float]:
+    """Call the student's function, and return its number of decisions."""
     shown = ", ".join(f"{each:g}" for each in given)
-    count = finite_number(a_function(made)(*given))
+    count = finite_number((yield given))
     if count < 0:
         raise NotYet(f"With ({shown}) your function says {count:g}: that is below 0.")
     return count
@@ -53,7 +57,7 @@ def _repeated(count: int, action: list[float], *, move: float, turn: float, size
     return drive(sim, agent, seed=1, limit=count)
 
 
-@exercise(
+@function_exercise(
     "02.1",
     "How far?",
     hints={
@@ -68,20 +72,19 @@ def _repeated(count: int, action: list[float], *, move: float, turn: float, size
         "one-more": "It is one decision too many.",
     },
 )
-def drives_so_far(made: Any) -> Done:
+def drives_so_far(chance: np.random.Generator) -> Calls:
     """Check ``decisions_for(distance, speed)``."""
-    if _count(made, 6, 2) == _count(made, 6, 4):
-        found = _count(made, 6, 2)
+    found = yield from _count(6, 2)
+    if found == (yield from _count(6, 4)):
         raise NotYet(
             f"For 6 m your function says {found:g} decisions, at 2 m/s as at 4 m/s.",
             hint="speed" if found else "time",
         )
-    chance = chance_for("02.1", made)
     for _ in range(8):
         distance = round(float(chance.uniform(2, 6.9)), 2)
         speed = round(float(chance.uniform(1, 4.5)), 2)
         exact = DECISIONS_A_SECOND * distance / speed
-        found = _count(made, distance, speed)
+        found = yield from _count(distance, speed)
         if not _is_count(found, exact):
             slips = {
                 "seconds": ("the time in seconds", distance / speed),
@@ -101,7 +104,7 @@ def drives_so_far(made: Any) -> Done:
     )
 
 
-@exercise(
+@function_exercise(
     "02.2",
     "A quarter turn",
     hints={
@@ -115,19 +118,18 @@ def drives_so_far(made: Any) -> Done:
         "inverted": "It is upside down: a robot that turns faster needs fewer decisions.",
     },
 )
-def turns_a_quarter(made: Any) -> Done:
+def turns_a_quarter(chance: np.random.Generator) -> Calls:
     """Check ``decisions_for_quarter(degrees_per_second)``."""
-    if _count(made, 60) == _count(made, 120):
-        found = _count(made, 60)
+    found = yield from _count(60)
+    if found == (yield from _count(120)):
         raise NotYet(
             f"Your function says {found:g} decisions, at 60 degrees a second as at 120.",
             hint="other-speed" if found else "time",
         )
-    chance = chance_for("02.2", made)
     for _ in range(8):
         speed = round(float(chance.uniform(30, 200)), 1)
         exact = 90 / speed * DECISIONS_A_SECOND
-        found = _count(made, speed)
+        found = yield from _count(speed)
         if not _is_count(found, exact):
             slips = {
                 "seconds": ("the time in seconds", 90 / speed),

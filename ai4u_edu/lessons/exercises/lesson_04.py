@@ -17,6 +17,7 @@ from ai4u_edu.blocks import (
     Sensor,
     TouchRewardFunc,
 )
+from ai4u_edu.lessons.calls import Calls, function_exercise
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, a_list_of, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for, finite_number, finite_numbers, is_close
@@ -188,7 +189,7 @@ def _search_mistake(turned: list[float], driven: list[float], towards: list[floa
     return "wide" if sum(driven) > 0.3 * len(driven) else "narrow"
 
 
-@exercise(
+@function_exercise(
     "04.3",
     "The angle",
     hints={
@@ -202,11 +203,9 @@ def _search_mistake(turned: list[float], driven: list[float], towards: list[floa
         "ahead from behind: `math.atan2` takes both.",
     },
 )
-def computes_the_angle(angle_to_box: Any) -> Done:
+def computes_the_angle(chance: np.random.Generator) -> Calls:
     """Check the degrees computed from a sine and a cosine."""
-    a_function(angle_to_box)
     found: list[tuple[float, float]] = []
-    chance = chance_for("04.3", angle_to_box)
     drawn = [
         round(float(sign * chance.uniform(low, low + 70))) for sign in (1, -1) for low in (10, 100)
     ]
@@ -214,7 +213,7 @@ def computes_the_angle(angle_to_box: Any) -> Done:
         turned = math.radians(angle)
         box = (4 * math.cos(turned), 4 * math.sin(turned))
         percept = _look([BearingSensor(target="box")], box).agents[0].percept
-        given = angle_to_box(percept)
+        given = yield (percept,)
         found.append((float(angle), finite_number(given)))
     wrong = [(true, given) for true, given in found if not is_close(given, true, 0.5)]
     if wrong:

@@ -3,12 +3,15 @@
 import math
 from typing import Any
 
+import numpy as np
+
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import FallReward, LocalBrain, Percept, RayCastingSensor, RBMoveActuator
+from ai4u_edu.lessons.calls import Calls, function_exercise
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drive
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.world import BoxShape, CircleShape, World
@@ -44,7 +47,7 @@ def _go(_: Percept) -> dict[str, list[float]]:
     return {"move": [1, 0, 0, 0]}
 
 
-@exercise(
+@function_exercise(
     "08.1",
     "Blind",
     hints={
@@ -58,16 +61,14 @@ def _go(_: Percept) -> dict[str, list[float]]:
         "ticks": "That is the number of ticks or seconds. How far does the robot get in that time?",
     },
 )
-def computes_the_blind_way(blind_way: Any) -> Done:
+def computes_the_blind_way(chance: np.random.Generator) -> Calls:
     """Check the metres from one decision to the next."""
-    a_function(blind_way)
-    chance = chance_for("08.1", blind_way)
     for number in range(6):
         speed = round(float(chance.uniform(1, 4)), 1)
         skip_frame = 0 if number == 1 else int(chance.integers(5, 30))
         sim = _runway(_go, skip_frame, speed=speed)
         done = drive(sim, sim.agents[0], 1, limit=1)
-        found = finite_number(blind_way(speed, skip_frame))
+        found = finite_number((yield speed, skip_frame))
         if not is_close(found, done.moved, 0.005):
             ticks = skip_frame + 1
             slips = {

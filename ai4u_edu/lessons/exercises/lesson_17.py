@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ai4u_edu.lessons.calls import Calls, function_exercise
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exercises.lesson_17_pitch import (
     METRE,
@@ -18,7 +19,7 @@ from ai4u_edu.lessons.exercises.lesson_17_pitch import (
     practice,
 )
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import chance_for, finite_numbers, is_close
+from ai4u_edu.lessons.numeric import finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 
@@ -53,7 +54,7 @@ ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
 """Functions that students write in place of the right one, by the diagnosis."""
 
 
-@exercise(
+@function_exercise(
     "17.1",
     "The same direction",
     hints={
@@ -71,11 +72,12 @@ ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
         "same. Compare directions, not places.",
     },
 )
-def same_direction(same_way: Any) -> str:
+def same_direction(chance: np.random.Generator) -> Calls:
     """Check whether ball and goal lie in the same direction."""
-    judge = a_function(same_way)
-    cases = _directions(chance_for("17.1", same_way))
-    said = [_truth(judge(*_places(ball, goal))) for ball, goal in cases]
+    cases = _directions(chance)
+    said = []
+    for ball, goal in cases:
+        said.append(_truth((yield _places(ball, goal))))
     for (ball, goal), got in zip(cases, said, strict=True):
         if got is not lined_up(ball, goal):
             fits = (
@@ -111,9 +113,9 @@ def _directions(chance: np.random.Generator) -> list[tuple[Place, Place]]:
     return cases
 
 
-def _places(*places: Place) -> list[Any]:
+def _places(*places: Place) -> tuple[Any, ...]:
     """Return places as a percept has them: arrays of three numbers."""
-    return [np.array([*each, 0.0]) for each in places]
+    return tuple(np.array([*each, 0.0]) for each in places)
 
 
 def _truth(given: Any) -> bool:
@@ -128,7 +130,7 @@ def _shown(place: Place) -> str:
     return f"({place[0]:g} ahead, {place[1]:g} left)"
 
 
-@exercise(
+@function_exercise(
     "17.2",
     "Behind the ball",
     hints={
@@ -143,14 +145,12 @@ def _shown(place: Place) -> str:
         "swapped": "Ahead comes first, then left.",
     },
 )
-def is_behind(place_behind: Any) -> str:
+def is_behind(chance: np.random.Generator) -> Calls:
     """Check the place behind the ball."""
-    find = a_function(place_behind)
-    chance = chance_for("17.2", place_behind)
     for _ in range(8):
         ball, goal = chance.uniform(-0.3, 0.3, 2).round(2), chance.uniform(-0.4, 0.4, 2).round(2)
         gap = round(float(chance.uniform(0.05, 0.12)), 2)
-        got = finite_numbers(find(*_places(ball, goal), gap), 2)
+        got = finite_numbers((yield *_places(ball, goal), gap), 2)
         x, y = behind(ball, goal, gap)
         if not is_close(got, [x, y], 1e-4):
             way, length = goal - ball, math.dist(goal, ball)

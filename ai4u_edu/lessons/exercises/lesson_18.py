@@ -3,6 +3,8 @@
 import math
 from typing import Any
 
+import numpy as np
+
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import (
@@ -16,9 +18,10 @@ from ai4u_edu.blocks import (
     OrRewardFunc,
     RBMoveActuator,
 )
-from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise
+from ai4u_edu.lessons.calls import Calls, function_exercise
+from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
-from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
+from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
@@ -140,7 +143,7 @@ def _needs(levels: tuple[float, float], losses: tuple[float, float]) -> list[Hom
     ]
 
 
-@exercise(
+@function_exercise(
     "18.1",
     "How long?",
     hints={
@@ -152,16 +155,14 @@ def _needs(levels: tuple[float, float], losses: tuple[float, float]) -> list[Hom
         "below": "Below 40 there is no comfort left: the answer is 0, not less.",
     },
 )
-def computes_comfort(seconds: Any) -> Done:
+def computes_comfort(chance: np.random.Generator) -> Calls:
     """Check the seconds until a level reaches 40."""
-    a_function(seconds)
-    chance = chance_for("18.1", seconds)
     cases = [(60.0, 4.0), (50.0, 3.0), (30.0, 2.0)]
     for low, high in ((45, 100), (45, 100), (5, 39), (60, 100), (41, 60)):
         level = round(float(chance.uniform(low, high)), 1)
         cases.append((level, round(float(chance.uniform(0.5, 6)), 1)))
     for level, loss in cases:
-        found = finite_number(seconds(level, loss))
+        found = finite_number((yield level, loss))
         wanted = max(0.0, (level - 40) / loss)
         if not is_close(found, wanted, 0.01):
             slips = {
