@@ -39,6 +39,7 @@ def room() -> Iterator[PanelRoom]:
 @pytest.fixture
 def unlimited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(page_receiver, "MAX_MISTAKES", 10**6)
+    monkeypatch.setattr(socket, "MAX_PENDING_COMMANDS", 10**6)
     monkeypatch.setattr(socket, "LIMITS", socket.LIMITS._replace(messages_per_s=10**6))
 
 
