@@ -14,6 +14,7 @@ from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
 
+from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.small.actor_critic import ActorCritic
@@ -33,7 +34,7 @@ from ai4u_edu.recording.player import Player
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 from ai4u_edu.scenes import Scene
 
-__all__ = ["clone", "kinds_of_opponents", "resume", "train"]
+__all__ = ["clone", "kinds_of_opponents", "resume", "seat_opponents", "train"]
 
 PACKAGES = ("ai4u-edu", "numpy", "pymunk", "gymnasium")
 GAMES = PpoSettings(steps=128, batch=256, rate=1e-3, discount=0.99)
@@ -169,6 +170,24 @@ def resume(
             f"expected --steps larger than that, got {config.steps}"
         )
     return _learn(run, config, training, on_round, quiet=quiet)
+
+
+def seat_opponents(
+    sim: ControlRequestor, scene: Scene, agent: str, against: str, network: Path
+) -> None:
+    """Give everybody but the learner the drivers that a training's games have.
+
+    Args:
+        sim: a world of the scene.
+        scene: the scene.
+        agent: id of the agent that learns.
+        against: as for :func:`train`; not empty.
+        network: file of the learner's network, which plays both sides against itself.
+
+    Raises:
+        SetupError: there is no other side, or nobody who could play it.
+    """
+    Opponents(scene, agent, against).seat(sim, agent, network=network)
 
 
 def clone(

@@ -276,6 +276,8 @@ class Practice:
     def hint(self) -> str:
         """Sentence about what to change if it gets no better; empty if it does, or is young."""
         progress = self.progress
+        if self.phase is Phase.OVER:
+            return ""
         first, *later = progress.curve or (None,)
         if first is None or not later or progress.decisions < progress.total / 3:
             return ""

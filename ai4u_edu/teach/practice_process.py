@@ -142,6 +142,9 @@ class _Replays:
         brain = LocalBrain(controller=controller, **controller.network.rhythm)
         name = self._request.agent
         sim = self._scene.build(brains=lambda agent: brain if agent.id == name else None)
+        if against := self._request.against:
+            trainer = load_option(SMALL_TRAINER, "teaching")
+            trainer.seat_opponents(sim, self._scene, name, against, network.absolute())
         recorder = Recorder(sim, scene=self._scene.description)
         agent = sim.agent(name)
         sim.reset(REPLAY_SEED)

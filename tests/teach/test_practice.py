@@ -12,6 +12,7 @@ from ai4u_edu.blocks import NeuralNetController
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.page.editing.drivers import NETWORK
+from ai4u_edu.recording import Episode
 from ai4u_edu.teach import learning, networks
 from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeProcess, PracticeRequest
 from tests.page.panel.rooms import PanelPage, PanelRoom
@@ -37,6 +38,7 @@ class Lamp(RewardFunc):
 SOON = 256
 """Decisions of the shortest practice."""
 LATE = 1_000_000
+PUSHING, LEARNED = "LocalBrain(PushOutController)", "LocalBrain(NeuralNetController)"
 
 
 @pytest.fixture
@@ -50,6 +52,12 @@ def controller(room: PanelRoom) -> NeuralNetController | None:
     """Return the network's controller that drives; None if something else does."""
     found = getattr(room.runner.sim.agents[0].brain, "controller", None)
     return found if isinstance(found, NeuralNetController) else None
+
+
+def orange_of(folder: Path, number: int) -> str:
+    """Return who drove orange in the first replay of a network's practice in sumo."""
+    file = folder / "networks" / f"sumo-{number}.replays" / "000000000.episode"
+    return next(agent.driver for agent in Episode.load(file).agents if agent.id == "orange")
 
 
 def practising(server: psutil.Process) -> list[psutil.Process]:
@@ -129,6 +137,7 @@ def test_a_paused_practice_goes_on(room: PanelRoom, page: PanelPage) -> None:
     page.done("teach_stop_practising")
     part = page.part("teach", lambda part: part["practice"]["phase"] == "over")
     assert part["practice"]["problem"] == learning.STOPPED
+    assert part["practice"]["hint"] == ""
     assert room.editor.work_folder is not None
     assert not list((room.editor.work_folder / "practices").glob("*"))
 
@@ -257,11 +266,13 @@ def test_a_network_practises_against_the_scenes_player_itself_and_a_network(tmp_
         assert part["practice"]["problem"] == ""
         assert "against itself" in part["networks"][0]["how"]
         assert "against the scene's player" in part["networks"][1]["how"]
+        assert [orange_of(tmp_path, number) for number in (1, 2)] == [PUSHING, LEARNED]
         answer = page.failed("teach_practise", steps=SOON, weights={}, against="file")
         assert "expected the network to play against" in answer["text"]
         page.done("teach_practise", steps=SOON, weights={}, against="file", opponent=2)
         part = page.part("teach", lambda part: len(part["networks"]) == 3)
         assert "against Network 2" in part["networks"][0]["how"]
+        assert orange_of(tmp_path, 3) == LEARNED
 
 
 def test_whoever_has_taken_over_goes_on_driving(room: PanelRoom, page: PanelPage) -> None:

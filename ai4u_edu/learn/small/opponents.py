@@ -132,20 +132,28 @@ class Opponents:
         """Return worlds with the opponents; for :data:`SELF`, with the scene's player."""
         worlds = Worlds(count, self.scene, agents=self.learners, observation="flat")
         for env in worlds.envs:
-            self.seat(env)
+            self.seat(env.sim, env.agent.id)
         return worlds
 
-    def seat(self, env: SceneEnv) -> None:
+    def seat(self, sim: ControlRequestor, learner: str, *, network: Path | None = None) -> None:
         """Give all agents of a world but the learner their drivers.
 
         Those for which the scene has no controller, nor one of their counterpart, are driven by
         keys that nobody presses: they rest.
+
+        Args:
+            sim: the world.
+            learner: id of the agent that learns.
+            network: file of the learner's network, which plays the other side for :data:`SELF`;
+                left out, the scene's player does.
         """
-        opponents = self.of(env.agent.id)
-        for agent in env.sim.agents:
-            if agent.id in opponents and self.against not in (PLAYER, SELF):
-                agent.use_brain(trained_brain(self.against))
-            elif agent is not env.agent and (player := self._player(agent)) is not None:
+        opponents, file = self.of(learner), None if self.against == PLAYER else self.against
+        if self.against == SELF:
+            file = None if network is None else str(network)
+        for agent in sim.agents:
+            if agent.id in opponents and file is not None:
+                agent.use_brain(trained_brain(file))
+            elif agent.id != learner and (player := self._player(agent)) is not None:
                 agent.use_brain(player)
 
     def _player(self, agent: BasicAgent) -> Brain | None:
@@ -304,7 +312,7 @@ class Games(Worlds):
         self._write = [env.observer.writer(self._seen, row) for row, env in enumerate(self.envs)]
         self._write_opponent = []
         for row, env in enumerate(self.envs):
-            opponents.seat(env)
+            opponents.seat(env.sim, env.agent.id)
             (name,) = opponents.of(env.agent.id)
             opponent = env.sim.agent(name)
             self._games.append(_Game(env, opponent))
