@@ -174,14 +174,16 @@ class ClassEvents:
 
     def _learning(self, room: str) -> str:
         """Return how the networks of a room learn, or have learned; empty if it has none."""
-        sentences = self._live.practices.sentence(room), self._live.trainings.sentence(room)
+        queues = self._live.practices, self._live.trainings, self._live.tasks
+        sentences = (queue.sentence(room) for queue in queues)
         return "; ".join(filter(None, sentences))
 
     def _is_learning(self, room: str) -> bool:
         training = self._live.trainings.of_room(room)
-        practices = self._live.practices.of_room(room)
+        practices, tasks = self._live.practices.of_room(room), self._live.tasks.of_room(room)
         is_cloning = training is not None and not training.is_over
-        return is_cloning or any(not practice.is_over for practice in practices)
+        is_over = [*(each.is_over for each in practices), *(each.is_over for each in tasks)]
+        return is_cloning or not all(is_over)
 
 
 def _look_in(room: LiveRoom) -> str:

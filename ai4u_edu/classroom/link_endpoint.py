@@ -41,6 +41,7 @@ from ai4u_edu.wire.class_link import (
     Result,
     State,
     StopTraining,
+    Task,
     Work,
     decode_from_room,
     encode_from_class,
@@ -197,7 +198,7 @@ class LinkEndpoint:
             case HandedInNetwork():
                 await self._take_network(room, link, message)
                 return
-            case Learn() | Practise() | StopTraining():
+            case Learn() | Practise() | Task() | StopTraining():
                 await self._take_training(room, link, message)
                 return
             case Drawing():
@@ -239,7 +240,7 @@ class LinkEndpoint:
         link.add(Ack(network.key))
 
     async def _take_training(
-        self, room: LiveRoom, link: "LinkSender", message: Learn | Practise | StopTraining
+        self, room: LiveRoom, link: "LinkSender", message: Learn | Practise | Task | StopTraining
     ) -> None:
         """Take what a room asks for, and acknowledge it when it is on disk."""
         if room.seat:
@@ -254,9 +255,12 @@ class LinkEndpoint:
                     await live.trainings.add(room.id, message)
                 case Practise():
                     await live.practices.add(room.id, message)
+                case Task():
+                    await live.tasks.add(room.id, message)
                 case StopTraining(training=key):
                     await live.trainings.stop(room.id, key)
                     await live.practices.stop(room.id, key)
+                    await live.tasks.stop(room.id, key)
         except StoreError:
             link.close_later()
             return

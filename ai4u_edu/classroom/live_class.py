@@ -26,6 +26,7 @@ from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, SeatState
 from ai4u_edu.classroom.store import ClassStore, SeatRow
+from ai4u_edu.classroom.task_queue import TaskQueue
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.trainings import Trainings
 from ai4u_edu.games.jobs.processes import core_count
@@ -102,6 +103,7 @@ class LiveClass:
         self.trainings = Trainings(store, self.tell_trainings, self.note_change)
         workers = max(1, core_count() - 1)
         self.practices = PracticeQueue(store, workers, self.tell_trainings, self.note_change)
+        self.tasks = TaskQueue(store, self.tell_trainings, self.note_change)
         self.results = ResultWriter(
             store, self.progress, self.races, self._note_exercise, self._note_results
         )
@@ -130,6 +132,7 @@ class LiveClass:
                 self.tournament.tick()
                 self.trainings.tick()
                 self.practices.tick()
+                self.tasks.tick()
                 await asyncio.to_thread(self.attention.save_rest)
                 await self._measure_folder()
             except Exception as error:  # a full disk, say: the next tick tries again
@@ -299,7 +302,8 @@ class LiveClass:
     def _trainings(self, room: str) -> RoomTrainings:
         training = self.trainings.of_room(room)
         trainings = () if training is None else (training,)
-        return RoomTrainings(trainings, self.practices.of_room(room))
+        practices, tasks = self.practices.of_room(room), self.tasks.of_room(room)
+        return RoomTrainings(trainings, practices, tasks)
 
     def _handed_in(self, seat: int) -> HandedIn:
         return HandedIn(

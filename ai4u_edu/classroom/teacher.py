@@ -337,8 +337,9 @@ class Teacher:
                 await live.host.end(room)
             case _StopTraining(room=room):
                 self._check_room(room)
-                is_cloning = await live.trainings.stop(room, problem=STOPPED_BY_TEACHER)
-                if not (await live.practices.stop(room, problem=STOPPED_BY_TEACHER) or is_cloning):
+                queues = live.trainings, live.practices, live.tasks
+                stopped = [await queue.stop(room, problem=STOPPED_BY_TEACHER) for queue in queues]
+                if not any(stopped):
                     raise CommandError("nothing learns in this room any more")
             case _HandOut(room=room, scene=name, network=number):
                 self._check_local(room)
@@ -360,6 +361,9 @@ class Teacher:
                     await asyncio.to_thread(self._seats.change_code)
         self._proxy.end(wanted.seat, "your teacher has sent you out; ask before you join again")
         self._live.end_links(wanted.seat, "Your teacher has sent you out. Join again.")
+        (seat,) = (seat for seat in self._seats.all() if seat.number == wanted.seat)
+        if not self._live.seats_of_id(seat.room):  # nobody is left to see the results
+            await self._live.tasks.stop(seat.room)
 
     async def _do_plain(self, wanted: _PlainCommand) -> None:
         races = self._live.races
@@ -508,6 +512,7 @@ async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     await live.tournament.end()
     await live.trainings.end()
     await live.practices.end()
+    await live.tasks.end()
     live.attention.end()  # so that no message of the teacher is saved again
     await asyncio.to_thread(_delete, live)
     live.begin_anew()

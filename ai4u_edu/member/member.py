@@ -50,6 +50,9 @@ from ai4u_edu.wire.class_link import (
     RoomTrainings,
     State,
     StopTraining,
+    Task,
+    TaskKind,
+    TaskState,
     Training,
     Work,
 )
@@ -334,6 +337,8 @@ class MemberTrainings:
         """Practices by their keys, also those that the class does not know yet."""
         self._unknown: set[str] = set()
         """Keys of practices that the class does not know yet."""
+        self._tasks: dict[str, TaskState] = {}
+        """Tasks that this process has asked for, by their keys."""
         self.listeners: list[Callable[[], object]] = []
 
     @property
@@ -392,9 +397,37 @@ class MemberTrainings:
         """End a practice; it is over as soon as the class says so."""
         self._link.send_result(StopTraining(secrets.token_urlsafe(12), key))
 
+    def task(self, key: str) -> TaskState | None:
+        """Return a task of the room; None if this process never asked for it."""
+        with self._lock:
+            return self._tasks.get(key)
+
+    def begin_task(self, key: str, kind: TaskKind) -> None:
+        """Have a task done; one that the class knows goes on."""
+        with self._lock:
+            over = [other for other, task in self._tasks.items() if task.is_over]
+            for other in over:
+                del self._tasks[other]
+            self._tasks[key] = TaskState(key, kind)
+        self._link.send_result(Task(key, kind))
+        self._tell()
+
+    def stop_task(self, key: str, problem: str) -> None:
+        """End a task, which has a problem from now on."""
+        with self._lock:
+            task = self._tasks.get(key)
+            if task is None or task.is_over:
+                return
+            self._tasks[key] = replace(task, place=0, is_over=True, problem=problem)
+        self._link.send_result(StopTraining(secrets.token_urlsafe(12), key))
+        self._tell()
+
     def receive(self, message: RoomTrainings) -> None:
         """Take what the class says of the room's trainings."""
         with self._lock:
+            tasks = {task.key: task for task in message.tasks}
+            under_way = [task for task in self._tasks.values() if not task.is_over]
+            self._tasks |= {task.key: tasks.get(task.key, task) for task in under_way}
             self._known = message.trainings[-1] if message.trainings else None
             asked, known = self._asked, self._known
             if asked is not None and known is not None and asked.key == known.key:
@@ -403,6 +436,9 @@ class MemberTrainings:
             practices = {practised.key: practised for practised in message.practices}
             self._unknown -= practices.keys()
             self._practices = {key: self._practices[key] for key in self._unknown} | practices
+        for task in under_way:
+            if task.key not in tasks:  # the class's process is another one, which knows no tasks
+                self._link.send_result(Task(task.key, task.kind))
         self._tell()
 
     def _tell(self) -> None:

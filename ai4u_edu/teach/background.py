@@ -13,13 +13,14 @@ from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.base.process_family import end_with_parent
 
 NICENESS = 19
+"""Niceness of the processes that are started here."""
 MAX_MEMORY_BYTES = 512 * 2**20
 
 
 def start_process(module: str) -> "subprocess.Popen[bytes]":
     """Start a module as a process that waits for its request, and writes to a pipe."""
     return subprocess.Popen(  # noqa: S603 - a module of ours, named in the code
-        [sys.executable, "-m", module, str(os.getpid())],
+        [sys.executable, "-m", module, str(os.getpid()), str(NICENESS)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env=os.environ | ONE_THREAD,
@@ -46,15 +47,16 @@ def cpu_s(process: "subprocess.Popen[bytes]") -> float:
 
 
 def leave_the_processor_to_others() -> None:
-    """Give this process the lowest priority and little memory, and end it with its parent.
+    """Give this process a low priority and little memory, and end it with its parent.
 
-    Its first argument is the parent's id: a parent that was killed before this has another one.
+    Its arguments are the parent's id (a parent that was killed before this has another one) and the
+    niceness, which the parent says.
     """
     if sys.platform == "win32":
         return
     end_with_parent(int(sys.argv[1]))
     import resource
 
-    os.nice(NICENESS)
+    os.nice(int(sys.argv[2]))
     _, hard = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (MAX_MEMORY_BYTES, hard))

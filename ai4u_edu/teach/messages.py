@@ -223,7 +223,7 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """Networks of this scene, the latest first."""
     max_networks: int
     """Networks that are kept for a scene."""
-    can_open: bool
-    """True if a network in a file can be opened here; a room of a class can't check one."""
+    opening: str
+    """Sentence about the file that is being opened; empty if none is."""
     warning: str
     """Sentence about why a drive could not be kept; empty if all could."""

@@ -1,4 +1,4 @@
-"""The process in which a network of somebody is opened; :func:`open_network` starts it.
+"""The process in which a network of somebody is opened, for :func:`open_network`.
 
 It reads an :class:`OpenRequest` as JSON from its input, and writes an :class:`OpenNote`.
 """
@@ -14,7 +14,7 @@ from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
 from ai4u_edu.teach.network_score import score_network
-from ai4u_edu.teach.opened_network import MAX_CPU_S, OpenNote, OpenRequest
+from ai4u_edu.teach.opened_network import FILE, MAX_CPU_S, OpenNote, OpenRequest
 
 DECISIONS = 20
 """Decisions that it takes before it is scored, since not each scene has a goal."""
@@ -32,10 +32,12 @@ def main() -> None:
             load_blocks(Path(file))
         note = _open(request)
     except AI4UError as error:
-        note = OpenNote(str(error))
+        # the path is the server's
+        problem = str(error).replace(request.file, request.name).replace(FILE, request.name)
+        note = OpenNote(problem.removeprefix(f"{request.name}: "))
     except MemoryError:
         note = OpenNote(f"it needs more than {MAX_MEMORY_BYTES // 2**20} MB")
-    sys.stdout.buffer.write(msgspec.json.encode(note))
+    sys.stdout.buffer.write(msgspec.json.encode(note) + b"\n")
 
 
 def _limit_processor_time() -> None:

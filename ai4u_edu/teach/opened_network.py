@@ -1,9 +1,7 @@
 """A network in somebody's file: a process of its own opens it, with limits, before it is kept."""
 
-import subprocess
-from contextlib import suppress
+from collections.abc import Callable
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import msgspec
 from msgspec import Struct
@@ -11,14 +9,16 @@ from msgspec import Struct
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.scenes import Scene
-from ai4u_edu.teach.background import send_request, start_process
 from ai4u_edu.teach.network_score import NetworkScore
+from ai4u_edu.teach.tasks import REQUEST, TaskWork
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 ENDING = ".onnx"
 MAX_CPU_S = 30
 """Processor time in which a network is loaded, and drives from some starts."""
 MAX_WALL_S = 600.0
+FILE = f"network{ENDING}"
+"""Name of the network in the folder of its task."""
 NO_ANSWER = f"it took more than {MAX_CPU_S} s of processor time, or too much memory"
 
 
@@ -26,6 +26,8 @@ class OpenRequest(Struct, frozen=True):
     """A network to open, and the agent that it has to fit."""
 
     file: str
+    name: str
+    """Name of the file where it comes from, for sentences."""
     scene: str
     """Text of the scene."""
     place: str
@@ -44,7 +46,15 @@ class OpenNote(Struct, frozen=True):
     score: NetworkScore | None = None
 
 
-def open_network(name: str, data: bytes, scene: Scene, agent: str) -> NetworkScore | None:
+def open_network(
+    name: str,
+    data: bytes,
+    scene: Scene,
+    agent: str,
+    *,
+    folder: Path,
+    start: Callable[[OpenRequest], TaskWork],
+) -> NetworkScore | None:
     """Check that a network can drive an agent, and return its score; slow.
 
     Args:
@@ -52,39 +62,30 @@ def open_network(name: str, data: bytes, scene: Scene, agent: str) -> NetworkSco
         data: the file.
         scene: the scene.
         agent: id of the agent.
+        folder: folder of the task; it is there, and empty.
+        start: begins the task.
 
     Raises:
         SetupError: it can't; a sentence about why.
+        OSError: the folder can't be written to.
     """
     if not name.lower().endswith(ENDING):
         raise SetupError(f"{name}: expected the file of a network ({ENDING})")
     if len(data) > MAX_NETWORK_BYTES:
         raise SetupError(f"{name}: expected at most {MAX_NETWORK_BYTES // 2**20} MB")
-    with TemporaryDirectory(prefix="ai4u-edu-") as folder:
-        file = Path(folder) / f"network{ENDING}"
-        file.write_bytes(data)
-        place = "" if scene.folder is None else str(scene.folder)
-        blocks = [str(path) for path in own_files()]
-        note = _note_of(OpenRequest(str(file), scene.dumps(), place, agent, blocks))
-        if note.problem:
-            # the path is the server's
-            problem = note.problem.replace(str(file), name).replace(file.name, name)
-            raise SetupError(f"{name} can't drive this robot: {problem.removeprefix(f'{name}: ')}")
-        return note.score
-
-
-def _note_of(request: OpenRequest) -> OpenNote:
-    process = start_process("ai4u_edu.teach.open_process")
-    with process:
-        with suppress(OSError):  # it has ended already
-            send_request(process, request)
-        try:
-            process.wait(MAX_WALL_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-        assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
-        last = process.stdout.read()
+    file = folder / FILE
+    file.write_bytes(data)
+    place = "" if scene.folder is None else str(scene.folder)
+    blocks = [str(path) for path in own_files()]
+    request = OpenRequest(str(file), name, scene.dumps(), place, agent, blocks)
+    (folder / REQUEST).write_bytes(msgspec.json.encode(request))
+    work, last = start(request), b""
+    for lines in work.notes():
+        last = lines[-1] if lines else b""
     try:
-        return msgspec.json.decode(last, type=OpenNote)
+        note = msgspec.json.decode(last, type=OpenNote)
     except msgspec.DecodeError:
-        return OpenNote(NO_ANSWER)
+        note = OpenNote(work.problem or NO_ANSWER)
+    if note.problem:
+        raise SetupError(f"{name} can't drive this robot: {note.problem}")
+    return note.score

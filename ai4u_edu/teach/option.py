@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from queue import SimpleQueue
+from tempfile import TemporaryDirectory
 from types import MappingProxyType
 from typing import TypeVar
 
@@ -37,6 +38,7 @@ from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.drives import DriveFolder, persons_decisions
 from ai4u_edu.teach.learning import ClassLearner, Learned, Learner, LocalLearner
+from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.networks import FOLDER as NETWORKS
 from ai4u_edu.teach.networks import (
     HANDED_OUT,
@@ -45,9 +47,11 @@ from ai4u_edu.teach.networks import (
     KeptNetwork,
     NetworkFolder,
 )
-from ai4u_edu.teach.opened_network import open_network
+from ai4u_edu.teach.opened_network import MAX_WALL_S, OpenRequest, open_network
 from ai4u_edu.teach.practices import Practices
 from ai4u_edu.teach.scene_work import SceneWork
+from ai4u_edu.teach.tasks import FOLDER as TASKS
+from ai4u_edu.teach.tasks import ClassTask, LocalTask, TaskWork
 from ai4u_edu.teach.tries import TryingPages
 
 T = TypeVar("T")
@@ -80,8 +84,9 @@ class TeachOption:
         self.commands: dict[type[PageCommand], Handler] = {}
         self.work = SceneWork()
         """Drives and networks of the present scene."""
-        self._opening = asyncio.Lock()
-        """Held while a process opens somebody's network."""
+        self._opened: tuple[str, TaskWork | None] = "", None
+        """Name of the file that another process opens now, and its work once it has begun."""
+        self._openings: set[asyncio.Task[object]] = set()
         self._tasks = SimpleQueue[Callable[[], object] | None]()
         folder = None if editor is None else editor.work_folder
         if editor is None or folder is None:
@@ -95,19 +100,19 @@ class TeachOption:
             m.RenameNetwork: self._rename_network,
             m.DeleteNetwork: self._delete_network,
             m.DownloadNetwork: self._download_network,
+            m.OpenNetwork: self._open_network,
         }
         self._drives = DriveFolder(folder / DRIVES)
         self._networks = NetworkFolder(folder / NETWORKS)
         self._learner: Learner
         self._practices = Practices(runner, player, editor, self._networks, folder, self)
         self.commands |= self._practices.commands
-        self._tries: TryingPages | None = None
+        self._tries = TryingPages(runner, editor, folder, self.done)
+        self.commands |= self._tries.commands
+        self._tasks_folder = folder / TASKS
         trainings = editor.class_trainings
         if trainings is None:
             self._learner = LocalLearner(lambda learned: self.put(partial(self._take, learned)))
-            self._tries = TryingPages(runner, editor, self.done)
-            self.commands |= self._tries.commands
-            self.commands[m.OpenNetwork] = self._open_network
         else:
             self._learner = ClassLearner(trainings, folder, self._take)
             trainings.listeners.append(lambda: self.put(self._collect))
@@ -116,6 +121,7 @@ class TeachOption:
         editor.listeners.append(lambda _: self.put(self._look))
         if runner.recorder is not None:
             runner.recorder.done_listeners.append(self._on_done)
+        self.put(self._tries.find)
         self.put(self._look)
         threading.Thread(target=self._run, name="teach", daemon=True).start()
 
@@ -126,14 +132,13 @@ class TeachOption:
         work, agent = self.work, view.agent
         with suppress(AI4UError):  # the world has other agents already
             driver = self._editor.driver_of(agent)
-            reached = self._learner.key, self._practices.key
+            reached = self._learner.key, self._practices.key, self._opening_sentence
             key = "teach", work.version, agent, driver, *reached
             yield (
                 "teach",
                 context.cache.by_key(key, lambda: self._part(work, agent, driver)),
             )
-            if self._tries is not None:
-                yield from self._tries.parts(context, agent)
+            yield from self._tries.parts(context, agent)
 
     def picture_parts(self, pages: ViewerClients) -> list[tuple[Part, float]]:  # noqa: ARG002 - an option without a picture needs none
         """Return nothing: it draws nothing."""
@@ -146,8 +151,10 @@ class TeachOption:
         """End the learning and the thread; a practice can go on later."""
         if self.tab is not None:
             self._learner.close()
-            if self._tries is not None:
-                self._tries.stop()
+            self._tries.leave()
+            _, work = self._opened
+            if work is not None:
+                work.leave()
             self.put(self._practices.leave)
         self._tasks.put(None)
 
@@ -206,16 +213,67 @@ class TeachOption:
 
     async def _open_network(self, page: Page, command: m.OpenNetwork) -> Answer:
         data, agent = page.upload.take(command.size), page.view.agent
-        editor, scene = self._required_editor(), self._scene
-        if self._opening.locked():
+        scene = self._scene
+        if self._opened[0]:
             raise SetupError("another file is being opened; wait until that is done")
-        async with self._opening:
-            score = await asyncio.to_thread(open_network, command.name, data, editor.scene, agent)
+        self._opened = command.name, None
         how = f"opened from the file {command.name}"
-        about = KeptNetwork(0, Path(command.name).stem[:MAX_TITLE_CHARS], agent, how, score=score)
-        if not await self.done(lambda: self.keep_network(scene, data, about, drives=False)):
-            raise SetupError(self.work.warning)
+        about = KeptNetwork(0, Path(command.name).stem[:MAX_TITLE_CHARS], agent, how)
+
+        async def open_and_keep() -> None:
+            try:
+                score = await asyncio.to_thread(self._score_opened, command.name, data, agent)
+            finally:
+                self._opened = "", None
+            kept = replace(about, score=score)
+            if not await self.done(lambda: self.keep_network(scene, data, kept, drives=False)):
+                raise SetupError(self.work.warning)
+
+        # a page that closes, or comes back, while others are before it does not end it
+        task = asyncio.create_task(open_and_keep())
+        self._openings.add(task)
+        task.add_done_callback(self._note_opened)
+        await asyncio.shield(task)
         return Answer(f"Opened {about.title}.")
+
+    def _note_opened(self, task: asyncio.Task[object]) -> None:
+        self._openings.discard(task)
+        if not task.cancelled():
+            task.exception()  # its page has heard of it, or is gone
+
+    def _score_opened(self, name: str, data: bytes, agent: str) -> NetworkScore | None:
+        """Have another process check a network, and return its score; a thread does it.
+
+        Raises:
+            SetupError: it can't drive here; a sentence about why.
+        """
+        trainings = self._required_editor().class_trainings
+        scene = self._required_editor().scene
+        try:
+            if trainings is not None:
+                self._tasks_folder.mkdir(parents=True, exist_ok=True)
+            within = None if trainings is None else self._tasks_folder
+            with TemporaryDirectory(prefix="open-", dir=within) as folder:
+
+                def start(request: OpenRequest) -> TaskWork:
+                    work: TaskWork
+                    if trainings is None:
+                        work = LocalTask("open", request, MAX_WALL_S)
+                    else:
+                        work = ClassTask("open", trainings, Path(folder))
+                    self._opened = name, work
+                    return work
+
+                return open_network(name, data, scene, agent, folder=Path(folder), start=start)
+        except OSError as error:
+            raise SetupError(f"{name}: it could not be opened: {error.strerror}") from None
+
+    @property
+    def _opening_sentence(self) -> str:
+        """Sentence about the file that is being opened; empty if none is."""
+        name, work = self._opened
+        waiting = "" if work is None else work.waiting
+        return f"Opens {name}. {waiting}".strip() if name else ""
 
     async def _download_network(self, page: Page, command: m.DownloadNetwork) -> Answer:
         file = self._networks.file(self._scene, command.network)
@@ -261,7 +319,7 @@ class TeachOption:
                 for network in work.networks
             ],
             max_networks=MAX_NETWORKS,
-            can_open=m.OpenNetwork in self.commands,
+            opening=self._opening_sentence,
             warning=work.warning,
         )
 
@@ -300,8 +358,7 @@ class TeachOption:
     def _look(self) -> None:
         """Look at the drives and networks of the present scene again."""
         editor = self._required_editor()
-        if self._tries is not None:
-            self._tries.look()
+        self._tries.look()
         self.work = self.work.looked_at(editor, self._drives, self._networks)
         # else another scene was opened meanwhile
         if self._scene == self.work.scene_name:

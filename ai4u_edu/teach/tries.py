@@ -1,13 +1,17 @@
 """Episodes with many values of one number, which the present driver drives in another process."""
 
+import secrets
+import shutil
 import threading
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import suppress
+from pathlib import Path
 from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta, Struct
 
+from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Block, NeuralNetController
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
@@ -33,9 +37,10 @@ from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.teach.background import send_request, start_process
-from ai4u_edu.teach.learning import STOPPED
+from ai4u_edu.teach.tasks import FOLDER, REQUEST, ClassTask, LocalTask, TaskWork
 
+PREFIX = "try-"
+"""Beginning of the names of folders of tries."""
 MAX_STARTS = 200
 """Episodes with each value."""
 DIED = "the program that drives has ended; try again"
@@ -85,6 +90,8 @@ class TriesState(Struct, frozen=True):
     is_over: bool
     problem: str
     """Sentence about why they ended early; empty if they did not."""
+    waiting: str
+    """Sentence about what they wait for; empty if the driver drives or they are over."""
     label: str
     """The number in words."""
     done: int
@@ -123,6 +130,9 @@ class TryRequest(Struct, frozen=True):
     values: list[float | int]
     starts: int
     """Episodes with each value."""
+    scene_name: str
+    label: str
+    """The number in words."""
     blocks: list[str] = []
     """Python files with blocks that the scene has."""
 
@@ -139,44 +149,50 @@ class TryNote(Struct, frozen=True, omit_defaults=True):
 
 
 class Tries:
-    """The values of a request, tried in a process of their own. It begins at once.
+    """The values of a request, tried elsewhere.
 
     Args:
         request: the values.
-        scene: name of the scene.
-        parameter: the number.
-        label: the number in words.
+        work: tries them; it begins now.
     """
 
-    def __init__(
-        self, request: TryRequest, scene: str, parameter: NumberParameter, label: str
-    ) -> None:
-        self.request, self.scene, self.parameter = request, scene, parameter
-        self.state = TriesState(False, "", label, 0, request.starts * len(request.values), [])
-        """The latest one; it is replaced with every change."""
-        self._is_stopped = False
-        self._process = start_process("ai4u_edu.teach.try_process")
-        threading.Thread(target=self._run, name="teach tries", daemon=True).start()
+    def __init__(self, request: TryRequest, work: TaskWork) -> None:
+        self.request, self._work = request, work
+        total = request.starts * len(request.values)
+        self._state = TriesState(False, "", "", request.label, 0, total, [])
+        self._thread = threading.Thread(target=self._run, name="teach tries", daemon=True)
+        self._thread.start()
+
+    @property
+    def state(self) -> TriesState:
+        """The present state."""
+        return msgspec.structs.replace(self._state, waiting=self._work.waiting)
 
     def stop(self) -> None:
         """End them; what was driven is kept."""
-        self._is_stopped = True
-        self._process.kill()
+        self._work.stop()
+
+    def leave(self) -> None:
+        """Leave them to a later process of this world, if they can go on."""
+        self._work.leave()
+        self._thread.join()
 
     def _run(self) -> None:
-        process, problem = self._process, ""
-        with process, suppress(OSError):
-            send_request(process, self.request)
-            assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
-            for line in process.stdout:
-                note = msgspec.json.decode(line, type=TryNote)
+        state, values = self._state, self.request.values
+        for lines in self._work.notes():
+            rows, since, problem = list[TriedValue](), 0, ""
+            for note in (msgspec.json.decode(line, type=TryNote) for line in lines):
+                rows += [] if note.row is None else [note.row]
+                since = 0 if note.row is not None else since + note.done
                 problem = note.problem
-                rows = [*self.state.rows, *([note.row] if note.row is not None else [])]
-                done = self.state.done + note.done
-                self.state = msgspec.structs.replace(self.state, done=done, rows=rows)
-        if len(self.state.rows) < len(self.request.values):
-            problem = problem or (STOPPED if self._is_stopped else DIED)
-        self.state = msgspec.structs.replace(self.state, is_over=True, problem=problem)
+            done = self.request.starts * len(rows) + since
+            self._state = state = msgspec.structs.replace(
+                state, done=done, rows=rows, problem=problem
+            )
+        problem = ""
+        if len(state.rows) < len(values):
+            problem = state.problem or self._work.problem or DIED
+        self._state = msgspec.structs.replace(state, is_over=True, problem=problem)
 
 
 class TryingPages:
@@ -185,6 +201,7 @@ class TryingPages:
     Args:
         runner: runs the world.
         editor: has the scene.
+        folder: of the world's work.
         in_thread: has the option's thread do something, and returns its result.
     """
 
@@ -192,9 +209,11 @@ class TryingPages:
         self,
         runner: Runner,
         editor: SceneEditor,
+        folder: Path,
         in_thread: Callable[[Callable[[], object]], Awaitable[object]],
     ) -> None:
         self._runner, self._editor, self._in_thread = runner, editor, in_thread
+        self._folder = folder / FOLDER
         self._numbers: tuple[NumberParameter, ...] = ()
         self._tries: Tries | None = None
         self.commands: Mapping[type[PageCommand], Handler] = {
@@ -207,13 +226,31 @@ class TryingPages:
         """Look at the numbers of the present scene; the option's thread calls it."""
         self._numbers = tuple(number_parameters(self._editor.scene))
 
+    def find(self) -> None:
+        """Show the tries of an earlier process of a class's room; the option's thread calls it.
+
+        Those that are not over go on, or have gone on in the class's process meanwhile.
+        """
+        trainings = self._editor.class_trainings
+        if trainings is None:
+            return
+        for folder in self._folder.glob(f"{PREFIX}*"):
+            with suppress(OSError, msgspec.MsgspecError):
+                text = (folder / REQUEST).read_bytes()
+                request = msgspec.json.decode(text, type=TryRequest)
+                self._tries = Tries(request, ClassTask("try", trainings, folder))
+
     def parts(self, context: PanelContext, agent: str) -> Iterator[tuple[str, bytes]]:
         """Yield the part about an agent of the page."""
         driver, numbers, tries = self._editor.driver_of(agent), self._numbers, self._tries
-        if tries is not None and (tries.scene, tries.request.agent) != (self._scene, agent):
-            tries = None
+        if tries is not None:
+            request = tries.request
+            if (request.scene_name, request.agent) != (self._scene, agent):
+                tries = None
         state = None if tries is None else tries.state
-        progress = None if state is None else (state.done, len(state.rows), state.is_over)
+        progress = None
+        if state is not None:
+            progress = state.done, len(state.rows), state.is_over, state.waiting
         key = "tries", agent, driver, numbers, tries, progress
 
         def part() -> TriesPart:
@@ -226,10 +263,10 @@ class TryingPages:
 
         yield "tries", context.cache.by_key(key, part)
 
-    def stop(self) -> None:
-        """End the tries."""
+    def leave(self) -> None:
+        """Leave the tries to a later process of a class's room; elsewhere, end them."""
         if self._tries is not None:
-            self._tries.stop()
+            self._tries.leave()
 
     # -- in the server's event loop ----------------------------------------------------------------
 
@@ -248,8 +285,10 @@ class TryingPages:
         tries = self._tries
         if tries is None or not tries.state.rows:
             raise SetupError("there are no results yet; try some values first")
-        data = Tried(tries.parameter, tries.state.rows).csv()
-        return Answer(more={"name": f"{tries.scene}-{tries.request.parameter}.csv", "data": data})
+        request = tries.request
+        data = Tried(NumberParameter(request.parameter, (), None), tries.state.rows).csv()
+        name = f"{request.scene_name}-{request.parameter}.csv"
+        return Answer(more={"name": name, "data": data})
 
     # -- in the option's thread --------------------------------------------------------------------
 
@@ -272,10 +311,30 @@ class TryingPages:
             parameter=parameter.name,
             values=values,
             starts=command.starts,
+            scene_name=self._scene,
+            label=f"{number.owner}: {number.label}",
             blocks=[str(file) for file in own_files()],
         )
-        label = f"{number.owner}: {number.label}"
-        self._tries = Tries(request, self._scene, parameter, label)
+        try:
+            self._tries = Tries(request, self._start(request))
+        except OSError as error:
+            raise SetupError(f"they could not be begun: {error.strerror}") from None
+
+    def _start(self, request: TryRequest) -> TaskWork:
+        """Begin the work on tries.
+
+        Raises:
+            OSError: its folder can't be made.
+        """
+        trainings = self._editor.class_trainings
+        if trainings is None:
+            return LocalTask("try", request)
+        for before in self._folder.glob(f"{PREFIX}*"):
+            shutil.rmtree(before, ignore_errors=True)
+        folder = self._folder / f"{PREFIX}{secrets.token_urlsafe(12)}"
+        folder.mkdir(mode=0o700, parents=True)
+        write_atomically(folder / REQUEST, msgspec.json.encode(request), mode=0o600)
+        return ClassTask("try", trainings, folder)
 
     def _reason_against(self, agent: str, driver: str) -> str:
         """Return why a driver can't be tried, as sentences; empty if it can."""

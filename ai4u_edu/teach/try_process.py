@@ -1,4 +1,4 @@
-"""The process in which values of a number are tried; :class:`Tries` starts it.
+"""The process in which values of a number are tried, for :class:`Tries`.
 
 It reads a :class:`TryRequest` as JSON from its input, and writes a line of JSON for each
 :class:`TryNote`: while it drives, and after each value.

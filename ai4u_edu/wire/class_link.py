@@ -61,6 +61,8 @@ _Numbers = Annotated[tuple[Finite, ...], LIST]
 Status = Literal["waiting", "driving", "solved", "fell", "over", "idle", "paused", "error"]
 """``waiting`` for the first key; ``idle``: nobody has driven or edited for a minute; ``over``: the
 episode has ended in another way."""
+TaskKind = Literal["open", "try"]
+"""``open``: check a network in a file; ``try``: drive with many values of a number."""
 Outcome = Literal["goal", "won", "lost", "fell", "time", "over"]
 
 
@@ -208,12 +210,20 @@ class Practise(TaggedMessage, frozen=True):
     """Name of its folder in the room's folder of practices."""
 
 
+class Task(TaggedMessage, frozen=True):
+    """A room of the class's machine has something done in a process of the class."""
+
+    key: Key
+    """Names the task, and its folder in the room's folder of tasks."""
+    kind: TaskKind
+
+
 class StopTraining(TaggedMessage, frozen=True, tag="stopTraining"):
-    """A training or practice of the room must end now."""
+    """A training, practice or task of the room must end now."""
 
     key: Key
     training: Key
-    """Key of the training or practice."""
+    """Key of the training, practice or task."""
 
 
 class Applied(TaggedMessage, frozen=True):
@@ -314,13 +324,27 @@ class Practised(Record, frozen=True):
     """Sentence about why it ended early; empty if it did not."""
 
 
+class TaskState(Record, frozen=True):
+    """A task in the class's process; its results lie in its folder."""
+
+    key: Text
+    kind: TaskKind
+    place: Int = 0
+    """Place in the line, from 1; 0 if it is under way or over."""
+    is_over: bool = False
+    problem: Text = ""
+    """Sentence about why it ended early; empty if it did not."""
+
+
 class RoomTrainings(TaggedMessage, frozen=True, tag="trainings"):
-    """The latest training of a room, and its practices."""
+    """The latest training of a room, its practices, and its tasks."""
 
     trainings: Annotated[tuple[Training, ...], LIST]
     """None before the first one."""
     practices: Annotated[tuple[Practised, ...], LIST] = ()
     """Practices that are under way, and the latest ones that are over."""
+    tasks: Annotated[tuple[TaskState, ...], LIST] = ()
+    """Tasks that wait or are under way, and the latest ones that are over."""
 
 
 class Person(Record, frozen=True):
@@ -441,6 +465,7 @@ FromRoom = (
     | HandedInNetwork
     | Learn
     | Practise
+    | Task
     | StopTraining
     | Applied
 )
@@ -457,7 +482,7 @@ FromClass = (
     | LinkProblem
 )
 Result = EpisodeResult | ExerciseResult
-Delivery = Result | HandedInNetwork | Learn | Practise | StopTraining
+Delivery = Result | HandedInNetwork | Learn | Practise | Task | StopTraining
 """Messages that a room sends again until they are acknowledged."""
 
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)

@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
 from playwright.sync_api import Browser, Locator
 
+from ai4u_edu.teach import background
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
 from tests.page.panel.rooms import PanelRoom
@@ -18,6 +20,8 @@ def teach_tab(
 ) -> Iterator[tuple[Locator, PanelRoom]]:
     """Open the tab of a scene with a work folder; no script of the page may fail."""
     page, problems = new_page(chromium), list[str]()
+    patch = pytest.MonkeyPatch()
+    patch.setattr(background, "NICENESS", 0)  # else a busy machine gives the learners no time
     page.on("pageerror", lambda error: problems.append(str(error)))
     with teaching_room(folder, scene) as room:
         WITHOUT_VISER.serve(page, room.url)
@@ -25,4 +29,5 @@ def teach_tab(
         page.get_by_role("tab", name="Teach").click()
         yield page.get_by_role("tabpanel", name="Teach"), room
         page.context.close()
+    patch.undo()
     assert problems == []

@@ -5,8 +5,15 @@ from pathlib import Path
 
 import pytest
 
+from ai4u_edu.teach import background
 from tests.page.panel.rooms import PanelRoom
 from tests.teach.driving import teaching_room
+
+
+@pytest.fixture(autouse=True)
+def _usual_priority(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have processes that learn run as tests do: with the lowest priority they may get no time."""
+    monkeypatch.setattr(background, "NICENESS", 0)
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import sys
 from collections.abc import Iterator
 
 import psutil
@@ -10,12 +11,16 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.games.jobs import engine
 from ai4u_edu.learn.training.varying import parameter_named, try_values, with_driver
-from ai4u_edu.teach import tries
+from ai4u_edu.teach import background, tries
 from ai4u_edu.teach.learning import STOPPED
+from ai4u_edu.teach.tasks import MODULES
 from tests.page.panel.rooms import PanelPage, PanelRoom
+from tests.waiting import until
 
 pytestmark = pytest.mark.slow
 
+NICENESS = 19
+"""Niceness of processes that learn or drive beside a world."""
 SPEED, NETWORK = "0.move.move_amount", "network:zoo:box_chase"
 
 
@@ -47,6 +52,15 @@ def test_the_results_are_those_of_the_command(room: PanelRoom, page: PanelPage) 
     answer = page.done("teach_download_tried")
     assert answer["name"] == f"box_chase-{SPEED}.csv"
     assert [row[SPEED] for row in csv.DictReader(io.StringIO(answer["data"]))] == ["2", "5"]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no niceness")
+@pytest.mark.parametrize("module", MODULES.values())
+def test_the_world_comes_first(module: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(background, "NICENESS", NICENESS)
+    with background.start_process(module) as process:
+        until(lambda: psutil.Process(process.pid).nice() == NICENESS)
+        process.kill()
 
 
 def test_it_offers_the_numbers_of_the_robot_and_the_world(page: PanelPage) -> None:

@@ -771,8 +771,8 @@ export interface TeachPart {
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
   max_networks: number;
-  /** True if a network in a file can be opened here; a room of a class can't check one. */
-  can_open: boolean;
+  /** Sentence about the file that is being opened; empty if none is. */
+  opening: string;
   /** Sentence about why a drive could not be kept; empty if all could. */
   warning: string;
 }
@@ -826,6 +826,8 @@ export interface TriesState {
   is_over: boolean;
   /** Sentence about why they ended early; empty if they did not. */
   problem: string;
+  /** Sentence about what they wait for; empty if the driver drives or they are over. */
+  waiting: string;
   /** The number in words. */
   label: string;
   /** Episodes that were driven. */

@@ -27,7 +27,8 @@ export class Networks {
   #list = element("div", { className: "ai4u-card-list" });
   #file = element("input", { type: "file", accept: ".onnx", hidden: true });
   #opener = button("Open a file", () => this.#file.click(), { icon: "open" });
-  element = element("div", {}, this.#list, element("div", { className: "ai4u-tools" }, this.#opener, this.#file));
+  #opening = element("p", { role: "status" });
+  element = element("div", {}, this.#list, element("div", { className: "ai4u-tools" }, this.#opener, this.#file), this.#opening);
 
   /** @param {Panel} panel */
   constructor(panel) {
@@ -42,7 +43,9 @@ export class Networks {
   /** @param {TeachPart} part */
   update(part) {
     this.#part = part;
-    this.#opener.hidden = !part.can_open;
+    setText(this.#opening, part.opening);
+    this.#opening.hidden = !part.opening;
+    this.#opener.disabled = part.opening !== "";
     keyed(
       this.#list,
       part.networks,
@@ -110,9 +113,7 @@ export class Networks {
       this.#panel.notice(`${file.name}: ${text}.`, "error");
       return;
     }
-    this.#opener.disabled = true;
     await this.#panel.sendFile("teach_open", file);
-    this.#opener.disabled = false;
   }
 
   /** Ask before the driver of the robot is deleted. @param {number} number */

@@ -46,10 +46,6 @@ export class Tab {
       networks: section("teach-networks", "Your networks", {}, this.#networks.element),
     };
     const tries = section("teach-tries", "Try many", { isOpen: false }, new TriesView(panel).element);
-    // a room of a class has no such part
-    const showTries = () => (tries.hidden = panel.part("tries") === null);
-    panel.addEventListener("part:tries", showTries);
-    showTries();
     root.append(this.#problem, this.#sections.drives, this.#sections.practice, this.#sections.networks, tries);
   }
 
@@ -80,7 +76,7 @@ export class Tab {
     this.#learning.update(learning);
     this.#sections.practice.hidden = practice === null && (Boolean(problem) || rewards.length === 0);
     this.#practice.update(part, isLearning);
-    this.#sections.networks.hidden = networks.length === 0 && !part.can_open;
+    this.#sections.networks.hidden = Boolean(problem) && networks.length === 0;
     this.#networks.update(part);
   }
 

@@ -134,7 +134,8 @@ function limitsOf({ value, limits }) {
 }
 
 /** @param {TriesState} tries */
-function sentenceOf({ is_over: isOver, problem, done, total }) {
+function sentenceOf({ is_over: isOver, problem, waiting, done, total }) {
+  if (waiting) return waiting;
   if (!isOver) return `${done} of ${total} episodes.`;
   if (problem === "stopped") return `It was stopped after ${done} of ${total} episodes.`;
   return problem ? `It could not go on: ${problem}.` : `${total} episodes, the same starts with each value.`;

@@ -23,7 +23,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.runtime.tick_monitor import Stall
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.yaml.file import YamlFile
-from ai4u_edu.wire.class_link import Practised, Training
+from ai4u_edu.wire.class_link import Practised, TaskKind, TaskState, Training
 from ai4u_edu.world import BodyDescription
 
 
@@ -73,6 +73,25 @@ class ClassTrainings(Protocol):
 
     def stop_practice(self, key: str) -> None:
         """End a practice; it is over as soon as the class says so."""
+
+    def task(self, key: str) -> TaskState | None:
+        """Return a task of the room; None if this process of the room never asked for it."""
+
+    def begin_task(self, key: str, kind: TaskKind) -> None:
+        """Have a task done, as soon as it is its turn; one that the class knows goes on.
+
+        Args:
+            key: names the task, and its folder in the room's folder of tasks.
+            kind: of the task.
+        """
+
+    def stop_task(self, key: str, problem: str) -> None:
+        """End a task.
+
+        Args:
+            key: of the task.
+            problem: is the task's from now on.
+        """
 
 
 class SceneEditor:
