@@ -23,6 +23,8 @@ class AssignedScene:
     """Lesson that it belongs to; empty for none."""
     program: str = ""
     """Python that students may begin with; empty for none."""
+    mission: str = ""
+    """Name of the mission for which it is assigned; empty for none."""
 
 
 class Assignments:
@@ -39,7 +41,7 @@ class Assignments:
     def read(self) -> None:
         """Read all from the store."""
         rows = self._store.query(
-            "select room, id, title, scene, seed, lesson, program from assignments"
+            "select room, id, title, scene, seed, lesson, program, mission from assignments"
         )
         self._by_room = {room: Assignment(*rest) for room, *rest in rows}
 
@@ -79,14 +81,14 @@ class Assignments:
             StoreError: it can't be stored; then nothing has changed.
         """
         name = name or secrets.token_hex(8)
-        facts = (scene.title, scene.text, seed, scene.lesson, scene.program)
+        facts = (scene.title, scene.text, seed, scene.lesson, scene.program, scene.mission)
         assignment = Assignment(name, *facts)
         places = [EVERY_ROOM] if rooms is None else list(rooms)
         with self._store.transaction() as database:
             if rooms is None:
                 database.execute("delete from assignments")
             database.executemany(
-                "insert or replace into assignments values (?, ?, ?, ?, ?, ?, ?)",
+                "insert or replace into assignments values (?, ?, ?, ?, ?, ?, ?, ?)",
                 [(each, name, *facts) for each in places],
             )
         if rooms is None:

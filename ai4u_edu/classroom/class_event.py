@@ -91,11 +91,16 @@ class ClassEvents:
             for room in event["rooms"]:
                 del room["help"], room["why"], room["look_in"]
                 del room["learning"], room["is_learning"]
+            here = [seat["number"] for seat in event["seats"] if seat["is_here"]]
+            event["mission_counts"] = live.missions.counts(here)
             return event
         event["rooms"].sort(key=lambda room: -room["help"])
         event["handed_in"] = networks_event(live.tournament)
         event["progress"] = live.progress.by_seat()
         event["stars"] = live.stars.by_seat()
+        event["missions"] = live.missions.catalogue()
+        event["mission_progress"] = live.missions.by_seat()
+        event["mission_places"] = live.missions.places()
         event["runs"] = live.program_runs.by_seat()
         event["program_mistakes"] = live.program_runs.mistakes()
         event["misconceptions"] = misconceptions(live.progress.mistakes)
@@ -135,6 +140,7 @@ class ClassEvents:
             if state.seat and seats and (state.link or state.state):
                 found.append(self._room(state, seats, ""))
         for each in found if has_mistakes else ():
+            self._note_stuck(each)
             mistakes = [live.program_runs.mistake_of(seat) for seat in each["seats"]]
             mistake = next(filter(None, mistakes), "")
             if each["status"] == "driving" and each["driver"] == PERSON:
@@ -144,6 +150,16 @@ class ClassEvents:
                 if each["status"] not in ("asleep", "away"):
                     each["status"] = "mistake"
         return found
+
+    def _note_stuck(self, room: Event) -> None:
+        """Note in a room's event who of it is stuck in a mission, if that needs help most."""
+        live = self._live
+        if live.attention.kind:  # nobody can go on
+            return
+        here = [seat for seat in room["seats"] if live.is_here(seat)]
+        help_, why = max(map(live.missions.stuck, here), default=(0, ""))
+        if help_ > room["help"]:
+            room |= {"help": help_, "why": why}
 
     def _room(self, room: LiveRoom, seats: list[int], scene: str) -> Event:
         state, score = room.state, room.help()

@@ -50,6 +50,7 @@ def class_app(
     allowed_hosts: Collection[str] = LOOPBACK,
     proxy_hosts: Collection[str] = (),
     blocks: Iterable[Path] = (),
+    missions: Path | None = None,
 ) -> Starlette:
     """Return the ASGI app of a class.
 
@@ -62,8 +63,9 @@ def class_app(
         allowed_hosts: host names of requests; see :mod:`ai4u_edu.page.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
         blocks: Python files with the teacher's blocks.
+        missions: folder with the teacher's missions; None for none.
     """
-    live, attempts = LiveClass(store, seats, rooms, EpisodeCheck(blocks)), Attempts()
+    live, attempts = LiveClass(store, seats, rooms, EpisodeCheck(blocks), missions), Attempts()
     keys = ScriptKeys(store, seats)
     strangers, seated = stranger_sockets(), seat_sockets()
     proxy = RoomProxy([AGENT_COOKIE, DARK_COOKIE], keys.key_of, live.page_opened)

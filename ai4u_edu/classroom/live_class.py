@@ -5,6 +5,7 @@ import logging
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import Literal
 
 from msgspec.structs import asdict, replace
@@ -17,6 +18,7 @@ from ai4u_edu.classroom.attention import AttentionState
 from ai4u_edu.classroom.episode_check import EpisodeCheck
 from ai4u_edu.classroom.errors import CommandError, StoreError
 from ai4u_edu.classroom.live_rooms import LiveRoom, OpenLink, remote_id
+from ai4u_edu.classroom.missions import ClassMissions
 from ai4u_edu.classroom.practice_queue import PracticeQueue
 from ai4u_edu.classroom.programs import ProgramRuns, Programs, Stars
 from ai4u_edu.classroom.progress import Progress
@@ -76,10 +78,16 @@ class LiveClass:
         seats: of the class.
         host: runs the rooms of this machine.
         check: of the results of races.
+        missions: folder with the teacher's missions; None for none.
     """
 
     def __init__(
-        self, store: ClassStore, seats: Seats, host: RoomHost, check: EpisodeCheck
+        self,
+        store: ClassStore,
+        seats: Seats,
+        host: RoomHost,
+        check: EpisodeCheck,
+        missions: Path | None = None,
     ) -> None:
         self.store, self.seats, self.host = store, seats, host
         self.version = 0
@@ -97,6 +105,7 @@ class LiveClass:
         self.progress = Progress(store)
         self.programs, self.program_runs = Programs(store), ProgramRuns(store)
         self.stars = Stars(store)
+        self.missions = ClassMissions(store, missions)
         self.races = Races(store)
         self.race = RaceRunner(self.races, check, self.seats_of_id, self._tell_race)
         self.tournament = TournamentRunner(store, self._tell_networks, self.note_change)
@@ -135,8 +144,15 @@ class LiveClass:
                 self.tasks.tick()
                 await asyncio.to_thread(self.attention.save_rest)
                 await self._measure_folder()
+                await self._refresh_missions()
             except Exception as error:  # a full disk, say: the next tick tries again
                 log_limited(_logger, logging.ERROR, "tick", "a class's clock failed: %r", error)
+
+    async def _refresh_missions(self) -> None:
+        before = self.missions.known
+        await asyncio.to_thread(self.missions.refresh)
+        if self.missions.known is not before:
+            self.note_change()
 
     async def _measure_folder(self) -> None:
         before = self.store.quota.warning
@@ -214,6 +230,7 @@ class LiveClass:
         link.send(ClassSettings(self.switches))
         link.send(self.race.messages()(room.id))
         if room.seat:
+            self.missions.arrived(room.seat)
             link.send(self._handed_in(room.seat))
         else:
             link.send(self._trainings(room.id))
@@ -227,6 +244,8 @@ class LiveClass:
 
     def page_opened(self, seat: int, change: int) -> None:
         """Note that a socket of a seat's page was opened (1) or closed (-1)."""
+        if change > 0 and not self.is_here(seat):
+            self.missions.arrived(seat)
         self.pages[seat] += change
         self.tell_people()
 
@@ -369,6 +388,7 @@ class LiveClass:
         self.progress.read()
         self.program_runs.read()
         self.stars.read()
+        self.missions.read()
         self.races.read()
         self.tournament.read()
         self.trainings.read()

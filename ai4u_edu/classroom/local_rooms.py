@@ -80,6 +80,7 @@ class LocalRooms:
         limits: of each process.
         are_shared: True if several students may be in a room.
         receive_timeout_ms: time for which a room's world waits for a program or a script.
+        missions: folder with the teacher's missions, which every room reads; None for none.
         clock: returns seconds; to be replaced in tests.
     """
 
@@ -91,10 +92,12 @@ class LocalRooms:
         *,
         are_shared: bool = False,
         receive_timeout_ms: int = 2000,
+        missions: Path | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._are_shared, self._clock = are_shared, clock
         self._receive_timeout_ms = receive_timeout_ms
+        self._missions = None if missions is None else missions.absolute()
         self._limits = limits or RoomLimits()
         self._watching: asyncio.Task[None] | None = None
         self._folder, self._blocks = folder, tuple(each.absolute() for each in blocks)
@@ -223,6 +226,7 @@ class LocalRooms:
             self._are_shared,
             self._receive_timeout_ms,
             TIMEOUTS,
+            self._missions,
         )
         process = self._context.Process(  # type: ignore[attr-defined]  # all contexts have it
             target=run_room, args=(order, theirs), name=f"room {room}", daemon=True

@@ -54,6 +54,8 @@ class RoomOrder:
     """Time for which the world waits for a program's or a script's answer."""
     timeouts: Timeouts = DEFAULT_TIMEOUTS
     """Time limits of the room's server."""
+    missions: Path | None = None
+    """Folder with the teacher's missions; None for none."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +98,8 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
         # the class checks both: the name under which a browser has the page is in its requests
         allowed_hosts=("*",),
         rules=_rules(order),
-        missions=mission_map(),
+        missions=mission_map(order.missions),
+        missions_folder=order.missions,
         saved_scenes=order.folder / "scenes",
         class_link=ClassLinkSettings(order.class_url, order.token) if order.class_url else None,
         learns_in_class=True,

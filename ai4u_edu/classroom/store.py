@@ -32,9 +32,26 @@ _ENDINGS = ("", "-wal", "-shm", "-journal")
 """Endings of the files of the database, to be put after its name."""
 TEACHER_SETTING = "teacher_token"
 """Name of the setting with the secret of the teacher's page."""
-VERSION = 12
-"""Version of the tables; a file with another one is not opened."""
-_TABLES = """
+VERSION = 13
+"""Version of the tables; a file of a later one is not opened, and neither is one from which
+:data:`_STEPS` do not lead here."""
+_MISSION_TABLES = """create table missions (
+    seat integer not null references seats (number),
+    mission text not null,
+    steps integer not null,
+    stars integer not null,
+    primary key (seat, mission)
+) strict;
+create table mission_places (
+    seat integer primary key references seats (number),
+    mission text not null,
+    step integer not null,
+    is_done integer not null,
+    hint text not null,
+    hints integer not null
+) strict;
+"""
+_TABLES = f"""
 create table settings (name text primary key, value text not null) strict;
 create table rooms (id text primary key, scene text not null) strict;
 create table seats (
@@ -87,7 +104,8 @@ create table assignments (
     scene text not null,
     seed integer,
     lesson text not null,
-    program text not null
+    program text not null,
+    mission text not null default ''
 ) strict;
 create table programs (
     seat integer not null references seats (number),
@@ -119,7 +137,7 @@ create table stars (
     count integer not null,
     primary key (seat, scene)
 ) strict;
-create table networks (
+{_MISSION_TABLES}create table networks (
     key text primary key,
     seat integer not null references seats (number),
     scene text not null,
@@ -168,9 +186,13 @@ create table race_results (
 """
 
 
+_STEPS = {
+    12: f"{_MISSION_TABLES}alter table assignments add column mission text not null default '';",
+}
+"""Changes that make tables of a version into those of the next one."""
 _TABLES_OF_WORK = (
     *("programs", "program_runs", "program_mistakes"),
-    *("stars", "networks", "progress", "diagnoses"),
+    *("stars", "missions", "mission_places", "networks", "progress", "diagnoses"),
 )
 """Tables with the work of seats."""
 
@@ -407,6 +429,11 @@ def _opened(path: Path) -> sqlite3.Connection:
         # in one transaction: after a kill in the middle, the next start makes the tables
         if version == 0:
             database.executescript(f"begin; {_TABLES} pragma user_version = {VERSION}; commit")
+            version = VERSION
+        while version in _STEPS:
+            change = _STEPS[version]
+            version += 1
+            database.executescript(f"begin; {change} pragma user_version = {version}; commit")
     except sqlite3.Error as error:
         raise SetupError(
             f"expected a class's file at {path}, and couldn't use it: {_cause(error)}"
@@ -415,7 +442,7 @@ def _opened(path: Path) -> sqlite3.Connection:
         raise SetupError(
             f"expected a class's file at {path}, and couldn't use it: {reason(error)}"
         ) from None
-    if version not in (0, VERSION):
+    if version != VERSION:
         database.close()
         raise SetupError(
             f"{path} was made by another version of ai4u-edu (tables {version}, expected "

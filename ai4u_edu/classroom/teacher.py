@@ -25,6 +25,7 @@ from ai4u_edu.classroom.course_index import course_lessons
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.join import NO_STORE, problem
 from ai4u_edu.classroom.live_class import LiveClass, ShownKind
+from ai4u_edu.classroom.missions import MAX_NAME_CHARS
 from ai4u_edu.classroom.names import MOVE_CODE_LIFE_S
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
@@ -81,8 +82,16 @@ class SceneOfLesson(BaseModel):
     lesson: str = Field(max_length=2)
 
 
+class SceneOfMission(BaseModel):
+    """A mission, which pages open, and its scene."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    mission: str = Field(max_length=MAX_NAME_CHARS)
+
+
 _SceneSource = str | SceneOfRoom | SceneText
-_LessonOrScene = SceneOfLesson | _SceneSource
+_LessonOrScene = SceneOfLesson | SceneOfMission | _SceneSource
 
 
 class _Command(BaseModel):
@@ -121,7 +130,7 @@ class _PlainCommand(_Command):
 
 
 class _Assign(_Command):
-    """Give rooms a scene, or a lesson."""
+    """Give rooms a scene, a lesson or a mission."""
 
     do: Literal["assign"]
     rooms: list[_RoomId] | Literal["all"]
@@ -417,6 +426,11 @@ def _find_scene(live: LiveClass, source: _LessonOrScene) -> AssignedScene:
     """
     if isinstance(source, SceneOfLesson):
         return _scene_of_lesson(source.lesson)
+    if isinstance(source, SceneOfMission):
+        mission = live.missions.known.get(source.mission)
+        if mission is None:
+            raise CommandError(f"mission: there is no mission {source.mission[:40]!r}")
+        return AssignedScene(mission.title, mission.scene, mission=source.mission)
     if isinstance(source, str):
         if source not in Scene.names():
             raise CommandError(f"scene: expected a scene of the library, got {source[:40]!r}")

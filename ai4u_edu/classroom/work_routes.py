@@ -1,13 +1,13 @@
-"""HTTP routes with which a seat's pages keep and fetch its work: programs, stars, networks.
+"""HTTP routes with which a seat's pages keep and fetch its work: programs, missions, networks.
 
-What a page tells of runs and stars nobody proves, as with a notebook's results.
+What a page tells of runs, stars and missions nobody proves, as with a notebook's results.
 """
 
 import asyncio
 from collections.abc import Awaitable, Callable
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
@@ -21,6 +21,14 @@ from ai4u_edu.classroom.errors import (
 )
 from ai4u_edu.classroom.join import NO_STORE, problem, seat_of
 from ai4u_edu.classroom.live_class import LiveClass
+from ai4u_edu.classroom.missions import (
+    MAX_COUNT,
+    MAX_HINT_CHARS,
+    MAX_MISSIONS,
+    MAX_NAME_CHARS,
+    MissionPlace,
+    Reached,
+)
 from ai4u_edu.classroom.programs import (
     MAX_AGENT_NAME_CHARS,
     MAX_DEVICE_CHARS,
@@ -43,6 +51,7 @@ REQUESTS_PER_S = 1.0
 """Rate of a seat's requests for each kind of work, of which some may come at once."""
 MAX_REQUESTS_AT_ONCE = 30
 _MAX_PROGRAM_BYTES = 6 * MAX_PROGRAM_CHARS + 4000  # JSON takes at most six bytes for a character
+_MAX_MISSIONS_BYTES = MAX_MISSIONS * (6 * MAX_NAME_CHARS + 60) + 6 * MAX_HINT_CHARS
 _MAX_GLANCE_CHARS = 3000  # of each program in the view of all
 _NETWORK_TYPE = "application/octet-stream"  # a browser asks another site before it sends this
 
@@ -81,6 +90,39 @@ class _EarnedStars(_Request):
     stars: int = Field(ge=1, le=3)
 
 
+class _Reached(_Request):
+    """Progress in one mission."""
+
+    model_config = ConfigDict(strict=True)
+
+    steps: int = Field(default=0, ge=0, le=MAX_COUNT)
+    stars: int = Field(default=0, ge=0, le=MAX_COUNT)
+
+
+class _Place(_Request):
+    """The step that a page shows."""
+
+    model_config = ConfigDict(strict=True)
+
+    mission: str = Field(max_length=MAX_NAME_CHARS)
+    """Empty if no mission is open."""
+    step: int = Field(default=0, ge=0, le=MAX_COUNT)
+    is_done: bool = False
+    hint: str = Field(default="", max_length=MAX_HINT_CHARS)
+    hints: int = Field(default=0, ge=0, le=MAX_COUNT)
+
+
+_MissionName = Annotated[str, StringConstraints(min_length=1, max_length=MAX_NAME_CHARS)]
+
+
+class _ReportedMissions(_Request):
+    """Progress in missions to keep, and where the page is."""
+
+    missions: dict[_MissionName, _Reached] = Field(default={}, max_length=MAX_MISSIONS)
+    place: _Place | None = None
+    """None if it is as before."""
+
+
 class WorkRoutes:
     """Routes of work. Belongs to the event loop.
 
@@ -99,6 +141,7 @@ class WorkRoutes:
         return [
             self._route("/api/program", self._program, "programs"),
             self._route("/api/stars", self._stars),
+            self._route("/api/mission-progress", self._missions),
             self._route("/api/network", self._network),
             self._route("/api/program/run", self._run, "runs", has_get=False),
             Route("/api/my-work", self._my_work),
@@ -247,6 +290,25 @@ class WorkRoutes:
             stars.note(seat, earned.scene, earned.stars)
             self._live.note_change()
         return JSONResponse({"stars": stars.of_seat(seat)}, headers=NO_STORE)
+
+    # -- missions ----------------------------------------------------------------------------------
+
+    async def _missions(self, seat: int, request: Request) -> Response:
+        """Keep what a seat has reached, and where it is (PUT); return all that it has reached."""
+        missions = self._live.missions
+        if request.method == "PUT":
+            sent = await read_json(request, _ReportedMissions, _MAX_MISSIONS_BYTES)
+            reached = {
+                name: Reached(each.steps, each.stars) for name, each in sent.missions.items()
+            }
+            place = None if sent.place is None else MissionPlace(**sent.place.model_dump())
+            if missions.note(seat, *await asyncio.to_thread(missions.save, seat, reached, place)):
+                self._live.note_change()
+        own = {
+            name: {"steps": each.steps, "stars": each.stars}
+            for name, each in missions.of_seat(seat).items()
+        }
+        return JSONResponse({"missions": own}, headers=NO_STORE)
 
     # -- networks ----------------------------------------------------------------------------------
 

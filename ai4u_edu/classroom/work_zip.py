@@ -35,6 +35,9 @@ from ai4u_edu.teach.networks import FOLDER as TAUGHT
 
 CHUNK_BYTES = 2**18
 HEADER = ("seat", "name", "exercise", "state", "checks", "hints", "minutes")
+MISSION_HEADER = ("name", "mission", "title", "steps", "of", "stars")
+MISSIONS = "missions.json"
+"""File of a seat's progress in missions."""
 SCENES = "scenes"
 Files = Iterator[tuple[str, bytes]]
 _Rows = list[tuple[object, ...]]
@@ -79,6 +82,7 @@ def _class_files(live: LiveClass) -> Files:
     yield "results.html", _results_page(live).encode()
     yield "progress.csv", _table(live).encode()
     yield "stars.csv", csv_table(("name", "scene", "stars"), _star_rows(live)).encode()
+    yield "missions.csv", csv_table(MISSION_HEADER, _mission_rows(live)).encode()
     remote = [remote_id(each.number) for each in live.seats.all()]
     for each in [*live.seats.scenes(), *remote]:
         name = _room_name(live, each)
@@ -133,6 +137,8 @@ def _seat_files(live: LiveClass, seat: SeatRow) -> Files:
     }
     progress = {"version": progress_file.VERSION, "exercises": exercises}
     yield progress_file.FILE, json.dumps(progress, indent=1).encode()
+    reached = {name: asdict(each) for name, each in live.missions.of_seat(seat.number).items()}
+    yield MISSIONS, json.dumps({"version": 1, "missions": reached}, indent=1).encode()
 
 
 def _programs(live: LiveClass, seat: int) -> Files:
@@ -244,6 +250,7 @@ def _results_page(live: LiveClass) -> str:
         entries=live.progress.entries,
         words=_STATES,
         stars=_star_rows(live),
+        missions=_mission_rows(live),
         mistakes=[
             (row["exercise"], len(row["seats"]), row["count"], row["sentence"], row["guide"])
             for row in misconceptions(live.progress.mistakes)
@@ -262,6 +269,18 @@ def _star_rows(live: LiveClass) -> Iterator[tuple[str, str, int]]:
     for seat in live.seats.all():
         for scene, count in sorted(live.stars.of_seat(seat.number).items()):
             yield seat.name, scene, count
+
+
+def _mission_rows(live: LiveClass) -> Iterator[tuple[object, ...]]:
+    """Yield a seat's name, a mission, its title, finished steps, all steps, and stars.
+
+    A mission whose file was removed has no title and no steps.
+    """
+    for seat in live.seats.all():
+        for name, reached in sorted(live.missions.of_seat(seat.number).items()):
+            mission = live.missions.known.get(name)
+            title, steps = ("", "") if mission is None else (mission.title, len(mission.steps))
+            yield seat.name, name, title, reached.steps, steps, reached.stars
 
 
 def _race_results(live: LiveClass) -> Iterator[tuple[str, _Rows]]:

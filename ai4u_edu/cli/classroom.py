@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks
 
@@ -75,6 +76,7 @@ def classroom(
     max_folder: MaxFolder = 5.0,
     allow_host: o.AllowHost = None,
     own_blocks: OwnBlocks = None,
+    missions: o.MissionsFolder = None,
     open_page: o.OpenPage = True,
     hub: AtHub = False,
     teachers: Teachers = None,  # noqa: ARG001 - _serve_at_hub takes it from the context
@@ -83,6 +85,11 @@ def classroom(
     load_own_blocks(own_blocks)
     os.umask(0o077)  # whatever a class and its rooms write is its owner's alone
     if hub:
+        if missions is not None:
+            raise SetupError(
+                "--missions: expected a class of its own, got --hub; there, worlds run on the "
+                "students' servers: start them with play --missions"
+            )
         _serve_at_hub(context)
         return
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
@@ -90,12 +97,15 @@ def classroom(
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
+    from ai4u_edu.missions import mission_map
     from ai4u_edu.page.server import hosts_for, open_on_desktop, serve
     from ai4u_edu.page.server.process_exit import HAS_SERVED
     from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
     from ai4u_edu.scenes import Scene
 
     Scene.load(scene)  # a mistake in it is said here, and not in each room
+    for problem in mission_map(missions)().problems if missions else ():
+        typer.echo(problem, err=True)
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
     rule, blocks = RoomRule.parse(rooms), own_blocks or ()
     made = LocalRooms(
@@ -104,6 +114,7 @@ def classroom(
         limits,
         are_shared=rule.kind != "each",
         receive_timeout_ms=receive_timeout,
+        missions=missions,
     )
     with ClassStore(folder, max_folder) as store, closing(made) as local:
         local.quota = store.quota
@@ -125,6 +136,7 @@ def classroom(
             allowed_hosts=hosts_for(host),
             proxy_hosts=allow_host or [],
             blocks=blocks,
+            missions=missions,
         )
         with tuned_process(), released_memory():
             serve(app, host, port, announce, **SERVER_LIMITS)

@@ -31,6 +31,8 @@ class _Shown:
     lesson: str = ""
     program: str = ""
     program_scene: str = ""
+    mission: str = ""
+    assignment: str = ""
 
 
 class ClassView:
@@ -71,6 +73,15 @@ class ClassView:
             scene: name of the scene that it is for; empty for any.
         """
         self._change(program=source, program_scene=scene)
+
+    def set_mission(self, mission: str, assignment: str) -> None:
+        """Have pages open a mission, once for each assignment.
+
+        Args:
+            mission: its name; empty for none.
+            assignment: id of the assignment.
+        """
+        self._change(mission=mission, assignment=assignment)
 
     def set_attention(self, message: Attention | None, ends_at: float | None = None) -> None:
         """Show the teacher's message.
@@ -133,6 +144,7 @@ class ClassView:
             "program": (
                 {"scene": shown.program_scene, "source": shown.program} if shown.program else None
             ),
+            "mission": {"mission": shown.mission, "assignment": shown.assignment},
         }
 
     def _race(self, shown: _Shown) -> dict[str, Any] | None:

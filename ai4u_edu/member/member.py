@@ -248,6 +248,7 @@ class ClassMember:
                 answer = self._scenes.apply(message) if message.id else None
                 is_for = scene_name_of(message) if message.program else ""
                 self.view.set_program(message.program, is_for)
+                self.view.set_mission(message.mission, message.id)
             if answer is not None:
                 self.link.send(answer)
 

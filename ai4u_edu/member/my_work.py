@@ -8,6 +8,7 @@
     programs/NAME.py        programs in Python, which are not opened
     networks/NAME.onnx      networks that learned, or were handed in for tournaments
     progress.json           progress in the lessons
+    missions.json           progress in missions, which is not read
 
 Everything else in the file is ignored.
 """

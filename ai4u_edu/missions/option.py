@@ -49,6 +49,8 @@ MAX_SOURCE_CHARS, MAX_VALUE_CHARS = 20_000, 20_000
 """Length of a person's function, and of what it returned, as JSON."""
 OTHER_DRIVER_DECISIONS = 24
 """Decisions (2 s) in which another driver than asked moves the robot before the page says so."""
+HINT_DECISIONS = 120
+"""Decisions (10 s) in which a hint counts once, however often what it is about happens."""
 MOVING_M_PER_S = 0.1
 HAS_TO_DRIVE: Mapping[Driver, str] = {
     "keys": "This step is for *you*: let go of the program, or choose keys again, and drive.",
@@ -161,6 +163,8 @@ class MissionPart(PanelPart, frozen=True, kw_only=True):
     """Progress of the step in words; empty if there is nothing to say."""
     hint: str = ""
     """Sentence about what went wrong; empty if nothing did."""
+    hints: int = 0
+    """Hints in this step so far."""
     driver: str = ""
     """Sentence about another driver than the step asks for; empty if there is none."""
     question: MissionQuestion | None = None
@@ -202,6 +206,8 @@ class MissionRun:
         self._scene: SceneDescription | None = None
         self._stars = [Following(star.check) for star in mission.stars]
         self._other_decisions = 0
+        self._decisions = 0
+        """Decisions so far."""
         self.begin(step)
 
     def begin(self, step: int) -> None:
@@ -216,6 +222,9 @@ class MissionRun:
         self._hints = [Following(hint.when, self._latest) for hint in self.step.hints]
         self.hint = self.driver = ""
         """Sentences about what went wrong, and about another driver; empty if there is none."""
+        self.hints = 0
+        """Hints in this step so far; see :data:`HINT_DECISIONS`."""
+        self._hint_at: int | None = None
         self._other_decisions = 0
         self._following.see(self._page)
         if self._scene is not None:
@@ -253,6 +262,7 @@ class MissionRun:
             self._page = event
         elif isinstance(event, Decision):
             self._latest = event
+            self._decisions += 1
         if not isinstance(event, Decision) or self._is_asked_driver(event):
             self._following.see(event)
             for star in self._stars:
@@ -281,7 +291,13 @@ class MissionRun:
             self._hints[place].see(event)
             if self._hints[place].is_done:
                 self.hint = hint.say
+                self._count_hint()
                 self._hints[place] = Following(hint.when)  # it may happen again
+
+    def _count_hint(self) -> None:
+        if self._hint_at is None or self._decisions - self._hint_at >= HINT_DECISIONS:
+            self.hints += 1
+            self._hint_at = self._decisions
 
     def _is_asked_driver(self, decision: Decision) -> bool:
         """Return True if the step asks for the driver of a decision; note it otherwise."""
@@ -296,7 +312,7 @@ class MissionRun:
 
     def _shown(self) -> tuple[object, ...]:
         stars = tuple(star.is_done for star in self._stars)
-        return self.is_step_done, self.words, self.hint, self.driver, stars
+        return self.is_step_done, self.words, self.hint, self.hints, self.driver, stars
 
 
 class _Chosen(NamedTuple):
@@ -516,6 +532,7 @@ def mission_part(name: str, run: MissionRun, missions: Missions) -> MissionPart:
         done=step.done if run.is_step_done else "",
         words=run.words,
         hint=run.hint,
+        hints=run.hints,
         driver=run.driver,
         question=question,
         exercise=exercise,

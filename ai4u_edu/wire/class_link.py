@@ -383,6 +383,8 @@ class Assignment(TaggedMessage, frozen=True):
     """Lesson for which it is assigned, such as "04 Sensors"; empty for none."""
     program: Annotated[str, Meta(max_length=MAX_STARTING_PROGRAM_CHARS)] = ""
     """Python that pages offer as a program to begin with; empty for none."""
+    mission: Text = ""
+    """Name of the mission that pages open; empty for none."""
 
 
 class Attention(TaggedMessage, frozen=True):

@@ -55,7 +55,7 @@ def test_a_full_folder_takes_no_more_work_and_lets_those_who_are_there_go_on(
         until(lambda: "of its 0.01 GB" in served.state()["problem"])
         filler.write_bytes(bytes(10 * MB))
         until(lambda: "nothing more" in served.state()["problem"])
-        for path in ("api/program", "api/stars", "api/network"):
+        for path in ("api/program", "api/stars", "api/mission-progress", "api/network"):
             answer = ada.client.put(path, content=b"{}")
             assert answer.status_code == 507
             assert "full" in answer.json()["problem"]

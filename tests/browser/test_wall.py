@@ -1,6 +1,7 @@
 """The teacher's wall in the browser: order, filter, keyboard, and what it sends and doesn't."""
 
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -321,6 +322,14 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     program = "def decide(percept):\n    return {}\n"
     assert school.commands[-1] == {"do": "assign", **lesson, "program": program}
 
+    page.get_by_role("button", name="Assign a scene…").click()
+    dialog.get_by_label("A mission").check()
+    dialog.get_by_label("Which mission").select_option(label="Sense: Who sees what?")
+    dialog.get_by_role("button", name="Assign").click()
+    expect(dialog).to_have_count(0)
+    mission = {"rooms": "all", "scene": {"mission": "sense-1"}, "seed": None, "same_seed": True}
+    assert school.commands[-1] == {"do": "assign", **mission}
+
     page.get_by_role("button", name="Race…").click()
     dialog = page.get_by_role("dialog", name="Race")
     dialog.get_by_label("My own file").check()
@@ -347,6 +356,28 @@ def expect_picture(dialog: Locator, text: str) -> None:
     until(lambda: picture.evaluate("each => each.naturalWidth") == 400)
 
 
+def test_the_teacher_sees_who_is_where_in_the_missions(page: Page, school: WallServer) -> None:
+    card = page.locator("button.ai4u-room").filter(has_text=name_of(4))
+    expect(card).to_contain_text("First drive 2/4")
+    expect(card).to_have_accessible_name(re.compile("First drive 2/4"))
+    card.click()
+    dialog = page.get_by_role("dialog", name=name_of(4))
+    expect(dialog).to_contain_text("First drive 2/4, for 6 minutes, It fell.")
+    dialog.get_by_role("button", name="Close").click()
+    page.get_by_role("tab", name="Progress").click()
+    table = page.get_by_role("region", name="Missions")
+    expect(table.get_by_role("columnheader")).to_have_text(
+        ["Missions", "First drive", "Round the ring"]
+    )
+    row = table.get_by_role("row", name=name_of(3))
+    expect(row).to_contain_text("1 done · now First drive 3/4")
+    expect(row.get_by_role("img", name="2 of 3 stars")).to_be_visible()
+    expect(table.get_by_role("row", name=name_of(4))).to_contain_text("1/4")
+    last = school.state["mission_places"]["3"] | {"step": 3, "is_done": True}
+    school.send(mission_places={"3": last})
+    expect(row).to_contain_text("now First drive ✓")
+
+
 def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> None:
     requests: list[str] = []
     page.on("request", lambda each: requests.append(f"{each.url} {each.post_data} {each.headers}"))
@@ -360,7 +391,7 @@ def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> 
     page.get_by_role("button", name="Grace Hopper").click()
     page.get_by_role("button", name="Show to all").click()
     page.get_by_role("tab", name="Progress").click()
-    expect(page.get_by_role("row", name=REAL_NAME)).to_be_visible()
+    expect(page.get_by_role("row", name=REAL_NAME).first).to_be_visible()
     stars = page.get_by_role("region", name="Stars of programs")
     expect(stars.get_by_role("columnheader")).to_have_text(
         ["Stars of programs", "Box chase", "Maze"]

@@ -46,6 +46,11 @@ SCENES = [
         ("parking", "Parking"),
     )
 ]
+MISSIONS = [
+    {"name": "drive-1", "title": "First drive", "island": "Drive", "steps": 4, "stars": 3},
+    {"name": "drive-2", "title": "Round the ring", "island": "Drive", "steps": 3, "stars": 3},
+    {"name": "sense-1", "title": "Who sees what?", "island": "Sense", "steps": 3, "stars": 1},
+]
 STATUSES = ["driving"] * 5 + ["solved", "fell", "driving", "idle", "solved", "waiting", "error"]
 _IDS = [name for lesson in EXERCISES for name in lesson["ids"]]
 _MISTAKES = [
@@ -100,10 +105,19 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "seats": seats,
         "rooms": [_room(number) for number in range(1, count + 1)],
         "progress": {str(number): _progress(number) for number in range(1, count + 1)},
+        "missions": MISSIONS,
+        "mission_progress": {"3": {"drive-1": [4, 2]}, "4": {"drive-1": [1, 0], "drive-2": [3, 1]}},
+        "mission_places": {"3": mission_place(2), "4": mission_place(1, hint="It fell.")},
         "stars": {"3": {"box_chase": 3, "maze": 1}, "4": {"maze": 2}},
         "misconceptions": _misconceptions(count),
     }
     return {**message, **changes}
+
+
+def mission_place(step: int, **changes: Any) -> dict[str, Any]:
+    """Return where a seat is in the mission "First drive"."""
+    place = {"mission": "drive-1", "title": "First drive", "step": step, "steps": 4}
+    return {**place, "is_done": False, "hint": "", "minutes": 6, **changes}
 
 
 def race(count: int, phase: str = "running", starts_in: float = 0.0) -> dict[str, Any]:

@@ -84,6 +84,22 @@ def test_a_program_is_offered_for_the_scene_that_it_came_with() -> None:
         until(lambda: offered(room) is None)
 
 
+def test_pages_open_the_mission_of_an_assignment() -> None:
+    def shown(room: Joined) -> Any:
+        return (room.member.view.event("student", 0) or {})["mission"]
+
+    with joined() as room:
+        room.tell(replace(MAZE, mission="sense-1"))
+        assert applied(room, "a1") == ""
+        until(lambda: shown(room) == {"mission": "sense-1", "assignment": "a1"})
+        room.tell(Assignment("b", "Empty", "my_scene", None, mission="build-1"))
+        assert applied(room, "b") == ""
+        assert room.editor.state.description.name == "my_scene"
+        until(lambda: shown(room) == {"mission": "build-1", "assignment": "b"})
+        room.tell(Assignment("c", "Tag", "tag", None))
+        until(lambda: shown(room) == {"mission": "", "assignment": "c"})
+
+
 def test_yaml_is_opened_too(tmp_path: Path) -> None:
     with joined(folder=tmp_path) as room:
         room.tell(Assignment("", "", "", None), Assignment("b", "Ours", YAML, None))

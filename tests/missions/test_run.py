@@ -7,7 +7,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.missions.checks import Event, SeenPage
 from ai4u_edu.missions.mission import library_missions, read_mission
-from ai4u_edu.missions.option import MissionRun, mission_part
+from ai4u_edu.missions.option import HINT_DECISIONS, MissionRun, mission_part
 from tests.missions.test_checks import STILL, moved
 
 TEXT = """\
@@ -75,6 +75,20 @@ def test_a_hint_is_shown_until_the_step_is_done(run: MissionRun) -> None:
     for each in moved(0, 3, episode=2):
         run.see(each)
     assert (run.is_step_done, run.hint) == (True, "")
+
+
+def test_a_hint_counts_once_in_ten_seconds(run: MissionRun) -> None:
+    fell = replace(STILL, step=4, outcome="fell")
+    for _ in range(5):
+        run.see(fell)
+    assert run.hints == 1
+    for _ in range(HINT_DECISIONS):
+        run.see(STILL)
+    version = run.version
+    run.see(fell)
+    assert (run.hints, run.version > version) == (2, True)
+    run.begin(1)
+    assert run.hints == 0
 
 
 def test_another_driver_does_not_count_and_is_told(run: MissionRun) -> None:

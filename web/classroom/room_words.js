@@ -1,6 +1,6 @@
 /** Words for rooms: of their people, their status, and what they need. */
 
-/** @import { ClassState, Room } from "../types/class.js" */
+/** @import { ClassState, MissionPlace, Room } from "../types/class.js" */
 
 /** From this need of help (0 to 100, see help_score.py) on, a card is marked. */
 const MIN_HELP = 30;
@@ -51,6 +51,14 @@ export function roomName(room, state) {
   const names = seatsOf(room, state).map((seat) => seat.name);
   if (names.length === 0) return "Empty room";
   return names.length > 2 ? `${names[0]} and ${names.length - 1} others` : names.join(" and ");
+}
+
+/**
+ * Return where a seat is in its mission, such as "First drive 2/4".
+ * @param {MissionPlace} place
+ */
+export function placeText({ title, step, steps, is_done: isDone }) {
+  return isDone && step === steps - 1 ? `${title} ✓` : `${title} ${step + 1}/${steps}`;
 }
 
 /**

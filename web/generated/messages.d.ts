@@ -368,6 +368,8 @@ export interface MissionPart {
   words: string;
   /** Sentence about what went wrong; empty if nothing did. */
   hint: string;
+  /** Hints in this step so far. */
+  hints: number;
   /** Sentence about another driver than the step asks for; empty if there is none. */
   driver: string;
   question: MissionQuestion | null;

@@ -4,13 +4,14 @@
  * @import { MissionPart } from "../generated/messages.js"
  * @import { Panel } from "../panel/panel.js"
  */
+import { syncMissions, tellPlace } from "../classroom/student/missions.js";
 import { unsavedSentence, request } from "../scenes/api.js";
 import { ask, tell } from "../shared/dialog.js";
 import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
 import { freeId } from "../shared/ids.js";
 import { ExerciseForm } from "./exercise.js";
 import { Lights } from "./lights.js";
-import { openMission, reach, setOpenMission } from "./progress.js";
+import { missions, openMission, progressOf, reach, setOpenMission, storedKey, takeAssigned } from "./progress.js";
 
 const MAP = "./start#missions";
 const ROOT = document.documentElement;
@@ -65,12 +66,16 @@ export class MissionCard {
     panel.addEventListener("part:mission", ({ detail }) => this.#receive(detail));
     panel.addEventListener("connected", () => this.#begin());
     panel.addEventListener("disconnected", () => (this.#isConnected = false));
+    addEventListener("storage", ({ key }) => key === storedKey() && this.#follow());
+    syncMissions();
+    missions.addEventListener("assigned", () => this.#isConnected && this.#openAssigned());
     for (const type of ["tab", "driver", "agent"]) panel.addEventListener(type, () => this.#tell());
   }
 
   /** Tell the room which mission this page has; it forgets that when it is started again. */
   async #begin() {
     this.#isConnected = true;
+    if (this.#openAssigned()) return;
     const open = openMission();
     if (open === null) return;
     this.#told = "";
@@ -105,6 +110,7 @@ export class MissionCard {
       const stars = part.stars.filter(({ is_earned: isEarned }) => isEarned).length;
       reach(part.mission, { steps: part.step + 1, stars });
     }
+    if (this.#part) tellPlace({ mission: part.mission, step: part.step, is_done: part.is_done, hint: part.hint, hints: part.hints });
     this.#draw();
     this.#tell();
     if (this.#wanted !== part.mission) return;
@@ -228,6 +234,16 @@ export class MissionCard {
     this.#panel.focusWorld();
   }
 
+  /** Open the mission that the teacher has given, if there is one; its scene comes from the class. Returns true if there is. */
+  #openAssigned() {
+    const mission = takeAssigned();
+    if (!mission) return false;
+    setOpenMission({ mission, step: progressOf(mission).steps });
+    this.#told = "";
+    this.#panel.send("mission_open", { mission, step: progressOf(mission).steps }, { quiet: true }).then(() => this.#tell());
+    return true;
+  }
+
   async #openScene() {
     try {
       const text = await unsavedSentence();
@@ -240,10 +256,34 @@ export class MissionCard {
 
   async #leave() {
     setOpenMission(null);
+    tellPlace({ mission: "" });
+    const closing = this.#close();
+    this.#invitation.focus();
+    await closing;
+  }
+
+  #close() {
     this.#part = null;
     this.#draw();
-    this.#invitation.focus();
-    await this.#panel.send("mission_close", {}, { quiet: true });
+    return this.#panel.send("mission_close", {}, { quiet: true });
+  }
+
+  /** Go where another window of this browser has gone: both are the same person's. */
+  async #follow() {
+    const open = openMission();
+    if (!this.#isConnected) return;
+    if (open === null) {
+      if (this.#part) this.#close();
+      return;
+    }
+    const { mission, step } = open;
+    if (mission === this.#part?.mission && step === this.#part.step) {
+      this.#draw();
+      return;
+    }
+    this.#told = "";
+    await this.#panel.send("mission_open", { mission, step }, { quiet: true });
+    this.#tell();
   }
 
   /** @param {boolean} isHidden */

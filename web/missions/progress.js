@@ -1,12 +1,26 @@
 /** A person's progress in missions; this browser keeps it, and the mission that is open. */
 
 import { roomOfPage } from "../shared/room.js";
-import { forget, recall, remember } from "../shared/storage.js";
+import { forget, recall, remember, storageKey } from "../shared/storage.js";
 
 /** Most missions whose progress is kept, and the largest count of steps and stars. */
 const [MAX_MISSIONS, MAX_COUNT] = [300, 100];
 
 /** @typedef {{steps: number, stars: number}} Progress of one mission: finished steps, earned stars */
+
+/** Tells with the event "change" that more was reached in a mission, and with "assigned" that the teacher has given one. */
+export const missions = new EventTarget();
+/** The mission that the teacher has given and that was not opened yet. */
+let wanted = "";
+
+/**
+ * Return the progress in all missions that were begun.
+ * @returns {Record<string, Progress>}
+ */
+export function allProgress() {
+  const begun = Object.keys(kept()).map((mission) => /** @type {const} */ ([mission, progressOf(mission)]));
+  return Object.fromEntries(begun.filter(([, { steps, stars }]) => steps || stars));
+}
 
 /**
  * Return the progress in a mission.
@@ -31,6 +45,7 @@ export function reach(mission, { steps, stars }) {
   const all = { ...kept(), [mission]: now };
   if (Object.keys(all).length > MAX_MISSIONS) return false;
   remember(key("missions"), all);
+  missions.dispatchEvent(new Event("change"));
   return true;
 }
 
@@ -51,6 +66,39 @@ export function openMission() {
 export function setOpenMission(open) {
   if (open === null) forget(key("mission"));
   else remember(key("mission"), open);
+}
+
+/**
+ * Return the mission that the teacher has given; empty if there is none.
+ * @returns {string}
+ */
+export function assignedMission() {
+  const { mission } = recall(key("assigned-mission"), null) ?? {};
+  return typeof mission === "string" ? mission : "";
+}
+
+/**
+ * Note the mission that the teacher has given. This browser opens it once for each assignment.
+ * @param {{mission: string, assignment: string}} given an empty mission for none
+ */
+export function noteAssigned({ mission, assignment }) {
+  const before = recall(key("assigned-mission"), null) ?? {};
+  if (before.assignment === assignment && before.mission === mission) return;
+  remember(key("assigned-mission"), { mission, assignment });
+  wanted = mission;
+  if (mission) missions.dispatchEvent(new Event("assigned"));
+}
+
+/** Return the mission that the teacher has given and that was not opened yet, once; empty if there is none. */
+export function takeAssigned() {
+  const taken = wanted;
+  wanted = "";
+  return taken;
+}
+
+/** Return the key under which the open mission is stored: another window of this browser may change it. */
+export function storedKey() {
+  return storageKey(key("mission"));
 }
 
 /** @returns {Record<string, Partial<Progress> | undefined>} */

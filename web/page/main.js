@@ -12,6 +12,7 @@ import { ClassBar } from "../classroom/student/bar.js";
 import { noteHandout } from "../classroom/student/handout.js";
 import { showLeft } from "../classroom/student/overlay.js";
 import { element, setAttributes } from "../shared/dom.js";
+import { noteAssigned } from "../missions/progress.js";
 import { dpadActions } from "./dpad.js";
 import { DriverStatus } from "./driver_status.js";
 import { Effects, flyStars } from "./effects.js";
@@ -159,6 +160,7 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
       classBar.show(message);
       effects.allowSound(message.switches.sound);
       noteHandout(message.program);
+      if (message.role === "student") noteAssigned(message.mission);
       break;
     case "error":
       banners.showRequestError(message.text);

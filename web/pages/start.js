@@ -1,9 +1,10 @@
 /** The start page: a map of missions, the scenes of the library to play, and an empty one to build. */
 
+import { syncMissions } from "../classroom/student/missions.js";
 import { syncStars } from "../classroom/student/stars.js";
 import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
-import { progressOf, setOpenMission } from "../missions/progress.js";
+import { assignedMission, progressOf, setOpenMission } from "../missions/progress.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
 import { timesText } from "../page/results.js";
@@ -135,8 +136,8 @@ function sceneCard({ name, title, goal, level, minutes, stars, key, picture }, w
 async function showMissions() {
   const map = find("#map");
   try {
-    /** @type {{missions: Mission[], problems: string[]}} */
-    const { missions, problems } = await request("api/missions");
+    /** @type {[{missions: Mission[], problems: string[]}, void]} */
+    const [{ missions, problems }] = await Promise.all([request("api/missions"), syncMissions()]);
     const islands = [...new Set(missions.map(({ island }) => island))];
     const next = missions.find(({ name, steps }) => progressOf(name).steps < steps);
     map.replaceChildren(...islands.map((island) => islandOf(island, missions.filter((mission) => mission.island === island), next)));
@@ -178,7 +179,10 @@ function missionCard(mission, isNext) {
   const button = element("button", { type: "button" }, element("span", { className: "ai4u-name", textContent: `${isDone ? "✓ " : ""}${title}` }), facts, row);
   button.toggleAttribute("data-done", isDone);
   button.toggleAttribute("data-next", isNext);
-  button.setAttribute("aria-label", [title, isDone ? "done" : isNext ? "the next one" : "", row.getAttribute("aria-label")].filter(Boolean).join(", "));
+  const isGiven = name === assignedMission() && !isDone;
+  if (isGiven) button.append(element("span", { className: "ai4u-facts", textContent: "From your teacher" }));
+  button.toggleAttribute("data-given", isGiven);
+  button.setAttribute("aria-label", [title, isGiven ? "from your teacher" : "", isDone ? "done" : isNext ? "the next one" : "", row.getAttribute("aria-label")].filter(Boolean).join(", "));
   button.title = mission.scene === EMPTY_SCENE ? "My scene" : "";
   button.addEventListener("click", () => begin(mission, isDone ? 0 : reached.steps));
   return element("li", {}, button);

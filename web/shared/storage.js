@@ -19,6 +19,14 @@ export function recall(key, fallback) {
 }
 
 /**
+ * Return the browser's key for a key of ours, as its event "storage" has it.
+ * @param {string} key
+ */
+export function storageKey(key) {
+  return PREFIX + key;
+}
+
+/**
  * Remember a value that JSON can hold.
  * @param {string} key
  * @param {unknown} value

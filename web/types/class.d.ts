@@ -163,6 +163,29 @@ export interface ExerciseProgress {
   minutes: number;
 }
 
+/** A mission of the map. */
+export interface MissionTitle {
+  name: string;
+  title: string;
+  island: string;
+  steps: number;
+  stars: number;
+}
+
+/** The step of a mission that a seat is at. */
+export interface MissionPlace {
+  mission: string;
+  title: string;
+  /** From 0. */
+  step: number;
+  steps: number;
+  is_done: boolean;
+  /** Sentence about what went wrong; empty for none. */
+  hint: string;
+  /** Time at this step. */
+  minutes: number;
+}
+
 /** How the program of a seat runs. */
 export interface ProgramRun {
   state: "running" | "mistake" | "ended";
@@ -214,6 +237,14 @@ export interface ClassState {
   progress?: Record<string, Record<string, ExerciseProgress>>;
   /** By seat and scene. */
   stars?: Record<string, Record<string, number>>;
+  /** In the order of the map. */
+  missions?: MissionTitle[];
+  /** Finished steps and stars, by seat and mission. */
+  mission_progress?: Record<string, Record<string, [steps: number, stars: number]>>;
+  /** By seat. */
+  mission_places?: Record<string, MissionPlace>;
+  /** How many are in each mission, and how many of them are stuck; for the projector alone. */
+  mission_counts?: { title: string; count: number; stuck: number }[];
   /** By seat. */
   runs?: Record<string, ProgramRun>;
   program_mistakes?: ProgramMistake[];
@@ -262,6 +293,13 @@ export interface ClassEvent {
   race: StudentRace | null;
   lesson: string;
   program: StartingProgram | null;
+  mission: AssignedMission;
+}
+
+/** The mission of an assignment; empty for none. */
+export interface AssignedMission {
+  mission: string;
+  assignment: string;
 }
 
 export type Person = Pick<Seat, "number" | "name" | "colour" | "is_here">;

@@ -55,6 +55,7 @@ function show(message) {
   setText(find("#attention"), state.attention.message);
   showJoin();
   showRace();
+  showMissions();
   tournament.show(state);
   showGame();
   const shown = kind === "room" ? state.rooms.filter((each) => each.id === room) : state.rooms;
@@ -84,6 +85,18 @@ function showNames() {
 /** @param {Seat} seat */
 function nameItem(seat) {
   return element("li", {}, dot(seat), element("span"));
+}
+
+/** Show how many are where in the missions, without a name: who is stuck is between a student and the teacher. */
+function showMissions() {
+  const counts = state.shown.kind === "board" ? (state.mission_counts ?? []) : [];
+  const stuck = counts.reduce((sum, each) => sum + each.stuck, 0);
+  find("#missions").hidden = counts.length === 0;
+  keyed(find("#missions ul"), counts, ({ title }) => title, () => element("li", {}, element("strong"), element("span")), (item, { title, count }) => {
+    setText(item.firstChild, String(count));
+    setText(item.lastChild, title);
+  });
+  setText(find("#missions p"), stuck ? `${stuck} of them ${stuck === 1 ? "is" : "are"} stuck` : "");
 }
 
 function showRace() {

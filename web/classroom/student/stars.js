@@ -41,6 +41,7 @@ async function exchange() {
 
 /** Return stars that the class has not, as the body of a request; null if there are none. */
 function missing() {
+  if (known === null) return null; // the class was not reached yet
   const found = Object.entries(allStars()).find(([scene, count]) => count > (known[scene] ?? 0));
   return found ? { scene: found[0], stars: found[1] } : null;
 }

@@ -1,4 +1,4 @@
-/** The dialog that gives a scene or a lesson to one, some or all rooms. */
+/** The dialog that gives a scene, a lesson or a mission to one, some or all rooms. */
 
 /** @import { ClassState } from "../../types/class.js" */
 
@@ -13,7 +13,7 @@ const MAX_PROGRAM_CHARS = 20_000;
 const PROGRAM_HINT = "Optional. The tab Code offers it; what students wrote stays.";
 
 /**
- * Ask for a scene or a lesson and for rooms, and assign it.
+ * Ask for a scene, a lesson or a mission and for rooms, and assign it.
  * @param {ClassState} state
  * @param {string} [room] id of the room that is chosen at first; "" for all
  */
@@ -37,7 +37,7 @@ export function showAssign(state, room = "") {
   const more = element("details", { className: "ai4u-more" }, element("summary", { textContent: "More: start and program" }));
   more.append(choice("The same start for all", same), seed.node, field("Starting program (Python)", program, PROGRAM_HINT));
   const content = [...scene.nodes, to, list, more];
-  return showForm({ title: "Assign a scene or a lesson", text, content, yes: "Assign" }, async () => {
+  return showForm({ title: "Assign a scene, a lesson or a mission", text, content, yes: "Assign" }, async () => {
     const some = boxes.filter((box) => box.checked).map((box) => box.value);
     const rooms = chosenIn(to) === "all" ? "all" : some;
     if (rooms.length === 0) throw new Error("Choose at least one room.");

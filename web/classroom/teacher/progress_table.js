@@ -1,10 +1,10 @@
-/** The tables of progress: students by exercises, and the stars of their programs by scenes. */
+/** The tables of progress: students by missions, by exercises, and the stars of their programs by scenes. */
 
-/** @import { ClassState, ExerciseProgress, LessonExercises, LibraryScene, Seat } from "../../types/class.js" */
+/** @import { ClassState, ExerciseProgress, LessonExercises, LibraryScene, MissionTitle, Seat } from "../../types/class.js" */
 /** @import { RealNames } from "./real_names.js" */
 
 import { element, setText, tableHead } from "../../shared/dom.js";
-import { counted } from "../room_words.js";
+import { counted, placeText } from "../room_words.js";
 import { starRow } from "../../scenes/stars.js";
 
 /**
@@ -35,20 +35,21 @@ export class ProgressTable {
    * Show the class's state; drawn again only if something in it has changed.
    * @param {ClassState} state
    */
-  show({ seats, exercises = [], progress = {}, scenes = [], stars = {} }) {
+  show({ seats, exercises = [], progress = {}, scenes = [], stars = {}, missions = [], mission_progress: reached = {}, mission_places: places = {} }) {
     const students = seats.filter((seat) => seat.state === "in");
-    const told = JSON.stringify([students.map((s) => [s.number, s.name, this.#realNames.of(s)]), exercises, progress, stars]);
+    const told = JSON.stringify([students.map((s) => [s.number, s.name, this.#realNames.of(s)]), exercises, progress, stars, missions, reached, Object.entries(places).map(([seat, place]) => [seat, placeText(place)])]);
     if (told === this.#told) return;
     this.#told = told;
     const begun = new Set(Object.values(progress).flatMap(Object.keys));
     const lessons = exercises.filter((lesson) => lesson.ids.some((id) => begun.has(id)));
     const earned = this.#starTable(students, scenes, stars);
-    if (lessons.length === 0 && earned === null) {
-      const text = "No exercises yet. When students solve exercises of the lessons, a row for each of them appears here, and when their programs earn stars.";
+    const done = this.#missionTable(students, missions, reached, places);
+    if (lessons.length === 0 && earned === null && done === null) {
+      const text = "Nothing yet. When students do missions, solve exercises of the lessons, or earn stars with their programs, a row for each of them appears here.";
       this.#place.replaceChildren(element("p", { className: "ai4u-empty", textContent: text }));
       return;
     }
-    const tables = [lessons.length > 0 && this.#table(students, lessons, progress), earned];
+    const tables = [done, lessons.length > 0 && this.#table(students, lessons, progress), earned];
     this.#keepScroll(() => this.#place.replaceChildren(...tables.filter(Boolean)));
   }
 
@@ -58,6 +59,37 @@ export class ProgressTable {
     const [left, top] = [box?.scrollLeft ?? 0, box?.scrollTop ?? 0];
     update();
     this.#place.firstElementChild.scrollTo(left, top);
+  }
+
+  /**
+   * Return the table of missions; null if nobody has begun one.
+   * @param {Seat[]} students
+   * @param {MissionTitle[]} missions
+   * @param {ClassState["mission_progress"]} reached
+   * @param {ClassState["mission_places"]} places
+   */
+  #missionTable(students, missions, reached, places) {
+    const now = students.map(({ number }) => places[number]?.mission);
+    const begun = new Set([...now, ...students.flatMap(({ number }) => Object.keys(reached[number] ?? {}))]);
+    const shown = missions.filter(({ name }) => begun.has(name));
+    if (shown.length === 0) return null;
+    const head = tableHead("Missions", ...shown.map(({ title }) => title));
+    const body = students.map((seat) => {
+      const own = reached[seat.number] ?? {};
+      const done = shown.filter(({ name, steps }) => (own[name]?.[0] ?? 0) >= steps).length;
+      const place = places[seat.number];
+      const note = [this.#realNames.of(seat), `${done} done`, place && `now ${placeText(place)}`].filter(Boolean).join(" · ");
+      const title = element("span", { className: "ai4u-name", textContent: seat.name });
+      const facts = element("span", { className: "ai4u-facts", textContent: note });
+      return element("tr", {}, element("th", { scope: "row" }, title, facts), ...shown.map((mission) => missionCell(mission, own[mission.name])));
+    });
+    const sums = shown.map(({ name, steps }) => {
+      const count = students.filter(({ number }) => (reached[number]?.[name]?.[0] ?? 0) >= steps).length;
+      return element("td", { textContent: `${count}/${students.length}` });
+    });
+    const foot = element("tfoot", {}, element("tr", {}, element("th", { scope: "row", textContent: "Done" }), ...sums));
+    const table = element("table", { className: "ai4u-progress" }, head, element("tbody", {}, ...body), foot);
+    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Missions" }, table);
   }
 
   /**
@@ -123,6 +155,18 @@ export class ProgressTable {
     const table = element("table", { className: "ai4u-progress" }, head, element("tbody", {}, ...rows), foot);
     return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Progress" }, table);
   }
+}
+
+/**
+ * @param {MissionTitle} mission
+ * @param {[steps: number, stars: number] | undefined} reached
+ */
+function missionCell({ steps, stars: total }, [done, stars] = [0, 0]) {
+  if (!done && !stars) return element("td");
+  if (done < steps) return element("td", { dataset: { state: "tried" }, title: `${done} of ${steps} steps`, textContent: `${done}/${steps}` });
+  const row = starRow(stars, total).element;
+  row.title = "Stars of this mission";
+  return element("td", { dataset: { state: "solved" } }, element("span", { textContent: "✓ ", "aria-hidden": "true" }), row);
 }
 
 /**

@@ -13,7 +13,7 @@ import { showMoveCode } from "./move_code_dialog.js";
 import { ask, tell } from "../../shared/dialog.js";
 import { showNetworks } from "./room_networks.js";
 import { showPrograms } from "./room_programs.js";
-import { counted, roomName, seatsOf, statusOf } from "../room_words.js";
+import { counted, placeText, roomName, seatsOf, statusOf } from "../room_words.js";
 
 /**
  * @param {Room} room
@@ -53,7 +53,7 @@ export function showRoom(room, state, realNames) {
     isLocal && room.is_running && act("Put to sleep", { do: "sleep", room: room.id }),
   );
   const content = [
-    facts(room),
+    facts(room, missionsOf(seats, state)),
     room.error && element("pre", { className: "ai4u-error", tabIndex: 0, "aria-label": "Error", textContent: room.error }),
     actions,
     element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames, Boolean(state.code)))),
@@ -61,8 +61,26 @@ export function showRoom(room, state, realNames) {
   return showForm({ title: roomName(room, state), content, no: "Close" });
 }
 
-/** @param {Room} room */
-function facts(room) {
+/**
+ * Return where the seats of a room are in their missions; empty if they are in none.
+ * @param {Seat[]} seats
+ * @param {ClassState} state
+ */
+function missionsOf(seats, state) {
+  const lines = seats.map(({ name, number }) => {
+    const place = state.mission_places?.[number];
+    if (!place) return "";
+    const time = place.minutes && !place.is_done ? `for ${counted(place.minutes, "minute")}` : "";
+    return [seats.length > 1 && name, placeText(place), time, !place.is_done && place.hint].filter(Boolean).join(", ");
+  });
+  return lines.filter(Boolean).join("; ");
+}
+
+/**
+ * @param {Room} room
+ * @param {string} mission
+ */
+function facts(room, mission) {
   const { text } = statusOf(room);
   const first = [text, room.status === "driving" && clock(room.seconds), room.why].filter(Boolean).join(" · ");
   const counts = `${counted(room.episodes, "drive")}, ${counted(room.falls, "fall")}${room.is_solved ? ", solved" : ", not solved yet"}`;
@@ -71,6 +89,7 @@ function facts(room) {
     { className: "ai4u-facts-list" },
     ...pair("Now", first),
     ...pair("Scene", room.scene),
+    ...(mission ? pair("Mission", mission) : []),
     ...pair("Driven by", room.driver || "nobody"),
     ...(room.learning ? pair("Network", room.learning) : []),
     ...pair("So far", counts),

@@ -14,23 +14,27 @@ const MAX_SCENE_CHARS = 200_000;
  * Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`.
  *
  * @param {ClassState} state
- * @param {{withLessons?: boolean}} [options] true if a lesson of the course may be chosen too
+ * @param {{withLessons?: boolean}} [options] true if a lesson of the course, or a mission, may be chosen too
  */
 export function sceneChoice(state, { withLessons = false } = {}) {
   const scenes = state.scenes.map(({ name, title }) => [name, title]);
   const rooms = state.rooms.map((room) => [room.id, `${roomName(room, state)}: ${room.scene}`]);
   const lessons = withLessons ? state.lessons.map(({ number, title }) => [number, `${number} ${title}`]) : [];
-  const sources = { library: "From the library", lesson: "A lesson", room: "A student’s present scene", file: "My own file" };
+  const missions = withLessons ? (state.missions ?? []).map(({ name, title, island }) => [name, `${island}: ${title}`]) : [];
+  const sources = { library: "From the library", lesson: "A lesson", mission: "A mission", room: "A student’s present scene", file: "My own file" };
   if (!withLessons) delete sources.lesson;
+  if (missions.length === 0) delete sources.mission;
   if (rooms.length === 0) delete sources.room;
   const source = choices("Scene", "scene-source", sources, "library");
   const inLibrary = select(scenes);
   const ofLesson = select(lessons);
+  const ofMission = select(missions);
   const ofRoom = select(rooms);
   const file = element("input", { type: "file", accept: ".yaml,.yml" });
   const fields = {
     library: field("Which scene", inLibrary),
     lesson: field("Which lesson", ofLesson, "Worlds open the scene that it begins with. Notebooks show its title and keep their world."),
+    mission: field("Which mission", ofMission, "Worlds open its scene, and pages its card. Who has finished some steps goes on there."),
     room: field("Whose", ofRoom),
     file: field("Scene file (YAML)", file),
   };
@@ -50,6 +54,7 @@ export function sceneChoice(state, { withLessons = false } = {}) {
     const from = chosenIn(source);
     if (from === "library") return inLibrary.value;
     if (from === "lesson") return { lesson: ofLesson.value };
+    if (from === "mission") return { mission: ofMission.value };
     if (from === "room") return { room: ofRoom.value };
     if (!file.files[0]) throw new Error("Choose a scene file first.");
     const yaml = await file.files[0].text();

@@ -4,7 +4,7 @@
 /** @import { Names } from "./wall.js" */
 
 import { element, setAttributes, setText } from "../../shared/dom.js";
-import { needsHelp, roomName, seatsOf, statusOf } from "../room_words.js";
+import { needsHelp, placeText, roomName, seatsOf, statusOf } from "../room_words.js";
 
 const MAX_DOTS = 8;
 const MAX_COLOUR_DOTS = 3;
@@ -61,14 +61,15 @@ export function updateCard(card, room, state, realNames) {
   setText(part("status").firstElementChild, status.sign);
   setText(part("status").lastElementChild, status.text);
   setText(part("why"), why);
-  setText(part("scene"), [room.learning, room.scene].filter(Boolean).join(" · "));
+  const mission = missionOf(seats, state);
+  setText(part("scene"), [mission, room.learning, room.scene].filter(Boolean).join(" · "));
   const dots = progressOf(seats, state);
   showProgress(part("progress"), dots);
   setAttributes(box, { "data-status": room.status, "data-help": needsHelp(room), "data-solved": room.is_solved });
   if (box.localName !== "button") return;
   const solved = dots.filter((each) => each.state === "solved").length;
   const progress = dots.length ? `${solved} of ${dots.length} exercises of lesson ${dots[0].lesson} solved` : "";
-  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && "solved before", why, room.scene, room.learning, progress];
+  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && "solved before", why, mission, room.scene, room.learning, progress];
   setAttributes(box, { "aria-label": told.filter(Boolean).join(", ") });
 }
 
@@ -87,6 +88,16 @@ function showColours(place, seats) {
       return dot;
     }),
   );
+}
+
+/**
+ * Return the missions that these seats are at, with their steps; empty if they are at none.
+ * @param {Seat[]} seats
+ * @param {ClassState} state
+ */
+function missionOf(seats, state) {
+  const places = seats.map((seat) => state.mission_places?.[seat.number]).filter(Boolean);
+  return [...new Set(places.map(placeText))].join(", ");
 }
 
 /** @typedef {{lesson: string, id: string, state: string}} Exercise */
