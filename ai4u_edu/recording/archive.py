@@ -99,6 +99,14 @@ class Archive(Sequence[Episode]):
             self.entries = self._limited([*self.entries, entry]) if self._keep else ()
         return entry
 
+    def update(self, number: int, episode: Episode) -> None:
+        """Put an episode in place of its earlier state; nothing happens if that was dropped."""
+        with self._lock:
+            self.entries = tuple(
+                replace(entry, episode=episode) if entry.number == number else entry
+                for entry in self.entries
+            )
+
     def pin(self, number: int, *, on: bool = True) -> None:
         """Keep an episode however many others come, or no longer.
 

@@ -64,12 +64,20 @@ class GhostDrive:
         name: the episode's name.
         label: text at the ghost.
         place: index among several ghosts, which differ by it; None for a single one.
+        stretch: factor of its time: with 2 it drives at half its speed.
     """
 
     def __init__(
-        self, episode: Episode, name: str, label: str = "ghost", place: int | None = None
+        self,
+        episode: Episode,
+        name: str,
+        label: str = "ghost",
+        place: int | None = None,
+        *,
+        stretch: float = 1.0,
     ) -> None:
         self.episode, self.name, self.label, self.place = episode, name, label, place
+        self.stretch = stretch
         self.problem = ""
         """The reason why it can't be shown; else empty."""
         self.path: Ghost | None = None
@@ -110,15 +118,26 @@ class Ghosts:
         self.drives: tuple[GhostDrive, ...] = ()
         """The ghosts that are shown, or will be as soon as their paths are computed."""
 
-    def race(self, episode: Episode | None, name: str = "", label: str = "ghost") -> None:
+    def race(
+        self,
+        episode: Episode | None,
+        name: str = "",
+        label: str = "ghost",
+        *,
+        stretch: float = 1.0,
+    ) -> None:
         """Show an episode's ghost in place of all others.
 
         Args:
             episode: the recorded episode; None removes all ghosts.
             name: the episode's name.
             label: text at the ghost.
+            stretch: factor of its time.
         """
-        self.drives = () if episode is None else (GhostDrive(episode, name, label),)
+        if episode is None:
+            self.drives = ()
+        else:
+            self.drives = (GhostDrive(episode, name, label, stretch=stretch),)
 
     def race_all(self, drives: Sequence[tuple[Episode, str]]) -> None:
         """Show the ghosts of several episodes in place of all others, each under its name.

@@ -14,7 +14,7 @@ from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.agent_view import AgentInput
-from ai4u_edu.recording.archive import Archive
+from ai4u_edu.recording.archive import Archive, ArchiveEntry
 from ai4u_edu.recording.checksum import editable_state
 from ai4u_edu.recording.episode import Episode, encode
 from ai4u_edu.recording.episode_builder import EpisodeBuilder
@@ -79,6 +79,9 @@ class Recorder:
         """Called in the same way with the episode so far when all its agents are done; it is over
         when the next one begins, and some of them may restart before."""
         self._builder: EpisodeBuilder | None = None
+        self._kept: ArchiveEntry | None = None
+        """The present episode's entry, once all its agents were done; a person who has just won
+        looks for it in the past before the next one begins."""
         self._early_inputs: list[tuple[BasicAgent, AgentInput]] = []
         self.world_episode = sim.episode
         """Number by which the world counts the present episode."""
@@ -154,7 +157,8 @@ class Recorder:
         episode = builder.episode()
         if not any(map(len, episode.agents)):
             return
-        self.episodes.append(episode, world_episode=self.world_episode)
+        self._keep(episode)
+        self._kept = None
         before, self.save_problem = self.save_problem, ""
         self._tell(episode, self.listeners)
         if self.save_problem and not before:  # warn once, not with every episode
@@ -224,8 +228,17 @@ class Recorder:
         if self._builder is None:
             return
         self._builder.end_decision(agent)
-        if self.done_listeners and agent.done and all(each.done for each in self.sim.agents):
-            self._tell(self._builder.episode(), self.done_listeners)
+        if agent.done and all(each.done for each in self.sim.agents):
+            episode = self._builder.episode()
+            self._keep(episode)
+            self._tell(episode, self.done_listeners)
+
+    def _keep(self, episode: Episode) -> None:
+        """Keep the present episode, or what it has become since it was kept."""
+        if self._kept is None:
+            self._kept = self.episodes.append(episode, world_episode=self.world_episode)
+        else:
+            self.episodes.update(self._kept.number, episode)
 
     def _begin(self) -> None:
         self.world_episode = self.sim.episode

@@ -92,6 +92,11 @@ def test_a_scene_is_played_by_keyboard_alone(world: World, page: Page) -> None:
     assert world.scene == "sumo"
 
 
+def test_scenes_to_compare_with_stand_among_the_teachers(page: Page) -> None:
+    expect(page.locator("#teachers .ai4u-name")).to_have_text(["Box chase, hard start"])
+    expect(page.locator("#library li")).to_have_count(len(Scene.names()) - 1)
+
+
 def test_build_opens_an_empty_plate(world: World, page: Page) -> None:
     page.get_by_role("button", name="Build").click()
     page.wait_for_url(world.url)

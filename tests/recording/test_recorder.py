@@ -51,6 +51,29 @@ def handlers(sim: ControlRequestor) -> int:
     return sum(len(getattr(agent, name).handlers) for agent in sim.agents for name in names)
 
 
+def test_a_drive_that_is_over_is_kept_before_the_next_one_begins() -> None:
+    sim, scene = chase()
+    told: list[Episode] = []
+    recorder = Recorder(sim, scene=scene.description, on_episode=told.append)
+    sim.reset(1)
+    while not sim.agents[0].done:
+        sim.step()
+    (entry,) = recorder.episodes.entries
+    assert (entry.world_episode, len(entry.first)) == (sim.episode, sim.agents[0].steps)
+    assert entry.first[len(entry.first) - 1].ended
+    assert told == []
+    recorder.episodes.pin(entry.number)
+    recorder.guard(lambda: sim.world["box"].move_to(3, 3))
+    sim.reset(2)
+    (kept,) = recorder.episodes.entries  # the same one, as it has become
+    assert (kept.number, kept.is_pinned) == (entry.number, True)
+    assert kept.episode.changed is not None
+    assert [each.seed for each in told] == [1]
+    sim.step()
+    recorder.finish()
+    assert [each.seed for each in recorder.episodes] == [1, 2]
+
+
 def test_it_keeps_the_last_ones() -> None:
     sim, _ = chase()
     told: list[Episode] = []

@@ -881,8 +881,10 @@ export interface NetworkRace {
   seed: string;
   /** True if the ghost reached the goal; null in a scene without a goal. */
   is_won: boolean | null;
-  /** Time (s) of the ghost's episode. */
+  /** Time (s) that the ghost takes. */
   seconds: number;
+  /** Time (s) that it took at its full speed: less where it is slowed, so that keys can win. */
+  full_speed_s: number;
   /** Reward of the ghost's agent. */
   score: number;
 }

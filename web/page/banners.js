@@ -5,7 +5,7 @@ import { element } from "../shared/dom.js";
 /** @import { Result } from "./results.js" */
 import { capitalized } from "./driver_status.js";
 import { openNextScene } from "../scenes/next_scene.js";
-import { raceText, timeText } from "./results.js";
+import { raceText, slowedText, timeText } from "./results.js";
 
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
 const NOT_BOLD_KINDS = ["error", "task", "thought"];
@@ -184,8 +184,9 @@ function outcomeText(state, { name, result, race }) {
  * @param {PageState} page
  * @returns {Banner}
  */
-function startBanner({ goal }, { isNew, name, howToStart }) {
+function startBanner({ goal }, { isNew, name, howToStart, race }) {
   const start = howToStart ? `${capitalized(howToStart)} to start` : "Waits until a player presses a key";
+  if (race) return { kind: "start", text: start, details: slowedText(race) };
   const isGoalShown = isNew && goal && !name;
   return isGoalShown ? { kind: "task", text: goal, details: start } : { kind: "start", text: start };
 }

@@ -114,7 +114,24 @@ const SAME_S = 0.05;
  * @param {NetworkRace} race
  * @param {StateEvent} state of an episode that is over: a person's, or that of a network against a person's ghost
  */
-export function raceText({ ghost, is_won: ghostHasWon, seconds, score }, state) {
+export function raceText(race, state) {
+  const text = endText(race, state);
+  return race.full_speed_s < race.seconds ? `${text} At full speed it needs ${format(race.full_speed_s)} s.` : text;
+}
+
+/**
+ * Return how much the ghost of a network is slowed, in a sentence; empty if it is not.
+ * @param {NetworkRace} race
+ */
+export function slowedText({ full_speed_s: full, seconds }) {
+  return full < seconds ? `So that keys can win, the network is slowed down: it takes ${format(seconds)} s in place of ${format(full)} s.` : "";
+}
+
+/**
+ * @param {NetworkRace} race
+ * @param {StateEvent} state
+ */
+function endText({ ghost, is_won: ghostHasWon, seconds, score }, state) {
   const isMine = ghost === "network";
   if (ghostHasWon === null) return scoreText(isMine, score, state.reward ?? 0);
   const hasWon = WINS.includes(state.outcome);

@@ -13,6 +13,8 @@ import { starRow, starsOf } from "../scenes/stars.js";
 
 /** Name of the empty plate with a robot. */
 const EMPTY_SCENE = "my_scene";
+/** Names of scenes that are there to compare with, more than to be played. */
+const FOR_TEACHERS = ["box_chase_ai4u"];
 const goToWorld = () => location.assign("./");
 /** Sections by the card that shows them; one of them is open at a time. */
 const sections = new Map([
@@ -87,7 +89,10 @@ async function showScenes() {
   try {
     /** @type {[{scenes: Card[], saved: Card[]}, void]} */
     const [{ scenes, saved }] = await Promise.all([request("api/scenes"), syncStars()]);
-    list.replaceChildren(...scenes.map((scene) => sceneCard(scene, { name: scene.name })));
+    const isForTeachers = (/** @type {Card} */ { name }) => FOR_TEACHERS.includes(name);
+    const libraryCard = (/** @type {Card} */ scene) => sceneCard(scene, { name: scene.name });
+    list.replaceChildren(...scenes.filter((scene) => !isForTeachers(scene)).map(libraryCard));
+    find("#teachers").replaceChildren(...scenes.filter(isForTeachers).map(libraryCard));
     find("#saved ul").replaceChildren(...saved.map((scene) => sceneCard(scene, { saved: scene.name })));
     find("#saved").hidden = saved.length === 0;
   } catch (error) {

@@ -404,6 +404,19 @@ class SceneEditor:
         """Change parameters of a body, a floor or an area, those of its description."""
         return self._submit(lambda: proposals.change_thing(self.state, name, values))
 
+    def resize(
+        self, name: str, shape: Mapping[str, Any], place: tuple[float, float] | None
+    ) -> "Future[ChangeResult]":
+        """Give a body, a floor or an area another shape, and its centre another place (m).
+
+        Args:
+            name: of the thing.
+            shape: its shape, as in a scene file.
+            place: x and y (m), now and at each reset from now on; None for its present one.
+        """
+        pose_of = self._transactions.pose
+        return self._submit(lambda: proposals.resize_thing(self.state, name, shape, place, pose_of))
+
     def free_names(self, likes: Iterable[str]) -> list[str]:
         """Return a name that nothing has for each of several new things."""
         return things.free_names(self.state, likes)

@@ -198,6 +198,21 @@ def change_thing(state: EditState, name: str, values: Mapping[str, Any]) -> Prop
     return Proposal(things.with_changed_thing(state, name, values), f"{verb} {name}", path)
 
 
+def resize_thing(
+    state: EditState,
+    name: str,
+    shape: Mapping[str, Any],
+    place: tuple[float, float] | None,
+    pose_of: Callable[[str], Pose],
+) -> Proposal:
+    """Propose another shape of a thing, whose centre moves to a place unless that is None."""
+    resized = change_thing(state, name, {"shape": shape})
+    if place is None:
+        return resized
+    moved = move_body(resized.state, name, *place, None, pose_of)
+    return moved._replace(label=resized.label)
+
+
 def add_agent(state: EditState, body: Mapping[str, Any], like: str) -> Proposal:
     """Propose another agent with a new body and copies of another agent's blocks."""
     added = things.with_thing(state, things.checked_description(body))

@@ -81,6 +81,14 @@ def test_it_follows_the_run_in_time_and_begins_anew_with_the_world(race: Race) -
     assert body.label.text == "ghost"
 
 
+def test_a_slowed_one_takes_longer(race: Race) -> None:
+    race.ghosts.race(race.episode, "network", stretch=2.0)
+    until(lambda: race.ghosts.drives[0].path)
+    race.step(20)
+    (body,) = race.bodies()
+    assert body.frame.position[:2] == pytest.approx(race.poses[9][:2], abs=0.02)
+
+
 def test_it_stays_at_the_end_of_its_run(race: Race) -> None:
     race.step(32)
     end = tuple(race.bodies()[0].frame.position)

@@ -140,7 +140,8 @@ def test_an_area_is_chosen_by_a_click_and_moved_turned_and_resized(
     assert thing(harness, "home").heading_deg == 90
 
     handled.drag(handles.knobs[DragAction.RESIZE], (1, 3), (0.4, 2.9))  # turned: across is along x
-    assert thing(harness, "home").shape.size == (2, 3)
+    assert thing(harness, "home").shape.size == (2, 2.5)
+    assert thing(harness, "home").position == (1.75, 2)
     for label in ("resize home", "move home", "move home"):
         assert harness.editor.undo_label == label
         harness.editor.undo().result(LIMIT_S)
@@ -154,7 +155,11 @@ def test_sides_and_height_have_knobs_of_their_own(
     knob = handled.handles.knobs[DragAction.LENGTH]
     (x, y), (length, width) = harness.world["box"].position, thing(harness, "box").shape.size
     handled.drag(knob, (x + length, y), (x + length + 0.5, y + 3))
-    assert thing(harness, "box").shape.size == (length + 1, width)
+    assert thing(harness, "box").shape.size == (length + 0.5, width)
+    x += 0.25  # the left side stays where it is
+    assert harness.world["box"].position == pytest.approx((x, y))
+    assert thing(harness, "box").position == pytest.approx((x, y))
+    assert harness.editor.undo_label == "resize box"
     handled.draw()
     handled.drag(handled.handles.knobs[DragAction.HEIGHT], (x - 1, y), (x - 1, y + 0.72))
     assert thing(harness, "box").height == pytest.approx(1.7)
@@ -184,8 +189,10 @@ def test_a_dragged_thing_takes_along_what_is_chosen_with_it(
 def test_a_floor_is_resized(handled: HandledPage, harness: EditorHarness) -> None:
     handled.choose("plate")
     handled.drag(handled.handles.knobs[DragAction.RESIZE], (6, 6), (8, 7))
-    assert thing(harness, "plate").shape.size == (16, 14)
+    assert thing(harness, "plate").shape.size == (14, 13)
+    assert thing(harness, "plate").position == (1, 0.5)
     assert harness.world.ground(7.5, 6.5) == 0
+    assert harness.world.ground(-5.9, -5.9) == 0
 
 
 def test_a_place_where_it_can_not_stand_is_refused(
@@ -213,14 +220,17 @@ def test_goals() -> None:
     size = Drag(body, DragAction.RESIZE, 0.0, 0.0, math.pi / 2)
     resized = size.goal(-0.2, 3.0)
     assert resized is not None
-    assert resized.shape == BoxShape(size=(6, 0.4))
-    assert resized.words == "6 x 0.4 m"
+    assert resized.shape == BoxShape(size=(4, 0.7))
+    assert resized.words == "4 x 0.7 m"
+    assert (resized.x, resized.y) == (0.15, 1.0)  # turned to the left; its other corner stays
     pulled = Drag.start(body, DragAction.WIDTH, (0.0, 0.0, 0.0), 0.3, 0.6).goal(2.0, 0.9)
     assert pulled is not None
-    assert pulled.shape == BoxShape(size=(2, 1.6))
+    assert pulled.shape == BoxShape(size=(2, 1.3))
+    assert (pulled.x, pulled.y) == (0.0, 0.15)
     higher = Drag.start(body, DragAction.HEIGHT, (0.0, 0.0, 0.0), -1.5, 0.2).goal(-1.5, -9.0)
     assert higher is not None
     assert (higher.height, higher.words) == (0.1, "0.1 m high")
     stick = Drag(area, DragAction.RESIZE, 0.0, 0.0).goal(3.0, 1.0)
     assert stick is not None
-    assert stick.shape == CapsuleShape(length=4, radius=1)
+    assert stick.shape == CapsuleShape(length=3, radius=0.75)
+    assert (stick.x, stick.y) == (0.75, 0.25)

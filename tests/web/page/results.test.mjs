@@ -4,7 +4,7 @@ import { beforeEach, test } from "node:test";
 import { openWindow } from "../browser.mjs";
 
 const { kept } = openWindow();
-const { BEST, FIRST, KEYS, NETWORK, PROGRAM, Results, SLOWER, hasWon, raceText, timesText, timeText } = await import("../../../web/page/results.js");
+const { BEST, FIRST, KEYS, NETWORK, PROGRAM, Results, SLOWER, hasWon, raceText, slowedText, timesText, timeText } = await import("../../../web/page/results.js");
 const { forget } = await import("../../../web/shared/storage.js");
 let results;
 
@@ -66,7 +66,7 @@ test("the words tell the time and the best one", () => {
 });
 
 test("a race says by how much it was won or lost, whoever is the ghost", () => {
-  const ghost = (changes = {}) => ({ ghost: "network", seed: "1", is_won: true, seconds: 8, score: 10, ...changes });
+  const ghost = (changes = {}) => ({ ghost: "network", seed: "1", is_won: true, seconds: 8, full_speed_s: 8, score: 10, ...changes });
   const end = (seconds, outcome = "goal", reward = 5) => ({ seconds, outcome, reward });
   assert.equal(raceText(ghost(), end(6.6)), "You beat it by 1.4 s!");
   assert.equal(raceText(ghost(), end(9.5)), "The network was 1.5 s faster.");
@@ -74,6 +74,10 @@ test("a race says by how much it was won or lost, whoever is the ghost", () => {
   assert.equal(raceText(ghost(), end(3, "fell")), "The network got there in 8.0 s.");
   assert.equal(raceText(ghost({ is_won: false }), end(9)), "You beat it: the network did not get there.");
   assert.equal(raceText(ghost({ is_won: false }), end(9, "time")), "The network did not get there either.");
+  const slowed = ghost({ full_speed_s: 2 });
+  assert.equal(raceText(slowed, end(6.6)), "You beat it by 1.4 s! At full speed it needs 2.0 s.");
+  assert.match(slowedText(slowed), /slowed down: it takes 8.0 s in place of 2.0 s/);
+  assert.equal(slowedText(ghost()), "");
   // the network drives, and the ghost is the person's drive
   const drive = (changes = {}) => ghost({ ghost: "drive", ...changes });
   assert.equal(raceText(drive(), end(9.4)), "You beat it by 1.4 s!");
@@ -83,7 +87,7 @@ test("a race says by how much it was won or lost, whoever is the ghost", () => {
 });
 
 test("without a goal the points decide", () => {
-  const race = { ghost: "network", seed: "1", is_won: null, seconds: 8, score: 10 };
+  const race = { ghost: "network", seed: "1", is_won: null, seconds: 8, full_speed_s: 8, score: 10 };
   assert.equal(raceText(race, { outcome: "time", seconds: 8, reward: 12 }), "You beat it: 12.0 points, the network 10.0.");
   assert.equal(raceText(race, { outcome: "time", seconds: 8, reward: 2 }), "You: 2.0 points, the network 10.0.");
   assert.equal(raceText({ ...race, ghost: "drive" }, { outcome: "time", seconds: 8, reward: 2 }), "You beat it: 10.0 points, the network 2.0.");

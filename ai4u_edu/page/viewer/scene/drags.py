@@ -146,8 +146,11 @@ class Drag(NamedTuple):
             across = corner[1]
         elif self.action is DragAction.WIDTH:
             along = corner[0]
-        pulled = _resized(shape, along, across, snap_m)
-        return Goal(self.x, self.y, None, _only(self.action, shape, pulled))
+        new_shape = _only(self.action, shape, _resized(shape, along, across, snap_m))
+        dx, dy = _shift(self.action, shape, new_shape)
+        cos, sin = math.cos(self.heading), math.sin(self.heading)
+        x, y = self.x + cos * dx - sin * dy, self.y + sin * dx + cos * dy
+        return Goal(round(x, 4), round(y, 4), None, new_shape)
 
 
 def _in_frame(dx: float, dy: float, heading: float) -> tuple[float, float]:
@@ -170,20 +173,33 @@ def _only(action: DragAction, before: Shape, pulled: Shape) -> Shape:
     return pulled
 
 
+def _shift(action: DragAction, before: Shape, after: Shape) -> tuple[float, float]:
+    """Return how far the centre moves (m, own frame), so that the opposite edge stays.
+
+    Circles and other outlines grow around their centre.
+    """
+    if not isinstance(before, BoxShape | CapsuleShape):
+        return 0.0, 0.0
+    (old_x, old_y), (new_x, new_y) = edge_of(before), edge_of(after)
+    dx = 0.0 if action is DragAction.WIDTH else new_x - old_x
+    dy = 0.0 if action is DragAction.LENGTH else new_y - old_y
+    return dx, dy
+
+
 def edge_of(shape: Shape, action: DragAction = DragAction.RESIZE) -> tuple[float, float]:
     """Return the corner or the middle of a side that a knob moves, in the shape's own frame (m).
 
     >>> edge_of(BoxShape(size=(2, 1))), edge_of(BoxShape(size=(2, 1)), DragAction.LENGTH)
     ((1.0, 0.5), (1.0, 0.0))
     """
-    if action is DragAction.LENGTH:
-        return max(x for x, _ in outline_of(shape)), 0.0
-    if action is DragAction.WIDTH:
-        return 0.0, max(y for _, y in outline_of(shape))
     if isinstance(shape, CircleShape):
         return shape.radius * math.sqrt(0.5), shape.radius * math.sqrt(0.5)
-    outline = outline_of(shape)
-    return max(x for x, _ in outline), max(y for _, y in outline)
+    if isinstance(shape, CapsuleShape):  # the corners of its outline are not quite its ends
+        x, y = shape.length / 2 + shape.radius, shape.radius
+    else:
+        outline = outline_of(shape)
+        x, y = max(x for x, _ in outline), max(y for _, y in outline)
+    return 0.0 if action is DragAction.WIDTH else x, 0.0 if action is DragAction.LENGTH else y
 
 
 def outline_of(shape: Shape) -> list[tuple[float, float]]:
@@ -194,7 +210,7 @@ def outline_of(shape: Shape) -> list[tuple[float, float]]:
 
 
 def _resized(shape: Shape, x: float, y: float, snap_m: float = 0.0) -> Shape:
-    """Return a shape of the size at which its corner lies at a place.
+    """Return a shape whose corner lies at a place; the opposite one of a box stays where it was.
 
     Args:
         shape: the shape before.
@@ -203,21 +219,21 @@ def _resized(shape: Shape, x: float, y: float, snap_m: float = 0.0) -> Shape:
         snap_m: lengths are multiples of it; 0 for free ones.
 
     >>> _resized(BoxShape(size=(2, 1)), 1.6, 0.52, 0.5).size
-    (3.0, 1.0)
+    (2.5, 1.0)
     >>> _resized(CircleShape(radius=1), 0.3, 0.4).radius
     0.5
     """
+    edge_x, edge_y = edge_of(shape)
     if isinstance(shape, BoxShape):
-        return shape.model_copy(
-            update={"size": (_length(2 * abs(x), snap_m), _length(2 * abs(y), snap_m))}
-        )
+        size = _length(x + edge_x, snap_m), _length(y + edge_y, snap_m)
+        return shape.model_copy(update={"size": size})
     if isinstance(shape, CircleShape):
         return shape.model_copy(update={"radius": _length(2 * math.hypot(x, y), snap_m) / 2})
     if isinstance(shape, CapsuleShape):
-        radius = _length(2 * abs(y), snap_m) / 2
-        length = _length(2 * max(abs(x) - radius, 0.0), snap_m)
+        radius = _length(y + edge_y, snap_m) / 2
+        length = _length(x + edge_x - 2 * radius, snap_m)
         return shape.model_copy(update={"radius": radius, "length": length})
-    reach = math.hypot(*edge_of(shape))
+    reach = math.hypot(edge_x, edge_y)
     return shape.scaled(max(math.hypot(x, y), MIN_SIZE_M) / max(reach, MIN_SIZE_M))
 
 

@@ -81,7 +81,8 @@ class _Ghost:
             return
         if self._built_for is not snapshot.static_scene or self._layers is not layers:
             self._build(snapshot.static_scene, layers)
-        now = drive.path.at(snapshot.time + 1e-4)  # a bit later, because its times are rounded
+        # a bit later, because its times are rounded
+        now = drive.path.at(snapshot.time / drive.stretch + 1e-4)
         is_fair = snapshot.seed == drive.episode.seed
         text = drive.label if is_fair else f"{drive.label} of another start"
         for body in self.bodies:

@@ -441,7 +441,7 @@ class Handles:
         frame = self._mark.frame
         if goal.shape is not None:
             self._mark.show_shape(goal.shape)
-        elif frame is not None:
+        if frame is not None:
             turned = drag.heading if goal.heading_deg is None else math.radians(goal.heading_deg)
             self._mark.place(goal.x, goal.y, float(frame.position[2]), turned)
 
@@ -466,7 +466,8 @@ class Handles:
                 return
             if goal.shape is not None:
                 shape = goal.shape.model_dump(mode="json")
-                future = self._editor.change_body(drag.name, {"shape": shape})
+                is_moved = goal[:2] != (drag.x, drag.y)
+                future = self._editor.resize(drag.name, shape, goal[:2] if is_moved else None)
             elif goal.height is not None:
                 future = self._editor.change_body(drag.name, {"height": goal.height})
             else:

@@ -61,9 +61,7 @@ class Labels:
                     centre = outline.mean(axis=0)
                     reach = float(np.linalg.norm(outline - centre, axis=1).max())
                     handle = _add(self._scene, parent, index, text)
-                    labels.append(
-                        _Label(index, text, centre, 1.08 * reach, body.height, handle, parent)
-                    )
+                    labels.append(_Label(index, text, centre, 1.08 * reach, handle, parent))
         self.labels, self._built_for = labels, wanted
 
     def draw(self, snapshot: Snapshot) -> None:
@@ -116,7 +114,7 @@ class Labels:
             y = body.y + dy + label.reach * math.sin(down)
             label.draw(
                 f"{label.text}  {problem}" if problem else label.text,
-                (x, y, body.z + label.height),
+                (x, y, body.z),  # at its foot: a tilted camera would see its face covered
                 is_visible=not body.fallen and (not is_driven or bool(problem)),
             )
 
@@ -161,8 +159,6 @@ class _Label:
     """Centre of the body's outline, in the body's frame."""
     reach: float
     """Distance (m) from that centre down to the label."""
-    height: float
-    """The body's height (m)."""
     handle: LabelHandle
     parent: str
     """Name of the parent node."""
