@@ -17,7 +17,7 @@ import math
 import zlib
 from collections.abc import Callable, Generator, Mapping
 from functools import wraps
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -77,6 +77,15 @@ def call_all(calls: Calls, function: Callable[..., Any]) -> str | Done:
         return result
 
 
+class Judged(NamedTuple):
+    """The opinion of a judge."""
+
+    passed: bool
+    text: str
+    hint: str = ""
+    """Hint for the mistake; empty if it is not known."""
+
+
 class RemoteCalls:
     """Calls of an exercise's function that runs elsewhere, in a page.
 
@@ -98,11 +107,8 @@ class RemoteCalls:
         self._calls = JUDGES[exercise_id](np.random.default_rng(seed))
         self.arguments = ""
         """Arguments of the next call, as the page's Python reads them; empty if there is none."""
-        self.passed = False
-        self.text = ""
-        """Sentence of the judge at the end."""
-        self.hint = ""
-        """Hint for the mistake; empty if it is not known."""
+        self.judged = Judged(False, "")
+        """What the judge says when there is no call left."""
         self._go_on(lambda: next(self._calls))
 
     def answer(self, value: str) -> None:
@@ -119,10 +125,10 @@ class RemoteCalls:
             self.arguments = json.dumps([_encoded(each) for each in step()])
         except StopIteration as end:
             result: str | Done = end.value
-            self.passed, self.text = True, result if isinstance(result, str) else result.text
+            self.judged = Judged(True, result if isinstance(result, str) else result.text)
         except NotYet as reason:
-            self.text = reason.text
-            self.hint = self.exercise.hints.get(reason.hint, "")
+            hint = self.exercise.hints.get(reason.hint, "")
+            self.judged = Judged(False, reason.text, hint)
 
 
 def starting_text(exercise_id: str) -> str:

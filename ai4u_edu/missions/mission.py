@@ -20,6 +20,7 @@ from pydantic import (
 from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest
 from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.missions.checks import AnyCheck, Driver, Solves, Text
+from ai4u_edu.page.editing.scene_pictures import template_names
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.world.shapes import Description
@@ -30,8 +31,8 @@ MAX_FILES = 100
 MAX_FILE_BYTES = 64 * 1024
 REREAD_S = 1.0
 """Time (s) after which a folder is looked at again."""
-EMPTY_SCENES = ("my_scene",)
-"""Scenes that are no goal of the library: the empty plate."""
+EMPTY_SCENES = template_names()
+"""Scenes to build in, which have no goal yet: the empty plate, and worlds of lessons."""
 EXPECTED = "lines such as title: ..., scene: ..., steps: ..."
 Island = Literal["Drive", "Sense", "Think", "Code", "Build", "Teach", "Compete", "My class"]
 """Islands of the map, in their order; the last one is for missions of a teacher."""
@@ -98,7 +99,8 @@ class Mission(Description):
     """Its place on the island; the smallest comes first."""
     minutes: Annotated[int, Field(ge=1, le=30)] = 5
     scene: str
-    """Name of a scene of the library, or ``my_scene`` for an empty plate with a robot."""
+    """Name of a scene of the library or of a lesson, or ``my_scene`` for an empty plate with a
+    robot."""
     idea: Annotated[str, StringConstraints(max_length=40)] = ""
     """The word that it is about, such as ``percept``."""
     steps: Annotated[list[Step], Field(min_length=1, max_length=12)]

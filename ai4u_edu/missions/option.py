@@ -13,7 +13,8 @@ from msgspec import Meta, Struct
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons.calls import RemoteCalls, function_name, starting_text
+from ai4u_edu.lessons.built import BUILT, judge_built
+from ai4u_edu.lessons.calls import Judged, RemoteCalls, function_name, starting_text
 from ai4u_edu.missions.checks import (
     Chooses,
     Decision,
@@ -29,6 +30,7 @@ from ai4u_edu.missions.checks import (
 )
 from ai4u_edu.missions.mission import EMPTY_SCENES, Mission, MissionFolder, Missions
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.answers import Answer
@@ -94,7 +96,7 @@ class AnswerMission(PageCommand, tag="mission_answer"):
 
 
 class JudgeFunction(PageCommand, tag="mission_judge"):
-    """Begin to check the function that this page has for the step's exercise.
+    """Begin to check the function that this page has for the step's exercise, or its robot.
 
     The answer has the arguments of a call, or the verdict: ``passed``, ``text`` and ``hint``.
     """
@@ -118,11 +120,11 @@ class MissionQuestion(Struct, frozen=True):
 
 
 class MissionExercise(Struct, frozen=True):
-    """A function to write, which the page calls and the room judges."""
+    """A function to write, which the page calls and the room judges; or a robot to build."""
 
     id: str
     function: str
-    """Its name."""
+    """Its name; empty for a robot."""
     text: str
     """Program to begin with."""
 
@@ -428,6 +430,10 @@ class MissionOption:
             raise SetupError("this step has no function to check; open one that has")
         exercise = chosen.run.mission.exercise
         # it imports the lesson, and some judges drive a robot
+        if exercise in BUILT and self._editor is not None:
+            scene = Scene(self._editor.state.description)
+            judged = await asyncio.to_thread(judge_built, exercise, lambda: scene.build().agents[0])
+            return await self._tell(page, chosen.run, judged)
         calls = await asyncio.to_thread(RemoteCalls, exercise, command.source)
         self._calls[chosen.run] = calls
         return await self._called(page, chosen.run, calls)
@@ -444,9 +450,12 @@ class MissionOption:
         """Answer with the next call; or with the verdict, which the mission sees, too."""
         if calls.arguments:
             return Answer(more={"arguments": calls.arguments})
-        verdict = Verdict(calls.passed, calls.text)
+        return await self._tell(page, run, calls.judged)
+
+    async def _tell(self, page: Page, run: MissionRun, judged: Judged) -> Answer:
+        verdict = Verdict(judged.passed, judged.text)
         await page.result(self._runner.submit(lambda: run.see(verdict)))
-        more = {"passed": calls.passed, "text": calls.text, "hint": calls.hint}
+        more = {"passed": judged.passed, "text": judged.text, "hint": judged.hint}
         return Answer(more=more)
 
     def _chosen(self, view: PageView) -> _Chosen | None:
@@ -577,11 +586,14 @@ def page_option(runner: Runner, _player: ReplayPlayer, editor: SceneEditor | Non
 
 @cache
 def _exercise(exercise_id: str) -> MissionExercise:
+    if exercise_id in BUILT:
+        return MissionExercise(exercise_id, "", "")
     return MissionExercise(exercise_id, function_name(exercise_id), starting_text(exercise_id))
 
 
 @cache
 def _scene_title(name: str) -> str:
-    if name in EMPTY_SCENES:
-        return "My scene"
+    scene = load_by_name(name)
+    if scene is not None and name in EMPTY_SCENES:
+        return scene.description.title
     return Scene.load(name).description.title or name

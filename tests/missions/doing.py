@@ -16,11 +16,12 @@ from ai4u_edu.blocks import (
     LocalBrain,
     Percept,
 )
-from ai4u_edu.lessons.calls import RemoteCalls, function_name
+from ai4u_edu.lessons.built import judge_built
+from ai4u_edu.lessons.calls import Judged, RemoteCalls, function_name
 from ai4u_edu.missions.checks import Driver, SeenPage, Verdict, decision_of
-from ai4u_edu.missions.mission import EMPTY_SCENES, library_missions
+from ai4u_edu.missions.mission import library_missions
 from ai4u_edu.missions.option import MissionRun
-from ai4u_edu.page.editing.scene_pictures import TEMPLATES
+from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.program import ProgramError, host
 from ai4u_edu.scenes import Scene
 
@@ -88,7 +89,15 @@ class Doing:
         self._host("load", source=source, has_entry=False)
         while calls.arguments:
             calls.answer(self._host("call", name=name, arguments=calls.arguments)["value"])
-        self.run.see(Verdict(calls.passed, calls.text))
+        self._see(calls.judged)
+
+    def check(self) -> None:
+        """Let the exercise's judge look at the robot that is built."""
+        scene = Scene(self.scene)
+        self._see(judge_built(self.run.mission.exercise, lambda: scene.build().agents[0]))
+
+    def _see(self, judged: Judged) -> None:
+        self.run.see(Verdict(judged.passed, judged.text))
         self.go_on()
 
     def _host(self, method: str, **said: object) -> dict[str, Any]:
@@ -133,8 +142,9 @@ class Doing:
     def _decide(self, percept: Percept) -> Action:
         action = dict(self._policy(self.agent))
         if isinstance(action.get("move"), list) and len(action["move"]) == 4:
-            forward, turn, *_ = move = action["move"]
-            action["move"] = self._moved(forward, turn, move)
+            forward, turn, *_ = move = action.pop("move")
+            wheels = [each for each in self.agent.actuators if each.action_name == "wheels"]
+            action["wheels" if wheels else "move"] = self._moved(forward, turn, move)
         return action
 
     def _moved(self, forward: float, turn: float, move: list[float]) -> Any:
@@ -155,4 +165,6 @@ class Doing:
 
 
 def scene_of(name: str) -> Scene:
-    return Scene.load(TEMPLATES / f"{name}.yaml" if name in EMPTY_SCENES else name)
+    scene = load_by_name(name)
+    assert scene is not None
+    return scene

@@ -10,7 +10,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LinearRayCastingSensor
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.missions.checks import decision_of
+from ai4u_edu.missions.checks import Solves, decision_of
 from ai4u_edu.world import BodyDescription
 from tests.missions.doing import Action, Doing, Policy
 from tests.scenes.solvers import solver_of
@@ -496,6 +496,122 @@ def exercise(do: Doing) -> None:
     do.solve(answers_to(do.run.mission.exercise).solution)
 
 
+def code_17(do: Doing) -> None:
+    do.drive(before_the_box)
+    do.new_start()
+    do.drive(before_the_box)
+
+
+def before_the_box(agent: BasicAgent) -> Action:
+    return STOP if agent.percept["orientation"][1] < 2.1 else move(1, 0)(agent)
+
+
+def wires(agent: BasicAgent) -> list[float]:
+    return [float(agent.percept[f"{side} eye"][0]) for side in ("left", "right")]
+
+
+def code_18(do: Doing) -> None:
+    do.open("code")
+    do.drive(lambda agent: {"wheels": wires(agent)[::-1]}, 3000)
+    do.new_start()
+    do.drive(lambda agent: {"wheels": wires(agent)[::-1]}, 3000)
+
+
+def code_19(do: Doing) -> None:
+    do.drive(lambda agent: {"wheels": wires(agent)}, 3000, through=True)
+
+
+def change_agent(do: Doing, **kinds: object) -> None:
+    do.change(agents=({**do.scene.agents[0], **kinds},))
+    if isinstance(do.run.step.check, Solves):
+        do.check()
+
+
+def build_7(do: Doing) -> None:
+    (motor,) = do.scene.agents[0]["actuators"]
+    change_agent(do, actuators=[{**motor, "move_amount": 2, "turn_amount": 3}])
+
+
+BEARING = {"type": "BearingSensor", "target": "box"}
+TOUCH_BOX = {**TOUCH, "target": "box"}
+FALL = {"type": "FallReward", "cause_episode_to_end": True}
+
+
+def build_8(do: Doing) -> None:
+    change_agent(do, sensors=[BEARING, {"type": "TouchSensor", "target": "box"}])
+
+
+def build_9(do: Doing) -> None:
+    change_agent(do, rewards=[TOUCH_BOX, FALL])
+
+
+def build_10(do: Doing) -> None:
+    seen = {"type": "OrientationSensor", "target": "box", "visibility_test": True}
+    change_agent(do, sensors=[BEARING, {**seen, "info": "distance"}])
+
+
+def build_12(do: Doing) -> None:
+    change_agent(do, rewards=[{"type": "ProgressReward", "target": "box"}, TOUCH_BOX])
+
+
+def build_13(do: Doing) -> None:
+    time = {"type": "RestlessnessRewardFunc", "reward": -0.05, "min_dist": 5}
+    change_agent(do, rewards=[TOUCH_BOX, {**FALL, "success_reward": -20}, time])
+
+
+WRONG_ROBOTS: dict[str, list[dict[str, list[Mapping[str, object]]]]] = {
+    "build-7": [
+        {"actuators": [{"type": "RBMoveActuator", "move_amount": 2}]},
+        {"actuators": [{"type": "RBMoveActuator", "move_amount": 3, "turn_amount": 2}]},
+        {"actuators": [{"type": "DifferentialDriveActuator", "action_name": "move"}]},
+    ],
+    "build-8": [
+        {"sensors": [BEARING]},
+        {"sensors": [{"type": "TouchSensor", "target": "box"}]},
+        {"sensors": [BEARING, {"type": "GroundStatusSensor"}]},
+    ],
+    "build-9": [
+        {"rewards": [TOUCH_BOX]},
+        {"rewards": [FALL, {**TOUCH_BOX, "reward": 1}]},
+        {"rewards": [FALL, {**TOUCH_BOX, "cause_episode_to_end": False}]},
+    ],
+    "build-10": [
+        {"sensors": [BEARING]},
+        {"sensors": [BEARING, {"type": "OrientationSensor", "target": "box"}]},
+        {"sensors": [{"type": "VelocitySensor"}]},
+    ],
+    "build-11": [
+        {"sensors": [BEARING]},
+        {"sensors": [BEARING, {"type": "OrientationSensor", "target": "box"}]},
+        {"sensors": [{"type": "PositionSensor"}]},
+    ],
+    "build-12": [
+        {"rewards": [TOUCH_BOX]},
+        {"rewards": [{**TOUCH_BOX, "reward": 1000}]},
+        {"rewards": [{"type": "RestlessnessRewardFunc", "reward": 1, "min_dist": 5}]},
+    ],
+    "build-13": [
+        {"rewards": [TOUCH_BOX, FALL]},
+        {"rewards": [TOUCH_BOX, {**FALL, "success_reward": -20}]},
+        {"rewards": [FALL]},
+    ],
+}
+"""Blocks of robots that are no answer, by the mission."""
+
+
+def build_14(do: Doing) -> None:
+    change_agent(do, sensors=[BEARING])
+    do.change(success="touch", agents=({**do.scene.agents[0], "rewards": [TOUCH_BOX, FALL]},))
+    do.drive(finder, 4000)
+    do.new_start()
+    do.drive(finder, 8000)
+
+
+def finder(agent: BasicAgent) -> Action:
+    left, ahead = map(float, agent.percept["bearing"])
+    return move(0, -1 if left > 0 else 1)(agent) if ahead < 0 else move(1, -left)(agent)
+
+
 def compete(do: Doing) -> None:
     while not do.is_done:
         do.new_start()
@@ -544,12 +660,23 @@ SOLUTIONS: dict[str, Solution] = {
     "code-14": exercise,
     "code-15": exercise,
     "code-16": exercise,
+    "code-17": code_17,
+    "code-18": code_18,
+    "code-19": code_19,
     "build-1": build_1,
     "build-2": build_2,
     "build-3": build_3,
     "build-4": build_4,
     "build-5": build_5,
     "build-6": build_6,
+    "build-7": build_7,
+    "build-8": build_8,
+    "build-9": build_9,
+    "build-10": build_10,
+    "build-11": build_10,
+    "build-12": build_12,
+    "build-13": build_13,
+    "build-14": build_14,
     "teach-1": teach_1,
     "teach-2": teach_2,
     "teach-3": teach_3,

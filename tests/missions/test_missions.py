@@ -9,14 +9,15 @@ import numpy as np
 import pytest
 
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.lessons.calls import starting_text
-from ai4u_edu.lessons.course import course_folder, lesson
+from ai4u_edu.lessons.built import BUILT
+from ai4u_edu.lessons.calls import JUDGES, starting_text
+from ai4u_edu.lessons.course import lesson
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.missions.checks import Reads, Solves
 from ai4u_edu.missions.mission import ISLANDS, LIBRARY, library_missions, read_mission
 from ai4u_edu.program import ProgramError
 from tests.missions.doing import Action, Doing
-from tests.missions.solutions import SOLUTIONS, STOP, move
+from tests.missions.solutions import SOLUTIONS, STOP, WRONG_ROBOTS, change_agent, move
 
 MISSIONS = library_missions().by_name
 CHANCE = random.Random(
@@ -50,6 +51,7 @@ def test_each_mission_is_as_a_file_of_a_teacher_has_to_be() -> None:
         assert 3 <= mission.minutes <= 8
         assert mission == MISSIONS[path.stem]
     assert list(SOLUTIONS) == list(MISSIONS)
+    assert len(WRONG_ROBOTS) == len(BUILT)
 
 
 def test_the_words_of_the_course_are_met() -> None:
@@ -92,8 +94,8 @@ def test_wrong_ways_do_not_pass(name: str) -> None:
     open_all(ahead)
     ahead.drive(move(1, 0), CHANCE_DECISIONS, through=True)
     assert not ahead.is_done
-    if MISSIONS[name].exercise:
-        return  # in place of another driver, wrong functions are tried below
+    if all(isinstance(step.check, Solves) for step in MISSIONS[name].steps):
+        return  # in place of another driver, wrong answers are tried below
 
     other = Doing(name, driver="controller")
     SOLUTIONS[name](other)
@@ -101,15 +103,19 @@ def test_wrong_ways_do_not_pass(name: str) -> None:
 
 
 EXERCISES = {name: mission for name, mission in MISSIONS.items() if mission.exercise}
+FUNCTIONS = [name for name, mission in EXERCISES.items() if mission.exercise in JUDGES]
 
 
 @pytest.mark.parametrize("name", EXERCISES)
-def test_an_exercise_is_that_of_the_notebook(name: str) -> None:
-    """The same sentence, the same function to begin with, and the same judge."""
-    exercise = EXERCISES[name].exercise
-    lines = (course_folder() / lesson(exercise[:2]).path.name).read_text(encoding="utf-8")
+def test_an_exercise_says_a_sentence_of_its_notebook(name: str) -> None:
+    lines = lesson(EXERCISES[name].exercise[:2]).path.read_text(encoding="utf-8")
     text = plain_text(re.sub(r"^# ?", "", lines, flags=re.MULTILINE))
-    assert plain_text(EXERCISES[name].steps[-1].say) in text
+    assert any(plain_text(step.say) in text for step in EXERCISES[name].steps)
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_the_function_to_begin_with_does_not_pass(name: str) -> None:
+    exercise = EXERCISES[name].exercise
     assert find(exercise).title == EXERCISES[name].title
     do = Doing(name)
     do.solve(starting_text(exercise))
@@ -117,10 +123,10 @@ def test_an_exercise_is_that_of_the_notebook(name: str) -> None:
 
 
 def plain_text(text: str) -> str:
-    return " ".join(re.sub(r"[*`]", "", text).split())
+    return " ".join(re.sub(r"[*`]|^- ", "", text, flags=re.MULTILINE).split())
 
 
-@pytest.mark.parametrize("name", EXERCISES)
+@pytest.mark.parametrize("name", FUNCTIONS)
 def test_wrong_functions_of_an_exercise_do_not_pass(name: str) -> None:
     answers = answers_to(EXERCISES[name].exercise)
     assert len(answers.wrong) >= 3
@@ -131,6 +137,17 @@ def test_wrong_functions_of_an_exercise_do_not_pass(name: str) -> None:
         with contextlib.suppress(ProgramError):  # some of them fail, in the page as here
             do.solve("import math\n" + answer.code)
         assert do.is_done == answer.is_right, answer.name
+
+
+@pytest.mark.parametrize("name", WRONG_ROBOTS)
+def test_wrong_robots_of_an_exercise_do_not_pass(name: str) -> None:
+    do = Doing(name)
+    do.check()
+    assert not do.is_done
+    assert do.run.words
+    for kinds in WRONG_ROBOTS[name]:
+        change_agent(do, **kinds)
+        assert not do.is_done, kinds
 
 
 def test_chance_does_not_pass_in_a_few_starts() -> None:

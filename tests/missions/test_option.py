@@ -8,6 +8,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.room import serve_world
 from ai4u_edu.runtime.runner import Runner
 from tests.missions.test_run import TEXT
@@ -98,6 +99,24 @@ def test_a_function_is_judged_by_what_the_page_says_it_returned(page: PanelPage)
     page.done("mission_open", mission="drive-1")
     page.part("mission", mission="drive-1", exercise=None)
     assert "no function to check" in page.failed("mission_judge", source="a")["text"]
+
+
+def test_a_robot_is_judged_as_it_is_built() -> None:
+    with panel_room("box_chase") as room, room.page() as page:
+        page.done("mission_open", mission="build-7")
+        part = page.part("mission", mission="build-7", scene_title="A robot with legs")
+        assert part["exercise"] == {"id": "03.1", "function": "", "text": ""}
+        scene = load_by_name("lesson_03_legs")
+        assert scene is not None
+        room.editor.open(scene).result(LIMIT_S)
+        page.part("mission", is_here=True)
+        answer = page.done("mission_judge", source="")
+        assert not answer["passed"]
+        assert "In one second the robot drove" in answer["text"]
+        values = {"move_amount": 2, "turn_amount": 3}
+        page.done("change_block", path=["actuators", 0], values=values)
+        assert page.done("mission_judge", source="")["passed"]
+        page.part("mission", is_done=True)
 
 
 def test_only_the_page_that_drives_goes_on(room: PanelRoom, page: PanelPage) -> None:

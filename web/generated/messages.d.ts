@@ -324,10 +324,10 @@ export interface MissionQuestion {
   options: string[];
 }
 
-/** A function to write, which the page calls and the room judges. */
+/** A function to write, which the page calls and the room judges; or a robot to build. */
 export interface MissionExercise {
   id: string;
-  /** Its name. */
+  /** Its name; empty for a robot. */
   function: string;
   /** Program to begin with. */
   text: string;
@@ -1309,7 +1309,7 @@ export interface Ground {
 export interface HideElsewhere {
 }
 
-/** Begin to check the function that this page has for the step's exercise. The answer has the arguments of a call, or the verdict: `passed`, `text` and `hint`. */
+/** Begin to check the function that this page has for the step's exercise, or its robot. The answer has the arguments of a call, or the verdict: `passed`, `text` and `hint`. */
 export interface JudgeFunction {
   /** The person's text, from which the numbers are drawn; it is not run here. */
   source: string;

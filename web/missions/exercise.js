@@ -50,7 +50,8 @@ export class ExerciseForm {
     if (exercise === null) {
       this.#engine?.end();
       this.#engine = null;
-    } else void this.#open(exercise);
+    } else if (exercise.function) void this.#open(exercise);
+    this.#code.hidden = this.#again.hidden = !exercise?.function;
   }
 
   /** @param {MissionExercise} exercise */
@@ -80,12 +81,14 @@ export class ExerciseForm {
 
   async #judge() {
     const [exercise, editor, engine] = [this.#exercise, this.#editor, this.#engine];
-    if (exercise === null || editor === null || engine === null || this.#isChecking) return;
+    const isRobot = exercise !== null && !exercise.function;
+    if (exercise === null || this.#isChecking || (!isRobot && (editor === null || engine === null))) return;
     this.#isChecking = true;
     this.#check.disabled = true;
     this.#say("");
     try {
-      await this.#callAll(exercise, editor.text, engine);
+      if (isRobot) this.#tell(await this.#panel.send("mission_judge", { source: "" }, { quiet: true }));
+      else await this.#callAll(exercise, editor.text, engine);
     } finally {
       this.#isChecking = false;
       this.#check.disabled = false;
@@ -117,9 +120,17 @@ export class ExerciseForm {
       const value = called.value.length > MAX_VALUE_CHARS ? TOO_LARGE : called.value;
       answer = await this.#panel.send("mission_returned", { value }, { quiet: true });
     }
-    if (!answer.ok) this.#say(answer.text, printed);
-    else if (!answer.passed) this.#say([answer.text, answer.hint].filter(Boolean).join(" "), printed);
-    else this.#say("", printed);
+    this.#tell(answer, printed);
+  }
+
+  /**
+   * Show a verdict.
+   * @param {AnswerTo<"mission_judge">} answer
+   * @param {string} [printed]
+   */
+  #tell({ ok: isOk, passed, text, hint }, printed = "") {
+    if (isOk && passed) this.#say("", printed);
+    else this.#say([text, hint].filter(Boolean).join(" "), printed);
   }
 
   /**

@@ -48,6 +48,13 @@ def _robot(move: float, turn: float, brain: LocalBrain) -> BasicAgent:
     )
 
 
+def runway() -> ControlRequestor:
+    """Return a world whose robot faces a box, from another distance in each episode."""
+    somewhere = Variation(x=(3, 7), y=(0, 0.01))
+    agent = _robot(3, 2, LocalBrain(controller=lambda _: {}))
+    return ControlRequestor(plate(None, somewhere, size=16), [agent])
+
+
 def _repeated(count: int, action: list[float], *, move: float, turn: float, size: float) -> Drive:
     """Repeat one action a number of times, from the middle of a plate."""
     edge = size / 2 - 1
@@ -170,9 +177,8 @@ def turns_a_quarter(chance: np.random.Generator) -> Calls:
 )
 def stops_in_time(drive_it: Any) -> Done:
     """Check that it drives up to 2 m from the box, and stops there."""
-    somewhere = Variation(x=(3, 7), y=(0, 0.01))
-    agent = _robot(3, 2, LocalBrain(controller=lambda _: {}))
-    sim = ControlRequestor(plate(None, somewhere, size=16), [agent])
+    sim = runway()
+    agent = sim.agents[0]
     agent.use_brain(as_brain(drive_it))
     moved: set[float] = set()
     falls = 0

@@ -20,7 +20,7 @@ TOUCH = 1.0
 """Distance of the centres at which vehicle and lamp touch, and a little more; metres."""
 
 
-def _vehicle(wires: Any, seed: int) -> ControlRequestor:
+def vehicle(wires: Any, seed: int) -> ControlRequestor:
     """Make a vehicle 4 to 6 m from a lamp, which is in front of it or beside it."""
     chance = np.random.default_rng(seed)
     around, away = chance.uniform(-math.pi, math.pi), chance.uniform(4, 6)
@@ -56,7 +56,7 @@ def _drives(
 ) -> Iterator[tuple[Drive, list[float]]]:
     """Run episodes, with the distances of the centres to the lamp on the way; metres."""
     for seed in seeds_of(exercise_id, 12):
-        sim = _vehicle(wires, seed)
+        sim = vehicle(wires, seed)
         done = drive(sim, sim.agents[0], seed, limit, watch)
         yield done, [math.hypot(x, y) for x, y in done.trail]
 
@@ -110,7 +110,7 @@ def _turned(done: Drive) -> bool:
 
 def _vehicle_heading(done: Drive) -> float:
     """Return its heading at the beginning; radians."""
-    return float(_vehicle(lambda _: {}, done.seed).world["vehicle"].heading)
+    return float(vehicle(lambda _: {}, done.seed).world["vehicle"].heading)
 
 
 @exercise(

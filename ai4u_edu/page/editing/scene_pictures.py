@@ -116,10 +116,16 @@ def picture_file(name: str) -> Path | None:
 
 
 def load_by_name(name: str) -> Scene | None:
-    """Return a scene of the library, or the empty one; None if there is none of that name."""
-    if name == EMPTY_SCENE:
-        return Scene.load(TEMPLATES / f"{EMPTY_SCENE}.yaml")
+    """Return a scene of the library, or a template of one; None if there is none of that name."""
+    if name in template_names():
+        return Scene.load(TEMPLATES / f"{name}.yaml")
     return Scene.load(name) if name in Scene.names() else None  # a path would lead elsewhere
+
+
+@cache
+def template_names() -> tuple[str, ...]:
+    """Return the names of scenes that are no goal of the library: the empty one, and lessons'."""
+    return tuple(sorted(path.stem for path in TEMPLATES.glob("*.yaml")))
 
 
 def _in_words(name: str) -> LibraryScene:
