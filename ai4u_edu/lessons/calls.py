@@ -135,7 +135,7 @@ def starting_text(exercise_id: str) -> str:
     """Return the cell of an exercise as a student gets it, with what the lesson imports for it."""
     first = next(cell for cell in _cells(exercise_id) if "setup" in cell.tags)
     imports = "import math\n\n\n" if "\nimport math\n" in f"\n{first.source}" else ""
-    return f"{imports}{_cell(exercise_id).source.strip()}\n"
+    return f"{imports}{_cell(exercise_id).source.strip()}"
 
 
 def function_name(exercise_id: str) -> str:

@@ -81,7 +81,7 @@ def test_a_function_is_judged_by_what_the_page_says_it_returned(page: PanelPage)
     assert part["exercise"] == {
         "id": "01.1",
         "function": "speed_for",
-        "text": "def speed_for(distance, seconds):\n    return 0\n",
+        "text": "def speed_for(distance, seconds):\n    return 0",
     }
     assert "no function is being checked" in page.failed("mission_returned", value="1")["text"]
     answer = page.done("mission_judge", source="a")

@@ -139,10 +139,14 @@ export class ExerciseForm {
    * @param {number} [line] with the mistake
    */
   #say(text, printed = "", line = 0) {
-    setText(this.#said, text);
+    // the lessons write code between backticks
+    if (this.#said.textContent !== text.replaceAll("`", "")) {
+      this.#said.replaceChildren(...text.split("`").map((part, index) => (index % 2 ? element("code", { textContent: part }) : part)));
+    }
     this.#said.hidden = !text;
     setText(this.#printed, printed);
     this.#printed.hidden = !printed;
+    if (text) this.#said.scrollIntoView({ block: "nearest" });
     this.#editor?.markMistake(line);
   }
 }

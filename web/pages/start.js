@@ -159,12 +159,12 @@ async function showMissions() {
  * @param {Mission | undefined} next the first one on the map that is not done
  */
 function islandOf(island, missions, next) {
-  cards += 1;
   const done = missions.filter(({ name, steps }) => progressOf(name).steps >= steps).length;
-  const heading = element("h3", { id: `island-${cards}` }, island, element("span", { className: "ai4u-facts", textContent: `${done} of ${missions.length}` }));
+  const heading = element("h3", {}, island, element("span", { className: "ai4u-facts", textContent: `${done} of ${missions.length}` }));
   const list = element("ol", {}, ...missions.map((mission) => missionCard(mission, mission === next)));
-  const made = element("section", { className: "ai4u-island" }, heading, list);
-  made.setAttribute("aria-labelledby", heading.id);
+  // there are too many missions to see all at once: the island of the next one is open
+  const isOpen = next !== undefined && missions.includes(next);
+  const made = element("details", { className: "ai4u-island", open: isOpen }, element("summary", {}, heading), list);
   made.toggleAttribute("data-done", done === missions.length);
   return made;
 }
