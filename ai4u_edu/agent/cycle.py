@@ -54,6 +54,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ai4u_edu.agent.agent import BasicAgent, Numbers
+from ai4u_edu.agent.episode_options import EpisodeOptions, Options
 from ai4u_edu.agent.error_context import add_context
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
@@ -106,6 +107,8 @@ class SimState(NamedTuple):
     world: WorldState
     agents: Mapping[str, AgentMoment]
     """States of the agents, by id."""
+    options: Options
+    """Options of the episode's reset."""
 
 
 class ControlRequestor:
@@ -163,6 +166,7 @@ class ControlRequestor:
         """Number of episodes of the world that have begun."""
         self.waiting_for_brain = False
         """True if the last tick did not take place because a brain answered HOLD."""
+        self.options = EpisodeOptions(self)
         for agent in self.agents:
             agent.other_agents = len(self.agents) - 1
             agent.set_requestor(self)
@@ -184,24 +188,26 @@ class ControlRequestor:
             f"no agent has the id {agent_id!r}; {suggest(agent_id, [a.id for a in self.agents])}"
         )
 
-    def reset(self, seed: int | None = None) -> None:
+    def reset(self, seed: int | None = None, options: Options | None = None) -> None:
         """Begin an episode, for the world and all its agents.
 
         Args:
             seed: the episode's seed; by default it follows from the last one, or is the same if
                 :attr:`is_seed_locked`.
+            options: numbers for this episode by name; see :class:`EpisodeOptions`.
 
         Raises:
-            ParameterError: it is no seed; then nothing has changed.
+            AI4UError: seed or options are wrong; then nothing has changed.
         """
         if seed is None and self.is_seed_locked:
             seed = self.world.seeds.seed
         if seed is not None:
             seed = checked_seed(seed)  # before any handler is told of the reset
-        for agent in self.agents:
-            if agent.before_the_reset.handlers:
-                agent.before_the_reset.fire(agent)
-        self.world.reset(seed)
+        with self.options.applied(options):
+            for agent in self.agents:
+                if agent.before_the_reset.handlers:
+                    agent.before_the_reset.fire(agent)
+            self.world.reset(seed)
         self.episode += 1
         self._begin(self._cycles)
 
@@ -288,6 +294,7 @@ class ControlRequestor:
             self.episode,
             self.world.get_state(with_motions=with_motions),
             {cycle.agent.id: cycle.get_state() for cycle in self._cycles},
+            dict(self.options.values),
         )
 
     def set_state(self, state: SimState) -> None:
@@ -297,7 +304,7 @@ class ControlRequestor:
         differently (by rounding) than in the other world. A brain keeps its own state if it is of
         another class, and so does an agent that the other world does not have.
         """
-        self.reset(state.world.seed)
+        self.reset(state.world.seed, state.options)
         self.world.set_state(state.world)
         self.episode = state.episode
         for cycle in self._cycles:

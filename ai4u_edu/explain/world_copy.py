@@ -50,7 +50,7 @@ class WorldCopy:
         if isinstance(world, ControlRequestor):
             world = Moment.of_sim(world, agent)
         if isinstance(world, Moment):
-            state, seed = world.state, world.state.world.seed
+            state, seed = _in_scene(world.state), world.state.world.seed
             self.sim = Scene(world.scene).build(brains=partial(_brain_in_copy, world.agent))
             self.agent = self.sim.agent(world.agent)
             rhythm = world.brain
@@ -67,7 +67,7 @@ class WorldCopy:
 
     def take_over(self, moment: Moment) -> None:
         """Stand as the same scene stood at another moment."""
-        self._state = moment.state
+        self._state = _in_scene(moment.state)
 
     def grid(self, columns: int = DEFAULT_COLUMNS, heading: float | None = None) -> Poses:
         """Return poses on a grid over the floor, row by row from below, (n, 3): x, y, heading.
@@ -157,6 +157,11 @@ class WorldCopy:
     def step(self) -> Percept:
         """Run one decision of the agent from where it was put."""
         return self.sim.step(self.agent)
+
+
+def _in_scene(state: SimState) -> SimState:
+    """Return a state without the options of its reset, which the moment's scene has already."""
+    return state._replace(options={})
 
 
 def _brain_in_copy(moved: str, agent: BasicAgent) -> Brain | None:

@@ -8,7 +8,7 @@ import json
 import math
 import zlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple, Self, TypeVar
@@ -31,6 +31,8 @@ EARLIER_HEADERS = (b"ai4u-edu episode 1\n",)
 """Headers of earlier versions, which are read as well: the first one has no inputs."""
 MAX_INPUTS = 20_000
 """Most inputs of an episode; what happens later is not recorded."""
+MAX_OPTIONS = 1000
+"""Most options of an episode."""
 MAX_FILE_BYTES = 16 * 2**20
 """Size of a file."""
 MAX_UNPACKED_MB = 24
@@ -184,6 +186,8 @@ class Episode:
     """Versions of the packages that ran, by name."""
     inputs: tuple[Input, ...] = ()
     """Numbers that scripts gave to the agents besides actions, in order."""
+    options: Mapping[str, Any] = field(default_factory=dict)
+    """Options of the reset that began it, by name; ``scene`` has these numbers already."""
 
     def agent(self, agent_id: str | None = None) -> AgentRecord:
         """Return the record of an agent; by default of the one that acts first."""
@@ -254,7 +258,9 @@ class Episode:
 
     def __str__(self) -> str:
         told = ", ".join(f"agent {r.id}: {len(r)} decisions, {r.total:g}" for r in self.agents)
-        return f"{self.scene.name}, seed {self.seed}, {self.seconds:.1f} s; {told}"
+        with_options = "".join(f", {name} {value}" for name, value in self.options.items())
+        start = f"{self.scene.name}, seed {self.seed}{with_options}"
+        return f"{start}, {self.seconds:.1f} s; {told}"
 
 
 E = TypeVar("E", bound=Episode)
@@ -302,6 +308,7 @@ class _File(BaseModel):
     order: bytes
     restarts: list[tuple[int, list[int]]]
     inputs: list[tuple[int, int, str, int, list[float]]] = Field(default=[], max_length=MAX_INPUTS)
+    options: dict[str, int | float | list[int | float]] = Field(default={}, max_length=MAX_OPTIONS)
 
 
 def encode(episode: Episode) -> bytes:
@@ -337,6 +344,7 @@ def encode(episode: Episode) -> bytes:
         "order": pack_column(episode.order),
         "restarts": episode.restarts,
         "inputs": episode.inputs,
+        **({"options": dict(episode.options)} if episode.options else {}),
     }
     return HEADER + zlib.compress(msgpack.packb(plain), 9)
 
@@ -382,6 +390,7 @@ def _read(cls: type[E], data: bytes) -> E:
         cut=file.cut,
         versions=file.versions,
         inputs=tuple(Input(*parts[:-1], tuple(parts[-1])) for parts in file.inputs),
+        options=file.options,
     )
     _validate(episode)
     return episode
@@ -521,6 +530,9 @@ def _validate(episode: Episode) -> None:
             raise RecordingError(
                 f"inputs: expected an agent's number, a moment and finite numbers, got {given}"
             )
+    numbers = np.array([number for value in episode.options.values() for number in np.ravel(value)])
+    if not np.isfinite(numbers.astype(np.float64)).all():
+        raise RecordingError(f"options: expected finite numbers, got {episode.options}")
 
 
 def _check_agent(record: AgentRecord, ticks: int) -> None:

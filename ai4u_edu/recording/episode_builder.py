@@ -104,6 +104,7 @@ class EpisodeBuilder:
         self.scene = scene
         """Description of the world and its agents."""
         self._seed = sim.world.seeds.seed
+        self._options = dict(sim.options.values)
         self._columns = [_AgentColumns(agent.id) for agent in sim.agents]
         self._index = {agent.id: index for index, agent in enumerate(sim.agents)}
         self._order: list[int] = []
@@ -216,6 +217,7 @@ class EpisodeBuilder:
             cut=self.cut,
             versions=dict(VERSIONS),
             inputs=tuple(self._inputs),
+            options=self._options,
         )
 
     def _is_unfinished(self, index: int, counts: list[int]) -> bool:

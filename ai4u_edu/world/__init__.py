@@ -14,6 +14,7 @@ from ai4u_edu.world.edit import (
     edit_body,
     insert_body,
     put_region,
+    redescribe,
     reorder,
     sampled_region,
 )
@@ -55,6 +56,7 @@ __all__ = [
     "edit_body",
     "insert_body",
     "put_region",
+    "redescribe",
     "reorder",
     "sampled_region",
 ]

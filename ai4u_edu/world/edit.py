@@ -6,7 +6,12 @@ from typing import cast
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.world.body import Body
-from ai4u_edu.world.descriptions import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.descriptions import (
+    AreaDescription,
+    BodyDescription,
+    FloorDescription,
+    WorldSettings,
+)
 from ai4u_edu.world.world import World
 
 Pose = tuple[float, float, float]
@@ -105,6 +110,28 @@ def put_region(
     if is_floor:
         world._update_heights()
     world._physics.generation += 1
+
+
+def redescribe(
+    world: World,
+    things: Iterable[BodyDescription | FloorDescription | AreaDescription],
+    settings: WorldSettings,
+) -> None:
+    """Give things, and the world, other descriptions, which count from the next reset on.
+
+    Args:
+        world: the world to change.
+        things: new descriptions; each of them has the name of one of that kind in the world.
+        settings: of the world; the length of a tick stays.
+    """
+    for thing in things:
+        world._registry.replace(thing)
+        if isinstance(thing, BodyDescription):
+            body = world[thing.name]
+            body.description, body.tags, body.height = thing, thing.tags, thing.height
+        else:
+            world._registry.put_region(thing)
+    world.settings = world._physics.settings = settings
 
 
 def reorder(world: World, names: Iterable[str]) -> None:

@@ -54,11 +54,11 @@ class SceneVecEnv(VecEnv):  # type: ignore[misc]  # seen without its types
         self._actions: Any = None
 
     def reset(self) -> Any:
-        """Reset every world, with the seeds of :meth:`seed` if it was called."""
+        """Reset every world, with the seeds of ``seed`` and the options of ``set_options``."""
         # all of them before any world begins anew
         seeds = [None if each is None else checked_seed(each) for each in self._seeds]
         for index, seed in enumerate(seeds):
-            self._worlds.reset(index, seed)
+            self._worlds.reset(index, seed, self._options[index] or None)
         self.reset_infos: list[dict[str, Any]] = [{} for _ in self.envs]
         self._reset_seeds()
         self._reset_options()

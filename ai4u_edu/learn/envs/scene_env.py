@@ -1,6 +1,7 @@
 """A scene as a Gymnasium environment: one agent learns, the others follow their brains."""
 
 from collections.abc import Callable
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from ai4u_edu.blocks import Percept
 from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning, warn_of_default_agent
 from ai4u_edu.learn.envs.external_brain import take_over
-from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
+from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, options_space_of, outputs_of
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
@@ -132,6 +133,17 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         """
         return describe_agent(self.agent, self.observation_space, self.action_space)
 
+    @cached_property
+    def options_space(self) -> gymnasium.spaces.Dict:
+        """The numbers that options of a reset may change, with their ranges, by name.
+
+        A number is found by the end of its name, too, if no other one ends so: ``gravity``.
+
+        >>> SceneEnv("box_chase").options_space["world.gravity"]
+        Box(0.0, 1000.0, (), float64)
+        """
+        return options_space_of(self.scene, self.sim)
+
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
@@ -139,9 +151,18 @@ class SceneEnv(gymnasium.Env[Any, Any]):
 
         Args:
             seed: fixes everything in it; left out, it follows from the last one's.
-            options: none are known.
+            options: numbers of the scene for this episode, such as ``{"gravity": 1.6}``; names
+                and ranges are in :attr:`options_space`. The next reset begins with the scene's own.
+
+        Raises:
+            AI4UError: no number has that name, or it can't have that value.
+
+        >>> env = SceneEnv("box_chase")
+        >>> _ = env.reset(seed=1, options={"gravity": 1.6, "bodies.box.position": [2, 2]})
+        >>> env.sim.world["box"].position
+        (2.0, 2.0)
         """
-        self.sim.reset(seed)
+        self.sim.reset(seed, options)
         self._share_chance()
         return self.observer.observe(self.agent.percept), self._info()
 

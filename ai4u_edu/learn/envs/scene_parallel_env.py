@@ -1,5 +1,6 @@
 """A scene with several agents as a PettingZoo environment: all decide at the same time."""
 
+from functools import cached_property
 from typing import Any
 
 from gymnasium import spaces
@@ -11,7 +12,7 @@ from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.scene_env import SceneLike, load_scene
-from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
+from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, options_space_of, outputs_of
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 
@@ -100,6 +101,11 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
             self._agents[agent], self.observation_space(agent), self.action_space(agent)
         )
 
+    @cached_property
+    def options_space(self) -> spaces.Dict:
+        """The numbers that options of a reset may change, with their ranges, by name."""
+        return options_space_of(self.scene, self.sim)
+
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -107,9 +113,13 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
 
         Args:
             seed: fixes everything in it; left out, it follows from the last one's.
-            options: none are known.
+            options: numbers of the scene for this episode, as for
+                :meth:`SceneEnv.reset <ai4u_edu.learn.envs.scene_env.SceneEnv.reset>`.
+
+        Raises:
+            AI4UError: no number has that name, or it can't have that value.
         """
-        self.sim.reset(seed)
+        self.sim.reset(seed, options)
         self.agents = list(self.possible_agents)
         self._cycles = 0
         observations = {name: self._observe(name) for name in self.agents}

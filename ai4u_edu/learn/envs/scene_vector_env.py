@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 
 from ai4u_edu.base.errors import SetupError
@@ -66,12 +67,16 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
 
         Args:
             seed: one number: world i gets seed + i; or one for each world.
-            options: ``{"reset_mask": ...}`` resets only some worlds.
+            options: ``{"reset_mask": ...}`` resets only some worlds. All others are numbers of
+                the scene for this episode, as for :meth:`SceneEnv.reset`: one for all worlds, or
+                an array with a row for each. A reset in ``step`` begins with the scene's own.
         """
         seeds = self._seeds(seed)
-        mask = (options or {}).get("reset_mask", np.ones(self.num_envs, np.bool_))
+        numbers = dict(options or {})
+        mask = numbers.pop("reset_mask", np.ones(self.num_envs, np.bool_))
+        each = [self._options_of(index, numbers) for index in range(self.num_envs)]
         for index in np.flatnonzero(mask).tolist():
-            self._worlds.reset(index, seeds[index])
+            self._worlds.reset(index, seeds[index], each[index])
             self._over[index] = False
         return self._told(), self._worlds.infos(mask)
 
@@ -95,6 +100,24 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
 
     def _told(self) -> Any:
         return self._worlds.told() if self._copy else self._worlds.observations
+
+    @property
+    def options_space(self) -> spaces.Dict:
+        """The numbers that options of a reset may change, with their ranges, by name."""
+        return self.envs[0].options_space
+
+    def _options_of(self, index: int, numbers: dict[str, Any]) -> dict[str, Any]:
+        """Return the options of one world: its rows of those that have one for each world."""
+        found = {}
+        for name, value in numbers.items():
+            is_for_each = isinstance(value, np.ndarray) and value.ndim > 0
+            if is_for_each and len(value) != self.num_envs:
+                raise SetupError(
+                    f"options: {name}: expected an array with a row for each of {self.num_envs} "
+                    f"worlds, got {len(value)}; a list is one value for all of them"
+                )
+            found[name] = value[index] if is_for_each else value
+        return found
 
     def _seeds(self, seed: int | list[int | None] | None) -> list[int | None]:
         if seed is None:

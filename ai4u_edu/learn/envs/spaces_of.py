@@ -1,5 +1,6 @@
 """Gymnasium spaces of an agent, and conversion of percepts to observations."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -8,8 +9,10 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Actuator, Percept, Sensor
+from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import to_plain
 
 Observation = Any
@@ -118,6 +121,27 @@ def action_space_of(agent: BasicAgent) -> spaces.Space[Any]:
     """Return the space of the one actuator with ``is_output``, or a Dict of several."""
     each = {name: actuator.space() for name, actuator in outputs_of(agent).items()}
     return next(iter(each.values())) if len(each) == 1 else spaces.Dict(each)
+
+
+def options_space_of(scene: Scene, sim: ControlRequestor) -> spaces.Dict:
+    """Return the space of the options of a scene's reset: a number or a pair for each name.
+
+    Args:
+        scene: the scene; numbers are tried in a world of its own.
+        sim: the environment's world; numbers of brains that it replaced are left out.
+    """
+    space: dict[str, spaces.Space[Any]] = {}
+    present = sim.options.parameters()
+    for name, parameter in scene.build().options.changeable().items():
+        if name not in present:
+            continue
+        number, shape = parameter.declared, (2,) if parameter.declared.is_pair else ()
+        kind = np.int64 if number.is_whole else np.float64
+        info = np.iinfo(np.int64) if number.is_whole else np.finfo(np.float64)
+        low = info.min if math.isinf(number.low) else number.low
+        high = info.max if math.isinf(number.high) else number.high
+        space[name] = spaces.Box(low, high, shape, kind)
+    return spaces.Dict(space)
 
 
 def inputs_of(agent: BasicAgent) -> dict[str, tuple[tuple[int, ...], np.dtype[Any]]]:

@@ -57,10 +57,12 @@ class Worlds:
             env.observer.writer(self.observations, index) for index, env in enumerate(self.envs)
         ]
 
-    def reset(self, index: int, seed: int | None = None) -> None:
-        """Begin an episode in one world."""
+    def reset(
+        self, index: int, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> None:
+        """Begin an episode in one world, with options as for :meth:`SceneEnv.reset`."""
         env = self.envs[index]
-        env.reset(seed=seed)
+        env.reset(seed=seed, options=options)
         self._write[index](env.agent.percept)
 
     def step(self, actions: Any, resting: npt.NDArray[np.bool_] | None = None) -> None:

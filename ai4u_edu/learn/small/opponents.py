@@ -321,7 +321,9 @@ class Games(Worlds):
         self.agents += [game.opponent for game in self._mirrored]
         self.terminated, self.truncated = np.zeros(rows, np.bool_), np.zeros(rows, np.bool_)
 
-    def reset(self, index: int, seed: int | None = None) -> None:
+    def reset(
+        self, index: int, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> None:
         """Begin a game; those of the last rows begin with the first ones."""
         if index >= len(self.envs):
             return
@@ -331,7 +333,7 @@ class Games(Worlds):
         if index >= len(self._mirrored):
             member = self._league.draw()
         game.seat(member)
-        super().reset(index, seed)
+        super().reset(index, seed, options)
         self._write_opponent[index](game.opponent.percept)
 
     def step(self, actions: Any, resting: npt.NDArray[np.bool_] | None = None) -> None:

@@ -2,28 +2,32 @@
 
 import io
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass
-from functools import lru_cache
 from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from msgspec import Struct
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 from rich.console import Console
 from rich.table import Table
 
 from ai4u_edu.agent import BasicAgent
+from ai4u_edu.agent.episode_options import (
+    AGENT_NUMBERS,
+    DeclaredNumber,
+    declared_numbers,
+    named_blocks,
+)
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import AI4UError, SetupError, suggest
-from ai4u_edu.base.parameters import DataPath, explain, is_open
+from ai4u_edu.base.parameters import DataPath, explain
 from ai4u_edu.blocks import Block, Controller, LocalBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
-from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.games.jobs import Engine
 from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
 from ai4u_edu.learn.training.evaluating import Evaluation
@@ -42,10 +46,6 @@ FROM_SCENE = "scene"
 NO_FIT = "does not fit agent"
 TO_FIT = "; vary another number, or choose a controller: those fit any sensors"
 """Hint for a network that was trained with other sensors."""
-AGENT_NUMBERS = ("max_steps_per_episode", "reward_scale")
-"""Numbers of an agent itself; its other ones are for AI4U's scripts."""
-NO_QUANTITIES = {"collision_layer", "collision_mask"}
-"""Numbers of a body that are sets of bits."""
 
 
 @dataclass(frozen=True)
@@ -178,17 +178,16 @@ def number_parameters(scene: Scene) -> list[NumberParameter]:
     for index, given in enumerate(plain["agents"]):
         path: DataPath = ("agents", index)
         agent = agents[str(given.get("id", "0"))]
-        schema = _schema(BasicAgent)
-        own = {name: schema[name] for name in AGENT_NUMBERS}
+        own = [each for each in declared_numbers(BasicAgent) if each.name in AGENT_NUMBERS]
         found += _numbers(agent.id, path, given, own)
-        for kind, place, name in _blocks(agent):
+        for kind, place, name in named_blocks(agent):
             found += _of_block(f"{agent.id}.{name}", (*path, kind, place), given[kind][place])
-    found += _numbers("world", ("world",), plain.get("world", {}), _schema(WorldSettings))
+    found += _numbers("world", ("world",), plain.get("world", {}), _declared(WorldSettings))
     for kind in ("floors", "areas", "bodies"):
         for index, thing in enumerate(getattr(scene.description, kind)):
             given, name = plain[kind][index], f"{kind}.{thing.name}"
-            found += _numbers(name, (kind, index), given, _schema(type(thing)))
-            shape = _schema(type(thing.shape))
+            found += _numbers(name, (kind, index), given, _declared(type(thing)))
+            shape = _declared(type(thing.shape))
             found += _numbers(name, (kind, index, "shape"), given["shape"], shape)
     return found
 
@@ -367,25 +366,9 @@ def _with_brain(scene: Scene, agent: str, brain: dict[str, Any]) -> Scene:
     return Scene(described, scene.folder)
 
 
-def _blocks(agent: BasicAgent) -> Iterator[tuple[str, int, str]]:
-    """Yield kind, index and name of an agent's blocks; a name that is taken follows its kind."""
-    names = [
-        ("sensors", [each.perception_key for each in agent.sensors]),
-        ("actuators", [each.action_name for each in agent.actuators]),
-        ("rewards", [each.name for each in agent.rewards]),
-        ("brains", ["brain" if each.enabled else "" for each in agent.brains]),
-    ]
-    taken: set[str] = set()
-    for kind, blocks in names:
-        for index, name in enumerate(blocks):
-            if name:
-                yield kind, index, f"{kind}.{name}" if name in taken else name
-                taken.add(name)
-
-
 def _of_block(name: str, path: DataPath, plain: Mapping[str, Any]) -> list[NumberParameter]:
     """Return the numbers of a block, and of those inside it."""
-    found = _numbers(name, path, plain, _schema(Block.types[str(plain["type"])]))
+    found = _numbers(name, path, plain, _declared(Block.types[str(plain["type"])]))
     for key, value in plain.items():
         inner = value if isinstance(value, list | tuple) else [value]
         for index, each in enumerate(inner):
@@ -396,47 +379,21 @@ def _of_block(name: str, path: DataPath, plain: Mapping[str, Any]) -> list[Numbe
     return found
 
 
-def _schema(cls: type[BaseModel] | type[Parameterized]) -> Mapping[str, Any]:
-    """Return the JSON Schema of each declared parameter."""
-    plain_type: type = cls  # mypy believes that a class that defines __hash__ has no hash
-    return _cached_schema(plain_type)
-
-
-@lru_cache(maxsize=256)  # a page looks at all numbers after each change of its scene
-def _cached_schema(cls: type) -> Mapping[str, Any]:
-    schema: dict[str, Any] = {"properties": {}}
-    if issubclass(cls, BaseModel):
-        schema = cls.model_json_schema()
-    elif issubclass(cls, Parameterized):
-        schema = cls.json_schema()
-    properties: Mapping[str, Any] = schema["properties"]
-    return properties
-
-
 def _numbers(
-    owner: str, path: DataPath, plain: Mapping[str, Any], schema: Mapping[str, Any]
+    owner: str, path: DataPath, plain: Mapping[str, Any], numbers: Iterable[DeclaredNumber]
 ) -> list[NumberParameter]:
-    found = []
-    for name, about in schema.items():
-        what = next(
-            (
-                each
-                for each in (about, *about.get("anyOf", ()))
-                if each.get("type") in ("number", "integer")
-            ),
-            None,
+    return [
+        NumberParameter(
+            f"{owner}.{each.name}",
+            (*path, each.name),
+            plain.get(each.name, each.value),
+            each.unit,
+            each.limits,
         )
-        if what is None or name in NO_QUANTITIES:
-            continue
-        bounds = (
-            ("at least", what.get("minimum")),
-            ("more than", what.get("exclusiveMinimum")),
-            ("at most", what.get("maximum")),
-            ("less than", what.get("exclusiveMaximum")),
-        )
-        words = [f"{word} {end:g}" for word, end in bounds if end is not None and not is_open(end)]
-        value, unit = plain.get(name, about.get("default")), str(what.get("unit", ""))
-        found.append(
-            NumberParameter(f"{owner}.{name}", (*path, name), value, unit, ", ".join(words))
-        )
-    return found
+        for each in numbers
+        if not each.is_pair
+    ]
+
+
+def _declared(cls: type) -> tuple[DeclaredNumber, ...]:
+    return declared_numbers(cls)  # mypy believes that a class that defines __hash__ has no hash
