@@ -21,6 +21,7 @@ from weakref import ref
 
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
+from ai4u_edu.base.attributes import refuse_stray
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
 from ai4u_edu.blocks import (
     Actuator,
@@ -258,11 +259,7 @@ class BoundBlocks:
 
     def _check_all_bound(self) -> None:
         agent, bound = self._agent, {id(block) for block in self.blocks}
-        blocks: list[Sensor | Actuator | RewardFunc] = [
-            *agent.sensors,
-            *agent.actuators,
-            *agent.rewards,
-        ]
+        blocks: list[Any] = [*agent.sensors, *agent.actuators, *agent.rewards]
         for block in blocks:
             if block.is_active and id(block) not in bound:
                 raise SetupError(
@@ -272,10 +269,19 @@ class BoundBlocks:
                 )
 
     def _remember_fixed(self) -> None:
-        self._fixed = [(block, block.fixed_at_setup()) for block in walk_blocks(self.blocks)]
+        blocks = list(walk_blocks(self.blocks))
+        for block in blocks:
+            self._check_attributes(block)
+        self._fixed = [(block, block.fixed_at_setup(), len(vars(block))) for block in blocks]
+
+    def _check_attributes(self, block: Block) -> None:
+        where = f"agent {self._agent.id!r}, {block_label(block)}: "
+        refuse_stray(block, where, block.parameters())
 
     def _check_fixed(self) -> None:
-        for block, before in self._fixed:
+        for block, before, count in self._fixed:
+            if len(vars(block)) != count:  # it may also have prepared itself for an episode
+                self._check_attributes(block)
             now = block.fixed_at_setup()
             if now == before:
                 continue
@@ -425,19 +431,11 @@ class _LostBrain(Brain):
         self.problem = problem
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002 - refuses any
-        """Refuse.
-
-        Raises:
-            SetupError: always.
-        """
+        """Raise a SetupError."""
         raise SetupError(self.problem)
 
     def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - refuses any
-        """Refuse.
-
-        Raises:
-            SetupError: always.
-        """
+        """Raise a SetupError."""
         raise SetupError(self.problem)
 
     def title(self) -> str:

@@ -165,9 +165,9 @@ class EpisodeOptions:
                     found += _of_block(f"{agent.id}.{name}", ("block", index, kind, place), block)
         settings = sim.world.settings
         found += _of_model("world", ("world",), settings)
-        for cls, words in KINDS.items():
+        for words in KINDS.values():
             for thing in sim.world.described:
-                if type(thing) is cls:
+                if KINDS[type(thing)] == words:
                     owner = f"{words}.{thing.name}"
                     found += _of_model(owner, ("thing", thing.name), thing)
                     found += _of_model(owner, ("thing", thing.name, "shape"), thing.shape)

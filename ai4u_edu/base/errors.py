@@ -63,6 +63,10 @@ class ParameterError(SetupError):
     """The validation library's error, with details for each parameter."""
 
 
+class UnknownAttributeError(SetupError, AttributeError):
+    """An attribute was set that the object's class does not have."""
+
+
 class SeedError(ParameterError, ValueError):
     """A seed is not a whole number from 0 on."""
 

@@ -19,7 +19,8 @@ class Message(NamedTuple):
 class _World(Protocol):
     """Protocol of a world in which bodies speak (World is one)."""
 
-    ticks: int
+    @property
+    def ticks(self) -> int: ...
 
     @property
     def bodies(self) -> Mapping[str, BodyView]: ...

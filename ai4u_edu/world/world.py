@@ -7,6 +7,7 @@ from typing import Any
 
 import pymunk
 
+from ai4u_edu.base.attributes import NoStrayAttributes
 from ai4u_edu.base.errors import NameNotFoundError, WorldError, suggest
 from ai4u_edu.base.seeding import Seeds
 from ai4u_edu.world.body import Body, BodyView
@@ -27,7 +28,7 @@ from ai4u_edu.world.shapes import BodyShape, RegionShape
 from ai4u_edu.world.state import BodyMotion, Motion, WorldState
 
 
-class World:
+class World(NoStrayAttributes):
     """A plane with height: x right, y up on the screen, z towards the viewer; SI units.
 
     The same descriptions, seed and inputs give the same trajectory, bit for bit.
@@ -49,8 +50,6 @@ class World:
     def __init__(self, *, seed: int = 0, **settings: Any) -> None:
         self.settings: WorldSettings = WorldSettings(**settings)
         self.seeds = Seeds(seed)
-        self.ticks = 0
-        """Ticks since the reset."""
         self._registry = Registry()
         self._physics = Physics(self.settings)
         self.ink = Ink(self._registry.floors)
@@ -60,6 +59,7 @@ class World:
         """Messages of agents since the world's reset."""
         self._ticks_per_second = self.settings.ticks_per_second
         self.rebuild()
+        self._is_complete = True
 
     @property
     def bodies(self) -> Mapping[str, Body]:
@@ -97,6 +97,11 @@ class World:
         return self._physics.generation
 
     @property
+    def ticks(self) -> int:
+        """Ticks since the reset."""
+        return self.contacts.tick
+
+    @property
     def dt(self) -> float:
         """Length of a tick in seconds."""
         return self._physics.dt
@@ -112,6 +117,18 @@ class World:
         if body is None:
             raise NameNotFoundError(f"no body is named {name!r}; {suggest(name, bodies)}")
         return body
+
+    def _about(self, name: str) -> str:
+        """Return a sentence about an attribute that it does not have, such as a setting."""
+        settings = WorldSettings.model_fields
+        near = name if name in settings else suggest(name, settings)
+        for each in settings:
+            if each in near and len(near) < len(each) + 20:
+                return (
+                    f"has no attribute {name!r}; expected the setting in World({each}=...) or in "
+                    f"the scene, or for one episode in sim.reset(options={{'world.{each}': ...}})"
+                )
+        return super()._about(name)
 
     # -- construction ----------------------------------------------------------------------------
 
@@ -191,7 +208,7 @@ class World:
         registry = self._registry
         if registry.has_random:
             self._sample_all()
-        self.ticks = 0
+        self.contacts.tick = 0
         self.ink.clear()
         self.messages.clear()
         self._physics.start_over()
@@ -336,7 +353,7 @@ class World:
             WorldError: a position is not finite any more; checked once a second.
         """
         physics, contacts = self._physics, self.contacts
-        self.ticks = contacts.tick = ticks = self.ticks + 1
+        contacts.tick = ticks = contacts.tick + 1
         physics.step()
         if physics.height.movers:
             physics.height.step(physics.dt)
@@ -387,7 +404,7 @@ class World:
         for holder, held in state.held:
             if holder in bodies and held in bodies:
                 bodies[holder].hold(bodies[held])
-        self.ticks = self.contacts.tick = state.ticks
+        self.contacts.tick = state.ticks
         self.ink.set_image(state.ink)
         self.messages.set_state(state.messages)
         self.contacts.set_state(state.contacts)
