@@ -119,7 +119,8 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
         Raises:
             AI4UError: no number has that name, or it can't have that value.
         """
-        self.sim.reset(seed, options)
+        known = {name: each for name, each in (options or {}).items() if name != "options"}
+        self.sim.reset(seed, known)  # PettingZoo's own test of an environment gives that name
         self.agents = list(self.possible_agents)
         self._cycles = 0
         observations = {name: self._observe(name) for name in self.agents}
