@@ -30,7 +30,7 @@ from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.editing.scene_store import DEVICES, MAX_SCENES
 from ai4u_edu.page.editing.scene_store import NAME as SCENE_NAME
 from ai4u_edu.recording.episode import MAX_FILE_BYTES as MAX_EPISODE_BYTES
-from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS, YamlFile
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_BYTES, YamlFile
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 SCENE, PROGRESS = "scene.yaml", "progress.json"
@@ -48,7 +48,6 @@ MAX_FOLDERS = 100
 """Limit of folders for ZIP files of the same name."""
 MARK = ".my-work"
 """File with the digest of the ZIP file that a folder was made from."""
-_MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS  # no character takes more bytes
 _PROGRAM = re.compile(r"[\w&-][\w &-]{0,180}\.py")
 _NETWORK = re.compile(r"[\w-]{1,180}\.onnx")
 _EPISODE = re.compile(r"[A-Za-z0-9_][\w. -]{0,180}\.episode")
@@ -170,13 +169,13 @@ def _limit_of(name: str, known: dict[str, bytes]) -> int | None:
         return None
     folder, slash, last = name.partition("/")
     if not slash:
-        return {SCENE: _MAX_SCENE_BYTES, PROGRESS: MAX_PROGRESS_BYTES}.get(name)
+        return {SCENE: MAX_SCENE_BYTES, PROGRESS: MAX_PROGRESS_BYTES}.get(name)
     stem, _, ending = last.rpartition(".")
     if DEVICES.fullmatch(last.partition(".")[0].strip()):
         return None
     count = sum(each.startswith(f"{folder}/") for each in known)
     if folder == SCENES and ending == "yaml" and SCENE_NAME.fullmatch(stem):
-        return _MAX_SCENE_BYTES if count < MAX_SCENES else None
+        return MAX_SCENE_BYTES if count < MAX_SCENES else None
     if folder == EPISODES and _EPISODE.fullmatch(last):
         return MAX_EPISODE_BYTES if count < MAX_EPISODES else None
     if folder == PROGRAMS and _PROGRAM.fullmatch(last):

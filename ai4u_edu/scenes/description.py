@@ -3,9 +3,9 @@
 import json
 import zlib
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.ledger import HANDLERS
@@ -14,6 +14,7 @@ from ai4u_edu.base.parameters import DataPath, Name, ParameterProblem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
 from ai4u_edu.scenes.serialization import PlainDataError, make
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
+from ai4u_edu.world.pictures import check_pictures
 from ai4u_edu.world.shapes import Description
 
 Level = Literal["easy", "medium", "hard"]
@@ -59,6 +60,16 @@ class SceneDescription(Description):
     def things(self) -> tuple[FloorDescription | AreaDescription | BodyDescription, ...]:
         """Everything that is in the world."""
         return (*self.floors, *self.areas, *self.bodies)
+
+    @property
+    def pictures(self) -> tuple[str, ...]:
+        """The data of all pictures on the ground."""
+        return tuple(area.picture for area in self.areas if area.picture is not None)
+
+    @model_validator(mode="after")
+    def _has_room_for_its_pictures(self) -> Self:
+        check_pictures(self.pictures)
+        return self
 
     def task_key(self) -> str:
         """Return a key of all that makes times comparable: world, bodies, motion and rewards."""

@@ -18,7 +18,7 @@ from ai4u_edu.scenes.description import SceneDescription, check_success, make_ag
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.scenes.setup_errors import path_of
 from ai4u_edu.scenes.yaml.edit import edited
-from ai4u_edu.scenes.yaml.file import YamlFile, write_yaml
+from ai4u_edu.scenes.yaml.file import YamlFile, with_pictures, write_yaml
 from ai4u_edu.scenes.yaml.tree import NotYamlError, read_tree
 from ai4u_edu.world import World
 
@@ -95,6 +95,7 @@ class Scene:
     @classmethod
     def _read(cls, text: str, name: str, folder: Path | None, resets: int) -> Self:
         """Read a scene; one that samples anything is reset with several seeds."""
+        text = with_pictures(text, name, folder)
         file = YamlFile(text, name)
         try:
             description = SceneDescription.model_validate(file.data)

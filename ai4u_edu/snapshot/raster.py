@@ -37,6 +37,7 @@ from ai4u_edu.world import (
     WorldSettings,
 )
 from ai4u_edu.world.ink import TILE_M, InkImage
+from ai4u_edu.world.pictures import decode_picture
 
 Points = npt.NDArray[np.float64]
 
@@ -114,6 +115,8 @@ def draw_thing(
     else:
         if isinstance(thing, FloorDescription):
             canvas._region(thing, theme.floor_colour(thing), theme.FLOOR_EDGE)
+        elif thing.picture is not None:
+            canvas._lay(thing, thing.picture)
         else:
             canvas._region(thing, theme.area_fill(thing), theme.area_colour(thing))
         canvas._region(thing, 255, None, pen)
@@ -149,7 +152,7 @@ class _Canvas:
             self.image.paste(ground[1])
         passed = snapshot.passed_stages
         for area in static_scene.areas:
-            if area.name in passed and not area.paint:
+            if area.name in passed and not area.is_flat:
                 self._region(area, theme.area_fill(area, is_passed=True), theme.area_colour(area))
         self._ink(snapshot.state.world.ink)
         for agent in snapshot.agents:
@@ -181,7 +184,37 @@ class _Canvas:
             self._region(floor, 255, None, ImageDraw.Draw(inside))
             self._grid(inside, theme.mix_colours(colour, theme.VOID, 0.12))
         for area in self.static_scene.areas:
-            self._region(area, theme.area_fill(area), theme.area_colour(area))
+            if area.picture is not None:
+                self._lay(area, area.picture)
+        for area in self.static_scene.areas:
+            if area.picture is None:
+                self._region(area, theme.area_fill(area), theme.area_colour(area))
+
+    def _lay(self, area: AreaDescription, data: str) -> None:
+        """Draw an area's picture."""
+        picture = Image.fromarray(decode_picture(data))
+        outline = _placed(area.shape.outline(), *area.position, math.radians(area.heading_deg))
+        ends = self._pixels(np.array([outline.min(axis=0), outline.max(axis=0)]))
+        (left, low), (right, high) = ends
+        place = math.floor(left), math.floor(high)
+        size = math.ceil(right) - place[0] + 1, math.ceil(low) - place[1] + 1
+        # from a pixel of the drawing to the picture's; the corners' order is a box's outline's
+        (right_x, right_y), (left_x, left_y), (low_x, low_y), _ = self._pixels(outline)
+        across = np.array([right_x - left_x, right_y - left_y]) / picture.width
+        down = np.array([low_x - left_x, low_y - left_y]) / picture.height
+        back = np.linalg.inv(np.column_stack([across, down]))
+        offset = back @ (np.array(place) - (left_x, left_y))
+        matrix = (back[0, 0], back[0, 1], offset[0], back[1, 0], back[1, 1], offset[1])
+        shrink = max(1, math.floor(1 / max(np.hypot(*across), np.hypot(*down))))
+        if shrink > 1:  # a transform looks at single pixels
+            small = picture.reduce(shrink)
+            sx, sy = small.width / picture.width, small.height / picture.height
+            matrix = (*(sx * n for n in matrix[:3]), *(sy * n for n in matrix[3:]))
+            picture = small
+        turned = picture.transform(
+            size, Image.Transform.AFFINE, matrix, Image.Resampling.NEAREST, fillcolor=(0, 0, 0, 0)
+        )
+        self.image.paste(turned, place, turned)
 
     def _ink(self, ink: InkImage) -> None:
         """Draw ink, each tile as a picture; on high floors last."""
@@ -280,7 +313,7 @@ class _Canvas:
         for floor in self.static_scene.floors:
             self._label(floor.label, *floor.position)
         for area in self.static_scene.areas:
-            self._label("" if area.paint else area.label or area.name, *area.position)
+            self._label("" if area.is_flat else area.label or area.name, *area.position)
         states = {state.name: state for state in snapshot.bodies}
         for body in self.static_scene.bodies:
             text, state = theme.label_text(self.static_scene, body), states.get(body.name)

@@ -10,6 +10,7 @@ from ai4u_edu.snapshot import Snapshot, StaticScene
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
 from ai4u_edu.world.ink import INK_COLOURS, Tile
 from ai4u_edu.world.messages import Message
+from ai4u_edu.world.pictures import mean_colour
 
 Rgb = tuple[int, int, int]
 
@@ -100,7 +101,9 @@ def floor_colour(floor: FloorDescription) -> Rgb:
 
 
 def area_colour(area: AreaDescription) -> Rgb:
-    """Return an area's described or default colour."""
+    """Return an area's described or default colour; of one with a picture, the picture's mean."""
+    if area.picture is not None:
+        return mean_colour(area.picture)
     if area.colour is not None:
         return rgb(area.colour)
     return rgb("orange" if "target" in area.tags else "green")
@@ -113,9 +116,9 @@ PASSED_OPACITY = 0.7
 
 
 def area_fill(area: AreaDescription, *, is_passed: bool = False) -> Rgb:
-    """Return the opaque fill colour of an area: pale, unless it is paint or was passed."""
+    """Return the opaque fill colour of an area: pale, unless it is flat or was passed."""
     colour = area_colour(area)
-    return colour if area.paint else mix_colours(colour, FLOOR, 0.2 if is_passed else 0.65)
+    return colour if area.is_flat else mix_colours(colour, FLOOR, 0.2 if is_passed else 0.65)
 
 
 def group_colours(static_scene: StaticScene) -> dict[str, Rgb]:

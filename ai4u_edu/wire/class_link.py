@@ -38,8 +38,10 @@ PATH = "/link"
 """Path of the class's WebSocket for links."""
 MAX_FRAME_BYTES = 6 * 2**20
 """Largest frame of either side: one with a network."""
-MAX_SCENE_CHARS = 200_000
-MAX_EPISODE_BYTES = 2**20
+MAX_SCENE_CHARS = 1_600_000
+"""Length of a scene's text: 200,000 characters, and its pictures."""
+MAX_EPISODE_BYTES = 5 * 2**19
+"""Size of an episode: 1 MB, and the pictures of its scene."""
 MAX_NETWORK_BYTES = 5 * 2**20
 """Size of a network that a student hands in."""
 MAX_STARTING_PROGRAM_CHARS = 20_000

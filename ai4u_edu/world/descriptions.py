@@ -19,7 +19,8 @@ from ai4u_edu.base.parameters import (
     not_below,
     quantity,
 )
-from ai4u_edu.world.shapes import BodyShape, CircleShape, Description, RegionShape
+from ai4u_edu.world.pictures import PictureData
+from ai4u_edu.world.shapes import BodyShape, BoxShape, CircleShape, Description, RegionShape
 
 Tags = tuple[Name, ...]
 
@@ -169,3 +170,21 @@ class AreaDescription(RegionDescription):
 
     paint: bool = False
     """True draws it as paint on the ground, without outline and label: a line, a marking."""
+    picture: PictureData | None = Field(default=None, repr=False)
+    """A PNG or JPEG picture that lies on the ground, such as a printed mat: its data, or in a file
+    the name of a picture beside it. The area is a box; its size is the picture's (along x, along
+    y), upright for a heading of 0. Sensors of colours and lines see it."""
+
+    @property
+    def is_flat(self) -> bool:
+        """True for paint and pictures: drawn in full colour, without outline and label."""
+        return self.paint or self.picture is not None
+
+    @model_validator(mode="after")
+    def _is_a_box_with_a_picture(self) -> Self:
+        if self.picture is not None and not isinstance(self.shape, BoxShape):
+            raise ValueError(
+                f"a picture lies on a box, got a {self.shape.type}; expected "
+                "shape: {type: box, size: [...]}, its size in metres"
+            )
+        return self

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.world.descriptions import RegionDescription
+from ai4u_edu.world.descriptions import AreaDescription, RegionDescription
+from ai4u_edu.world.pictures import Pixels, decode_picture
 from ai4u_edu.world.shapes import BoxShape
 
 SAME_HEIGHT_M = 1e-9
@@ -56,6 +57,26 @@ class Region:
             return upright
         inside: npt.NDArray[np.bool_] = self._contains(*self._to_local(x, y))
         return inside
+
+    def picture_at(self, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64]) -> Pixels:
+        """Return what an area's picture shows at points of the world (metres).
+
+        Returns:
+            (n, 4): red, green, blue and opacity; 0 beside the picture, or if there is none.
+        """
+        seen = np.zeros((len(x), 4), np.uint8)
+        described = self.description
+        if not isinstance(described, AreaDescription) or described.picture is None:
+            return seen
+        length, width = described.shape.size if isinstance(described.shape, BoxShape) else (1, 1)
+        pixels = decode_picture(described.picture)
+        rows, columns, _ = pixels.shape
+        u, v = self._to_local(x, y)
+        column = np.floor((u / length + 0.5) * columns).astype(np.int64)
+        row = np.floor((0.5 - v / width) * rows).astype(np.int64)
+        inside = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
+        seen[inside] = pixels[row[inside], column[inside]]
+        return seen
 
     def outline(self) -> list[tuple[float, float]]:
         """Return the rim in world coordinates, counter-clockwise."""

@@ -41,6 +41,7 @@ NAME_POOLS = {
     "driver": "driver",
     "open_scene": "scene",
     "save_scene": "",
+    "lay_picture": "",
     "load_text": "",
     "open_recording": "",
 }

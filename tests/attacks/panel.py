@@ -34,7 +34,7 @@ MAX_WAITING = 3
 """Commands under way after which a page seldom sends another one."""
 PATIENT_SHARE = 0.95
 """Probability of sending no further command then."""
-FILE_COMMANDS = ("load_text", "open_recording")
+FILE_COMMANDS = ("lay_picture", "load_text", "open_recording")
 
 
 class Panel:

@@ -236,6 +236,24 @@ def test_a_scene_is_downloaded_and_opened(tab: TabPage, tmp_path: Path) -> None:
     assert tab.sent()[-1] == {"command": "load_text", "name": "mine.yaml", "text": "name: mine\n"}
 
 
+def test_a_picture_is_laid_on_the_ground(tab: TabPage, tmp_path: Path) -> None:
+    file = tmp_path / "mat.png"
+    file.write_bytes(b"png")
+    with tab.page.expect_file_chooser() as chooser:
+        tab.page.get_by_role("button", name="Lay a picture on the ground").click()
+    chooser.value.set_files(file)
+    tab.page.wait_for_function("panel.sent.some(each => each.command === 'lay_picture')")
+    assert tab.sent()[-1] == {"command": "lay_picture", "name": "mat.png", "text": "png"}
+    large = tmp_path / "large.png"
+    large.write_bytes(bytes(2**20 + 1))
+    with tab.page.expect_file_chooser() as chooser:
+        tab.page.get_by_role("button", name="Lay a picture on the ground").click()
+    chooser.value.set_files(large)
+    notice = tab.page.wait_for_function("panel.notices.at(-1)").json_value()
+    assert notice.startswith("error: large.png: expected a picture of at most 1 MB, got 1.0 MB")
+    assert "lay_picture" not in [each["command"] for each in tab.sent()]
+
+
 def test_an_unsaved_scene_is_offered(tab: TabPage) -> None:
     expect(tab.page.get_by_role("button", name="Restore")).to_be_hidden()
     tab.give({**PART, "unsaved": {"when": "06:26"}})

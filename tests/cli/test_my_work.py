@@ -77,7 +77,7 @@ def test_what_was_changed_since_stays_and_another_file_gets_another_folder(tmp_p
 
 @pytest.mark.parametrize(
     ("limit", "told"),
-    [("_MAX_SCENE_BYTES", "scene.yaml is too large"), ("MAX_TOTAL_BYTES", "too large")],
+    [("MAX_SCENE_BYTES", "scene.yaml is too large"), ("MAX_TOTAL_BYTES", "too large")],
 )
 def test_a_small_file_that_becomes_a_large_one_is_refused(
     limit: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

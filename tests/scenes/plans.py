@@ -16,6 +16,7 @@ from tests.scenes.newcomer import (
     direction,
     towards,
 )
+from tests.scenes.printed_track import route
 
 NONE: Keys = frozenset()
 AHEAD: Keys = frozenset({"KeyW"})
@@ -378,6 +379,7 @@ PLANS: dict[str, Planner] = {
     "maze": through_maze,
     "parking": park,
     "platform": cross_platforms,
+    "printed_track": follow(route()[::6]),
     "push_block": push_block,
     "sample_scene": jump_wall,
     "soccer": shoot,

@@ -20,6 +20,11 @@ from ai4u_edu.scenes import SceneDescription
 WORDS = {"name", "title", "level", "minutes", "few_decisions", "controls", "rewards"}
 """Fields about the scene, for people; a world has none of them."""
 
+DOT = (
+    "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABAQAAAAA3bvkkAAAACklEQVR42mNg"
+    "AAAAAgAB5Sfe/AAAAABJRU5ErkJggg=="
+)
+"""A picture of one pixel."""
 TEXT = """
 name: whole
 title: A whole scene
@@ -38,8 +43,9 @@ floors:
   - {name: plate, shape: {type: box, size: [20, 20]}, position: [0.5, 0], heading_deg: 1,
      random: {x: [0.4, 0.6]}, tags: [floor, plain], colour: green, label: ground, top: 0.1}
 areas:
-  - {name: goal, shape: {type: circle, radius: 2}, position: [3, 3], heading_deg: 10,
-     random: {y: [3, 4]}, tags: [goal], colour: blue, label: here, paint: true}
+  - {name: goal, shape: {type: box, size: [2, 2]}, position: [3, 3], heading_deg: 10,
+     random: {y: [3, 4]}, tags: [goal], colour: blue, label: here, paint: true,
+     picture: "PICTURE"}
 bodies:
   - {name: robot, shape: {type: circle, radius: 0.4}, position: [-3, 0], z: 0.1, heading_deg: 20,
      height: 0.8, random: {heading_deg: [0, 30]}, colour: orange, label: me, tags: [driven],
@@ -55,7 +61,7 @@ agents:
     actuators: [{type: RBMoveActuator}]
     rewards: [{type: TouchRewardFunc, name: touch, target: box, reward: 10}]
     brains: [{type: LocalBrain, controller: {type: ReplayController, actions: [{}]}}]
-"""
+""".replace("PICTURE", DOT)
 
 
 @pytest.fixture(scope="module")

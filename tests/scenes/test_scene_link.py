@@ -28,7 +28,9 @@ def packed(data: bytes) -> str:
     return "scene=" + urlsafe_b64encode(zlib.compress(data, 9)).decode().rstrip("=")
 
 
-@pytest.mark.parametrize("name", Scene.names())
+@pytest.mark.parametrize(
+    "name", [name for name in Scene.names() if not Scene.load(name).description.pictures]
+)
 def test_each_scene_comes_back_with_its_seed_and_comments(name: str) -> None:
     scene = Scene.load(name)
     link = shared_link(scene, MAX_SEED)

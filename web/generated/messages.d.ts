@@ -907,7 +907,7 @@ export interface WatchPart {
 /** A body, floor or area of the scene. */
 export interface SceneThing {
   name: string;
-  /** `agent`, `lamp`, `body`, `floor` or `area`. */
+  /** `agent`, `lamp`, `body`, `floor`, `area` or `picture`. */
   kind: string;
   /** Id of the agent whose body it is; null if it is nobody's. */
   agent: string | null;
@@ -1315,6 +1315,12 @@ export interface JudgeFunction {
   source: string;
 }
 
+/** Lay the PNG or JPEG file that was sent in binary messages before on the ground. */
+export interface LayPicture {
+  name: string;
+  size: number;
+}
+
 /** Have a network learn from drives of the agent that the page shows, and let it drive then. */
 export interface LearnFromDrives {
   /** Numbers of the drives. */
@@ -1682,6 +1688,7 @@ export interface Commands {
   gallery: ListBlocks;
   ground: Ground;
   hide_elsewhere: HideElsewhere;
+  lay_picture: LayPicture;
   load_text: LoadText;
   lock_seed: LockSeed;
   maps: ShowMaps;

@@ -176,7 +176,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
 
   /**
    * Send a file, and a command about it.
-   * @template {"load_text" | "open_recording" | "teach_open"} Name
+   * @template {"lay_picture" | "load_text" | "open_recording" | "teach_open"} Name
    * @param {Name} command
    * @param {File} file
    */

@@ -139,6 +139,7 @@ export interface AnswerFields {
   ground: { matrix: number[] };
   mission_judge: FunctionCall;
   mission_returned: FunctionCall;
+  lay_picture: { bodies: string[] };
   move_block: { path: (string | number)[] };
   open_recording: { number: number };
   paste: { bodies: string[] };

@@ -12,6 +12,7 @@ from ai4u_edu.blocks.sensors.pictures import SpotPicture
 from ai4u_edu.blocks.sensors.sensor import Sensor
 from ai4u_edu.world import AreaDescription, BodyView, Region, WorldView
 from ai4u_edu.world.ink import INK_COLOURS, NO_INK
+from ai4u_edu.world.pictures import OPAQUE
 
 _LUMA = 0.299, 0.587, 0.114
 """Shares of red, green and blue in brightness, as in television (ITU-R BT.601)."""
@@ -20,8 +21,9 @@ _LUMA = 0.299, 0.587, 0.114
 class ColourSensor(Sensor):
     """An eye that looks down at one point of the ground: [red, green, blue, brightness].
 
-    It sees ink that a PenActuator has drawn; where there is none, painted areas; and else the
-    floor. Over the void all numbers are 0. Bodies hide nothing: the eye is under the robot.
+    It sees ink that a PenActuator has drawn; where there is none, painted areas; where there is
+    none, pictures on the ground; and else the floor. Over the void all numbers are 0. Bodies hide
+    nothing: the eye is under the robot.
 
     Reading: (4,), each 0..1. White is [1, 1, 1, 1], black [0, 0, 0, 0]. Source: ours; after the
     colour sensors of small robots.
@@ -59,7 +61,7 @@ class ColourSensor(Sensor):
         return red, green, blue, min(luma, 1.0)
 
     def spots(self) -> SpotPicture:
-        """Return the point at which it looked; it is lit on ink or paint."""
+        """Return the point at which it looked; it is lit on ink, paint or a picture."""
         x, y, z, is_marked = self._seen
         return SpotPicture(np.array([[x, y, z]]), (is_marked,))
 
@@ -70,17 +72,24 @@ class ColourSensor(Sensor):
         if view.ground(x, y) is None:
             return (0, 0, 0), False
         for area, colour in self._painted:
-            if area.contains(x, y):
+            if colour is None:
+                pixel = area.picture_at(np.array([x]), np.array([y]))[0]
+                if pixel[3] >= OPAQUE:
+                    return (int(pixel[0]), int(pixel[1]), int(pixel[2])), True
+            elif area.contains(x, y):
                 return colour, True
         name = view.ink.floor_at(x, y)
         return self._floors.get(name or "", FLOOR_RGB), False
 
     def _build(self, view: WorldView) -> None:
         self._built_for = view.generation
-        painted: list[tuple[Region, tuple[int, int, int]]] = []
+        painted: list[tuple[Region, tuple[int, int, int] | None]] = []
         for area in view.areas.values():
             described = area.description
-            if isinstance(described, AreaDescription) and described.paint:
-                painted.append((area, rgb(described.colour or "green")))
-        self._painted = painted[::-1]  # the last one is drawn on top
+            if isinstance(described, AreaDescription) and described.is_flat:
+                colour = None if described.picture else rgb(described.colour or "green")
+                painted.append((area, colour))
+        highest_first = painted[::-1]
+        self._painted = [pair for pair in highest_first if pair[1] is not None]
+        self._painted += [pair for pair in highest_first if pair[1] is None]  # under all paint
         self._floors = {each.name: rgb(each.colour) for each in view.floors if each.colour}

@@ -12,7 +12,8 @@ from ai4u_edu.base.parameters import Metres, Name, NonNegativeMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.pictures import SpotPicture
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.world import BodyView, WorldView
+from ai4u_edu.world import AreaDescription, BodyView, WorldView
+from ai4u_edu.world.pictures import OPAQUE, are_dark
 
 
 class LineSensor(Sensor):
@@ -20,8 +21,9 @@ class LineSensor(Sensor):
 
     ``points`` eyes sit on a bar, ``ahead`` of the body's centre and square to its heading. The bar
     is ``width`` long, with the first eye at its left end and the last at its right. Each eye looks
-    straight down at one point. The line consists of the areas with the tag ``group``, and of all
-    ink that pens have drawn; bodies on it do not hide it.
+    straight down at one point. The line consists of the areas with the tag ``group``, of all that
+    is dark in a picture on the ground, and of all ink that pens have drawn; bodies on it do not
+    hide it.
 
     A robot that drives along a line reads [0, 0, 1, 0, 0]; when it reads [0, 1, 0, 0, 0], the line
     is a bit to the left. Far from the line all numbers are 0, on either side: to find it again, an
@@ -32,7 +34,7 @@ class LineSensor(Sensor):
     """
 
     group: Name = "line"
-    """The tag of the areas that are the line; there need be none for a line of ink."""
+    """The tag of the areas that are the line; there need be none for ink and pictures."""
     points: Annotated[int, Field(ge=1, le=64)] = 5
     """Number of eyes on the bar."""
     ahead: Metres = 0.4
@@ -70,6 +72,8 @@ class LineSensor(Sensor):
         # a line has many areas, of which one or two are near
         for index in np.flatnonzero(np.hypot(self._x - x, self._y - y) <= self._far):
             on_it |= self._line[index].contains_each(xs, ys)
+        if self._pictures:
+            on_it |= self._dark_in_pictures(xs, ys)
         ink = view.ink
         if ink:
             on_it |= np.fromiter(map(ink.at, xs, ys), np.bool_, self.points)
@@ -82,9 +86,34 @@ class LineSensor(Sensor):
         places = np.column_stack([xs, ys, np.full(self.points, z)])
         return SpotPicture(places, tuple(on_it.tolist()))
 
+    def _dark_in_pictures(
+        self, xs: npt.NDArray[np.float64], ys: npt.NDArray[np.float64]
+    ) -> npt.NDArray[np.bool_]:
+        """Return True where the uppermost of all pictures and paint is a picture, and dark."""
+        dark = np.zeros(self.points, np.bool_)
+        for area, is_picture in self._pictures:
+            if is_picture:
+                pixels = area.picture_at(xs, ys)
+                seen = pixels[:, 3] >= OPAQUE
+                dark = np.where(seen, are_dark(pixels), dark)
+            else:
+                dark &= ~area.contains_each(xs, ys)
+        return dark
+
     def _build(self, view: WorldView) -> None:
         self._built_for = view.generation
-        self._line = [area for area in view.areas.values() if self.group in area.tags]
+        described = [
+            (area, area.description)
+            for area in view.areas.values()
+            if isinstance(area.description, AreaDescription)
+        ]
+        pictures = {area.name for area, each in described if each.picture is not None}
+        self._line = [
+            area for area, _ in described if self.group in area.tags and area.name not in pictures
+        ]
+        flat = [(area, area.name in pictures) for area, each in described if each.is_flat]
+        self._pictures = sorted(flat, key=lambda pair: not pair[1]) if pictures else []
+        """Pictures, and paint that may lie on them, the lowest first; True for pictures."""
         self._x = np.array([piece.x for piece in self._line])
         self._y = np.array([piece.y for piece in self._line])
         reaches = np.array([piece.description.shape.reach for piece in self._line])

@@ -18,6 +18,7 @@ from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
 from ai4u_edu.scenes.serialization import PlainDataError
+from ai4u_edu.world.pictures import MAX_PICTURE_CHARS
 
 T = TypeVar("T")
 MAX_TEXT_CHARS = 10_000
@@ -124,8 +125,9 @@ def _not_plain(values: Any) -> Iterator[ParameterProblem]:
             )
             return
         if isinstance(value, str):
-            if len(value) > MAX_TEXT_CHARS:
-                yield ParameterProblem(path, f"expected at most {MAX_TEXT_CHARS} characters")
+            most = MAX_PICTURE_CHARS if value.startswith("data:image/") else MAX_TEXT_CHARS
+            if len(value) > most:
+                yield ParameterProblem(path, f"expected at most {most} characters")
             elif not value.isprintable() and any("\ud800" <= char <= "\udfff" for char in value):
                 yield ParameterProblem(path, f"expected text, got {shown(value)}")
         elif isinstance(value, int) and value.bit_length() > 64:

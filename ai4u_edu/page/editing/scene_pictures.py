@@ -15,7 +15,7 @@ from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.description import LEVELS
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import star_goals
-from ai4u_edu.scenes.yaml.file import YamlFile
+from ai4u_edu.scenes.yaml.file import YamlFile, with_pictures
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 
@@ -130,7 +130,7 @@ def template_names() -> tuple[str, ...]:
 
 def _in_words(name: str) -> LibraryScene:
     # its world is not built, as loading does, since nobody needs it here
-    text = (LIBRARY / f"{name}.yaml").read_text(encoding="utf-8")
+    text = with_pictures((LIBRARY / f"{name}.yaml").read_text(encoding="utf-8"), name, LIBRARY)
     about = SceneDescription.model_validate(YamlFile(text, name).data)
     title = about.title or about.name
     level, stars = about.level or "", star_goals(about).count

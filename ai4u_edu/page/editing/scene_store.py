@@ -10,7 +10,7 @@ from ai4u_edu.base.errors import SceneError, SetupError, suggest
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.page.editing.permissions import external_references
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_BYTES, MAX_SCENE_CHARS
 
 ENDING = ".yaml"
 NAME = re.compile(r"[^\W_](?:[\w -]{0,58}[\w-])?")
@@ -58,7 +58,7 @@ class SceneStore:
         file = self.file(name)
         if file is None:
             raise SceneError(f"no scene is kept as {name!r}; {suggest(name, self.names())}")
-        if file.stat().st_size > 4 * MAX_SCENE_CHARS:  # no character takes more bytes
+        if file.stat().st_size > MAX_SCENE_BYTES:
             raise SceneError(f"{file.name}: expected at most {MAX_SCENE_CHARS} characters")
         return Scene.load(file)
 

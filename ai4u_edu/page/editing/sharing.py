@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from ai4u_edu.base.errors import SceneError
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
@@ -48,8 +49,13 @@ def shared_link(scene: Scene, seed: int | None) -> SharedLink:
         seed: of the episode to begin with.
 
     Raises:
-        SceneError: the scene is too large for a link.
+        SceneError: the scene is too large for a link, or has pictures on the ground.
     """
+    if scene.description.pictures:
+        raise SceneError(
+            "a link can't carry the picture on the ground; download the scene and send its file, "
+            "which has the picture"
+        )
     agents = scene.description.agents
     needs = [*_own_blocks(agents), *_references(agents)]
     return SharedLink(encode_link(scene.dumps(), seed), tuple(dict.fromkeys(needs)))

@@ -10,6 +10,7 @@ from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.forms import NONE_LABEL, ParameterField
 from ai4u_edu.page.editing.things import Thing
 from ai4u_edu.world import (
+    AreaDescription,
     BodyDescription,
     BoxShape,
     CapsuleShape,
@@ -34,14 +35,19 @@ def thing_form(thing: Thing) -> list[ParameterField]:
     Properties that are not among them are changed in the scene file.
     """
     x, y = thing.position
-    colours = (NONE_LABEL, *PALETTE)
-    if thing.colour is not None and thing.colour not in PALETTE:
-        colours = (*colours, thing.colour)
-    return [
+    place = [
         _number("x", "x", "m", x),
         _number("y", "y", "m", y),
         _number("heading_deg", "heading", "deg", thing.heading_deg),
         *(_number(name, name, "m", value) for name, value in _lengths(thing).items()),
+    ]
+    if isinstance(thing, AreaDescription) and thing.picture is not None:
+        return place  # it has its own colours, and nothing is written on it
+    colours = (NONE_LABEL, *PALETTE)
+    if thing.colour is not None and thing.colour not in PALETTE:
+        colours = (*colours, thing.colour)
+    return [
+        *place,
         *_own_fields(thing),
         ParameterField("colour", "colour", "choice", thing.colour, "", colours),
         ParameterField("label", "label", "text", thing.label, ""),

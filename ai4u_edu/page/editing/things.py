@@ -18,6 +18,7 @@ from ai4u_edu.page.editing.input_checks import (
 )
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
+from ai4u_edu.world.pictures import check_pictures
 
 MAX_POSITION_M, MAX_HEADING_DEG = 1e4, 3600.0
 """Bounds of a position and a heading, as in a body's description."""
@@ -81,7 +82,7 @@ def with_thing(state: EditState, thing: Thing) -> EditState:
         text = f"something is named {thing.name!r} already; expected another name, such as "
         raise ChangeError([ParameterProblem(("name",), text + repr(free_name(state, thing.name)))])
     kind = kind_of(thing)
-    return state.describing(**{kind: (*getattr(state.description, kind), thing)})
+    return _with_things(state, kind, (*getattr(state.description, kind), thing))
 
 
 def without_thing(state: EditState, name: str) -> EditState:
@@ -111,7 +112,16 @@ def with_changed_thing(state: EditState, name: str, values: Mapping[str, Any]) -
             [ParameterProblem(("name",), f"something is named {other.name!r} already")]
         )
     things = getattr(state.description, kind)
-    return state.describing(**{kind: tuple(other if each is thing else each for each in things)})
+    return _with_things(state, kind, tuple(other if each is thing else each for each in things))
+
+
+def _with_things(state: EditState, kind: ThingKind, things: tuple[Thing, ...]) -> EditState:
+    changed = state.describing(**{kind: things})
+    try:
+        check_pictures(changed.description.pictures)
+    except ValueError as error:
+        raise ChangeError([ParameterProblem((), str(error))]) from None
+    return changed
 
 
 def with_pose(state: EditState, name: str, x: float, y: float, heading_deg: float) -> EditState:

@@ -80,7 +80,9 @@ def _regions(static_scene: StaticScene) -> list[dict[str, Any]]:
         for floor in sorted(static_scene.floors, key=lambda floor: floor.top)
     ]
     areas = [
-        _region(area, theme.area_fill(area), theme.area_colour(area)) for area in static_scene.areas
+        _region(area, theme.area_fill(area), theme.area_colour(area))
+        | ({"picture": area.picture} if area.picture is not None else {})
+        for area in sorted(static_scene.areas, key=lambda area: area.picture is None)
     ]
     return floors + areas
 

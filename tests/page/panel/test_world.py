@@ -257,6 +257,57 @@ def test_a_scene_file_is_sent_in_parts(page: PanelPage) -> None:
     assert "mine.yaml" in page.failed("load_text", name="mine.yaml", size=9)["text"]
 
 
+def mat(columns: int = 60, rows: int = 30) -> bytes:
+    out = io.BytesIO()
+    Image.new("RGB", (columns, rows), (200, 0, 0)).save(out, "PNG")
+    return out.getvalue()
+
+
+def lay(page: PanelPage, file: bytes, name: str = "My mat (2).png") -> Message:
+    for start in range(0, len(file), 2**19):
+        page.socket.send(file[start : start + 2**19])
+    return page.do("lay_picture", name=name, size=len(file))
+
+
+def test_a_picture_is_laid_scaled_moved_and_taken_away(page: PanelPage, room: PanelRoom) -> None:
+    before = things(page.part("world"))
+    answer = lay(page, mat())
+    assert (answer["text"], answer["bodies"]) == ("Laid My mat 2.", ["My mat 2"])
+    part = page.part("world", lambda m: m["form"] and m["form"]["name"] == "My mat 2")
+    assert things(part)["My mat 2"]["kind"] == "picture"
+    sides = {field["name"]: field["value"] for field in part["form"]["fields"]}
+    assert list(sides) == ["x", "y", "heading_deg", "length", "width"]
+    assert float(sides["length"]) == pytest.approx(2 * float(sides["width"]), abs=0.02)
+    assert "data:image" not in str(part), "the panel needs no picture"
+    page.done("change_body", name="My mat 2", values={"length": 4.0, "width": 2.0})
+    page.done("move_body", name="My mat 2", x=1.0, y=-1.0, heading_deg=90.0)
+    (laid,) = Scene.loads(page.done("download")["content"]).description.areas
+    assert (laid.shape.outline()[0], laid.position) == ((2.0, 1.0), (1.0, -1.0))
+    page.done("undo")
+    page.done("undo")
+    assert lay(page, mat())["bodies"] == ["My mat 3"]
+    page.done("remove_bodies", names=["My mat 2", "My mat 3"])
+    page.part("world", lambda m: things(m).keys() == before.keys())
+    page.done("undo")
+    page.part("world", lambda m: "My mat 2" in things(m))
+
+
+def test_a_bad_picture_gets_a_sentence(page: PanelPage) -> None:
+    for file, told in (
+        (b"no picture", "mat.png: expected a PNG or JPEG file"),
+        (mat()[:-40], "can't be read"),
+        (mat(2001, 2000), "at most 4 megapixels, got 2001 x 2000"),
+        (mat()[:8] + bytes(2**20), "at most 1 MB"),
+    ):
+        answer = lay(page, file, "mat.png")
+        assert (answer["type"], told in answer["text"]) == ("failed", True), answer
+    page.socket.send(mat())
+    assert "send it again" in page.failed("lay_picture", name="mat.png", size=10)["text"]
+    for _ in range(2):
+        answer = lay(page, mat(1900, 1900), "???")
+    assert "together at most 1 MB and 4 megapixels" in str(answer), answer
+
+
 def test_a_scene_is_saved_and_replaced(page: PanelPage, room: PanelRoom, tmp_path: Path) -> None:
     assert "can't be saved" in page.failed("save_scene", name="mine")["text"]
     room.editor.scene_store = SceneStore(tmp_path)

@@ -10,7 +10,7 @@ import { Form } from "../widgets/form.js";
 import { choose, duplicateSelected, removeSelected, selected } from "./selection.js";
 
 /** @type {Record<string, string>} */
-const KIND_ICONS = { area: "area", floor: "floor", lamp: "lamp", agent: "agent" };
+const KIND_ICONS = { area: "area", picture: "area", floor: "floor", lamp: "lamp", agent: "agent" };
 /** @type {Record<string, string>} */
 const SHAPE_ICONS = { circle: "ball", segment: "wall", capsule: "wall", ring: "target" };
 

@@ -4,15 +4,17 @@
  * @import { WorldPart } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
  */
-import { element, keyed, setText } from "../../shared/dom.js";
+import { element, fileButton, keyed, setText } from "../../shared/dom.js";
 import { BodyCard } from "./body_card.js";
-import { chooseMore, setMoveMode } from "./selection.js";
+import { chooseAdded, chooseMore, setMoveMode } from "./selection.js";
 import { Form } from "../widgets/form.js";
 import { section, toggle } from "../widgets/parts.js";
 import { remember } from "../../shared/storage.js";
 import { MOVES_KEY, SNAP_KEY, SNAP_M } from "./palette.js";
 import { SceneFiles } from "./scene_files.js";
 
+/** Largest picture that is sent; the server has the same limit (bytes). */
+const MAX_PICTURE_BYTES = 2 ** 20;
 const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
 const HINT_ON =
   "Drag things to move them (Esc cancels). Click one to turn it or change its size. Shift and a click, or a frame, take several.";
@@ -30,6 +32,7 @@ export class WorldTab {
   #hint = element("p", { className: "ai4u-hint-text" });
   #settings;
   #files;
+  #lays = fileButton("Lay a picture on the ground", "image/png,image/jpeg", (file) => this.#lay(file));
 
   /**
    * @param {HTMLElement} root
@@ -51,6 +54,7 @@ export class WorldTab {
         {},
         element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
         this.#hint, // below the buttons, which its other texts would move
+        element("div", { className: "ai4u-tools" }, this.#lays),
         this.#list,
       ),
       section("world-settings", "Scene settings", { isOpen: false }, this.#settings.element),
@@ -94,6 +98,20 @@ export class WorldTab {
     if (name === undefined) return;
     event.stopPropagation();
     chooseMore(this.#panel, [name], { isToggle: true });
+  }
+
+  /**
+   * Send a picture of a mat, and select it.
+   * @param {File} file
+   */
+  async #lay(file) {
+    if (file.size > MAX_PICTURE_BYTES) {
+      const size = (file.size / 2 ** 20).toFixed(1);
+      this.#panel.notice(`${file.name}: expected a picture of at most 1 MB, got ${size} MB; save it with fewer pixels, or a photo as JPEG.`, "error");
+      return;
+    }
+    const answer = await this.#panel.sendFile("lay_picture", file);
+    if (answer.ok) chooseAdded(this.#panel, answer);
   }
 
   #updateShown() {

@@ -14,11 +14,9 @@ from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
-from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_BYTES
 
 MAX_FILE_NAME_CHARS = 60
-MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS
-"""Size of a scene's file; no character takes more bytes."""
 
 
 class ListScenes(PageCommand, tag="scenes"):

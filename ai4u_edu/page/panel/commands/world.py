@@ -1,6 +1,7 @@
 """Commands that change the things in the world, and the scene's settings."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal
 
@@ -20,7 +21,16 @@ from ai4u_edu.page.editing.things import (
     kind_of,
     thing_named,
 )
-from ai4u_edu.page.messages import Degrees, Metres, Name, Names, Others, PageCommand, Values
+from ai4u_edu.page.messages import (
+    Degrees,
+    Metres,
+    Name,
+    Names,
+    Number,
+    Others,
+    PageCommand,
+    Values,
+)
 from ai4u_edu.page.panel.answers import Answer, change_answer
 from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.new_things import (
@@ -36,9 +46,14 @@ from ai4u_edu.page.panel.new_things import (
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.snapshot import StaticScene
 from ai4u_edu.world import BodyDescription, Pose
+from ai4u_edu.world.pictures import picture_data, picture_size
 
 COPY_OFFSET_M = 0.5
 """Distance (m) of a copy from the original, to the right and down."""
+PICTURE_SHARE = 0.6
+"""Share of the world's sides that a new picture takes at most."""
+MIN_PICTURE_M, MAX_PICTURE_M = 0.1, 30.0
+"""Least and greatest length of the sides of a new picture."""
 MAX_CORNERS = 8
 """Most corners of a frame around things."""
 Corner = tuple[Metres, Metres]
@@ -201,6 +216,50 @@ def _free_offset(
     if snapshot.static_scene.floor_under(x + offset[0], y + offset[1]) is None:
         raise SetupError("there is no floor: put it on a floor, or add a floor first")
     raise SetupError("there is no room: put it where nothing else stands")
+
+
+class LayPicture(PageCommand, tag="lay_picture"):
+    """Lay the PNG or JPEG file that was sent in binary messages before on the ground."""
+
+    name: Name
+    size: Number
+
+
+async def _lay(page: Page, command: LayPicture) -> Answer:
+    page.context.required_editor()
+    file = page.upload.take(command.size)
+    try:
+        data = await page.in_thread(lambda: picture_data(file))
+    except ValueError as error:
+        raise SetupError(f"{command.name}: {error}") from None
+    rows, columns = picture_size(data)
+    static_scene = page.context.runner.latest.static_scene
+    (left, low), (right, high) = static_scene.bounds
+    scale = PICTURE_SHARE * min((right - left) / columns, (high - low) / rows)
+    scale = min(scale, MAX_PICTURE_M / max(rows, columns))
+    described = {
+        "name": _name_from(command.name),
+        "shape": {"type": "box", "size": [_length(columns * scale), _length(rows * scale)]},
+        "position": (0.0, 0.0),
+        "picture": data,
+    }
+    center = page.view.ground_center or _middle(static_scene)
+    at = round(center[0], 1), round(center[1], 1)
+    return await _add_all(page, [NewThing(described, "areas")], at, "Laid", has_room=True)
+
+
+def _length(metres: float) -> float:
+    return max(round(metres, 2), MIN_PICTURE_M)
+
+
+def _name_from(file_name: str) -> str:
+    """Return a name for a thing from a file's name.
+
+    >>> _name_from("C:/mats/My mat (2).png"), _name_from("???.png")
+    ('My mat 2', 'picture')
+    """
+    stem = file_name.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+    return re.sub(r"[^\w .:-]", "", stem)[:40].strip(" .") or "picture"
 
 
 class Duplicate(PageCommand, tag="duplicate"):
@@ -455,6 +514,7 @@ HANDLERS: Mapping[type[PageCommand], Handler] = {
     SelectBody: _select,
     FindThings: _find,
     AddBody: _add,
+    LayPicture: _lay,
     Duplicate: _duplicate,
     Copy: _copy,
     Paste: _paste,

@@ -14,7 +14,7 @@ from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.world import BodyDescription
+from ai4u_edu.world import AreaDescription, BodyDescription
 
 LAMP_TAG = "lamp"
 """Tag of bodies that are lamps for light sensors."""
@@ -25,7 +25,7 @@ class SceneThing(Struct, frozen=True):
 
     name: str
     kind: str
-    """``agent``, ``lamp``, ``body``, ``floor`` or ``area``."""
+    """``agent``, ``lamp``, ``body``, ``floor``, ``area`` or ``picture``."""
     agent: str | None
     """Id of the agent whose body it is; null if it is nobody's."""
     shape: str
@@ -151,10 +151,12 @@ def _is_random(thing: Thing, described: SceneDescription) -> bool:
 
 
 def _kind(thing: Thing, agents: dict[str, str]) -> str:
-    """Return agent, lamp, body, floor or area."""
+    """Return agent, lamp, body, floor, area or picture."""
     if isinstance(thing, BodyDescription):
         is_lamp = LAMP_TAG in thing.tags
         return "agent" if thing.name in agents else "lamp" if is_lamp else "body"
+    if isinstance(thing, AreaDescription) and thing.picture is not None:
+        return "picture"
     return kind_of(thing).removesuffix("s")
 
 

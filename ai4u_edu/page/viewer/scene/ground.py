@@ -34,8 +34,9 @@ from ai4u_edu.snapshot.theme import (
     ink_pixels,
     mix_colours,
 )
-from ai4u_edu.world import AreaDescription, FloorDescription
+from ai4u_edu.world import AreaDescription, BoxShape, FloorDescription
 from ai4u_edu.world.ink import ENDLESS, TILE_M, Tile, TileKey
+from ai4u_edu.world.pictures import decode_picture
 
 RIM_WIDTH = 0.0025
 """Width of a floor's drawn edge, as a share of the arena's size."""
@@ -52,6 +53,9 @@ HIDDEN_MARGIN = 0.057
 PAINT_OVERLAP_M = 0.01
 """Overlap (m) of painted areas, so that no gap shows between two of them."""
 BLACK: Rgb = (0, 0, 0)
+Place = tuple[float, ...]
+PICTURE_PIXELS = 2048
+"""Longer side of a picture on the ground as it is sent, if it has fewer pixels."""
 INK_PIXELS = 4
 """Pixels of a cell of ink, along each side."""
 
@@ -82,6 +86,8 @@ class DrawnGround:
             for floor in static_scene.floors:
                 _floor(drawer, layers, floor, static_scene)
             for area in static_scene.areas:
+                if area.picture is not None:
+                    continue
                 top = static_scene.floor_under(*area.position)
                 fill = _area(
                     drawer, layers, area, static_scene.lowest_floor if top is None else top
@@ -96,6 +102,62 @@ class DrawnGround:
         before, self._passed = self._passed, snapshot.passed_stages & self._areas.keys()
         for name in before ^ self._passed:
             self._areas[name].opacity = PASSED_OPACITY if name in self._passed else AREA_OPACITY
+
+
+class DrawnPictures:
+    """Pictures on the ground; one is sent only when another one is laid, or its size changes."""
+
+    def __init__(self, server: LocalServer) -> None:
+        self._scene = server.scene
+        self._drawn: dict[str, tuple[tuple[str, BoxShape], ImageHandle]] = {}
+        self._placed: dict[str, tuple[Place, Place]] = {}
+
+    def build(self, static_scene: StaticScene) -> None:
+        """Draw, move and remove pictures as areas say."""
+        laid = {
+            area.name: (area, area.picture, area.shape)
+            for area in static_scene.areas
+            if area.picture is not None and isinstance(area.shape, BoxShape)
+        }
+        for name in [name for name in self._drawn if name not in laid]:
+            self._drawn.pop(name)[1].remove()
+            self._placed.pop(name)
+        layers = Layers.of(static_scene)
+        for number, (name, (area, picture, shape)) in enumerate(laid.items(), start=1):
+            drawn = self._drawn.get(name)
+            if drawn is None or drawn[0] != (picture, shape):
+                if drawn is not None:
+                    drawn[1].remove()
+                drawn = (picture, shape), self._send(name, picture, shape)
+                self._drawn[name] = drawn
+                self._placed.pop(name, None)
+            top = static_scene.floor_under(*area.position)
+            floor = static_scene.lowest_floor if top is None else top
+            z = floor + layers.picture(number / (len(laid) + 1))
+            half = math.radians(area.heading_deg) / 2
+            # viser's pictures hang upside down: half a turn around x, then the heading
+            pose = (*area.position, z), (0.0, math.cos(half), math.sin(half), 0.0)
+            if self._placed.get(name) != pose:
+                self._placed[name] = pose
+                drawn[1].position, drawn[1].wxyz = pose
+
+    def draw(self, _snapshot: Snapshot) -> None:
+        """Draw nothing: pictures change only with the scene."""
+
+    def _send(self, name: str, picture: str, shape: BoxShape) -> ImageHandle:
+        pixels = decode_picture(picture)
+        if (pixels[..., 3] == 255).all():
+            pixels = pixels[..., :3]
+        # enlarged, since a browser blurs the edges between pixels
+        times = max(1, PICTURE_PIXELS // max(pixels.shape[:2]))
+        return self._scene.add_image(
+            f"/pictures/{name}",
+            pixels.repeat(times, axis=0).repeat(times, axis=1),
+            *shape.size,
+            format="png",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
 
 
 class DrawnInk:

@@ -56,25 +56,29 @@ class Layers:
         """The grid on a floor."""
         return self.unit
 
+    def picture(self, share: float) -> float:
+        """Return the height of a picture on the ground, 0 for the lowest to 1: under all paint."""
+        return (1.75 + 0.25 * share) * self.unit
+
     @property
     def paint(self) -> float:
         """The fill of a painted area."""
-        return 1.5 * self.unit
+        return 2.25 * self.unit
 
     @property
     def ink(self) -> float:
         """Ink on a floor; below areas, which are translucent."""
-        return 1.75 * self.unit
+        return 2.5 * self.unit
 
     @property
     def area(self) -> float:
         """The fill of an area."""
-        return 2 * self.unit
+        return 3 * self.unit
 
     @property
     def outline(self) -> float:
         """The outline of an area."""
-        return 3 * self.unit
+        return 3.5 * self.unit
 
     @property
     def shadow(self) -> float:

@@ -254,7 +254,7 @@ def pointer(snapshot: Snapshot, body: BodyState, sensor: SensorInfo) -> list[Arr
             marks += [ring, _line(body, state.x, state.y, z, short_by=RING_RADIUS * reach)]
     for area in static_scene.areas:
         # paint of a group is seen as it is; outlines of its pieces would cross at each joint
-        is_member = not area.paint and set(area.tags) & set(sensor.groups)
+        is_member = not area.is_flat and set(area.tags) & set(sensor.groups)
         if area.name in sensor.targets or is_member:
             top = static_scene.floor_under(*area.position)
             level = (static_scene.lowest_floor if top is None else top) + z - body.z
