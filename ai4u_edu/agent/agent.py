@@ -325,7 +325,7 @@ class BasicAgent(Parameterized):
         self.bound_blocks.swap_brain(_as_brain(brain))
 
     def take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> str:
-        """Take the fields that an AI4U script sent besides its action.
+        """Take the fields that a script sent besides its action.
 
         They are in :attr:`fields`, and an AgentArraySensor of a field's name reads its numbers.
 
@@ -338,7 +338,9 @@ class BasicAgent(Parameterized):
             texts = fields.get(sensor.perception_key)
             if texts is not None:
                 try:
-                    sensor.set_values([float(text) for text in texts])
+                    numbers = [float(text) for text in texts]
+                    if numbers != sensor.numbers.tolist():  # a script may send them each time
+                        sensor.set_values(numbers)
                 except (ReadingError, ValueError) as error:
                     problems.append(f"field {sensor.perception_key!r} had no effect: {error}")
         return "; ".join(problems)

@@ -97,7 +97,7 @@ class AgentView(Protocol):
         """Fields that an AI4U script sent with its last message, by name."""
 
     def take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> str:
-        """Take an AI4U script's fields; return a sentence about those that do not fit."""
+        """Take a script's fields; return a sentence about those that do not fit."""
 
     def note_input(self, given: AgentInput) -> None:
         """Tell recorders that a script gave numbers to the agent."""

@@ -67,6 +67,11 @@ class AsyncRobot(RobotBase):
         with OWN_FRAMES_HIDDEN:
             await self._connection.run(self._dialogue.act(numbers if action is None else action))
 
+    async def tell(self, **fields: Any) -> None:
+        """Tell the agent something besides actions; see :meth:`Robot.tell`."""
+        with OWN_FRAMES_HIDDEN:
+            await self._connection.run(self._dialogue.tell(fields))
+
     async def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begin an episode, and return its first percept."""
         with OWN_FRAMES_HIDDEN:

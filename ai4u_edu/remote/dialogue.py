@@ -143,6 +143,10 @@ class Dialogue:
         truncated end of its episode."""
         self._ended: RemoteError | None = None
         """The error that ended the session; every method raises it from then on."""
+        self._told: dict[str, tuple[str, ...]] = {}
+        """Fields that go with each answer, by name."""
+        self._unread = ""
+        """The latest sentence about fields that no sensor reads."""
         self.percept: RemotePercept | None = None
         """The latest percept; None before the first."""
         self.readings: dict[str, native.Reading] = {}
@@ -201,6 +205,27 @@ class Dialogue:
                 timeout = FIRST_TIMEOUT_S
         return percept
 
+    def tell(self, fields: Mapping[str, Any]) -> Flow[None]:
+        """Let fields go with each answer from the next one on; None takes one back.
+
+        Raises:
+            RemoteError: a field is neither numbers nor text, or they are too many or too long.
+        """
+        told = dict(self._told)
+        for name, value in fields.items():
+            told.pop(name, None)
+            if value is not None:
+                told[name] = _texts_of(name, value)
+        try:
+            native.decode(native.encode(native.Reset(0, None, told)))
+        except WireError as error:
+            raise RemoteError(f"tell: {error}") from None
+        self._told = told
+        unread = native.without_reader(told, self.welcome.fields)
+        if unread and unread != self._unread:
+            yield Note(unread)
+        self._unread = unread
+
     def act(self, action: Any) -> Flow[None]:
         """Answer the latest percept with an action; if it has an answer, wait for the next one."""
         percept = yield from self.sense()
@@ -208,17 +233,20 @@ class Dialogue:
             how = "terminated" if percept.terminated else "truncated"
             raise ActionError(f"the episode is over ({how}); reset() begins another")
         values = _numbers_of(self.outputs, action)
-        yield from self._answer(native.Action(percept.episode, percept.step, percept.seq, values))
+        action = native.Action(
+            percept.episode, percept.step, percept.seq, values, self._told or None
+        )
+        yield from self._answer(action)
 
     def reset(self, seed: SupportsIndex | None = None) -> Flow[RemotePercept]:
         """Begin an episode, and return its first percept."""
         number = None if seed is None else checked_seed(seed)
         before = yield from self.sense()
-        yield from self._answer(native.Reset(before.seq, number))
+        yield from self._answer(native.Reset(before.seq, number, self._told or None))
         percept = yield from self.sense()
         while percept.episode == before.episode:
             # the world could not reset, since an error had stopped it
-            yield from self._answer(native.Reset(percept.seq, number))
+            yield from self._answer(native.Reset(percept.seq, number, self._told or None))
             percept = yield from self.sense()
         return percept
 
@@ -445,6 +473,23 @@ class Dialogue:
     def _end(self, error: RemoteError) -> NoReturn:
         self._ended = error
         raise error from None
+
+
+def _texts_of(name: str, value: Any) -> tuple[str, ...]:
+    """Return a field as it is sent.
+
+    >>> _texts_of("goal", [1, 2.5]), _texts_of("colour", "red"), _texts_of("speed", 3)
+    (('1.0', '2.5'), ('red',), ('3.0',))
+    """
+    if isinstance(value, str):
+        return (value,)
+    values = value if isinstance(value, Iterable) else [value]
+    try:
+        return tuple(each if isinstance(each, str) else repr(float(each)) for each in values)
+    except (TypeError, ValueError, OverflowError):
+        raise RemoteError(
+            f"tell: {name}: expected numbers, text or None, got {shown(value)}"
+        ) from None
 
 
 def _numbers_of(outputs: Mapping[str, native.Output], action: Any) -> dict[str, tuple[float, ...]]:

@@ -54,6 +54,23 @@ class Robot(RobotBase):
         with OWN_FRAMES_HIDDEN:
             self._connection.run(self._dialogue.act(numbers if action is None else action))
 
+    def tell(self, **fields: Any) -> None:
+        """Tell the agent something besides actions, such as a target: ``tell(target=[1, 2])``.
+
+        It goes with the next action or reset, and stays until it is told otherwise. An
+        AgentArraySensor of the field's name reads its numbers, and blocks find it in
+        ``agent.fields``. A field that no sensor reads is reported on the page, where the world
+        runs, and in the script's log ``ai4u_edu.remote``.
+
+        Args:
+            fields: numbers or text by name; None takes one back.
+
+        Raises:
+            RemoteError: a field is neither numbers nor text, or they are too many or too long.
+        """
+        with OWN_FRAMES_HIDDEN:
+            self._connection.run(self._dialogue.tell(fields))
+
     def reset(self, seed: SupportsIndex | None = None) -> RemotePercept:
         """Begin an episode, and return its first percept.
 

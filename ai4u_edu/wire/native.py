@@ -20,12 +20,12 @@ a field that the other side does not know. Any other change needs another :data:
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from ai4u_edu.base.errors import shorten
+from ai4u_edu.base.errors import shorten, shown, suggest
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
 from ai4u_edu.wire.validation import LIST, MAX_FLOAT, MAX_TEXT_CHARS, Finite, Int, Text
@@ -46,6 +46,8 @@ OnMissing = Literal["", "hold", "coast", "stop"]
 """Substitutes for an action that is missing: the last one again, nothing, or zeros for all
 actuators; empty: the room's setting."""
 Texts = Annotated[tuple[Text, ...], LIST]
+Fields = Annotated[Mapping[Text, Texts], LIST]
+"""Numbers, as text, and texts that a script tells an agent besides an action, by name."""
 _Size = Annotated[int, Meta(ge=0, le=MAX_WORLD_FRAME_BYTES)]
 _Data = Annotated[bytes, Meta(max_length=MAX_WORLD_FRAME_BYTES)]
 _ReadingText = Annotated[str, Meta(max_length=MAX_READING_CHARS)]
@@ -126,6 +128,8 @@ class Welcome(TaggedMessage, frozen=True):
     """Name of the term that is paid when the scene's goal is reached; empty if there is none."""
     readings: Annotated[tuple[Reading, ...], LIST]
     outputs: Annotated[tuple[Output, ...], LIST]
+    fields: Texts = ()
+    """Names of the fields that the agent's sensors read."""
 
 
 class Percept(TaggedMessage, frozen=True):
@@ -161,6 +165,8 @@ class Action(TaggedMessage, frozen=True):
     values: Annotated[Mapping[Text, Annotated[tuple[float, ...], LIST]], LIST]
     """Numbers by the actuator's name; actuators that are left out do nothing. NaN and infinities
     pass here: the actuator refuses them, which makes the error an answer to this percept."""
+    fields: Fields | None = None
+    """All that the script tells the agent besides; what an earlier answer told is forgotten."""
 
 
 class Reset(TaggedMessage, frozen=True):
@@ -169,6 +175,8 @@ class Reset(TaggedMessage, frozen=True):
     seq: Int
     seed: Annotated[int, Meta(ge=0, le=MAX_SEED)] | None
     """With a seed, the whole world is reset; without, the agent alone if there are others."""
+    fields: Fields | None = None
+    """All that the script tells the agent before the first percept of the episode."""
 
 
 class Order(TaggedMessage, frozen=True):
@@ -214,6 +222,24 @@ PROBLEMS = {
     "lockstep_refused": 4011,
 }
 """Errors that close the connection, with the WebSocket's close code."""
+
+
+def without_reader(names: Iterable[str], readable: Collection[str]) -> str:
+    """Return a sentence about fields that no sensor reads; empty if there are none.
+
+    >>> without_reader(["goal"], ["goal"])
+    ''
+    >>> without_reader(["gaol"], ["goal"])
+    "no sensor reads the field 'gaol'; did you mean 'goal'?"
+    """
+    unread = [name for name in names if name not in readable]
+    if not unread:
+        return ""
+    listed = f"{'field' if len(unread) == 1 else 'fields'} {', '.join(map(shown, unread[:5]))}"
+    if not readable:
+        return f"no sensor reads the {listed}; expected an AgentArraySensor of that name"
+    return f"no sensor reads the {listed}; {suggest(unread[0], readable)}"
+
 
 _codec: MessageCodec[Message] = MessageCodec(Message)
 

@@ -1,7 +1,7 @@
 """Worlds for scripts on other machines, and a script that speaks frame by frame."""
 
 import socket
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, Self
 
@@ -63,8 +63,10 @@ class Pay(RewardFunc):
         return 1.0
 
 
-def log_sim(agents: int = 1, *, max_steps: int = 0, skip_frame: int = 0) -> ControlRequestor:
-    """Agents "a", "b", ... that write down what they are told to do."""
+def log_sim(
+    agents: int = 1, *, max_steps: int = 0, skip_frame: int = 0, sensors: Sequence[Sensor] = ()
+) -> ControlRequestor:
+    """Agents "a", "b", ... that write down what they are told to do; the first has more sensors."""
     world = World()
     crew = []
     for number in range(agents):
@@ -75,7 +77,7 @@ def log_sim(agents: int = 1, *, max_steps: int = 0, skip_frame: int = 0) -> Cont
                 id=name,
                 body=name,
                 max_steps_per_episode=max_steps,
-                sensors=[Place()],
+                sensors=[Place(), *(sensors if number == 0 else ())],
                 actuators=[Log()],
                 rewards=[Pay()],
                 brains=[LocalBrain(controller=still, skip_frame=skip_frame)],

@@ -214,7 +214,7 @@ ACTION = '{"type":"action","episode":1,"step":0,"seq":1,"values":'
         ('{"type":["reset"]}', "got ['reset']"),
         ('{"type":"reset","sq":1,"seed":null}', "reset: no field is called 'sq'; did you mean "
                                                 "'seq'?"),
-        ('{"type":"reset","seq":1}', "reset: expected the fields seq, seed; missing: seed"),
+        ('{"type":"reset","seq":1}', "reset: expected the fields seq, seed, fields; missing: seed"),
         ('{"type":"reset","seq":-1,"seed":null}', "expected a whole number from 0 on, got -1"),
         ('{"type":"reset","seq":' + "9" * 40 + ',"seed":null}', "numbers of up to 64 bits"),
         ('{"type":"bye","reason":"\\ud800"}', "expected JSON, got"),

@@ -118,7 +118,7 @@ def test_what_goes_in_comes_out(message: Message) -> None:
         (["rest"], "expected a message (hello, welcome, percept, action, reset, order, problem, "
                    "bye), got 'rest'"),
         (["order", 1, "sit"], "word: expected one of 'pause', 'resume', 'stop', 'wait', got 'sit'"),
-        (["reset", 1], "expected 2 fields (seq, seed), got 1"),
+        (["reset", 1], "expected 2 to 3 fields (seq, seed, fields), got 1"),
         (["reset", -1, None], "seq: expected a whole number from 0 on, got -1"),
         (["reset", True, None], "seq: expected a whole number from 0 on, got True"),
         (["reset", 2**53, None], "seq: expected a whole number from 0 to 9007199254740991, got "

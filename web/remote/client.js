@@ -73,6 +73,16 @@ export class RemoteClient {
   }
 
   /**
+   * Tell the agent something besides actions, from the next action or reset on: a sensor of that name reads it.
+   *
+   * @param {Record<string, string | number | (string | number)[] | null>} fields by name; null takes one back
+   * @returns {string} a sentence about fields that no sensor reads; empty if there are none
+   */
+  tell(fields) {
+    return this.#dialogue.tell(fields);
+  }
+
+  /**
    * Begin an episode, and return its first percept.
    *
    * @param {number} [seed] resets the whole world; default: the agent alone if there are others

@@ -9,7 +9,7 @@
 /** @import { Percept, Problem, Welcome } from "../types/remote.js" */
 
 import { limits } from "../shared/limits.js";
-import { actionFrame, frameOf, messageIn, PROBLEMS, valuesOf, VERSION } from "./messages.js";
+import { actionFrame, frameOf, messageIn, PROBLEMS, resetFrame, valuesOf, VERSION } from "./messages.js";
 
 /** Time after which a frame is repeated for the first time; it doubles with each repetition. */
 const FIRST_TIMEOUT_MS = 200;
@@ -72,6 +72,11 @@ export class Dialogue {
   /** @type {string} */
   #secret;
   /**
+   * Fields that go with each answer.
+   * @type {import("./messages.js").Fields}
+   */
+  #told = {};
+  /**
    * The frame that is repeated if no answer arrives.
    * @type {Uint8Array<ArrayBuffer> | null}
    */
@@ -130,6 +135,21 @@ export class Dialogue {
   }
 
   /**
+   * Let fields go with each answer from the next one on; null takes one back.
+   * @param {Record<string, string | number | (string | number)[] | null>} fields by name
+   * @returns {string} a sentence about fields that no sensor reads; empty if there are none
+   */
+  tell(fields) {
+    for (const [name, value] of Object.entries(fields)) {
+      delete this.#told[name];
+      if (value !== null) this.#told[name] = [value].flat().map(String);
+    }
+    const readable = this.welcome?.fields || [];
+    const unread = Object.keys(this.#told).filter((name) => !readable.includes(name));
+    return unread.length ? `No sensor reads ${unread.join(", ")}: expected an AgentArraySensor of that name.` : "";
+  }
+
+  /**
    * Answer the latest percept with an action; if it has an answer, wait for the next one.
    * @param {Record<string, number[]>} values by actuator
    * @returns {Flow<void>}
@@ -139,7 +159,7 @@ export class Dialogue {
     if (percept.terminated || percept.truncated) {
       throw new RemoteError("The episode is over; reset begins another.", "episode_over");
     }
-    yield* this.#answer(actionFrame(percept, values), percept.seq);
+    yield* this.#answer(actionFrame(percept, values, this.#told), percept.seq);
   }
 
   /**
@@ -151,7 +171,7 @@ export class Dialogue {
     const { episode, seq } = yield* this.sense();
     let next = seq;
     do {
-      yield* this.#answer(frameOf("reset", next, seed), next); // again if an error had stopped the world
+      yield* this.#answer(resetFrame(next, seed, this.#told), next); // again if an error had stopped the world
       next = (yield* this.sense()).seq;
     } while (this.percept.episode === episode);
     return this.percept;

@@ -3,6 +3,7 @@
  * A frame is one msgpack array: the kind of message, then its fields.
  */
 
+/** @typedef {Record<string, string[]>} Fields what is told besides an action, numbers as text, by name */
 /** @import { Message, PerceptMessage, Reading, Value } from "../types/remote.js" */
 
 import { decode, Encoder } from "../vendor/msgpack.js?v=269ec7b2";
@@ -33,7 +34,7 @@ const ARRAY = 0x90;
 export const FIELDS = {
   welcome: [
     ...["version", "session", "grace", "agent", "mode", "title", "ticksPerSecond", "skipFrame", "repeatAction"],
-    ...["maxSteps", "rewards", "success", "readings", "outputs"],
+    ...["maxSteps", "rewards", "success", "readings", "outputs", "fields"],
   ],
   percept: [
     ...["episode", "step", "seq", "tick", "reward", "terms", "terminated", "truncated", "paused", "stopped"],
@@ -72,10 +73,27 @@ export function frameOf(...fields) {
  * Return the frame of an action.
  * @param {{episode: number, step: number, seq: number}} percept that it answers
  * @param {Record<string, number[]>} values by actuator
+ * @param {Fields} [told] what the page tells besides
  */
-export function actionFrame({ episode, step, seq }, values) {
+export function actionFrame({ episode, step, seq }, values, told = {}) {
   const head = ["action", episode, step, seq].map((each) => plain.encode(each));
-  return joined([new Uint8Array([ARRAY + head.length + 1]), ...head, floats.encode(values)]);
+  const rest = [floats.encode(values), ...(isEmpty(told) ? [] : [plain.encode(told)])];
+  return joined([new Uint8Array([ARRAY + head.length + rest.length]), ...head, ...rest]);
+}
+
+/**
+ * Return the frame of a reset.
+ * @param {number} seq number of the percept that it answers
+ * @param {number | null} seed
+ * @param {Fields} [told] what the page tells besides
+ */
+export function resetFrame(seq, seed, told = {}) {
+  return frameOf("reset", seq, seed, ...(isEmpty(told) ? [] : [told]));
+}
+
+/** @param {Fields} told */
+function isEmpty(told) {
+  return Object.keys(told).length === 0;
 }
 
 /**

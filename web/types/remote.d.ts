@@ -42,6 +42,8 @@ export interface Welcome {
   success: string;
   readings: Reading[];
   outputs: Output[];
+  /** Names of the fields that the agent's sensors read; left out if there are none. */
+  fields?: string[];
 }
 
 /** A number, boolean or text, or nested arrays of them. */

@@ -141,3 +141,15 @@ test("goodbye is said once, and nothing goes on after it", () => {
 test("a world that says goodbye ends the session", () => {
   assert.throws(() => play(begun().sense(), frame("bye", { reason: "closing" })), { code: "ended", message: /closing/ });
 });
+
+test("what is told goes with each answer until it is taken back", () => {
+  const dialogue = new Dialogue({ agent: "", mode: "lockstep", onMissing: "", secret: "" });
+  play(dialogue.begin(), frame("welcome", { session: "s1", grace: 2, readings: [], outputs: [], fields: ["goal"] }));
+  assert.equal(dialogue.tell({ goal: [1, 2.5] }), "");
+  assert.match(dialogue.tell({ gaol: "red" }), /No sensor reads gaol/);
+  const told = { goal: ["1", "2.5"], gaol: ["red"] };
+  assert.deepEqual(sent(play(dialogue.act({}), percept(1, { step: 0 })))[0].at(-1), told);
+  dialogue.tell({ gaol: null, goal: 3 });
+  const reset = play(dialogue.reset(), percept(2), percept(3, { episode: 2 }));
+  assert.deepEqual(sent(reset)[0], ["reset", 2, null, { goal: ["3"] }]);
+});

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { actionFrame, FIELDS, frameOf, messageIn, valuesOf } from "../../../web/remote/messages.js";
+import { actionFrame, FIELDS, frameOf, messageIn, resetFrame, valuesOf } from "../../../web/remote/messages.js";
 import { decode, Encoder } from "../../../web/vendor/msgpack.js";
 
 const packed = (...fields) => new Encoder().encode(fields);
@@ -16,6 +16,13 @@ test("an action's numbers are floats, its counts are not", () => {
   assert.deepEqual(decode(frame), ["action", 1, 2, 3, { move: [1, -0] }]);
   assert.deepEqual([...frame.slice(0, 11)], [0x95, 0xa6, ...Buffer.from("action"), 1, 2, 3]);
   assert.equal(frame.filter((byte) => byte === 0xcb).length, 2);
+});
+
+test("what is told goes behind an action and a reset", () => {
+  const told = { goal: ["1", "2.5"] };
+  assert.deepEqual(decode(actionFrame({ episode: 1, step: 2, seq: 3 }, {}, told)), ["action", 1, 2, 3, {}, told]);
+  assert.deepEqual(decode(resetFrame(3, null, told)), ["reset", 3, null, told]);
+  assert.deepEqual(decode(resetFrame(3, 7)), ["reset", 3, 7]);
 });
 
 test("fields are named, and what is missing is undefined", () => {

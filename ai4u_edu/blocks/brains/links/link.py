@@ -66,7 +66,7 @@ class AgentSpec:
     rewards: tuple[str, ...]
     """Names of the reward's terms."""
     fields: tuple[str, ...] = ()
-    """Names of fields of an AI4U script that sensors read."""
+    """Names of fields of a script that sensors read."""
 
 
 class Observation(NamedTuple):
@@ -113,7 +113,7 @@ class Reply(NamedTuple):
     warning: str = ""
     """A sentence about parts of it, or messages before it, that have no effect; empty for none."""
     fields: Mapping[str, tuple[str, ...]] = MappingProxyType({})
-    """Fields that an AI4U script sends besides the action, by name."""
+    """Fields that a script sends besides the action, by name."""
 
 
 class Link(Protocol):

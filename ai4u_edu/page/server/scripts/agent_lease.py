@@ -194,6 +194,7 @@ class AgentLease:
                 outputs=tuple(
                     output_of(name, each) for name, each in agent.bound_blocks.actuators.items()
                 ),
+                fields=tuple(each.perception_key for each in agent.bound_blocks.array_sensors()),
             )
         )
 

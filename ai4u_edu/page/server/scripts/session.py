@@ -52,6 +52,10 @@ class Session:
         self._may_seed = may_seed
         self._report_mistake = report_mistake
         self._rewards = _RewardSum()
+        self._readable: tuple[str, ...] = ()
+        """Names of the fields that the agent's sensors read."""
+        self._unread = ""
+        """The latest sentence about fields that no sensor reads."""
 
     # -- for the brain, in the runner's thread ---------------------------------------------------
 
@@ -71,7 +75,8 @@ class Session:
         return self.exchange.turn is Turn.ASKED
 
     def open(self, spec: AgentSpec) -> None:
-        """Do nothing: the script is connected, and knows the agent from its welcome."""
+        """Note what the agent reads; the script is connected, and knows it from its welcome."""
+        self._readable = spec.fields
 
     def tell(self, observation: Observation) -> None:
         """Send an observation in advance, unless the script still computes its last answer."""
@@ -159,7 +164,13 @@ class Session:
         if problem is not None:
             self._report_mistake(problem.text)
             return problem
-        if self.exchange.answer(Reply(_to_brain_answer(message), asked)):
+        reply = Reply(_to_brain_answer(message), asked)
+        if not isinstance(message, native.Order) and message.fields:
+            unread = native.without_reader(message.fields, self._readable)
+            # a script sends its fields with each answer; the mistake is told once
+            warning, self._unread = "" if unread == self._unread else unread, unread
+            reply = reply._replace(fields=message.fields, warning=warning)
+        if self.exchange.answer(reply):
             self._runner.notify_answer()
         return None
 
