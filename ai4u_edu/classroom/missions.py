@@ -242,8 +242,9 @@ class ClassMissions:
         if not score:
             return 0, ""
         long = f" for {int(minutes)} minutes" if minutes >= 2 else ""
-        why = f"step {place.step + 1} of “{mission.title}”{long}"
-        return int(score), f"{why}: {place.diagnosis}" if place.hint else why
+        where = f"step {place.step + 1} of “{mission.title}”{long}"
+        # a card shows the first words only, and the mission below them
+        return int(score), f"{place.diagnosis} ({where})" if place.hint else where
 
     def _minutes(self, seat: int) -> float:
         return (self._clock() - self._since.get(seat, self._clock())) / 60

@@ -227,6 +227,26 @@ def test_the_card_fits_and_covers_no_key(
         assert is_beside or box["y"] + box["height"] <= keys["y"]
 
 
+def test_an_open_panel_ends_below_the_card_on_a_phone_in_a_class(
+    chromium: Browser, room: Room
+) -> None:
+    with panel_page(chromium, room, width=390, height=844, has_touch=True) as page:
+        page.page.evaluate(OPEN)
+        page.panel.parts["mission"] = {**PART, "hint": "It fell. " * 6}
+        page.page.reload()
+        page.wait()
+        expect(page.button("New start")).to_be_visible()  # it is lit, so the panel has opened
+        page.page.evaluate(
+            "document.documentElement.style.setProperty('--ai4u-class-height', '49px')"
+        )
+        box = card(page).bounding_box()
+        panel = page.page.locator(".ai4u-panel-head").bounding_box()
+        assert box is not None
+        assert panel is not None
+        assert box["y"] >= 49
+        assert panel["y"] >= box["y"] + box["height"]
+
+
 def test_a_person_does_the_first_steps_by_keys(chromium: Browser) -> None:
     page, problems = new_page(chromium), list[str]()
     page.on("pageerror", lambda error: problems.append(str(error)))

@@ -282,3 +282,18 @@ def test_a_request_counts_once_and_a_full_folder_is_said(tmp_path: Path) -> None
     with ClassStore(tmp_path, max_gb=0.0) as store:
         store.quota.measure()
         asyncio.run(ask(store))
+
+
+@pytest.mark.slow
+def test_the_mission_about_learning_can_be_finished_in_a_class(served: ServedClass) -> None:
+    with page_of(driver(served)) as page:
+        page.done("mission_open", mission="teach-1", step=1)
+        page.done("mission_see", tab="teach")
+        page.part("mission", lambda part: part["step"] == 1 and part["is_done"])
+        page.done("mission_open", mission="teach-1", step=2)
+        assert not page.part("mission", lambda part: part["step"] == 2)["is_done"]
+        learn(page)
+        has_learned(page)
+        part = page.part("mission", lambda part: part["is_done"])
+        assert part["step"] == part["steps"] - 1
+        assert part["stars"][0]["is_earned"]

@@ -165,7 +165,7 @@ export class MissionCard {
     this.#exercise.show(isHere && !openMission()?.isHidden ? part.exercise : null);
     this.#question.hidden = part.question === null || isDone || !isHere;
     const elsewhere = isHere ? "" : `This mission is in the scene “${part.scene_title}”. What you have here is kept.`;
-    const driver = this.#isWatching ? "Somebody else drives now. This step goes on when you drive." : part.driver;
+    const driver = this.#isWatching ? "Somebody else drives now, or another window of yours. This step goes on when you drive here." : part.driver;
     setBold(this.#done, isDone ? `✓ ${part.done}` : "");
     setBold(this.#problem, isDone ? "" : elsewhere || driver || part.hint);
     setText(this.#words, isDone || !isHere || part.exercise !== null ? "" : part.words);
