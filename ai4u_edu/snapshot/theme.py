@@ -90,6 +90,15 @@ def said(snapshot: Snapshot) -> dict[str, str]:
     }
 
 
+def latest_said(snapshot: Snapshot) -> int:
+    """Return the time of the latest message, from 1, in steps of :data:`SAID_S`; 0 for none."""
+    messages = snapshot.state.world.messages
+    if not messages:
+        return 0
+    latest = max(message.tick for message in messages.values())
+    return 1 + int(latest / (SAID_S * snapshot.static_scene.settings.ticks_per_second))
+
+
 def bubble(message: Message) -> str:
     """Return the text of a message; one without numbers is a call."""
     return f"“{'  '.join(f'{number:.3g}' for number in message.numbers) or '!'}”"

@@ -172,16 +172,17 @@ def test_replay_and_copy_have_the_messages() -> None:
     ]
 
 
-def test_without_hearing_the_pair_of_the_scene_fails() -> None:
+@pytest.mark.parametrize("starts", [5, pytest.param(100, marks=pytest.mark.nightly)])
+def test_without_hearing_the_pair_of_the_scene_fails(starts: int) -> None:
     sim = Scene.load("call").build()
     for agent in sim.agents:
         next(each for each in agent.sensors if isinstance(each, HearSensor)).is_active = False
     agent = sim.agents[0]
     agent.use_brain(LocalBrain(controller=solver_of("call")))
     won = 0
-    for seed in range(5):
+    for seed in range(starts):
         sim.reset(seed)
         while not agent.done:
             sim.step()
         won += agent.terminated
-    assert won <= 1
+    assert won <= starts // 5

@@ -1075,6 +1075,8 @@ export interface StateEvent {
   bumps: number;
   /** Things that it has collected, and stages that it has passed, in this episode. */
   collects: number;
+  /** Number that grows when somebody in the world says something, at most every 0.6 s of the world's time; 0 before. */
+  said: number;
 }
 
 /** Switches of the whole class, which its teacher turns. All are off at first. */

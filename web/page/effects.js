@@ -41,6 +41,7 @@ export class Effects {
   follow(before, state, isMine) {
     const isSame = before !== null && before.episode === state.episode && before.agent_episode === state.agent_episode;
     if (before === null || !isMine || before.past || state.past) return;
+    if (isSame && state.said > before.said) this.#sounds.speak();
     if (state.outcome && !(isSame && before.outcome)) {
       if (WINS.includes(state.outcome)) {
         this.#sounds.win();

@@ -1,5 +1,5 @@
 /**
- * Sounds of a drive, made of a few oscillators: motor, bump, collect, win and fall.
+ * Sounds of a drive, made of a few oscillators: motor, bump, collect, speak, win and fall.
  *
  * They are quiet, and on until somebody mutes them; in a class only if its teacher has turned them on. Browsers allow sound only after a
  * key or a click, which is where the first one comes from.
@@ -14,6 +14,7 @@ const NOTE_S = 0.12;
 const WIN_HZ = [523.25, 659.25, 783.99, 1046.5];
 const COLLECT_HZ = [880, 1174.66];
 const BUMP_HZ = [130];
+const SPEAK_HZ = [660, 990];
 const MOTOR_HZ = 58;
 /** Volume of the motor, as a share of that of notes. */
 const MOTOR_SHARE = 0.35;
@@ -54,6 +55,10 @@ export class Sounds {
 
   collect() {
     if (this.#isDue("collect")) this.#play(COLLECT_HZ, "triangle");
+  }
+
+  speak() {
+    if (this.#isDue("speak")) this.#play(SPEAK_HZ, "sine");
   }
 
   win() {

@@ -22,6 +22,7 @@ from ai4u_edu.page.server.control_lock import ControlLock
 from ai4u_edu.page.server.human_override import HumanOverride
 from ai4u_edu.page.server.run_commands import RUN_COMMANDS
 from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot.theme import latest_said
 
 CODE = r"^[A-Za-z0-9]{1,24}$"
 Code = Annotated[str, Meta(pattern=CODE)]
@@ -156,6 +157,9 @@ class StateEvent(InputEvent, frozen=True, tag="state"):
     """Contacts of its body with others that have begun since the world's reset."""
     collects: int
     """Things that it has collected, and stages that it has passed, in this episode."""
+    said: int
+    """Number that grows when somebody in the world says something, at most every 0.6 s of the
+    world's time; 0 before."""
 
 
 class ErrorEvent(InputEvent, frozen=True, tag="error"):
@@ -240,6 +244,7 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> StateEvent
         held=sorted(agent.held_keys),
         bumps=agent.bumps,
         collects=agent.collects,
+        said=latest_said(picture),
     )
 
 

@@ -10,6 +10,7 @@ from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.ground import DrawnInk
 from ai4u_edu.page.viewer.scene.labels import SpeechBubbles
 from ai4u_edu.snapshot import capture_snapshot
+from ai4u_edu.snapshot.theme import latest_said
 from ai4u_edu.world.ink import TILE_M, ink_code
 
 BLUE = ink_code("blue")
@@ -74,10 +75,13 @@ def test_a_speech_bubble_comes_and_goes(server: LocalServer) -> None:
     sim.agents[0].use_brain(LocalBrain(controller=lambda _: words))
     sim.agents[1].use_brain(LocalBrain(controller=lambda _: {}))
     sim.reset(1)
+    assert latest_said(capture_snapshot(sim)) == 0
     sim.step()
+    assert latest_said(capture_snapshot(sim)) == 1
     bubbles = SpeechBubbles(server)
     bubbles.draw(capture_snapshot(sim))
-    assert len(nodes(server, "/speech/*")) == 1
+    number = [body.name for body in capture_snapshot(sim).bodies].index(sim.agents[0].body.name)
+    assert nodes(server, "/speech/*") == [f"/speech/{number}", f"/speech/light {number}"]
     words.clear()
     for _ in range(10):
         sim.step()

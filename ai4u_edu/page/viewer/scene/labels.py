@@ -7,10 +7,12 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from viser import LabelHandle, SceneApi
+from viser import BatchedMeshHandle, LabelHandle, SceneApi
 
+from ai4u_edu.base.colors import rgb
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
-from ai4u_edu.page.viewer.scene.geometry import Array, rotate
+from ai4u_edu.page.viewer.scene.geometry import Array, circle, flat_mesh, rotate
+from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.page.viewer.scene.mesh_drawer import MeshDrawer
 from ai4u_edu.page.viewer.scene.subtree import Subtree
 from ai4u_edu.page.viewer.scene.view import Mode
@@ -119,12 +121,16 @@ class Labels:
             )
 
 
+LIGHT_RADIUS = 1.35
+"""Outer radius of the light around a speaker, as a multiple of its body's."""
+
+
 class SpeechBubbles:
-    """Speech bubbles: messages, shown for a moment above the speaker."""
+    """Messages, shown for a moment: a speech bubble above the speaker, and a light around it."""
 
     def __init__(self, server: LocalServer) -> None:
         self._scene = server.scene
-        self._handles: dict[str, LabelHandle] = {}
+        self._handles: dict[str, tuple[LabelHandle, BatchedMeshHandle]] = {}
 
     def build(self, static_scene: StaticScene) -> None:
         """Do nothing: most agents never say anything."""
@@ -133,7 +139,8 @@ class SpeechBubbles:
         """Show the latest messages, and remove older ones."""
         texts = said(snapshot) if snapshot.state.world.messages else {}
         for name in [name for name in self._handles if name not in texts]:
-            self._handles.pop(name).remove()
+            for handle in self._handles.pop(name):
+                handle.remove()
         if not texts:
             return
         reaches = {body.name: body.shape.reach for body in snapshot.static_scene.bodies}
@@ -142,12 +149,18 @@ class SpeechBubbles:
             if text is None or body.name not in reaches:
                 continue
             position = (body.x, body.y + 1.1 * reaches[body.name], body.z + 1.0)
-            handle = self._handles.get(body.name)
-            if handle is None:
-                drawer = MeshDrawer(self._scene, "/speech")
-                handle = drawer.label(str(index), text, position, anchor="bottom-center")
-                self._handles[body.name] = handle
-            handle.text, handle.position = text, position
+            handles = self._handles.get(body.name)
+            if handles is None:
+                drawer, reach = MeshDrawer(self._scene, "/speech"), reaches[body.name]
+                ring = flat_mesh(circle(LIGHT_RADIUS * reach), circle(reach))
+                handles = (
+                    drawer.label(str(index), text, position, anchor="bottom-center"),
+                    drawer.mesh(f"light {index}", ring, 0.0, rgb("yellow"), opacity=0.8),
+                )
+                self._handles[body.name] = handles
+            label, light = handles
+            label.text, label.position = text, position
+            light.position = (body.x, body.y, body.z + Layers.of(snapshot.static_scene).body)
 
 
 @dataclass
