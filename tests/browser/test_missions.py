@@ -232,7 +232,7 @@ def test_an_open_panel_ends_below_the_card_on_a_phone_in_a_class(
 ) -> None:
     with panel_page(chromium, room, width=390, height=844, has_touch=True) as page:
         page.page.evaluate(OPEN)
-        page.panel.parts["mission"] = {**PART, "hint": "It fell. " * 6}
+        page.panel.parts["mission"] = {**PART, "hint": "It fell. " * 25}
         page.page.reload()
         page.wait()
         expect(page.button("New start")).to_be_visible()  # it is lit, so the panel has opened
