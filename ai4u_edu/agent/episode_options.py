@@ -74,6 +74,7 @@ class _Plan:
     """New descriptions and blocks, all of them checked already."""
 
     settings: Any
+    field: Any
     things: Sequence[Thing]
     agents: Sequence[tuple[BasicAgent, str, Any]]
     blocks: Sequence[tuple[list[Block], int, Block]]
@@ -165,6 +166,8 @@ class EpisodeOptions:
                     found += _of_block(f"{agent.id}.{name}", ("block", index, kind, place), block)
         settings = sim.world.settings
         found += _of_model("world", ("world",), settings)
+        if sim.world.field is not None:
+            found += _of_model("generate", ("field",), sim.world.field)
         for words in KINDS.values():
             for thing in sim.world.described:
                 if KINDS[type(thing)] == words:
@@ -255,6 +258,7 @@ class EpisodeOptions:
         """
         sim, known = self._sim, self.parameters()
         settings: dict[str, Any] = {}
+        field_numbers: dict[str, Any] = {}
         things: dict[str, dict[str, Any]] = {}
         agents: list[tuple[BasicAgent, str, Any]] = []
         blocks: dict[tuple[Any, ...], list[tuple[DataPath, str, Any]]] = {}
@@ -268,6 +272,8 @@ class EpisodeOptions:
                 )
             if kind == "world":
                 settings[field] = value
+            elif kind == "field":
+                field_numbers[field] = value
             elif kind == "thing":
                 part = things.setdefault(str(place[0]), {})
                 for inner in place[1:]:
@@ -283,6 +289,8 @@ class EpisodeOptions:
         described = {thing.name: thing for thing in sim.world.described}
         with _explained("world"):
             changed_settings = _changed_model(sim.world.settings, settings)
+        with _explained("generate"):
+            changed_field = _changed_model(sim.world.field, field_numbers)
         changed_things = []
         for thing_name, parts in things.items():
             with _explained(thing_name):
@@ -293,7 +301,7 @@ class EpisodeOptions:
             with _explained(f"agent {agent.id!r}"):
                 present = getattr(agent, kind)
                 changed_blocks.append((present, place, _changed_block(present[place], changes)))
-        return _Plan(changed_settings, changed_things, agents, changed_blocks)
+        return _Plan(changed_settings, changed_field, changed_things, agents, changed_blocks)
 
     def _apply(self, plan: _Plan) -> None:
         """Change what a plan names.
@@ -302,13 +310,14 @@ class EpisodeOptions:
             SetupError: blocks do not fit any more, or a space would change.
         """
         sim, steps = self._sim, self._restore_steps
-        needs_binding = bool(plan.things or plan.blocks)
+        world = sim.world
+        needs_binding = bool(plan.things or plan.blocks or plan.field != world.field)
         if needs_binding and self._base_spaces is None:
             self._base_spaces = [_spaces_of(agent) for agent in sim.agents]
         described = {thing.name: thing for thing in sim.world.described}
         before = [described[thing.name] for thing in plan.things]
-        steps.append(partial(redescribe, sim.world, before, sim.world.settings))
-        redescribe(sim.world, plan.things, plan.settings)
+        steps.append(partial(redescribe, world, before, world.settings, world.field))
+        redescribe(world, plan.things, plan.settings, plan.field)
         for agent, field, value in plan.agents:
             steps.append(partial(setattr, agent, field, getattr(agent, field)))
             setattr(agent, field, value)

@@ -37,6 +37,7 @@ def editable_state(world: World) -> tuple[object, ...]:
     return (
         world.generation,
         world.described,
+        world.field,
         [(body.name, _state(body)) for body in world.bodies.values()],
     )
 

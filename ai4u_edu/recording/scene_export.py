@@ -37,6 +37,7 @@ def export_scene(sim: ControlRequestor, like: SceneDescription | None = None) ->
         "floors": tuple(each for each in things if isinstance(each, FloorDescription)),
         "areas": tuple(each for each in things if isinstance(each, AreaDescription)),
         "bodies": tuple(each for each in things if isinstance(each, BodyDescription)),
+        "generate": sim.world.field,
         "agents": tuple(_agent(agent) for agent in sim.agents),
     }
     if like is None:
@@ -50,7 +51,7 @@ def without_brains(scene: SceneDescription) -> list[Any]:
     """Return the parts of a scene that determine a replay: everything but brains and texts."""
     agents = [{k: v for k, v in agent.items() if k != "brains"} for agent in scene.agents]
     things = [scene.floors, scene.areas, scene.bodies]
-    return [scene.world, scene.spread_decisions, *things, agents]
+    return [scene.world, scene.spread_decisions, scene.generate, *things, agents]
 
 
 def without_unknown_brains(scene: SceneDescription) -> SceneDescription:

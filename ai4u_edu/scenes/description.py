@@ -13,7 +13,13 @@ from ai4u_edu.base.errors import suggest
 from ai4u_edu.base.parameters import DataPath, Name, ParameterProblem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
 from ai4u_edu.scenes.serialization import PlainDataError, make
-from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, WorldSettings
+from ai4u_edu.world import (
+    AreaDescription,
+    BodyDescription,
+    FieldDescription,
+    FloorDescription,
+    WorldSettings,
+)
 from ai4u_edu.world.pictures import check_pictures
 from ai4u_edu.world.shapes import Description
 
@@ -53,6 +59,8 @@ class SceneDescription(Description):
     floors: tuple[FloorDescription, ...] = ()
     areas: tuple[AreaDescription, ...] = ()
     bodies: tuple[BodyDescription, ...] = ()
+    generate: FieldDescription | None = None
+    """A maze or a line that is generated for each episode from its seed."""
     agents: Annotated[tuple[Mapping[str, Any], ...], Field(min_length=1, max_length=64)]
     """Parameters of each agent, blocks as mappings with a ``type``."""
 
@@ -74,13 +82,15 @@ class SceneDescription(Description):
     def task_key(self) -> str:
         """Return a key of all that makes times comparable: world, bodies, motion and rewards."""
         parts = self.model_dump(mode="json", include=TASK_FIELDS)
+        if self.generate is not None:
+            parts["generate"] = self.generate.model_dump(mode="json")
         parts["agents"] = [{name: agent.get(name) for name in TASK_PARTS} for agent in self.agents]
         text = json.dumps(parts, sort_keys=True, default=str)
         return f"{self.name}-{zlib.crc32(text.encode()):08x}"
 
     def where_is(self, name: str) -> DataPath:
         """Return the path of the floor, area or body of that name; of several, the last one's."""
-        found: DataPath = ()
+        found: DataPath = () if name != "generate" else ("generate",)
         for kind in ("floors", "areas", "bodies"):
             for index, thing in enumerate(getattr(self, kind)):
                 if thing.name == name:

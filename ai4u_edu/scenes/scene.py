@@ -101,7 +101,7 @@ class Scene:
             description = SceneDescription.model_validate(file.data)
             scene = cls(description, folder, text)
             world = scene.build().world
-            if any(thing.random for thing in description.things):
+            if description.generate or any(thing.random for thing in description.things):
                 for seed in range(1, resets):
                     world.reset(seed)
         except ValidationError as error:
@@ -140,7 +140,7 @@ class Scene:
         """
         description = self.description
         world = World(seed=seed, **dict(description.world))
-        world.add_all(description.things)
+        world.add_all(description.things, description.generate)
         with files_in(self.folder):
             agents = make_agents(description)
         check_success(description.success, agents)
@@ -230,6 +230,8 @@ def _with_types(plain: dict[str, Any], description: SceneDescription) -> dict[st
         for entry, described in zip(plain.get(key, []), getattr(description, key), strict=False):
             shape = {"type": described.shape.type} | entry.get("shape", {})
             entry["shape"] = shape
+    if description.generate is not None:
+        plain["generate"] = {"type": description.generate.type} | plain["generate"]
     return plain
 
 

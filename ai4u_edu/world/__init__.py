@@ -18,6 +18,7 @@ from ai4u_edu.world.edit import (
     reorder,
     sampled_region,
 )
+from ai4u_edu.world.fields import FieldDescription, LineField, MazeField
 from ai4u_edu.world.rays import Cast, RayFan, RayGrid
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import (
@@ -40,7 +41,10 @@ __all__ = [
     "CapsuleShape",
     "Cast",
     "CircleShape",
+    "FieldDescription",
     "FloorDescription",
+    "LineField",
+    "MazeField",
     "PolygonShape",
     "Pose",
     "RayFan",

@@ -12,6 +12,7 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
+from ai4u_edu.world.fields import LineField, MazeField
 from ai4u_edu.world.world import World
 
 Pose = tuple[float, float, float]
@@ -116,6 +117,7 @@ def redescribe(
     world: World,
     things: Iterable[BodyDescription | FloorDescription | AreaDescription],
     settings: WorldSettings,
+    field: MazeField | LineField | None,
 ) -> None:
     """Give things, and the world, other descriptions, which count from the next reset on.
 
@@ -123,6 +125,7 @@ def redescribe(
         world: the world to change.
         things: new descriptions; each of them has the name of one of that kind in the world.
         settings: of the world; the length of a tick stays.
+        field: that is generated at each reset; None for none.
     """
     for thing in things:
         world._registry.replace(thing)
@@ -132,6 +135,7 @@ def redescribe(
         else:
             world._registry.put_region(thing)
     world.settings = world._physics.settings = settings
+    world._registry.set_field(field)
 
 
 def reorder(world: World, names: Iterable[str]) -> None:

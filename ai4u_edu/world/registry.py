@@ -1,7 +1,7 @@
 """The things in a world by name: descriptions, bodies, floors and areas."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from itertools import product
 
 from ai4u_edu.base.errors import WorldError
@@ -12,6 +12,7 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     RegionDescription,
 )
+from ai4u_edu.world.fields import LineField, MazeField
 from ai4u_edu.world.placement import Thing
 from ai4u_edu.world.region import Region
 
@@ -32,6 +33,8 @@ class Registry:
         floors: description and region, as sampled for this episode.
         areas: regions, as sampled for this episode.
         has_random: True if something is sampled anew at each reset.
+        field: description of the field that is generated at each reset; None for none.
+        placed: things that the field has put somewhere in this episode, by name.
     """
 
     def __init__(self) -> None:
@@ -40,6 +43,9 @@ class Registry:
         self.floors: dict[str, tuple[FloorDescription, Region]] = {}
         self.areas: dict[str, Region] = {}
         self.has_random = False
+        self.field: MazeField | LineField | None = None
+        self.placed: dict[str, Thing] = {}
+        self._pieces: list[str] = []
 
     def register(self, thing: Thing) -> None:
         """Enter a description under its name."""
@@ -53,9 +59,56 @@ class Registry:
 
     def forget(self, name: str) -> None:
         """Remove everything of a name."""
-        for things in (self.described, self.bodies, self.floors, self.areas):
+        for things in (self.described, self.bodies, self.floors, self.areas, self.placed):
             things.pop(name, None)
         self._update_has_random()
+
+    def set_field(self, field: MazeField | LineField | None) -> None:
+        """Set the field of the episodes from the next reset on."""
+        self.field = field
+        if field is None:
+            for name in self._pieces:
+                self.bodies.pop(name, None)
+                self.areas.pop(name, None)
+            self.placed, self._pieces = {}, []
+        self._update_has_random()
+
+    def put_pieces(
+        self,
+        pieces: Iterable[Thing],
+        placed: dict[str, Thing],
+        make_body: Callable[[BodyDescription], Body],
+    ) -> None:
+        """Replace the pieces of the last episode's field by those of this one.
+
+        Args:
+            pieces: things that no scene file names.
+            placed: things of the scene, where the field has put them, by name.
+            make_body: returns a body of this world.
+
+        Raises:
+            WorldError: there would be too many bodies, or a name is taken.
+        """
+        pieces = list(pieces)
+        others = len(self.bodies) - sum(name in self.bodies for name in self._pieces)
+        if others + sum(isinstance(each, BodyDescription) for each in pieces) > MAX_BODIES:
+            raise WorldError(
+                f"expected at most {MAX_BODIES} bodies with the walls; make the field smaller",
+                thing="generate",
+            )
+        for piece in pieces:
+            if piece.name in self.described:
+                raise WorldError(
+                    f"{piece.name!r} is the name of a piece of the field; choose another one",
+                    thing=piece.name,
+                )
+        for name in self._pieces:
+            self.bodies.pop(name, None)
+            self.areas.pop(name, None)
+        for piece in pieces:
+            if isinstance(piece, BodyDescription):
+                self.bodies[piece.name] = make_body(piece)
+        self.placed, self._pieces = placed, [piece.name for piece in pieces]
 
     def put_region(self, sampled: FloorDescription | AreaDescription) -> None:
         """Enter a floor or an area as sampled for this episode."""
@@ -91,13 +144,15 @@ class Registry:
         """Return ((x0, y0), (x1, y1)), metres, around all bodies and floors in any episode."""
         things = [each for each in self.described.values() if not isinstance(each, AreaDescription)]
         corners = [corner for thing in things for corner in _corners(thing)]
+        corners += [] if self.field is None else self.field.bounds()
         if not corners:
             return _EMPTY_WORLD
         xs, ys = zip(*corners, strict=True)
         return (min(xs), min(ys)), (max(xs), max(ys))
 
     def _update_has_random(self) -> None:
-        self.has_random = any(thing.random for thing in self.described.values())
+        is_sampled = any(thing.random for thing in self.described.values())
+        self.has_random = is_sampled or self.field is not None
 
 
 def _corners(thing: BodyDescription | RegionDescription) -> list[tuple[float, float]]:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import partial
 from types import MappingProxyType
 from typing import Any
 
@@ -17,6 +18,7 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
+from ai4u_edu.world.fields import LineField, MazeField, place_field
 from ai4u_edu.world.ink import Ink
 from ai4u_edu.world.messages import Messages
 from ai4u_edu.world.native import IS_NATIVE, contact_distances
@@ -80,6 +82,11 @@ class World(NoStrayAttributes):
     def described(self) -> tuple[Thing, ...]:
         """Everything as described, with random values not sampled, in the order of addition."""
         return tuple(self._registry.described.values())
+
+    @property
+    def field(self) -> MazeField | LineField | None:
+        """Description of the field that is generated at each reset; None for none."""
+        return self._registry.field
 
     @property
     def space(self) -> pymunk.Space:
@@ -157,8 +164,8 @@ class World(NoStrayAttributes):
         """Add a floor or an area from its description."""
         self.add_all([description])
 
-    def add_all(self, things: Iterable[Thing]) -> None:
-        """Add bodies, floors and areas, in this order.
+    def add_all(self, things: Iterable[Thing], field: MazeField | LineField | None = None) -> None:
+        """Add bodies, floors and areas, in this order, and a field that has places for them.
 
         Before the first tick everything random is sampled together, so that the world is the one
         that a reset to its seed gives. Later, only the new things are sampled.
@@ -167,11 +174,21 @@ class World(NoStrayAttributes):
             WorldError: a name or a place is taken, or the world is full.
         """
         things = list(things)
-        if self.ticks == 0 and (self._registry.has_random or any(each.random for each in things)):
-            self._add_and_rebuild(things)
-            return
-        for each in things:
-            self._add_now(each)
+        if field is not None:
+            self._add_and_rebuild(things, field)
+        elif self.ticks == 0 and (self._registry.has_random or any(each.random for each in things)):
+            self._add_and_rebuild(things, self.field)
+        else:
+            for each in things:
+                self._add_now(each)
+
+    def set_field(self, field: MazeField | LineField | None) -> None:
+        """Generate a field for this episode and each later one, by its seed; None for none.
+
+        Raises:
+            WorldError: what it places is not there, or there is no room; then nothing changes.
+        """
+        self._add_and_rebuild([], field)
 
     def remove(self, name: str) -> None:
         """Remove a body for good.
@@ -248,10 +265,12 @@ class World(NoStrayAttributes):
         self._registry.bodies[body.name] = body
         physics.height.update_support(body)
 
-    def _add_and_rebuild(self, things: list[Thing]) -> None:
+    def _add_and_rebuild(self, things: list[Thing], field: MazeField | LineField | None) -> None:
         """Add things before the first tick, and find places for everything random."""
-        registry, added = self._registry, []
+        registry, added = self._registry, list[str]()
+        before = registry.field
         try:
+            registry.set_field(field)
             for thing in things:
                 registry.check_name(thing)
                 added.append(thing.name)
@@ -265,13 +284,22 @@ class World(NoStrayAttributes):
         except WorldError:
             for name in added:
                 registry.forget(name)
+            registry.set_field(before)
             self.rebuild()
             raise
 
     def _sample_all(self) -> None:
         """Sample everything random for this episode."""
-        registry = self._registry
-        for thing in randomize(self.seeds.seed, registry.described.values()).values():
+        registry, seed = self._registry, self.seeds.seed
+        things: Iterable[Thing] = registry.described.values()
+        if registry.field is not None:
+            placed, pieces = place_field(registry.field, list(things), seed)
+            things = [*(placed.get(thing.name, thing) for thing in things), *pieces]
+            sampled = randomize(seed, things)
+            registry.put_pieces(pieces, placed, partial(Body, self))
+        else:
+            sampled = randomize(seed, things)
+        for thing in sampled.values():
             if isinstance(thing, BodyDescription):
                 registry.bodies[thing.name].sampled = thing
             else:
@@ -288,8 +316,9 @@ class World(NoStrayAttributes):
         Raises:
             WorldError: there is no room for it.
         """
-        if thing.random is None:
-            return thing
+        placed: Any = self._registry.placed.get(thing.name)
+        if placed is not None or thing.random is None:
+            return thing if placed is None else placed
         places = Places(self.seeds.seed if seed is None else seed)
         for floor in self.floors:
             places.occupy(floor)

@@ -361,6 +361,64 @@ def draw_house(_sim: ControlRequestor) -> Plan:
     return plan
 
 
+def through_field(sim: ControlRequestor) -> Plan:
+    """Follow the shortest way through a generated maze to its exit, seen from above."""
+    field, bodies = sim.world.field, sim.world.bodies
+    assert field is not None
+    walls = [body for name, body in bodies.items() if name.startswith("field wall")]
+    cells = [field.centre((x, y)) for y in range(field.height) for x in range(field.width)]
+
+    def cell_at(place: Point) -> Point:
+        return min(cells, key=lambda each: math.dist(each, place))
+
+    def is_open(one: Point, other: Point) -> bool:
+        x, y = (one[0] + other[0]) / 2, (one[1] + other[1]) / 2
+        return not any(
+            wall.sampled.shape.contains(x - wall.position[0], y - wall.position[1])
+            for wall in walls
+        )
+
+    way_on: dict[Point, Point] = {}  # from each cell to the next one
+    border = deque([cell_at(bodies["exit"].position)])
+    while border:
+        cell = border.popleft()
+        for other in cells:
+            is_near = 0 < math.dist(cell, other) < 1.1 * field.cell
+            if is_near and other not in way_on and is_open(cell, other):
+                way_on[other] = cell
+                border.append(other)
+    heading_for = cell_at(sim.agents[0].body.position)
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal heading_for
+        if math.dist(sight.own, heading_for) < 0.5:
+            heading_for = way_on[heading_for]
+        return towards(sight, heading_for)
+
+    return plan
+
+
+def along_line(sim: ControlRequestor) -> Plan:
+    """Follow a generated line from piece to piece, in the order in which it is laid."""
+    pieces = [area for name, area in sim.world.areas.items() if name.startswith("field line")]
+    route: list[Point] = []
+    for piece in pieces:
+        length, width = piece.description.shape.outline()[0]
+        half = length - width
+        for share in (-1.0, -0.5, 0.0, 0.5, 1.0):
+            at = share * half
+            route.append((piece.x + piece.cos * at, piece.y + piece.sin * at))
+    index = 0
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal index
+        while index < len(route) - 1 and math.dist(sight.own, route[index]) < 0.4:
+            index += 1
+        return towards(sight, route[index])
+
+    return plan
+
+
 LINE: list[Point] = [
     (-4, -3.5), (-0.5, -3.5), (3, -3.5), (4.5, -2), (5, -1.2), (5, 0), (5, 1.5), (4.2, 2.4),
     (3.4, 3), (1.6, 3), (0.75, 2.25), (0, 1.5), (-1.4, 1.5), (-2.25, 2.25), (-3, 3),
@@ -372,6 +430,8 @@ PLANS: dict[str, Planner] = {
     "box_chase": go_to("box"),
     "donut": ring,
     "draw_figure": draw_house,
+    "endless_line": along_line,
+    "endless_maze": through_field,
     "forage": forage,
     "grid_world": clean,
     "jumper": jump_blocks,

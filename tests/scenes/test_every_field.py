@@ -52,6 +52,8 @@ bodies:
      mass: 2, friction: 0.4, elasticity: 0.1, velocity: [0.1, 0], angular_velocity_deg: 5,
      collision_layer: 3, collision_mask: 7}
   - {name: box, shape: {type: box, size: [1, 2]}, kind: kinematic, position: [4, 0]}
+generate: {type: maze, width: 5, height: 4, cell: 5, position: [0.5, 0], start: robot, goal: goal,
+  loops: 1, difficulty: 0.9, wall: 0.3, wall_height: 0.9}
 agents:
   - id: red
     body: robot

@@ -183,6 +183,9 @@ def number_parameters(scene: Scene) -> list[NumberParameter]:
         for kind, place, name in named_blocks(agent):
             found += _of_block(f"{agent.id}.{name}", (*path, kind, place), given[kind][place])
     found += _numbers("world", ("world",), plain.get("world", {}), _declared(WorldSettings))
+    field = scene.description.generate
+    if field is not None:
+        found += _numbers("generate", ("generate",), plain["generate"], _declared(type(field)))
     for kind in ("floors", "areas", "bodies"):
         for index, thing in enumerate(getattr(scene.description, kind)):
             given, name = plain[kind][index], f"{kind}.{thing.name}"
