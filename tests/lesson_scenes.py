@@ -30,6 +30,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.lessons.exercises.lesson_02 import runway
 from ai4u_edu.lessons.exercises.lesson_05 import vehicle
+from ai4u_edu.lessons.exercises.lesson_08 import feeler_runway
 from ai4u_edu.lessons.rollouts import seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.page.editing.scene_pictures import TEMPLATES
@@ -106,6 +107,11 @@ WORLDS: Mapping[str, tuple[str, str, Callable[[], ControlRequestor]]] = {
         "The lamp",
         "Hit the lamp.",
         lambda: lamp_world("05.1"),
+    ),
+    "lesson_08": (
+        "A runway",
+        "Drive to the end, and do not fall.",
+        lambda: driven_by_keys(feeler_runway(lambda _: {}, 4)),
     ),
     "lesson_09": (
         "What pays?",

@@ -1,4 +1,4 @@
-"""Exercises whose answer is built of blocks: a robot, its sensors or its rewards.
+"""Exercises whose answer is built of blocks: a robot, its sensors, its rewards or its pace.
 
 The robot may be built anywhere, such as in the tab Build of a mission's page; the exercise's own
 judge looks at it.
@@ -18,6 +18,7 @@ BUILT: Mapping[str, Callable[[MakeAgent], Any]] = {
     "03.3": lambda make: make(),
     "04.4": lambda make: list(make().sensors),
     "04.5": lambda make: list(make().sensors),
+    "08.2": lambda make: make().brain.skip_frame,
     "09.2": lambda make: lambda: list(make().rewards),
     "09.3": lambda make: lambda: list(make().rewards),
 }

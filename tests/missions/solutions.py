@@ -493,7 +493,7 @@ def teach_6(do: Doing) -> None:
 
 
 def exercise(do: Doing) -> None:
-    do.solve(answers_to(do.run.mission.exercise).solution)
+    do.solve("import math\n" + answers_to(do.run.mission.exercise).solution)
 
 
 def code_17(do: Doing) -> None:
@@ -559,6 +559,21 @@ def build_13(do: Doing) -> None:
     change_agent(do, rewards=[TOUCH_BOX, {**FALL, "success_reward": -20}, time])
 
 
+def build_15(do: Doing) -> None:
+    do.open("build")
+    (brain,) = do.scene.agents[0]["brains"]
+    change_agent(do, brains=[{**brain, "skip_frame": 18}])
+
+
+def choices(*answers: str) -> Solution:
+    def solve(do: Doing) -> None:
+        for answer in answers:
+            do.answer(answer)
+
+    return solve
+
+
+KEYS: Mapping[str, object] = {"type": "WASDRBMoveController"}
 WRONG_ROBOTS: dict[str, list[dict[str, list[Mapping[str, object]]]]] = {
     "build-7": [
         {"actuators": [{"type": "RBMoveActuator", "move_amount": 2}]},
@@ -594,6 +609,10 @@ WRONG_ROBOTS: dict[str, list[dict[str, list[Mapping[str, object]]]]] = {
         {"rewards": [TOUCH_BOX, FALL]},
         {"rewards": [TOUCH_BOX, {**FALL, "success_reward": -20}]},
         {"rewards": [FALL]},
+    ],
+    "build-15": [
+        {"brains": [{"type": "LocalBrain", "controller": KEYS, "skip_frame": pace}]}
+        for pace in (0, 10, 30)
     ],
 }
 """Blocks of robots that are no answer, by the mission."""
@@ -644,6 +663,7 @@ SOLUTIONS: dict[str, Solution] = {
     "think-6": think_6,
     "think-7": think_7,
     "think-8": think_8,
+    "think-9": choices("5", "listen", "patrol", "chase", "chase", "listen"),
     "code-1": code_1,
     "code-2": code_2,
     "code-3": code_3,
@@ -677,6 +697,8 @@ SOLUTIONS: dict[str, Solution] = {
     "build-12": build_12,
     "build-13": build_13,
     "build-14": build_14,
+    "build-15": build_15,
+    "build-16": choices("lingerer", "jumper", "dancer"),
     "teach-1": teach_1,
     "teach-2": teach_2,
     "teach-3": teach_3,

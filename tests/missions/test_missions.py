@@ -13,7 +13,7 @@ from ai4u_edu.lessons.built import BUILT
 from ai4u_edu.lessons.calls import JUDGES, starting_text
 from ai4u_edu.lessons.course import lesson
 from ai4u_edu.lessons.exercise import find
-from ai4u_edu.missions.checks import Reads, Solves
+from ai4u_edu.missions.checks import Chooses, Opens, Reads, Solves
 from ai4u_edu.missions.mission import ISLANDS, LIBRARY, library_missions, read_mission
 from ai4u_edu.program import ProgramError
 from tests.missions.doing import Action, Doing
@@ -94,7 +94,7 @@ def test_wrong_ways_do_not_pass(name: str) -> None:
     open_all(ahead)
     ahead.drive(move(1, 0), CHANCE_DECISIONS, through=True)
     assert not ahead.is_done
-    if all(isinstance(step.check, Solves) for step in MISSIONS[name].steps):
+    if all(isinstance(step.check, Solves | Chooses | Opens) for step in MISSIONS[name].steps):
         return  # in place of another driver, wrong answers are tried below
 
     other = Doing(name, driver="controller")
@@ -142,12 +142,34 @@ def test_wrong_functions_of_an_exercise_do_not_pass(name: str) -> None:
 @pytest.mark.parametrize("name", WRONG_ROBOTS)
 def test_wrong_robots_of_an_exercise_do_not_pass(name: str) -> None:
     do = Doing(name)
+    open_all(do)
     do.check()
     assert not do.is_done
     assert do.run.words
     for kinds in WRONG_ROBOTS[name]:
         change_agent(do, **kinds)
         assert not do.is_done, kinds
+
+
+CHOICES = {
+    name: mission
+    for name, mission in MISSIONS.items()
+    if all(isinstance(step.check, Chooses) for step in mission.steps)
+}
+
+
+@pytest.mark.parametrize("name", CHOICES)
+def test_wrong_choices_do_not_pass(name: str) -> None:
+    do = Doing(name)
+    for step in CHOICES[name].steps:
+        assert isinstance(step.check, Chooses)
+        index = do.run.index
+        for option in step.check.options:
+            if option != step.check.right:
+                do.answer(option)
+        assert (do.run.index, do.is_done) == (index, False)
+        do.answer(step.check.right)
+    assert do.is_done
 
 
 def test_chance_does_not_pass_in_a_few_starts() -> None:
@@ -188,5 +210,5 @@ def by_chance(name: str, seed: int) -> bool:
 
 def open_all(do: Doing) -> None:
     """Open whatever tab the step asks for."""
-    for tab in ("drive", "code", "teach"):
+    for tab in ("drive", "build", "code", "teach"):
         do.open(tab)

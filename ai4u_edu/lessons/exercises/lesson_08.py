@@ -20,7 +20,10 @@ LAZY = 16
 """Value of ``skip_frame`` that passes; with more than 18 the robot can fall."""
 
 
-def _runway(controller: Any, skip_frame: int, *, speed: float = 3, start: float = -9.0) -> Any:
+def feeler_runway(
+    controller: Any, skip_frame: int, *, speed: float = 3, start: float = -9.0
+) -> ControlRequestor:
+    """Return a runway with a robot that feels whether there is floor ahead."""
     world = World()
     world.add_floor("runway", BoxShape(size=(20, 4)))
     world.add_body("robot", CircleShape(radius=0.5), position=(start, 0), tags=("agent",))
@@ -66,7 +69,7 @@ def computes_the_blind_way(chance: np.random.Generator) -> Calls:
     for number in range(6):
         speed = round(float(chance.uniform(1, 4)), 1)
         skip_frame = 0 if number == 1 else int(chance.integers(5, 30))
-        sim = _runway(_go, skip_frame, speed=speed)
+        sim = feeler_runway(_go, skip_frame, speed=speed)
         done = drive(sim, sim.agents[0], 1, limit=1)
         found = finite_number((yield speed, skip_frame))
         if not is_close(found, done.moved, 0.005):
@@ -115,7 +118,7 @@ def is_lazy(skip_frame: Any) -> Done:
     if not 0 <= skip_frame <= 600:
         raise NotYet(f"Expected a number from 0 to 600, got {skip_frame}.", hint="falls")
     for number in range(40):
-        sim = _runway(_careful, skip_frame, start=-9.0 + 0.05 * number)
+        sim = feeler_runway(_careful, skip_frame, start=-9.0 + 0.05 * number)
         done = drive(sim, sim.agents[0], number, limit=480 // (skip_frame + 1) + 2)
         if done.fell:
             raise done.not_yet(
@@ -156,7 +159,7 @@ def keeps_a_diary(diary: Any) -> Done:
     """Check for entries of the begin, the decisions and the end."""
     a_function(diary)
     for limit, start in ((7, -9.0), (3, -9.0), (60, 2.0)):  # the last one falls before
-        sim = _runway(_go, 4, start=start)
+        sim = feeler_runway(_go, 4, start=start)
         falls = FallReward(cause_episode_to_end=True)
         agent = sim.agents[0].changed(max_steps_per_episode=limit, rewards=[falls])
         sim = ControlRequestor(sim.world, [agent])
