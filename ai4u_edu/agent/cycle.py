@@ -167,6 +167,8 @@ class ControlRequestor:
         self.waiting_for_brain = False
         """True if the last tick did not take place because a brain answered HOLD."""
         self.options = EpisodeOptions(self)
+        self.usual_options: Options | None = None
+        """Options of resets that name none, while values are tried; None for the scene's own."""
         for agent in self.agents:
             agent.other_agents = len(self.agents) - 1
             agent.set_requestor(self)
@@ -194,7 +196,8 @@ class ControlRequestor:
         Args:
             seed: the episode's seed; by default it follows from the last one, or is the same if
                 :attr:`is_seed_locked`.
-            options: numbers for this episode by name; see :class:`EpisodeOptions`.
+            options: numbers for this episode by name; see :class:`EpisodeOptions`. Default:
+                :attr:`usual_options`.
 
         Raises:
             AI4UError: seed or options are wrong; then nothing has changed.
@@ -203,7 +206,7 @@ class ControlRequestor:
             seed = self.world.seeds.seed
         if seed is not None:
             seed = checked_seed(seed)  # before any handler is told of the reset
-        with self.options.applied(options):
+        with self.options.applied(self.usual_options if options is None else options):
             for agent in self.agents:
                 if agent.before_the_reset.handlers:
                     agent.before_the_reset.fire(agent)

@@ -403,6 +403,7 @@ class _Writer:
     def _write_progress(self, *, is_over: bool = False) -> None:
         self._written_at = time.perf_counter()
         training, run = self._training, self._run
+        starts = training.ppo.easy_starts
         training.save(run.state)
         self.write_present(run.watched_network)
         curve = tuple(
@@ -414,6 +415,7 @@ class _Writer:
             total=self._config.steps,
             is_over=is_over,
             curve=curve,
+            easy_starts=None if starts is None else starts.share,
         )
         run.put_text(run.progress, progress.model_dump_json())
 

@@ -29,3 +29,7 @@ class TrainingProgress(BaseModel):
     total: Annotated[int, Field(ge=0, description="decisions after which it ends at the latest")]
     is_over: Annotated[bool, Field(description="true once the finished policy drives")]
     curve: tuple[CurvePoint, ...]
+    easy_starts: Annotated[
+        Share | None,
+        Field(description="way from easy starts to all starts; null in a scene without easy ones"),
+    ] = None

@@ -26,6 +26,8 @@ from ai4u_edu.world.shapes import Description
 Level = Literal["easy", "medium", "hard"]
 LEVELS: tuple[Level, ...] = get_args(Level)
 """Difficulties of a scene, the lowest first."""
+THINGS = ("floors", "areas", "bodies")
+"""Fields of a scene with its things."""
 TASK_FIELDS = {"success", "world", "floors", "areas", "bodies"}
 TASK_PARTS = ("body", "actuators", "rewards", "max_steps_per_episode")
 """Fields of a scene, and parameters of its agents, that decide how long reaching the goal takes."""
@@ -79,9 +81,18 @@ class SceneDescription(Description):
         check_pictures(self.pictures)
         return self
 
+    def with_easy_starts(self) -> "SceneDescription | None":
+        """Return the scene with its easy starts only; None if it has none."""
+        if all(thing.curriculum is None for thing in self.things):
+            return None
+        kinds = {kind: tuple(map(_eased, getattr(self, kind))) for kind in THINGS}
+        return self.model_copy(update=kinds)
+
     def task_key(self) -> str:
         """Return a key of all that makes times comparable: world, bodies, motion and rewards."""
-        parts = self.model_dump(mode="json", include=TASK_FIELDS)
+        # nobody but a learner begins with easy starts
+        without: Any = {kind: {"__all__": {"curriculum"}} for kind in THINGS}
+        parts = self.model_dump(mode="json", include=TASK_FIELDS, exclude=without)
         if self.generate is not None:
             parts["generate"] = self.generate.model_dump(mode="json")
         parts["agents"] = [{name: agent.get(name) for name in TASK_PARTS} for agent in self.agents]
@@ -91,11 +102,18 @@ class SceneDescription(Description):
     def where_is(self, name: str) -> DataPath:
         """Return the path of the floor, area or body of that name; of several, the last one's."""
         found: DataPath = () if name != "generate" else ("generate",)
-        for kind in ("floors", "areas", "bodies"):
+        for kind in THINGS:
             for index, thing in enumerate(getattr(self, kind)):
                 if thing.name == name:
                     found = (kind, index)
         return found
+
+
+def _eased(thing: Any) -> Any:
+    if thing.curriculum is None:
+        return thing
+    easy = thing.random.model_copy(update=thing.curriculum.widened(thing.random, 0.0))
+    return thing.model_copy(update={"random": easy})
 
 
 def make_agents(scene: SceneDescription) -> list[BasicAgent]:

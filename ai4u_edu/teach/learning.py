@@ -21,6 +21,9 @@ SCORE_DECISIONS = 5_000
 """Decisions with which a network is scored that learned from drives: about a second."""
 STOPPED = "stopped"
 DIED = "the program that learns has ended; learn again"
+NOT_FINITE = (
+    "its numbers became too large; choose other drives, or give the sensors smaller ranges in Build"
+)
 LEARNED = "learned"
 """Folder, in that of a class's room, with networks that the room has not taken yet."""
 UNREACHABLE = "The class can't be reached now. It goes on as soon as it can."
@@ -132,13 +135,20 @@ class Learning:
             out = Path(folder) / "network.onnx"
             request = msgspec.structs.replace(self._request, out=str(out))
             process = self._process
+            problem = DIED
             with process, suppress(OSError):
                 send_request(process, request)
                 assert process.stdout is not None  # noqa: S101 - start_process asks for the pipe
                 for line in process.stdout:
-                    self._hear(msgspec.json.decode(line, type=CloneNote), out)
+                    try:
+                        note = msgspec.json.decode(line, type=CloneNote)
+                    except msgspec.DecodeError:  # JSON has no word for a number that is not finite
+                        problem = NOT_FINITE
+                        process.kill()
+                        break
+                    self._hear(note, out)
             if not self.is_over:
-                self.note = CloneNote(problem=self._stopped or DIED)
+                self.note = CloneNote(problem=self._stopped or problem)
 
     def _hear(self, note: CloneNote, out: Path) -> None:
         if note.update:

@@ -175,6 +175,8 @@ class PracticeState(Struct, frozen=True):
     """Mean reward of an episode, by the weights, at each check."""
     success: float | None
     """Share of the episodes of the latest check that reached the goal; null if there was none."""
+    easy_starts: float | None
+    """Way from easy starts (0) to all starts (1); null in a scene without easy ones."""
     is_game: bool
     """True if these episodes are games against somebody."""
 

@@ -151,6 +151,7 @@ class Practices:
             total=progress.total,
             rewards=[round(point.reward, 3) for point in progress.curve],
             success=progress.curve[-1].success if progress.curve else None,
+            easy_starts=progress.easy_starts,
             is_game=bool(request.against),
         )
 

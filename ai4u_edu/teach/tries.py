@@ -1,21 +1,24 @@
 """Episodes with many values of one number, which the present driver drives in another process."""
 
+import asyncio
 import secrets
 import shutil
 import threading
-from collections.abc import Awaitable, Callable, Iterator, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from queue import SimpleQueue
 from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta, Struct
 
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks import Block, NeuralNetController
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.loading import own_files
+from ai4u_edu.learn.training.episode import wilson
 from ai4u_edu.learn.training.varying import (
     FROM_SCENE,
     NumberParameter,
@@ -37,18 +40,23 @@ from ai4u_edu.page.panel.commands.handler import Handler
 from ai4u_edu.page.panel.page import Page
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.teach.learning import STOPPED
 from ai4u_edu.teach.tasks import FOLDER, REQUEST, ClassTask, LocalTask, TaskWork
 
 PREFIX = "try-"
 """Beginning of the names of folders of tries."""
+MAX_PROGRAM_EPISODES = 200
+"""Episodes of a program in a page, with all values."""
 MAX_STARTS = 200
 """Episodes with each value."""
 DIED = "the program that drives has ended; try again"
 BY_KEYS = "You drive this robot by keys. Choose another driver in Drive, such as a network."
 NO_PROGRAM = (
-    "A program, a recording or a script drives this robot, which can't be tried here yet. Choose a "
-    "network or a controller in Drive; ai4u-edu vary tries programs, too."
+    "A recording or a script drives this robot, which can't be tried here. Choose a network or a "
+    "controller in Drive, or your program below."
 )
+NOTHING_TRIED = "no values are tried with a program now; try again"
+NOT_BY_PROGRAM = "{number} can't be {value:g} while a program drives: {problem}"
 
 
 class TryMany(PageCommand, tag="teach_try"):
@@ -60,6 +68,34 @@ class TryMany(PageCommand, tag="teach_try"):
     """Numbers with commas between."""
     starts: Annotated[int, Meta(ge=1, le=MAX_STARTS)]
     """Episodes with each value."""
+
+
+class TryProgram(PageCommand, tag="teach_try_program"):
+    """Begin to try values with the program in this page, which drives one after another."""
+
+    parameter: Name
+    values: Annotated[str, Meta(max_length=4 * MAX_NAME_CHARS)]
+    starts: Annotated[int, Meta(ge=1, le=MAX_STARTS)]
+
+
+class HoldTries(PageCommand, tag="teach_hold_tries"):
+    """Wait until the tries of the page's program are over; the page is gone if this ends before."""
+
+
+class SetTriedValue(PageCommand, tag="teach_set_value"):
+    """Give the number a value for all episodes until the next one, and begin an episode."""
+
+    value: float
+
+
+class NoteTriedValue(PageCommand, tag="teach_note_value"):
+    """Note how the page's program did with a value."""
+
+    value: float
+    successes: Annotated[int, Meta(ge=0, le=MAX_STARTS)]
+    reward: float
+    seconds: float
+    decisions: float
 
 
 class StopTrying(PageCommand, tag="teach_stop_trying"):
@@ -114,6 +150,8 @@ class TriesPart(PanelPart, frozen=True, kw_only=True):
     tries: TriesState | None
     """The latest tries of the agent in this scene; null if there were none since the start."""
     max_starts: int
+    max_program_episodes: int
+    """Most episodes, with all values, of a program in the page."""
 
 
 class TryRequest(Struct, frozen=True):
@@ -195,6 +233,38 @@ class Tries:
         self._state = msgspec.structs.replace(state, is_over=True, problem=problem)
 
 
+class PageWork:
+    """Tries whose episodes the program of a page drives, in this very world.
+
+    The server's event loop calls its methods; a thread iterates over the notes.
+    """
+
+    waiting = ""
+
+    def __init__(self) -> None:
+        self.problem = ""
+        self.ended = asyncio.Event()
+        self._lines = SimpleQueue[bytes | None]()
+
+    def add(self, row: TriedValue) -> None:
+        """Note a value that is done."""
+        self._lines.put(msgspec.json.encode(TryNote(row=row)))
+
+    def notes(self) -> Iterator[Sequence[bytes]]:
+        """Yield all lines so far whenever there are more, until it has ended."""
+        lines = list[bytes]()
+        while (line := self._lines.get()) is not None:
+            lines.append(line)
+            yield lines
+
+    def stop(self, problem: str = STOPPED) -> None:
+        """End it, with a sentence about why."""
+        self.problem = self.problem or problem
+        self._lines.put(None)
+
+    leave = stop
+
+
 class TryingPages:
     """The section "Try many" of the tab Teach: its part and its commands.
 
@@ -216,8 +286,14 @@ class TryingPages:
         self._folder = folder / FOLDER
         self._numbers: tuple[NumberParameter, ...] = ()
         self._tries: Tries | None = None
+        self._by_program: PageWork | None = None
+        """Work of the tries that the program of a page drives; None if none does."""
         self.commands: Mapping[type[PageCommand], Handler] = {
             TryMany: self._try,
+            TryProgram: self._try_program,
+            HoldTries: self._hold_tries,
+            SetTriedValue: self._set_value,
+            NoteTriedValue: self._note_value,
             StopTrying: self._stop_trying,
             DownloadTried: self._download,
         }
@@ -258,7 +334,12 @@ class TryingPages:
             is_own = driver.startswith(OWN_BRAIN)
             shown = [_shown(each, agent) for each in numbers if _is_for(each, agent, is_own=is_own)]
             return TriesPart(
-                agent=agent, problem=problem, numbers=shown, tries=state, max_starts=MAX_STARTS
+                agent=agent,
+                problem=problem,
+                numbers=shown,
+                tries=state,
+                max_starts=MAX_STARTS,
+                max_program_episodes=MAX_PROGRAM_EPISODES,
             )
 
         yield "tries", context.cache.by_key(key, part)
@@ -279,7 +360,102 @@ class TryingPages:
         if tries is None or tries.state.is_over:
             return Answer("Nothing is tried now.")
         tries.stop()
+        if self._by_program is not None:
+            self._by_program.ended.set()
         return Answer("The tries are stopped.")
+
+    async def _try_program(self, page: Page, command: TryProgram) -> Answer:
+        """Begin the tries of a page's program; all is done before another command of the page."""
+        agent, editor = page.view.agent, self._editor
+        self._check_free()
+        values = parse_values(command.values)
+        if len(values) * command.starts > MAX_PROGRAM_EPISODES:
+            raise SetupError(
+                f"expected at most {MAX_PROGRAM_EPISODES} episodes of a program, got "
+                f"{len(values)} values with {command.starts} starts; take fewer"
+            )
+        parameter = parameter_named(editor.scene, command.parameter)
+        number = _shown(parameter, agent)
+        request = TryRequest(
+            scene="",
+            place="",
+            agent=agent,
+            parameter=parameter.name,
+            values=values,
+            starts=command.starts,
+            scene_name=self._scene,
+            label=f"{number.owner}: {number.label}",
+        )
+        self._by_program = work = PageWork()
+        self._tries = Tries(request, work)
+        return Answer(more={"values": values})
+
+    async def _hold_tries(self, _page: Page, _command: HoldTries) -> Answer:
+        work = self._by_program
+        if work is None:
+            raise SetupError(NOTHING_TRIED)
+        try:
+            await work.ended.wait()
+        finally:  # also if the page has left
+            work.stop()
+            if self._by_program is work:
+                self._by_program = None
+            self._runner.submit(self._restore)
+        return Answer()
+
+    async def _set_value(self, page: Page, command: SetTriedValue) -> Answer:
+        tries = self._required_by_program()
+        name, value = tries.request.parameter, command.value
+        if value not in tries.request.values:
+            raise SetupError(f"expected a value that is to be tried, got {value:g}")
+
+        def apply() -> None:
+            sim = self._runner.sim
+            options = {name: next(each for each in tries.request.values if each == value)}
+            sim.reset(0, options)
+            sim.usual_options = options
+
+        try:
+            await page.result(self._runner.submit(apply))
+        except AI4UError as error:
+            problem = str(error).removeprefix("options: ")
+            text = NOT_BY_PROGRAM.format(number=tries.request.label, value=value, problem=problem)
+            raise SetupError(text) from None
+        return Answer()
+
+    async def _note_value(self, _page: Page, command: NoteTriedValue) -> Answer:
+        tries, work = self._required_by_program(), self._by_program
+        assert work is not None  # noqa: S101 - they are there together
+        starts = tries.request.starts
+        successes = min(command.successes, starts)
+        low, high = wilson(successes, starts)
+        has_goal = self._editor.state.description.success is not None
+        row = TriedValue(
+            value=command.value,
+            episodes=starts,
+            successes=successes if has_goal else None,
+            low=low if has_goal else None,
+            high=high if has_goal else None,
+            reward=command.reward,
+            seconds=command.seconds,
+            decisions=command.decisions,
+        )
+        work.add(row)
+        if command.value == tries.request.values[-1]:
+            work.ended.set()
+        return Answer()
+
+    def _required_by_program(self) -> Tries:
+        if self._tries is None or self._by_program is None:
+            raise SetupError(NOTHING_TRIED)
+        return self._tries
+
+    def _restore(self) -> None:
+        """Give the world the scene's own numbers again; the runner calls it."""
+        sim = self._runner.sim
+        sim.usual_options = None
+        if sim.options.values:
+            sim.reset()
 
     async def _download(self, _page: Page, _command: DownloadTried) -> Answer:
         tries = self._tries
@@ -293,8 +469,7 @@ class TryingPages:
     # -- in the option's thread --------------------------------------------------------------------
 
     def _begin(self, agent: str, command: TryMany) -> None:
-        if self._tries is not None and not self._tries.state.is_over:
-            raise SetupError("values are tried already; wait until they are done, or stop them")
+        self._check_free()
         driver = self._editor.driver_of(agent)
         if problem := self._reason_against(agent, driver):
             raise SetupError(problem)
@@ -319,6 +494,10 @@ class TryingPages:
             self._tries = Tries(request, self._start(request))
         except OSError as error:
             raise SetupError(f"they could not be begun: {error.strerror}") from None
+
+    def _check_free(self) -> None:
+        if self._tries is not None and not self._tries.state.is_over:
+            raise SetupError("values are tried already; wait until they are done, or stop them")
 
     def _start(self, request: TryRequest) -> TaskWork:
         """Begin the work on tries.

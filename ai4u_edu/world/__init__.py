@@ -4,6 +4,7 @@ from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.descriptions import (
     AreaDescription,
     BodyDescription,
+    EasyRanges,
     FloorDescription,
     RegionDescription,
     Variation,
@@ -41,6 +42,7 @@ __all__ = [
     "CapsuleShape",
     "Cast",
     "CircleShape",
+    "EasyRanges",
     "FieldDescription",
     "FloorDescription",
     "LineField",

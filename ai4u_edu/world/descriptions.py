@@ -5,7 +5,7 @@ Angles are degrees here, and radians inside the world.
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, field_validator, model_validator
+from pydantic import AfterValidator, Field, ValidationInfo, field_validator, model_validator
 
 from ai4u_edu.base.colors import Colour
 from ai4u_edu.base.parameters import (
@@ -32,6 +32,8 @@ def _in_order(ends: tuple[float, float]) -> tuple[float, float]:
 
 
 _Ordered = AfterValidator(_in_order)
+RANGES = ("x", "y", "heading_deg", "scale")
+"""Fields of a :class:`Variation` that are ranges."""
 _Times = Annotated[float, quantity("1", gt=0, le=100), not_below(1e-3)]
 
 
@@ -77,9 +79,7 @@ got [4.0, -4.0]
     def __str__(self) -> str:
         """Return the ranges in a few words, for messages."""
         words = [
-            f"{name} {ends[0]:g}..{ends[1]:g}"
-            for name in ("x", "y", "heading_deg", "scale")
-            if (ends := getattr(self, name))
+            f"{name} {ends[0]:g}..{ends[1]:g}" for name in RANGES if (ends := getattr(self, name))
         ]
         if self.places:
             words.insert(0, "places " + ", ".join(f"({x:g}, {y:g})" for x, y in self.places[:8]))
@@ -90,6 +90,71 @@ got [4.0, -4.0]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self})"
+
+
+class EasyRanges(Description):
+    """Ranges of easy starts of a thing, within those of its ``random``, which learning widens.
+
+    Only what learns by rewards begins with them; in play and in tests ``random`` counts.
+
+    >>> EasyRanges(x=(1, 2)).widened(Variation(x=(-4, 4)), 0.5)
+    {'x': (-1.5, 3.0)}
+    """
+
+    x: Annotated[tuple[Metres, Metres], _Ordered] | None = None
+    y: Annotated[tuple[Metres, Metres], _Ordered] | None = None
+    heading_deg: Annotated[tuple[Degrees, Degrees], _Ordered] | None = None
+    scale: Annotated[tuple[_Times, _Times], _Ordered] | None = None
+
+    @model_validator(mode="after")
+    def _has_a_range(self) -> Self:
+        if not self.given:
+            raise ValueError(f"no start is easier; expected at least one of {', '.join(RANGES)}")
+        return self
+
+    @property
+    def given(self) -> dict[str, tuple[float, float]]:
+        """The ranges, by the name of their field in ``random``."""
+        return {name: ends for name in RANGES if (ends := getattr(self, name)) is not None}
+
+    def widened(self, random: Variation, share: float) -> dict[str, tuple[float, float]]:
+        """Return the ranges on their way to those of ``random``.
+
+        Args:
+            random: ranges of all starts.
+            share: 0 for these ranges, 1 for those of ``random``.
+        """
+        ranges = {}
+        for name, (low, high) in self.given.items():
+            full_low, full_high = getattr(random, name)
+            ranges[name] = low + share * (full_low - low), high + share * (full_high - high)
+        return ranges
+
+    def check(self, random: Variation | None) -> None:
+        """Check that these are parts of the ranges of all starts.
+
+        Raises:
+            ValueError: one is not.
+        """
+        for name, (low, high) in self.given.items():
+            full = None if random is None else getattr(random, name)
+            if full is None:
+                raise ValueError(
+                    f"{name} has an easy range, and none in random; expected it in both"
+                )
+            if not full[0] <= low <= high <= full[1]:
+                raise ValueError(
+                    f"{name}: expected a part of random's range {list(full)}, got {[low, high]}"
+                )
+
+
+def _is_within_random(easy: EasyRanges | None, info: ValidationInfo) -> EasyRanges | None:
+    if easy is not None and "random" in info.data:  # else that is wrong itself
+        easy.check(info.data["random"])
+    return easy
+
+
+_Curriculum = Annotated[EasyRanges | None, AfterValidator(_is_within_random)]
 
 
 class WorldSettings(Description):
@@ -117,6 +182,8 @@ class BodyDescription(Description):
     heading_deg: Degrees = 0.0
     random: Variation | None = None
     """Values sampled anew at each reset; without any, the body is as described here."""
+    curriculum: _Curriculum = None
+    """Easy starts, from which learning by rewards begins; without any, all starts at once."""
     z: Metres | None = None
     """Height of the underside; left out: it stands on the highest floor there."""
     height: PositiveMetres = 1.0
@@ -142,6 +209,8 @@ class RegionDescription(Description):
     heading_deg: Degrees = 0.0
     random: Variation | None = None
     """Values sampled anew at each reset; without any, it is as described here."""
+    curriculum: _Curriculum = None
+    """Easy starts, from which learning by rewards begins; without any, all starts at once."""
     tags: Tags = ()
     colour: Colour | None = None
     label: Annotated[str, Field(max_length=40)] = ""

@@ -235,7 +235,7 @@ def _sample(described: ThingT, vary: Variation, rng: np.random.Generator) -> Thi
         x = _uniform(vary.x, rng)
     if vary.y:
         y = _uniform(vary.y, rng)
-    fresh: dict[str, Any] = {"position": (x, y), "random": None}
+    fresh: dict[str, Any] = {"position": (x, y), "random": None, "curriculum": None}
     if vary.heading_deg:
         fresh["heading_deg"] = _uniform(vary.heading_deg, rng)
     if vary.scale:

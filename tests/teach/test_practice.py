@@ -38,6 +38,8 @@ class Lamp(RewardFunc):
 SOON = 256
 """Decisions of the shortest practice."""
 LATE = 1_000_000
+AWAY = {"touch": -1.0}
+"""Factors with which a practice never reaches the goal, so that it does not end early."""
 PUSHING, LEARNED = "LocalBrain(PushOutController)", "LocalBrain(NeuralNetController)"
 
 
@@ -110,12 +112,18 @@ def test_the_network_of_the_moment_drives_until_it_is_stopped(
 
 
 def test_a_killed_practice_keeps_what_the_world_has(room: PanelRoom, page: PanelPage) -> None:
-    page.done("teach_practise", steps=LATE, weights={})
-    until(lambda: controller(room) is not None)
+    page.done("teach_practise", steps=LATE, weights=AWAY)
+    part = page.part("teach", lambda part: part["practice"] and part["practice"]["rewards"])
+    checks, score = len(part["practice"]["rewards"]), max(part["practice"]["rewards"])
     (process,) = practising(psutil.Process())
     process.kill()
     part = page.part("teach", lambda part: part["practice"] and part["practice"]["phase"] == "over")
     assert part["practice"]["problem"] == learning.DIED
+    assert len(part["practice"]["rewards"]) >= checks
+    assert max(part["practice"]["rewards"]) >= score
+    # the best network until then is kept, and can be begun with
+    part = page.part("teach", lambda part: len(part["networks"]) == 1)
+    assert "practised for" in part["networks"][0]["how"]
     room.runner.step_decision("0").result()
     assert not room.runner.error
 
@@ -208,8 +216,9 @@ def test_a_practice_goes_on_after_its_server_was_killed(tmp_path: Path) -> None:
 
     with played("box_chase", "--seed", "1", state=tmp_path) as server, panel(server) as page:
         page.part("teach", lambda part: part["rewards"])
-        page.done("teach_practise", steps=LATE, weights={})
-        page.part("teach", lambda part: part["practice"] and part["practice"]["decisions"] > 0)
+        page.done("teach_practise", steps=LATE, weights=AWAY)
+        part = page.part("teach", lambda part: part["practice"] and part["practice"]["rewards"])
+        seen, checks = part["practice"]["decisions"], len(part["practice"]["rewards"])
         (learner,) = practising(psutil.Process(server.process.pid))
         server.process.kill()
         psutil.wait_procs([learner], LIMIT_S)
@@ -217,7 +226,8 @@ def test_a_practice_goes_on_after_its_server_was_killed(tmp_path: Path) -> None:
         part = page.part("teach", lambda part: part["practice"])
         assert part["practice"]["phase"] == "paused"
         before = part["practice"]["decisions"]
-        assert before > 0
+        assert before >= seen
+        assert len(part["practice"]["rewards"]) >= checks
         page.done("teach_go_on")
         page.part("teach", lambda part: part["practice"]["decisions"] > before)
         page.done("teach_stop_practising")

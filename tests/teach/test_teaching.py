@@ -2,8 +2,11 @@
 
 import base64
 import json
+import math
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -225,3 +228,21 @@ def test_an_agent_that_can_not_be_taught_has_a_reason() -> None:
     soccer = Scene.load("soccer").build()
     soccer.reset(0)
     assert {reason_against_teaching(agent) for agent in soccer.agents} == {""}
+
+
+def test_numbers_that_are_not_finite_end_a_learning_with_a_sentence(
+    work: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = msgspec.json.encode(learning.CloneNote(1, math.nan)).decode()  # JSON has null for it
+
+    def start(_module: str) -> "subprocess.Popen[bytes]":
+        program = f"import sys; sys.stdin.read(); print({text!r}, flush=True); input()"
+        command, pipe = [sys.executable, "-c", program], subprocess.PIPE
+        return subprocess.Popen(command, stdin=pipe, stdout=pipe)
+
+    monkeypatch.setattr(learning, "start_process", start)
+    drives = sorted((work / "drives").glob("*.episode"))
+    learns = learning.Learning(drives, "0", seed=0, on_done=lambda *_: None)
+    until(lambda: not learns.is_running)
+    assert learns.note.problem == learning.NOT_FINITE
+    assert learns.is_over

@@ -21,6 +21,7 @@ pytestmark = pytest.mark.slow
 
 NICENESS = 19
 """Niceness of processes that learn or drive beside a world."""
+HOLD_ID = 1_000_000
 SPEED, NETWORK = "0.move.move_amount", "network:zoo:box_chase"
 
 
@@ -120,3 +121,74 @@ def test_what_was_driven_is_kept_when_it_is_stopped_or_dies(
     )
     room.runner.step_decision("0").result()
     assert not room.runner.error
+
+
+def hold(page: PanelPage) -> None:
+    """Wait until the tries are over, as a page does whose program drives; send it, and go on."""
+    page.send({"type": "do", "id": HOLD_ID, "command": "teach_hold_tries"})
+
+
+def speed_of(room: PanelRoom) -> float:
+    move = room.runner.sim.agents[0].actuators[0]
+    return float(getattr(move, "move_amount"))  # noqa: B009 - of this actuator's class
+
+
+def test_a_pages_program_drives_with_each_value(room: PanelRoom, page: PanelPage) -> None:
+    before = speed_of(room)
+    assert page.done("teach_try_program", parameter=SPEED, values="2, 5", starts=3)["values"] == [
+        2,
+        5,
+    ]
+    hold(page)
+    assert (
+        "tried already" in page.failed("teach_try", parameter=SPEED, values="1", starts=1)["text"]
+    )
+    assert "a value that is to be tried" in page.failed("teach_set_value", value=3)["text"]
+    for value in (2, 5):
+        page.done("teach_set_value", value=value)
+        for seed in (0, None):  # also episodes that begin by themselves
+            room.runner.reset(seed).result()
+            assert speed_of(room) == value
+        means = {"reward": 1.5, "seconds": 2.0, "decisions": 7.0}
+        page.done("teach_note_value", value=value, successes=2, **means)
+    part = page.part("tries", lambda part: part["tries"] and part["tries"]["is_over"])
+    assert (part["tries"]["problem"], part["tries"]["done"]) == ("", 6)
+    assert [(row["successes"], row["episodes"]) for row in part["tries"]["rows"]] == [(2, 3)] * 2
+    assert 0.2 < part["tries"]["rows"][0]["low"] < 2 / 3
+    until(lambda: speed_of(room) == before)
+    assert room.runner.sim.usual_options is None
+    assert room.editor.is_as_opened
+    assert "no values are tried" in page.failed("teach_set_value", value=2)["text"]
+
+
+@pytest.mark.parametrize("ends", ["the page leaves", "it is stopped"])
+def test_the_scene_has_its_numbers_again_however_it_ends(
+    room: PanelRoom, page: PanelPage, ends: str
+) -> None:
+    before = speed_of(room)
+    with room.page() as other:
+        other.done("teach_try_program", parameter=SPEED, values="2, 5", starts=3)
+        hold(other)
+        other.done("teach_set_value", value=2)
+        assert speed_of(room) == 2
+        if ends == "it is stopped":
+            page.done("teach_stop_trying")
+    until(lambda: speed_of(room) == before)
+    part = page.part("tries", lambda part: part["tries"] and part["tries"]["is_over"])
+    assert part["tries"]["problem"] == STOPPED
+    page.done("teach_try_program", parameter=SPEED, values="2", starts=1)
+
+
+def test_a_programs_mistakes_are_explained(room: PanelRoom, page: PanelPage) -> None:
+    for wrong, sentence in (
+        ({"values": "1, 2", "starts": 101}, "expected at most 200 episodes of a program"),
+        ({"values": "1, two"}, "expected numbers with commas between"),
+        ({"parameter": "0.move.speed"}, "no number of this scene is called"),
+    ):
+        words = {"parameter": SPEED, "values": "1", "starts": 1} | wrong
+        assert sentence in page.failed("teach_try_program", **words)["text"]
+    page.done("teach_try_program", parameter="0.vision.rows", values="9", starts=1)
+    hold(page)
+    text = page.failed("teach_set_value", value=9)["text"]
+    assert "can't be 9 while a program drives" in text
+    assert speed_of(room) > 0

@@ -359,14 +359,30 @@ export class CodeTab {
     this.#isHeld = isPaused;
   }
 
-  #runTest() {
+  /**
+   * Let the program drive from some starts, for "Try many"; the promise rejects with a sentence if it can't go on.
+   * @param {number[]} seeds
+   * @returns {Promise<import("./test.js").Start[]>}
+   */
+  async driveFrom(seeds) {
+    if (this.#agent === null) throw new Error("This robot has no program. Open the tab Code first.");
+    this.#runTest(seeds);
+    return new Promise((resolve, reject) => {
+      const end = (/** @type {CustomEvent<RunEnd>} */ { detail: { reason, text } }) =>
+        reason === "tested" ? resolve(this.#test.rows) : reject(new Error(text || "stopped"));
+      this.#test.addEventListener("end", end, { once: true });
+    });
+  }
+
+  /** @param {number[]} [seeds] */
+  #runTest(seeds) {
     if (this.#agent === null) return;
     this.#stopAll();
     this.#panel.driving?.letGo(); // else whoever drove just before would go on
     this.#active = this.#test;
     this.#clear();
     this.#noteStart(this.#editor.text);
-    this.#test.run(this.#editor.text, this.#agent.id);
+    this.#test.run(this.#editor.text, this.#agent.id, seeds);
   }
 
   /**

@@ -25,6 +25,7 @@ const INTERRUPTED = "Another episode began in the middle of a start, so the test
  * @property {string} outcome "goal", "time", "fell", "over", "mistake", or empty before the end
  * @property {number} decisions
  * @property {number} seconds
+ * @property {number} reward
  */
 /** @typedef {<Result>(promise: Promise<Result>) => Promise<Result>} Until returns what a promise gives; throws if the test was ended meanwhile */
 
@@ -83,13 +84,14 @@ export class CodeTest extends /** @type {EmitterClass<{change: null, decision: D
    * Drive an agent with a program from each start.
    * @param {string} source
    * @param {string} agent
+   * @param {number[]} [seeds] of the starts; default: some that nobody can foresee
    */
-  async run(source, agent) {
+  async run(source, agent, seeds = this.#parts.draw()) {
     this.stop();
     const ticket = ++this.#ticket;
     this.agent = agent;
     this.#current = null;
-    this.rows = this.#parts.draw().map((seed, index) => ({ number: index + 1, seed, outcome: "", decisions: 0, seconds: 0 }));
+    this.rows = seeds.map((seed, index) => ({ number: index + 1, seed, outcome: "", decisions: 0, seconds: 0, reward: 0 }));
     try {
       await this.#drive(source, agent, (promise) => valid(promise, () => ticket !== this.#ticket));
       this.#end({ reason: "tested" });
@@ -165,6 +167,7 @@ export class CodeTest extends /** @type {EmitterClass<{change: null, decision: D
       percept = next;
       tally.add(percept);
       row.seconds = tally.seconds;
+      row.reward = tally.reward;
     }
     if (tally.isGoal(percept)) row.outcome = "goal";
     else row.outcome = percept.terminated ? await until(this.#parts.outcome(percept, row.seed)) : "time";
@@ -200,7 +203,7 @@ class Tally {
   #welcome;
   #firstTick;
   #success = 0;
-  #reward = 0;
+  reward = 0;
   seconds = 0;
 
   /**
@@ -214,7 +217,7 @@ class Tally {
 
   /** @param {Percept} percept */
   add({ tick, reward, terms }) {
-    this.#reward += reward;
+    this.reward += reward;
     this.#success += terms[this.#welcome.success] ?? 0;
     this.seconds = (tick - this.#firstTick) / this.#welcome.ticksPerSecond;
   }
@@ -228,7 +231,7 @@ class Tally {
    * @param {Percept} percept
    */
   isGoal({ terminated }) {
-    return this.#welcome.success ? this.#success > 0 : terminated && this.#reward > 0;
+    return this.#welcome.success ? this.#success > 0 : terminated && this.reward > 0;
   }
 }
 

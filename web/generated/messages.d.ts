@@ -715,6 +715,8 @@ export interface PracticeState {
   rewards: number[];
   /** Share of the episodes of the latest check that reached the goal; null if there was none. */
   success: number | null;
+  /** Way from easy starts (0) to all starts (1); null in a scene without easy ones. */
+  easy_starts: number | null;
   /** True if these episodes are games against somebody. */
   is_game: boolean;
 }
@@ -852,6 +854,8 @@ export interface TriesPart {
   /** The latest tries of the agent in this scene; null if there were none since the start. */
   tries: TriesState | null;
   max_starts: number;
+  /** Most episodes, with all values, of a program in the page. */
+  max_program_episodes: number;
 }
 
 /** The choices for the page's picture. */
@@ -1311,6 +1315,10 @@ export interface Ground {
 export interface HideElsewhere {
 }
 
+/** Wait until the tries of the page's program are over; the page is gone if this ends before. */
+export interface HoldTries {
+}
+
 /** Begin to check the function that this page has for the step's exercise, or its robot. The answer has the arguments of a call, or the verdict: `passed`, `text` and `hint`. */
 export interface JudgeFunction {
   /** The person's text, from which the numbers are drawn; it is not run here. */
@@ -1384,6 +1392,15 @@ export interface MoveMode {
 
 /** Begin an episode with a new start, also if the seed is locked. */
 export interface NewStart {
+}
+
+/** Note how the page's program did with a value. */
+export interface NoteTriedValue {
+  value: number;
+  successes: number;
+  reward: number;
+  seconds: number;
+  decisions: number;
 }
 
 /** Move things a bit (m, degrees). */
@@ -1572,6 +1589,11 @@ export interface SetSpeed {
   speed: number | "max";
 }
 
+/** Give the number a value for all episodes until the next one, and begin an episode. */
+export interface SetTriedValue {
+  value: number;
+}
+
 /** Show another agent. */
 export interface ShowAgent {
   agent: string;
@@ -1646,6 +1668,13 @@ export interface TryMany {
   /** Numbers with commas between. */
   values: string;
   /** Episodes with each value. */
+  starts: number;
+}
+
+/** Begin to try values with the program in this page, which drives one after another. */
+export interface TryProgram {
+  parameter: string;
+  values: string;
   starts: number;
 }
 
@@ -1743,17 +1772,21 @@ export interface Commands {
   teach_drive: DriveNetwork;
   teach_forget_drive: ForgetDrive;
   teach_go_on: GoOnPractising;
+  teach_hold_tries: HoldTries;
   teach_learn: LearnFromDrives;
+  teach_note_value: NoteTriedValue;
   teach_open: OpenNetwork;
   teach_pause: PausePractising;
   teach_practise: PractiseForRewards;
   teach_put_rewards: PutRewards;
   teach_rename: RenameNetwork;
   teach_replay: ReplayPractice;
+  teach_set_value: SetTriedValue;
   teach_stop: StopLearning;
   teach_stop_practising: StopPractising;
   teach_stop_trying: StopTrying;
   teach_try: TryMany;
+  teach_try_program: TryProgram;
   tick: Tick;
   trail: ShowTrail;
   try_again: TryAgain;

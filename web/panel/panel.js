@@ -229,6 +229,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     return this.#tabs.open;
   }
 
+  /** The tab "Code"; null before it was open for the first time. */
+  get code() {
+    return /** @type {import("../code/tab.js").CodeTab | null} */ (this.#opened.get("code") ?? null);
+  }
+
   /** @param {string} name */
   openTab(name) {
     this.#tabs.choose(name);

@@ -132,7 +132,7 @@ function weightRow(name) {
 }
 
 /** @param {PracticeState} practice */
-function sentenceOf({ phase, problem, waiting, decisions, success, is_game: isGame, elsewhere, is_scene_changed: isSceneChanged }) {
+function sentenceOf({ phase, problem, waiting, decisions, success, is_game: isGame, elsewhere, is_scene_changed: isSceneChanged, easy_starts: easy }) {
   const share = success === null ? "" : percent(success);
   const reached = share && (isGame ? ` It wins ${share} of its games.` : ` It reaches the goal from ${share} of its starts.`);
   if (problem === "stopped") return `The practice was stopped.${reached}`;
@@ -143,5 +143,6 @@ function sentenceOf({ phase, problem, waiting, decisions, success, is_game: isGa
   if (waiting && decisions === 0) return waiting;
   const waits = phase === "paused" ? ", and waits for you" : "";
   const scene = isSceneChanged ? " It practises in the scene as it was before your changes." : "";
-  return `${who} has practised for ${count} decisions${waits}.${reached}${scene}${waiting && ` ${waiting}`}`;
+  const starts = easy === null ? "" : easy < 1 ? ` From easy to hard: its starts are ${percent(easy)} of the way.` : " It practises from all starts now.";
+  return `${who} has practised for ${count} decisions${waits}.${reached}${starts}${scene}${waiting && ` ${waiting}`}`;
 }

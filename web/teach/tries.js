@@ -10,6 +10,9 @@ import { choice } from "../panel/widgets/parts.js";
 import { IntervalPlot } from "./interval_plot.js";
 
 const FIRST = "Choose a number and some values. The robot's driver drives from the same starts with each of them, in a copy of the world.";
+const STOPPED = "stopped";
+/** Names of the drivers: that of the robot now, and this page's program. */
+const [DRIVER, PROGRAM] = ["driver", "program"];
 /** First choice where it is there. */
 const PREFERRED = "brain";
 
@@ -19,6 +22,11 @@ export class TriesView {
   #name = "";
   /** @type {VariableNumber[]} */
   #numbers = [];
+  #driver = DRIVER;
+  #drivers = choice("Driver", (driver) => this.#choose(this.#owner, this.#name, driver));
+  /** Reason against the robot's driver. */
+  #reason = "";
+  #isUnderWay = false;
   #owners = choice("Part", (owner) => this.#choose(owner, ""));
   #names = choice("Number", (name) => this.#choose(this.#owner, name));
   #values = element("input", { type: "text", placeholder: "1, 2, 4, 8", inputMode: "text", required: true });
@@ -43,6 +51,7 @@ export class TriesView {
     const form = element(
       "div",
       { className: "ai4u-tries-form" },
+      this.#drivers.element,
       this.#owners.element,
       this.#names.element,
       labelled("Values", this.#values),
@@ -62,11 +71,10 @@ export class TriesView {
   update({ max_starts: maxStarts, numbers, problem, tries }) {
     this.#numbers = numbers;
     this.#starts.max = String(maxStarts);
-    this.#choose(this.#owner, this.#name);
-    setText(this.#problem, problem);
-    this.#problem.hidden = !problem;
+    this.#reason = problem;
     const isUnderWay = tries !== null && !tries.is_over;
-    this.#start.disabled = isUnderWay || Boolean(problem);
+    this.#isUnderWay = isUnderWay;
+    this.#choose(this.#owner, this.#name);
     this.#stop.hidden = !isUnderWay;
     this.#bar.hidden = !isUnderWay;
     this.#bar.value = tries === null ? 0 : tries.done / tries.total;
@@ -92,8 +100,15 @@ export class TriesView {
    * Show the numbers of an owner; one that is not there is replaced by the first one that is.
    * @param {string} owner
    * @param {string} name
+   * @param {string} [driver]
    */
-  #choose(owner, name) {
+  #choose(owner, name, driver = this.#driver) {
+    this.#driver = driver;
+    this.#drivers.set([{ value: DRIVER, text: "The robot's driver" }, { value: PROGRAM, text: "My program in the tab Code" }], driver);
+    const problem = driver === PROGRAM ? "" : this.#reason;
+    setText(this.#problem, problem);
+    this.#problem.hidden = !problem;
+    this.#start.disabled = this.#isUnderWay || Boolean(problem);
     const owners = [...new Set(this.#numbers.map((each) => each.owner))];
     this.#owner = owners.includes(owner) ? owner : owners.includes(PREFERRED) ? PREFERRED : (owners[0] ?? "");
     const mine = this.#numbers.filter((each) => each.owner === this.#owner);
@@ -107,7 +122,39 @@ export class TriesView {
   async #try() {
     for (const input of [this.#values, this.#starts]) if (!input.reportValidity()) return;
     const [values, starts] = [this.#values.value, this.#starts.valueAsNumber];
-    await this.#panel.send("teach_try", { parameter: this.#name, values, starts }, { quiet: true });
+    const wanted = { parameter: this.#name, values, starts };
+    if (this.#driver === PROGRAM) await this.#tryProgram(wanted);
+    else await this.#panel.send("teach_try", wanted, { quiet: true });
+  }
+
+  /**
+   * Let the program of the tab Code drive in this world, with one value after another. The world has the scene's own
+   * numbers again when that ends in any way, also when this page is closed.
+   * @param {{parameter: string, values: string, starts: number}} wanted
+   */
+  async #tryProgram(wanted) {
+    const code = this.#panel.code;
+    if (code === null) {
+      this.#panel.notice("Open the tab Code first: your program is there.", "error");
+      return;
+    }
+    const { ok, values } = await this.#panel.send("teach_try_program", wanted, { quiet: true });
+    if (!ok) return;
+    const held = this.#panel.send("teach_hold_tries", {}, { quiet: true });
+    const seeds = Array.from({ length: wanted.starts }, (_, index) => index);
+    for (const value of values) {
+      if (!(await this.#panel.send("teach_set_value", { value }, { quiet: true })).ok) break;
+      try {
+        const row = meansOf(await code.driveFrom(seeds));
+        if (!(await this.#panel.send("teach_note_value", { value, ...row }, { quiet: true })).ok) break;
+      } catch (error) {
+        if (error.message !== STOPPED) this.#panel.notice(error.message, "error");
+        break;
+      }
+    }
+    // else it is over already
+    if (this.#isUnderWay) await this.#panel.send("teach_stop_trying", {}, { quiet: true });
+    await held;
   }
 
   async #download() {
@@ -117,6 +164,16 @@ export class TriesView {
     element("a", { href: url, download: name }).click();
     URL.revokeObjectURL(url);
   }
+}
+
+/**
+ * Return the numbers of episodes from several starts.
+ * @param {import("../code/test.js").Start[]} rows
+ */
+function meansOf(rows) {
+  const mean = (/** @type {"reward" | "seconds" | "decisions"} */ name) => rows.reduce((sum, row) => sum + row[name], 0) / rows.length;
+  const successes = rows.filter(({ outcome }) => outcome === "goal").length;
+  return { successes, reward: mean("reward"), seconds: mean("seconds"), decisions: mean("decisions") };
 }
 
 /**

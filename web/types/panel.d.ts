@@ -149,6 +149,7 @@ export interface AnswerFields {
   scenes: { items: SceneCard[] };
   teach_download: { name: string; data: string };
   teach_download_tried: { name: string; data: string };
+  teach_try_program: { values: number[] };
   what_if: { dials: Dial[]; action: ChangedNumber[] };
 }
 

@@ -1,6 +1,6 @@
 """Opponents: an agent learns against somebody, or against itself.
 
-Before: :mod:`~ai4u_edu.learn.small.ppo`. New here is the other side. In a game, what is
+Before: :mod:`~ai4u_edu.learn.small.easy_starts`. New here is the other side. In a game, what is
 good to do depends on who plays against one: the scene's own player (the controller that its file
 names), a network in a file, or the learner itself.
 

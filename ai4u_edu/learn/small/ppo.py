@@ -40,6 +40,7 @@ from ai4u_edu.base.errors import AI4UError, SetupError, suggest
 from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import LAYERS, ActorCritic
+from ai4u_edu.learn.small.easy_starts import EasyStarts
 from ai4u_edu.learn.small.neural_network import Adam, Floats, clip_norm
 from ai4u_edu.scenes import Scene
 
@@ -131,6 +132,7 @@ class Ppo:
         network: as it is now; it can also get worse again.
         decisions: count of decisions that were learned from.
         optimizer, generator: with which it goes on.
+        easy_starts: in a scene with a curriculum; else None.
 
     Raises:
         SetupError: the agent can't learn, or there is no reward term of a name.
@@ -167,6 +169,7 @@ class Ppo:
         self.network.log_spread[:] = math.log(spread)
         self.optimizer = Adam(self.network.parameters, self.settings.rate, epsilon=1e-5)
         self.decisions = 0
+        self.easy_starts = EasyStarts.of(scene)
         self.begin_episodes()
 
     def improve(self) -> None:
@@ -208,7 +211,7 @@ class Ppo:
             for index in np.flatnonzero(is_over[step]).tolist():
                 # The next decision of this world is the first of another episode: no decision is
                 # spent on beginning one, so there is none without an action to learn from.
-                worlds.reset(index)
+                self._begin_episode(index)
         # The critic doesn't drive, so it is asked once, for all decisions and for what came after
         # the last ones. That is faster than once a decision.
         after = network.scaled(worlds.observations)[None]
@@ -251,7 +254,16 @@ class Ppo:
         """Begin an episode in every world: other ones after a break than before."""
         first = FIRST_SEED + 1000 * self.seed + 7919 * self.decisions
         for index in range(self.settings.worlds):
-            self.worlds.reset(index, first + index)
+            self._begin_episode(index, first + index)
+
+    def _begin_episode(self, index: int, seed: int | None = None) -> None:
+        starts, envs = self.easy_starts, self.worlds.envs
+        if starts is None:
+            self.worlds.reset(index, seed)
+            return
+        if seed is None and index < len(envs):  # an episode has ended
+            starts.note(envs[index].success)
+        self.worlds.reset(index, seed, starts.options)
 
     def _improve_actor(self, inputs: Floats, taken: Array, before: Floats, gained: Floats) -> None:
         """Write the actor's part of the gradient.

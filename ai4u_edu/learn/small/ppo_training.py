@@ -189,6 +189,7 @@ class PpoTraining:
             "generator": ppo.generator.bit_generator.state,
             "checks": [asdict(check) for check in self.checks],
             "league": None if self.league is None else self.league.state(),
+            "easy_starts": None if ppo.easy_starts is None else ppo.easy_starts.state(),
         }
         earlier = [] if self.league is None else self.league.members[1:]
         with partial_file(path) as beside, beside.open("wb") as file:
@@ -254,6 +255,8 @@ class PpoTraining:
             for one, parameters in zip(earlier, arrays["league"], strict=True):
                 one.parameters[:] = parameters
             self.league.restore(state["league"], earlier)
+        if ppo.easy_starts is not None and state["easy_starts"] is not None:
+            ppo.easy_starts.restore(state["easy_starts"])
         ppo.begin_episodes()
 
     @property

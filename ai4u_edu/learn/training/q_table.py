@@ -49,9 +49,10 @@ def still(scene: Scene, *but: str) -> Scene:
     for name in but:
         if name not in names:
             raise SetupError(f"the scene has nothing called {name!r}; {suggest(name, names)}")
+    fixed = {"random": None, "curriculum": None}
     kinds = {
         kind: tuple(
-            thing if thing.name in but else thing.model_copy(update={"random": None})
+            thing if thing.name in but else thing.model_copy(update=fixed)
             for thing in getattr(scene.description, kind)
         )
         for kind in ("floors", "areas", "bodies")

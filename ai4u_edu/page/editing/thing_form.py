@@ -19,13 +19,18 @@ from ai4u_edu.world import (
     RingShape,
     SegmentShape,
 )
+from ai4u_edu.world.descriptions import RANGES
 
+RANGE_UNITS = {"x": "m", "y": "m", "heading_deg": "deg", "scale": ""}
+"""Units of the ranges of random starts."""
 KINDS = {
     "static": "stands still",
     "dynamic": "can be pushed",
     "kinematic": "moves, can't be pushed",
 }
 """Labels of the kinds of bodies."""
+EASY = "easy_"
+"""Beginning of the names of fields with ranges of easy starts."""
 POSE_FIELDS = ("x", "y", "heading_deg")
 
 
@@ -51,6 +56,7 @@ def thing_form(thing: Thing) -> list[ParameterField]:
         *_own_fields(thing),
         ParameterField("colour", "colour", "choice", thing.colour, "", colours),
         ParameterField("label", "label", "text", thing.label, ""),
+        *_easy_fields(thing),
     ]
 
 
@@ -82,6 +88,9 @@ def pose_and_changes(
     if pose:
         (x, y), heading = thing.position, thing.heading_deg
         pose = {"x": x, "y": y, "heading_deg": heading} | pose
+    easy = {name: values.pop(name) for name in (*values,) if name.startswith(EASY)}
+    if easy:
+        values["curriculum"] = _curriculum(thing, easy)
     lengths = {name: values.pop(name) for name in _lengths(thing) if name in values}
     if lengths:
         values["shape"] = _resized_shape(thing, lengths)
@@ -93,6 +102,8 @@ def field_of_problem(thing: Thing, path: DataPath) -> str:
     lengths = tuple(_lengths(thing))
     inner = [part for part in path if part not in {"shape", thing.shape.type}]
     name = str(inner[0]) if inner else ""
+    if name == "curriculum" and len(inner) > 1:
+        name = f"{EASY}{inner[1]}"
     if name in {"size", "position"} and len(inner) > 1 and isinstance(inner[1], int):
         name = (lengths if name == "size" else POSE_FIELDS)[inner[1]]
     return name
@@ -100,6 +111,52 @@ def field_of_problem(thing: Thing, path: DataPath) -> str:
 
 def _number(name: str, label: str, unit: str, value: float) -> ParameterField:
     return ParameterField(name, f"{label} ({unit})", "number", value, "", unit=unit)
+
+
+def _easy_fields(thing: Thing) -> list[ParameterField]:
+    """Return the fields with the ranges of easy starts, one for each range of all starts."""
+    fields = []
+    easy = {} if thing.curriculum is None else thing.curriculum.given
+    for name in RANGES:
+        full = None if thing.random is None else getattr(thing.random, name)
+        if full is not None:
+            unit = RANGE_UNITS[name]
+            label = f"easy start: {name.removesuffix('_deg')}{f' ({unit})' if unit else ''}"
+            hint = (
+                f"from, to, such as {_ends(full)}, which are all starts; learning by rewards "
+                "begins with the easy ones; empty for none"
+            )
+            value = _ends(easy[name]) if name in easy else ""
+            fields.append(ParameterField(f"{EASY}{name}", label, "text", value, hint))
+    return fields
+
+
+def _ends(ends: tuple[float, float]) -> str:
+    return f"{ends[0]:g}, {ends[1]:g}"
+
+
+def _curriculum(thing: Thing, entered: Mapping[str, str]) -> dict[str, Any] | None:
+    """Return the easy ranges with what was entered; None if there are none.
+
+    Raises:
+        ChangeError: it is no range.
+    """
+    ranges: dict[str, Any] = {} if thing.curriculum is None else {**thing.curriculum.given}
+    for field, text in entered.items():
+        name = field.removeprefix(EASY)
+        if not (text or "").strip():
+            ranges.pop(name, None)
+            continue
+        try:
+            low, high = (float(part) for part in text.split(","))
+        except ValueError:
+            low = high = math.nan
+        full = getattr(thing.random, name)
+        if not full[0] <= low <= high <= full[1]:
+            expected = f"expected two numbers within {_ends(full)}, the smaller one first"
+            raise ChangeError([ParameterProblem((field,), f"{expected}, got {text!r}")])
+        ranges[name] = (low, high)
+    return ranges or None
 
 
 def _own_fields(thing: Thing) -> list[ParameterField]:

@@ -224,6 +224,22 @@ def test_the_form_of_a_thing(page: PanelPage) -> None:
     assert failed["problems"] == [{"path": ["y"], "text": "expected a number, got 'up'"}]
 
 
+def test_easy_starts_of_a_thing(room: PanelRoom, page: PanelPage) -> None:
+    room.editor.open(Scene.load("push_block")).result()
+    page.show("0", "world", body="block")
+    form = page.part("world", lambda m: m["form"] and m["form"]["name"] == "block")["form"]
+    fields = {field["name"]: field for field in form["fields"]}
+    assert fields["easy_x"]["shown"] == "-0.4, 0.4"
+    assert "easy_scale" not in fields  # its size is the same at all starts
+    page.done("change_body", name="block", values={"easy_x": "-1, 1", "easy_heading_deg": ""})
+    assert "curriculum:\n      x: [-1.0, 1.0]\n      y: [-0.4, 0.4]\n    mass" in room.editor.text()
+    for wrong in ("1", "-9, 9", "1, -1"):
+        failed = page.failed("change_body", name="block", values={"easy_x": wrong})
+        assert failed["problems"][0]["path"][-1] == "easy_x", failed
+    page.done("change_body", name="block", values={"easy_x": "", "easy_y": ""})
+    assert "curriculum" not in room.editor.text()
+
+
 def test_settings_of_the_scene(page: PanelPage) -> None:
     page.done("change_settings", values={"goal": "Push it.", "gravity": "3"})
     page.part("scene", goal="Push it.")

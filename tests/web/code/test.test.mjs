@@ -26,8 +26,8 @@ test("each start loads the program, begins with its seed, and is driven to its e
   await made.run("pass", "0");
   assert.equal((await end).reason, "tested");
   assert.deepEqual(made.rows, [
-    { number: 1, seed: 5, outcome: "goal", decisions: 1, seconds: 1.5 },
-    { number: 2, seed: 6, outcome: "goal", decisions: 1, seconds: 1.5 },
+    { number: 1, seed: 5, outcome: "goal", decisions: 1, seconds: 1.5, reward: 0 },
+    { number: 2, seed: 6, outcome: "goal", decisions: 1, seconds: 1.5, reward: 0 },
   ]);
   assert.deepEqual(world.calls.filter((call) => /^(reset|load|connect)/.test(call)).map((call) => call.split(" ").slice(0, 2).join(" ")), [
     "connect lockstep", "load pass", "reset 5", "load pass", "reset 6",
