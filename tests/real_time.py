@@ -16,7 +16,7 @@ MIN_LIMIT_S = 30
 """Limit (s) of a wait from which on only a fault reaches it."""
 MEASURING = ("benchmarks", "load")
 """Folders whose programs measure time, and no test depends on what they find."""
-TOOLS = ("soak.py", "stability.py", "waiting.py", "screenshot.py", "*_sheet.py")
+TOOLS = ("soak.py", "stability.py", "waiting.py", "screenshot.py", "*_sheet.py", "*_film.py")
 """Programs that a person starts, and the waits themselves."""
 PROGRAMS = ("program/solutions", "remote/ai4u_scripts")
 """Folders with programs of students and of scripts."""

@@ -150,7 +150,7 @@ def encoded(value: Any, depth: int = MAX_VALUE_DEPTH) -> Any:
     >>> encoded({"move": (1, float("inf"))})
     {'table': [['move', [1, {'number': 'inf'}]]]}
     >>> encoded(...), encoded({1, 2})
-    ({'shown': 'Ellipsis'}, {'shown': '{1, 2}'})
+    ({'shown': '<ellipsis>'}, {'shown': '{1, 2}'})
     """
     if value is None or isinstance(value, bool | str):
         return value[:MAX_VALUE_CHARS] if isinstance(value, str) else value

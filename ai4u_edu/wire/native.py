@@ -269,7 +269,7 @@ def decode(frame: bytes, max_bytes: int = MAX_SCRIPT_FRAME_BYTES) -> Message:
         WireError: there is no valid message in it. No other error is raised for any bytes.
 
     >>> decode(encode(Reset(seq=3, seed=None)))
-    Reset(seq=3, seed=None)
+    Reset(seq=3, seed=None, fields=None)
     >>> import msgspec
     >>> decode(msgspec.msgpack.encode(["rest", 3, None]))
     Traceback (most recent call last):

@@ -12,6 +12,7 @@ VALUES: dict[str, object] = {
     "words": {},
     "stars": [("<b>", "'\"", "{{ 1 + 1 }}")],
     "mistakes": [],
+    "missions": [],
     "program_mistakes": [],
     "races": [("<i>", [])],
     "tournaments": [],

@@ -99,7 +99,7 @@ def test_everything_is_in_the_export_and_nothing_after_forget(tmp_path: Path) ->
         (tmp_path / "my-work.zip").write_bytes(other.content)
         unpacked = open_my_work(tmp_path / "my-work.zip")
         assert "title: Box chase" in unpacked.scene.read_text()
-        assert zip_of(other.content).keys() == {"scene.yaml", "progress.json"}
+        assert zip_of(other.content).keys() == {"scene.yaml", "progress.json", "missions.json"}
         assert served.student().client.get("api/my-work").status_code == 403
 
         secrets = [*ada.client.cookies.values(), *ben.client.cookies.values()]

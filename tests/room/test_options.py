@@ -80,7 +80,8 @@ def test_play_scripts_and_environments_work_without_an_option(option: str) -> No
             else:
                 page.done("why", on=True)
         missions = httpx.get(f"{world.url}api/missions", timeout=LIMIT_S).json()["missions"]
-        assert bool(missions) == (option != "missions")
+        # the course's judges, which read programs, judge the exercises among the missions
+        assert bool(missions) == (option not in ("missions", "lessons", "program"))
         steps = "" if option == "learn" else STEPS
         command = [sys.executable, "-c", code_without(refused, steps + ACT.format(url=world.url))]
         done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -41,16 +41,17 @@ wait_for_key: false
 world: {ticks_per_second: 50, damping: 0.1, gravity: 9.0, fall_threshold: -3.0}
 floors:
   - {name: plate, shape: {type: box, size: [20, 20]}, position: [0.5, 0], heading_deg: 1,
-     random: {x: [0.4, 0.6]}, tags: [floor, plain], colour: green, label: ground, top: 0.1}
+     random: {x: [0.4, 0.6]}, curriculum: {x: [0.45, 0.5]},
+     tags: [floor, plain], colour: green, label: ground, top: 0.1}
 areas:
   - {name: goal, shape: {type: box, size: [2, 2]}, position: [3, 3], heading_deg: 10,
-     random: {y: [3, 4]}, tags: [goal], colour: blue, label: here, paint: true,
-     picture: "PICTURE"}
+     random: {y: [3, 4]}, curriculum: {y: [3, 3.1]}, tags: [goal], colour: blue, label: here,
+     paint: true, picture: "PICTURE"}
 bodies:
   - {name: robot, shape: {type: circle, radius: 0.4}, position: [-3, 0], z: 0.1, heading_deg: 20,
-     height: 0.8, random: {heading_deg: [0, 30]}, colour: orange, label: me, tags: [driven],
-     mass: 2, friction: 0.4, elasticity: 0.1, velocity: [0.1, 0], angular_velocity_deg: 5,
-     collision_layer: 3, collision_mask: 7}
+     height: 0.8, random: {heading_deg: [0, 30]}, curriculum: {heading_deg: [5, 6]},
+     colour: orange, label: me, tags: [driven], mass: 2, friction: 0.4, elasticity: 0.1,
+     velocity: [0.1, 0], angular_velocity_deg: 5, collision_layer: 3, collision_mask: 7}
   - {name: box, shape: {type: box, size: [1, 2]}, kind: kinematic, position: [4, 0]}
 generate: {type: maze, width: 5, height: 4, cell: 5, position: [0.5, 0], start: robot, goal: goal,
   loops: 1, difficulty: 0.9, wall: 0.3, wall_height: 0.9}
