@@ -22,7 +22,7 @@ from ai4u_edu.world import WorldView
 
 TRAINED_IN = "it was trained in the scene "
 """Beginning of the words about a network that does not fit, before its scene's name in quotes."""
-MAX_SCENE_CHARS = 60
+MAX_SCENE_NAME_CHARS = 60
 
 
 class NeuralNetController(Controller):
@@ -78,7 +78,7 @@ class NeuralNetController(Controller):
         if found:
             scene = ""
             if isinstance(trained_in, str) and trained_in:
-                scene = f" ({TRAINED_IN}{shorten(trained_in, MAX_SCENE_CHARS)!r})"
+                scene = f" ({TRAINED_IN}{shorten(trained_in, MAX_SCENE_NAME_CHARS)!r})"
             raise BlockError(f"the network {name} does not fit agent {agent.id!r}{scene}: {found}")
         actuators = {each.action_name: each for each in agent.actuators if each.is_active}
         outputs = [port for port in network.outputs if port.name != VALUE_OUTPUT]
