@@ -293,8 +293,13 @@ class EpisodeOptions:
             changed_field = _changed_model(sim.world.field, field_numbers)
         changed_things = []
         for thing_name, parts in things.items():
+            thing = described[thing_name]
             with _explained(thing_name):
-                changed_things.append(_changed_model(described[thing_name], parts))
+                # easy starts are for a learner, which takes them from the scene; they may lie
+                # outside the ranges of this episode
+                if "random" in parts and thing.curriculum is not None:
+                    thing = thing.model_copy(update={"curriculum": None})
+                changed_things.append(_changed_model(thing, parts))
         changed_blocks = []
         for (index, kind, place), changes in blocks.items():
             agent = sim.agents[index]

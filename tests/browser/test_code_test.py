@@ -117,6 +117,7 @@ def test_each_of_ten_seeds_is_driven_once(page: Page) -> None:
         "outcome": "goal",
         "decisions": 3,
         "seconds": 3,
+        "reward": 3,
     }
     assert (found["end"]["reason"], found["failure"], found["isOn"]) == ("tested", None, False)
     assert found["world"] == dict.fromkeys(found["world"], 1)

@@ -95,6 +95,7 @@ def test_a_training_tells_its_progress(room: Room) -> None:
         "total": 1000,
         "is_over": False,
         "curve": [{"decisions": 500, "reward": -0.5, "success": None}],
+        "easy_starts": None,
     }
     room.runner.training = None
 
