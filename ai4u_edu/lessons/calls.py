@@ -108,7 +108,7 @@ class RemoteCalls:
         self.arguments = ""
         """Arguments of the next call, as the page's Python reads them; empty if there is none."""
         self.judged = Judged(False, "")
-        """What the judge says when there is no call left."""
+        """The verdict, once there is no call left."""
         self._go_on(lambda: next(self._calls))
 
     def answer(self, value: str) -> None:

@@ -29,11 +29,11 @@ class Counting(RewardFunc):
 def test_a_world_takes_no_other_attributes() -> None:
     world = World()
     with pytest.raises(UnknownAttributeError, match=r"'gravty'; .* World\(gravity=\.\.\.\)"):
-        world.gravty = 1.6  # type: ignore[attr-defined]
+        world.gravty = 1.6  # type: ignore[attr-defined]  # it is refused
     with pytest.raises(UnknownAttributeError, match=r"options=\{'world.gravity'"):
-        world.gravity = 1.6  # type: ignore[attr-defined]
+        world.gravity = 1.6  # type: ignore[attr-defined]  # it is refused
     with pytest.raises(AttributeError, match="'boddies'; did you mean 'bodies'"):
-        world.boddies = []  # type: ignore[attr-defined]
+        world.boddies = []  # type: ignore[attr-defined]  # it is refused
     world.tick()
     assert world.ticks == 1
     world.reset(1)
@@ -54,7 +54,7 @@ def test_a_block_with_another_attribute_is_refused_at_setup() -> None:
     world = World()
     world.add_body("robot", CircleShape())
     sensor = LinearRayCastingSensor()
-    sensor.number_of_ray = 3  # type: ignore[attr-defined]
+    sensor.number_of_ray = 3  # type: ignore[attr-defined]  # it is refused
     with pytest.raises(
         UnknownAttributeError, match="'number_of_ray'; did you mean 'number_of_rays'"
     ):
@@ -69,10 +69,10 @@ def test_a_block_that_gets_one_later_is_refused_at_the_next_reset() -> None:
     sim.reset(1)
     sim.step()
     sim.reset(2)  # what the student's block keeps is its own
-    sensor.field_of_veiw = 30  # type: ignore[attr-defined]
+    sensor.field_of_veiw = 30  # type: ignore[attr-defined]  # it is refused
     with pytest.raises(UnknownAttributeError, match="did you mean 'field_of_view'"):
         sim.reset(3)
-    del sensor.field_of_veiw  # type: ignore[attr-defined]
+    del sensor.field_of_veiw  # type: ignore[attr-defined]  # as it says to
     sim.reset(3)
 
 
