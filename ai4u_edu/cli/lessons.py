@@ -8,6 +8,9 @@ from typing import Annotated
 
 import typer
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext, own_catalogue, translate
+
 FIRST = "00_start_here.ipynb"
 KERNEL_STOP_S = 0.5
 """Time that a kernel gets to end before it is killed. So SIGTERM ends the course within about
@@ -46,12 +49,22 @@ def lessons(
 
     if start:
         need("lessons", "jupyterlab", "ipykernel", "matplotlib")
-    done = hand_out(folder)
-    typer.echo(f"{len(done.new)} new notebooks in {folder}")
+    done = hand_out(folder, own_catalogue().language)
+    new, kept = len(done.new), len(done.kept)
+    _say(
+        ngettext(
+            "{n} new notebook in {folder}", "{n} new notebooks in {folder}", new, folder=str(folder)
+        )
+    )
     if done.kept:
-        typer.echo(f"{len(done.kept)} were there already and are kept")
+        _say(
+            ngettext(
+                "{n} was there already and is kept", "{n} were there already and are kept", kept
+            )
+        )
     for name in done.beside:
-        typer.echo(f"a newer {name.replace('.new', '')} is beside yours: {name}")
+        older = name.replace(".new", "")
+        _say(_("a newer {older} is beside yours: {name}", older=older, name=name))
     if start:
         _become(lab(folder, port, open_page=open_page), lab_config(folder))
 
@@ -62,9 +75,13 @@ def _collect(folder: Path) -> None:
     collected = collect(folder)
     for problem in collected.problems:
         typer.echo(problem, err=True)
-    typer.echo(f"{len(collected.students)} students:")
+    _say(ngettext("{n} student:", "{n} students:", len(collected.students)))
     for path in collected.write(folder):
         typer.echo(f"  {path}")
+
+
+def _say(text: str) -> None:
+    typer.echo(translate(text))
 
 
 def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:

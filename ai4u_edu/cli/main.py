@@ -1,13 +1,15 @@
 """The command line's entry point and its short commands."""
 
+import gettext as gnu
 import io
 import json
+import os
 import signal
 import sys
-from collections.abc import Sized
+from collections.abc import Callable, Iterator, Sized
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 from rich.console import Console
@@ -29,7 +31,17 @@ from ai4u_edu.cli.options import (
     load_own_blocks,
 )
 from ai4u_edu.cli.play import play
+from ai4u_edu.locale import (
+    LANGUAGES,
+    PYTHON,
+    SOURCE,
+    VARIABLE,
+    known_language,
+    own_catalogue,
+)
+from ai4u_edu.locale.catalogue import FOLDER
 
+LANGUAGE_OPTION = "--lang"
 ONE_THREAD_COMMANDS = ("clone", "train")
 """Commands whose networks depend on the count of threads in which NumPy computes."""
 app = typer.Typer(
@@ -51,8 +63,10 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
+    _take_language(sys.argv)
+    run = app if own_catalogue().language == SOURCE else _translated_command()
     try:
-        app()
+        run()
     except AI4UError as error:
         _fail(str(error))
     except OSError as error:
@@ -71,6 +85,47 @@ def _fail(text: str) -> None:
     sys.exit(1)
 
 
+def _take_language(words: list[str]) -> None:
+    """Take ``--lang CODE`` from the words of a command line, wherever it stands, and obey it."""
+    for number, word in enumerate(words):
+        name, has_value, value = word.partition("=")
+        if name != LANGUAGE_OPTION:
+            continue
+        wanted = value if has_value else "".join(words[number + 1 : number + 2])
+        code = known_language(wanted)
+        if not code:
+            _fail(f"{LANGUAGE_OPTION}: expected one of {', '.join(LANGUAGES)}, got {wanted!r}")
+        del words[number : number + (1 if has_value else 2)]
+        os.environ[VARIABLE] = code  # rooms, notebooks and other processes inherit it
+        break
+    # click has its own words translated by gettext's global domain
+    os.environ["LANGUAGE"] = own_catalogue().language
+    gnu.bindtextdomain(PYTHON, FOLDER)
+    gnu.textdomain(PYTHON)
+
+
+def _translated_command() -> Callable[[], object]:
+    command = typer.main.get_command(app)
+    for part in _helped(command):
+        part.help = own_catalogue().message(part.help)
+    return command
+
+
+def help_texts() -> list[str]:
+    """Return the texts of this command line's help."""
+    return [part.help for part in _helped(typer.main.get_command(app))]
+
+
+def _helped(command: Any) -> Iterator[Any]:
+    """Yield each command, option and argument that has a help, below a command of Typer's."""
+    # Typer brings a click of its own, whose classes have no public name
+    for part in (command, *command.params):
+        if getattr(part, "help", None):
+            yield part
+    for _, below in sorted(getattr(command, "commands", {}).items()):
+        yield from _helped(below)
+
+
 def _version(wanted: bool) -> None:
     if wanted:
         typer.echo(__version__)
@@ -82,8 +137,15 @@ def options(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
+    lang: Annotated[
+        str,
+        typer.Option(
+            metavar="CODE",
+            help="Language, such as pt_BR. Default: that of your browser or terminal.",
+        ),
+    ] = "",
 ) -> None:
-    """Handle the options of the program itself."""
+    """Handle the options of the program itself; :func:`main` has taken ``--lang`` before."""
 
 
 app.command(context_settings=SCENE_AND_MORE)(play)

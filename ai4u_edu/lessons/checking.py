@@ -16,6 +16,7 @@ from ai4u_edu.lessons.notebook_output import card, cells_so_far, put
 from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 from ai4u_edu.lessons.student_errors import Mistake, line_of, mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
+from ai4u_edu.lessons.translation import translated_code
 
 YES, NO = "\u2714", "\u2013"
 NONE_GIVEN = (
@@ -154,7 +155,8 @@ def solution(exercise_id: str) -> None:
     if is_ticket(find(exercise_id).id):
         print(f"{NO_SOLUTION} {READ_AGAIN}")  # noqa: T201 - as below
         return
-    print(answers_to(exercise_id).solution)  # noqa: T201 - to be copied from
+    code = answers_to(exercise_id).solution
+    print(translated_code(exercise_id, code))  # noqa: T201 - to be copied from
 
 
 def progress() -> None:

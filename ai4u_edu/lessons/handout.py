@@ -11,6 +11,8 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import course_folder, lessons
 from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import FOLDER
+from ai4u_edu.lessons.translation import translated_lesson
+from ai4u_edu.locale import SOURCE
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
 """Settings of JupyterLab that keep it from asking to fetch news from the internet."""
@@ -32,11 +34,16 @@ class HandedOut:
     """Newer versions, written beside existing notebooks."""
 
 
-def hand_out(folder: Path) -> HandedOut:
+def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
     """Write the notebooks and their pictures.
 
     An existing notebook stays. If the course has a newer version, that is written beside it, as
     ``NAME.new.ipynb``.
+
+    Args:
+        folder: the student's folder.
+        language: code of the notebooks' language, such as ``pt_BR``; what has no translation is
+            English.
 
     Raises:
         SetupError: the folder can't be written to.
@@ -53,7 +60,7 @@ def hand_out(folder: Path) -> HandedOut:
         write_atomically(overrides, json.dumps(LAB_PLUGINS, indent=1))
         book = _read(folder / FOLDER / BOOK)
         for lesson in lessons():
-            text = dumps(lesson.cells)
+            text = dumps(translated_lesson(lesson.name, lesson.cells, language))
             print_ = hashlib.sha256(text.encode()).hexdigest()
             path = folder / f"{lesson.name}.ipynb"
             if not path.exists():

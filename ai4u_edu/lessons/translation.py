@@ -1,0 +1,183 @@
+"""The course in other languages: what of a notebook is translated, and how it is put back.
+
+A text is translated by paragraph, item of a list, or row of a table; code by comment, and by those
+strings that are meant to be read: they hold a space, or are printed.
+"""
+
+import ast
+import io
+import re
+import tokenize
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import groupby
+
+from ai4u_edu.lessons.course import lesson
+from ai4u_edu.lessons.notebook import Cell
+from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, own_catalogue
+
+Translate = Callable[[str], str]
+SETUP = "setup"
+"""Tag of the cell with a notebook's imports."""
+LANGUAGE_CELL = "from ai4u_edu.locale import set_language\n\nset_language({code!r})"
+_PREFIX = re.compile(r"(?P<prefix>\s*(?:[-*] |\d+\. |#+ |\| |> )?)(?P<words>.*)", re.DOTALL)
+_BEGINS = re.compile(r"\s*(?:[-*] |\d+\. |#+ |\||> )")
+_RULE = re.compile(r"\s*\|[-|: ]+\|\s*")
+_FENCE = "```"
+_QUOTES = re.compile(r"""[a-zA-Z]*(?P<quote>\"{3}|'{3}|"|')""")
+
+
+def texts_of(cell: Cell) -> Iterator[str]:
+    """Yield what can be translated in a cell, in its order."""
+    texts: list[str] = []
+
+    def note(text: str) -> str:
+        texts.append(text)
+        return text
+
+    translated_cell(cell, note)
+    yield from texts
+
+
+def translated_cell(cell: Cell, translate: Translate) -> Cell:
+    """Return a cell with its texts translated.
+
+    Args:
+        cell: the cell.
+        translate: returns the translation of a text, or the text.
+    """
+    change = _text_in if cell.is_text else _code_in
+    return replace(cell, source=change(cell.source, translate))
+
+
+def translated_lesson(name: str, cells: list[Cell], language: str) -> list[Cell]:
+    """Return the cells of a lesson in a language, with a line that sets it for the checks.
+
+    Args:
+        name: the lesson's name, such as ``02_drive``.
+        cells: its cells in English.
+        language: the language's code.
+    """
+    if language == SOURCE:
+        return cells
+    translate = Catalogue(language, f"{LESSONS}/{name}").message
+    translated = [translated_cell(cell, translate) for cell in cells]
+    return [
+        replace(cell, source=f"{cell.source}\n\n{LANGUAGE_CELL.format(code=language)}")
+        if SETUP in cell.tags
+        else cell
+        for cell in translated
+    ]
+
+
+def translated_code(exercise: str, code: str) -> str:
+    """Return code that belongs to an exercise in the language of this notebook.
+
+    Args:
+        exercise: the exercise's id, such as ``02.3``.
+        code: the code in English.
+    """
+    name = lesson(exercise.partition(".")[0]).name
+    return _code_in(code, Catalogue(own_catalogue().language, f"{LESSONS}/{name}").message)
+
+
+# -- text ----------------------------------------------------------------------------------------
+
+
+def _text_in(source: str, translate: Translate) -> str:
+    lines: list[str] = []
+    is_code = False
+    for is_blank, block in groupby(source.splitlines(), lambda line: not line.strip()):
+        if is_blank:
+            lines += block
+            continue
+        for item in _items(list(block)):
+            was_code = is_code
+            is_code ^= item[0].lstrip().startswith(_FENCE)
+            if was_code or is_code or _RULE.fullmatch(item[0]):
+                lines += item
+            else:
+                lines.append(_translated_item(item, translate))
+    return "\n".join(lines)
+
+
+def _items(block: list[str]) -> Iterator[list[str]]:
+    """Yield the lines of each item of a list, row of a table, fenced line, or paragraph."""
+    item: list[str] = []
+    for line in block:
+        if item and (_BEGINS.match(line) or _FENCE in line or _FENCE in item[0]):
+            yield item
+            item = []
+        item.append(line)
+    if item:
+        yield item
+
+
+def _translated_item(item: list[str], translate: Translate) -> str:
+    # lines are joined, so that another wrap of the English text is the same text
+    head, *more = item
+    parts = _PREFIX.fullmatch(head)
+    prefix, words = (parts["prefix"], parts["words"]) if parts else ("", head)
+    text = " ".join([words.strip(), *(line.strip() for line in more)])
+    return prefix + translate(text) if re.search(r"[A-Za-z]{2}", text) else "\n".join(item)
+
+
+# -- code ----------------------------------------------------------------------------------------
+
+
+def _code_in(source: str, translate: Translate) -> str:
+    changes = sorted([*_comments(source), *_strings(source)])
+    lines = source.splitlines()
+    for (row, begin), end, text in reversed(changes):
+        line = lines[row]
+        lines[row] = line[:begin] + translate(text) + line[end:]
+    return "\n".join(lines)
+
+
+def _comments(source: str) -> Iterator[tuple[tuple[int, int], int, str]]:
+    """Yield place, end and words of each comment."""
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        words = token.string.lstrip("# ")
+        if token.type == tokenize.COMMENT and re.search(r"[A-Za-z]{2}", words):
+            row, column = token.start
+            yield (row - 1, column + len(token.string) - len(words)), token.end[1], words
+
+
+def _strings(source: str) -> Iterator[tuple[tuple[int, int], int, str]]:
+    """Yield place, end and content of each string on one line that is meant to be read."""
+    tree = ast.parse(source)
+    printed = {
+        id(argument)
+        for call in ast.walk(tree)
+        if isinstance(call, ast.Call)
+        and isinstance(call.func, ast.Name)
+        and call.func.id == "print"
+        for argument in call.args
+    }
+    inside = {
+        id(part)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.JoinedStr)
+        for part in node.values
+    }
+    lines = source.splitlines()
+    for node in ast.walk(tree):
+        if id(node) in inside or not isinstance(node, ast.JoinedStr | ast.Constant):
+            continue
+        if node.end_lineno != node.lineno or node.end_col_offset is None:
+            continue
+        line = lines[node.lineno - 1].encode()  # its offsets count bytes
+        code = line[node.col_offset : node.end_col_offset].decode()
+        words, quotes = _words(node), _QUOTES.match(code)
+        if quotes is None or not re.search(r"[A-Za-z]{2}", words):
+            continue
+        if " " in words.strip() or id(node) in printed:
+            begin = len(line[: node.col_offset].decode())
+            first, last = begin + quotes.end(), begin + len(code) - len(quotes["quote"])
+            yield (node.lineno - 1, first), last, code[quotes.end() : -len(quotes["quote"])]
+
+
+def _words(node: ast.JoinedStr | ast.Constant) -> str:
+    parts = node.values if isinstance(node, ast.JoinedStr) else [node]
+    words = [part.value for part in parts if isinstance(part, ast.Constant)]
+    return "".join(word for word in words if isinstance(word, str))

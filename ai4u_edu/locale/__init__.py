@@ -1,0 +1,51 @@
+"""Languages: English texts in code, and their translations where they are shown.
+
+Code makes texts with :func:`gettext` (imported as ``_``) and :func:`ngettext`. They stay English,
+as strings, until they reach a reader: a page's socket, a terminal, a notebook's card. There a
+:class:`Catalogue` translates them. English is the key; what has no translation is shown in English.
+"""
+
+from ai4u_edu.locale.catalogue import (
+    LESSONS,
+    PAGE,
+    PYTHON,
+    Catalogue,
+    own_catalogue,
+    page_catalogue,
+    set_language,
+    translate,
+)
+from ai4u_edu.locale.languages import (
+    LANGUAGES,
+    PSEUDO,
+    SOURCE,
+    VARIABLE,
+    known_language,
+    language_of_environment,
+    language_of_header,
+    language_of_page,
+)
+from ai4u_edu.locale.text import Text, gettext, join, ngettext
+
+__all__ = [
+    "LANGUAGES",
+    "LESSONS",
+    "PAGE",
+    "PSEUDO",
+    "PYTHON",
+    "SOURCE",
+    "VARIABLE",
+    "Catalogue",
+    "Text",
+    "gettext",
+    "join",
+    "known_language",
+    "language_of_environment",
+    "language_of_header",
+    "language_of_page",
+    "ngettext",
+    "own_catalogue",
+    "page_catalogue",
+    "set_language",
+    "translate",
+]

@@ -1,0 +1,78 @@
+"""Sentences that can be shown in several languages; in code they are English."""
+
+from collections.abc import Mapping
+from typing import Self
+
+Value = str | int | float
+"""A value in a sentence; a :class:`Text` is translated with the sentence."""
+
+
+class Text(str):
+    """An English sentence that knows how it was made, so that others can translate it.
+
+    It is made where the sentence is known, by :func:`gettext` and :func:`ngettext`, in any thread;
+    :meth:`ai4u_edu.locale.Catalogue.translate` translates it for one reader. Everybody who does not
+    care gets a string.
+    """
+
+    __slots__ = ("msgid", "number", "plural", "values")
+
+    msgid: str
+    """The sentence with names in braces for its values: its key in the catalogues."""
+    plural: str
+    """The same for all numbers but 1; empty if the sentence counts nothing."""
+    number: int
+    """The number that decides between them."""
+    values: Mapping[str, Value]
+    """Values by their names in ``msgid``."""
+
+    def __new__(
+        cls, msgid: str, values: Mapping[str, Value] = {}, plural: str = "", number: int = 1
+    ) -> Self:
+        """Make a sentence."""
+        pattern = plural if plural and number != 1 else msgid
+        text = super().__new__(cls, pattern.format_map(values) if values else pattern)
+        text.msgid, text.plural, text.number, text.values = msgid, plural, number, values
+        return text
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str, Mapping[str, Value], str, int]]:
+        return type(self), (self.msgid, self.values, self.plural, self.number)
+
+
+def gettext(msgid: str, /, **values: Value) -> Text:
+    """Return a sentence that can be translated; modules import this function as ``_``.
+
+    Args:
+        msgid: the sentence in English, with names in braces for its values, as ``str.format`` has
+            them. Without values braces are characters as others are.
+        values: values by their names.
+
+    >>> gettext("no body is called {name!r}", name="bxo")
+    "no body is called 'bxo'"
+    """
+    return Text(msgid, values)
+
+
+def ngettext(one: str, many: str, number: int, /, **values: Value) -> Text:
+    """Return a sentence with a count that can be translated.
+
+    Args:
+        one: the sentence in English for the number 1.
+        many: the sentence for all others; ``{n}`` stands for the number.
+        number: the number.
+        values: other values by their names.
+
+    >>> [ngettext("{n} body", "{n} bodies", number) for number in (1, 2)]
+    ['1 body', '2 bodies']
+    """
+    return Text(one, {"n": number, **values}, many, number)
+
+
+def join(texts: list[str], separator: str = " ") -> Text:
+    """Return several sentences as one text.
+
+    >>> join([gettext("Saved."), gettext("It works after the next start.")])
+    'Saved. It works after the next start.'
+    """
+    values = {f"text{number}": text for number, text in enumerate(texts)}
+    return Text(separator.join(f"{{{name}}}" for name in values), values)

@@ -1,0 +1,234 @@
+"""Catalogues of the translations: ``python -m tests.translations COMMAND``.
+
+``update`` collects all English texts, and merges them into each language's catalogues (``.po``);
+``compile`` writes what the program reads (``.mo``, ``.json``); ``report`` counts what is missing.
+docs/translating.md tells a translator how to use them.
+"""
+
+import argparse
+import io
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from gettext import c2py
+from pathlib import Path
+
+from babel import Locale
+from babel.messages import Catalog, Message
+from babel.messages.extract import extract_from_dir
+from babel.messages.mofile import write_mo
+from babel.messages.pofile import read_po, write_po
+
+from ai4u_edu.cli.main import help_texts
+from ai4u_edu.lessons.answers import answers_to
+from ai4u_edu.lessons.course import is_ticket, lessons
+from ai4u_edu.lessons.notebook import Cell
+from ai4u_edu.lessons.translation import texts_of
+from ai4u_edu.locale import LANGUAGES, LESSONS, PAGE, PYTHON, SOURCE
+from ai4u_edu.locale.catalogue import catalogue_file
+
+ROOT = Path(__file__).parents[1]
+TRANSLATED = tuple(code for code in LANGUAGES if code != SOURCE)
+PLURAL_FORMS = {"pt_BR": "nplurals=2; plural=(n > 1);"}
+"""Rules for the plurals of a new catalogue, by language; else Babel's."""
+NO_DATE = datetime(2026, 1, 1, tzinfo=UTC)
+MAX_COUNT_TRIED = 1000
+"""Numbers from 0 to this one are tried to learn which plural form belongs to which category."""
+English = str | tuple[str, str]
+"""A text, or the two of a text that counts something."""
+Keywords = Mapping[str, tuple[int, ...] | None]
+PYTHON_KEYWORDS: Keywords = {"_": None, "gettext": None, "ngettext": (1, 2)}
+PAGE_KEYWORDS: Keywords = {"t": None, "tn": (1, 2)}
+_VALUES = re.compile(r"\{[^{}]*\}")
+_MARKUP = re.compile(r"`[^`]*`|\]\([^()]*\)|<[^<>]+>|\*\*|&\w+;")
+
+
+@dataclass
+class Domain:
+    """The English texts of a catalogue, in their order.
+
+    Args:
+        name: its file's name without suffix, from the language's folder.
+        texts: a text, or a text and its plural, with the file that has it.
+    """
+
+    name: str
+    texts: list[tuple[English, str]] = field(default_factory=list)
+
+    def template(self) -> Catalog:
+        """Return a catalogue without translations."""
+        catalog = Catalog(project="AI4U Edu", charset="utf-8", fuzzy=False)
+        for text, file in self.texts:
+            catalog.add(text, locations=[(file, 0)])
+        return catalog
+
+
+def domains() -> list[Domain]:
+    """Return all domains, with all English texts."""
+    python = Domain(PYTHON, list(_in_code("ai4u_edu", "**.py", "python", PYTHON_KEYWORDS)))
+    python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
+    page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
+    return [python, page, *_lesson_domains()]
+
+
+def _in_code(
+    folder: str, pattern: str, method: str, keywords: Keywords
+) -> Iterator[tuple[English, str]]:
+    extracted = extract_from_dir(
+        ROOT / folder,
+        method_map=[("node_modules/**", "ignore"), ("vendor/**", "ignore"), (pattern, method)],
+        keywords=keywords,
+    )
+    for file, _, text, *_ in sorted(extracted, key=lambda each: each[:2]):
+        english = text if isinstance(text, str) else (text[0], text[1])
+        yield english, f"{folder}/{file}"
+
+
+def _lesson_domains() -> Iterator[Domain]:
+    for lesson in lessons():
+        domain = Domain(f"{LESSONS}/{lesson.name}")
+        domain.texts += _in_cells(lesson.cells, f"lessons/{lesson.path.name}")
+        for exercise in lesson.exercises:
+            if not is_ticket(exercise):
+                cell = Cell(answers_to(exercise).solution)
+                domain.texts += _in_cells([cell], f"lessons/answers/{exercise}.py")
+        yield domain
+
+
+def _in_cells(cells: Iterable[Cell], file: str) -> list[tuple[English, str]]:
+    return [(text, file) for cell in cells for text in texts_of(cell)]
+
+
+def po_file(language: str, domain: str) -> Path:
+    """Return the catalogue that a translator edits."""
+    return catalogue_file(language, f"{domain}.po")
+
+
+def read(language: str, domain: str) -> Catalog:
+    """Return a catalogue; an empty one if it has no file."""
+    file = po_file(language, domain)
+    if file.is_file():
+        content = file.read_bytes()
+    else:
+        rule = PLURAL_FORMS.get(language) or Catalog(locale=language).plural_forms
+        content = f'msgid ""\nmsgstr ""\n"Plural-Forms: {rule}\\n"\n'.encode()
+    catalog = read_po(io.BytesIO(content), locale=language)
+    catalog.creation_date = catalog.revision_date = NO_DATE  # the same texts, the same bytes
+    return catalog
+
+
+def update() -> None:
+    """Merge all English texts into all catalogues, and compile them."""
+    for domain in domains():
+        for language in TRANSLATED:
+            catalog = read(language, domain.name)
+            catalog.update(domain.template(), update_header_comment=False)
+            file = po_file(language, domain.name)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(po_text(catalog))
+    compile_all()
+
+
+def po_text(catalog: Catalog) -> bytes:
+    """Return the text of a ``.po`` file; the same texts give the same file."""
+    catalog.header_comment, catalog.fuzzy = "", False
+    written = io.BytesIO()
+    write_po(written, catalog, width=100, include_lineno=False, ignore_obsolete=True)
+    dates = rb'"(POT-Creation-Date|PO-Revision-Date|Generated-By|Last-Translator|Language-Team|'
+    dates += rb"Report-Msgid-Bugs-To):[^\n]*\n"
+    return re.sub(dates, b"", written.getvalue()).lstrip(b"#\n")
+
+
+def compile_all() -> None:
+    """Write what the program reads."""
+    for language in TRANSLATED:
+        folder = catalogue_file(language, "")
+        for file in sorted(folder.rglob("*.po")):
+            domain = file.relative_to(folder).with_suffix("").as_posix()
+            compiled(language, domain).write_bytes(compiled_content(language, domain))
+
+
+def compiled(language: str, domain: str) -> Path:
+    """Return the file that the program reads."""
+    suffix = ".json" if domain == PAGE else ".mo"
+    return catalogue_file(language, f"{domain}{suffix}")
+
+
+def compiled_content(language: str, domain: str) -> bytes:
+    """Return its content; what is fuzzy or missing is left out."""
+    catalog = read(language, domain)
+    if domain == PAGE:
+        return (json.dumps(_by_category(catalog), indent=0, ensure_ascii=False) + "\n").encode()
+    written = io.BytesIO()
+    write_mo(written, catalog)
+    return written.getvalue()
+
+
+def _by_category(catalog: Catalog) -> dict[str, str | dict[str, str]]:
+    """Return the texts of a catalogue, with plurals by the categories of CLDR."""
+    form_of = _form_of_category(catalog)
+    texts: dict[str, str | dict[str, str]] = {}
+    for message in translated(catalog):
+        if isinstance(message.id, str):
+            texts[message.id] = str(message.string)
+        else:
+            forms = _strings(message)
+            texts[message.id[0]] = {name: forms[number] for name, number in form_of.items()}
+    return texts
+
+
+def _form_of_category(catalog: Catalog) -> dict[str, int]:
+    plural_form = Locale.parse(catalog.locale_identifier).plural_form
+    number_of_form: Callable[[int], int] = c2py(catalog.plural_expr)
+    return {
+        plural_form(number): number_of_form(number) for number in reversed(range(MAX_COUNT_TRIED))
+    }
+
+
+def translated(catalog: Catalog) -> Iterator[Message]:
+    """Yield the messages that have a translation to show."""
+    for message in catalog:
+        if message.id and message.string and not message.fuzzy and all(_strings(message)):
+            yield message
+
+
+def _strings(message: Message) -> tuple[str, ...]:
+    string = message.string
+    return (string,) if isinstance(string, str) else tuple(string or ())
+
+
+def problems_of(message: Message) -> Iterator[str]:
+    """Yield what a translation lost or added: values, markup, code."""
+    ids = (message.id,) if isinstance(message.id, str) else message.id
+    for string in _strings(message):
+        for what, pattern in (("values", _VALUES), ("markup", _MARKUP)):
+            wanted = [Counter(pattern.findall(each)) for each in ids]
+            got = Counter(pattern.findall(string))
+            if got not in wanted:
+                yield f"{what}: expected {dict(wanted[-1])}, got {dict(got)} in {string!r}"
+
+
+def report() -> None:
+    """Print how many texts and words each catalogue has, and how many are translated."""
+    print("| language | domain | texts | words | translated |\n|---|---|---|---|---|")
+    for language in TRANSLATED:
+        for domain in domains():
+            known = {message.id for message in translated(read(language, domain.name))}
+            texts = {text for text, _ in domain.texts}
+            words = sum(len(_first(text).split()) for text in texts)
+            done = f"{100 * len(texts & known) // len(texts)}%" if texts else "-"
+            print(f"| {language} | {domain.name} | {len(texts)} | {words} | {done} |")
+
+
+def _first(text: str | tuple[str, str]) -> str:
+    return text if isinstance(text, str) else text[0]
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    commands = {"update": update, "compile": compile_all, "report": report}
+    parser.add_argument("command", choices=commands)
+    commands[parser.parse_args().command]()
