@@ -7,7 +7,7 @@ import { Stick } from "./stick.js";
 
 /** Time that a key counts as held after a click without pointer events (ms), as from a screen reader. */
 const CLICK_HOLD_MS = 150;
-const TOUCH_SCREEN = matchMedia("(pointer: coarse)");
+export const TOUCH_SCREEN = matchMedia("(pointer: coarse)");
 
 export class Keycaps {
   #keys;

@@ -100,3 +100,35 @@ def test_the_label_is_behind_the_agent_where_the_camera_turns_with_it(
         assert part.turned[number][0].handle.name == part.labels[0].handle.name
         shown.view.choose(Mode.ARENA)
         assert label_y() < south.y
+
+
+def test_a_label_that_would_cover_a_more_important_one_is_hidden(
+    viewer: Viewer, runner: Runner
+) -> None:
+    part, snapshot = part_of(viewer, Labels), runner.latest
+    robot, box, *others = snapshot.bodies
+
+    def shows(x: float, y: float) -> tuple[bool, bool]:
+        """Return whether robot and box have their label while the box is there, as the robot's."""
+        bodies = (robot, box._replace(x=robot.x + x, y=robot.y + y), *others)
+        part.draw(replace(snapshot, bodies=bodies))
+        return part.labels[0].handle.visible, part.labels[1].handle.visible
+
+    assert shows(5.0, 0.0) == (True, True)
+    assert shows(0.1, 0.1) == (True, False)
+    assert shows(5.0, 0.0) == (True, True)
+
+
+def test_a_thing_in_an_area_hides_the_area_s_label(viewer: Viewer, runner: Runner) -> None:
+    part, snapshot = part_of(viewer, Labels), runner.latest
+    (area,) = part.areas
+    robot, *others = snapshot.bodies
+
+    def shows(dx: float) -> bool:
+        there = robot._replace(x=area.place[0] + dx, y=area.place[1])
+        part.draw(replace(snapshot, bodies=(there, *others)))
+        return bool(area.handle.visible)
+
+    assert shows(-4.0)
+    assert not shows(0.0)
+    assert shows(-4.0)

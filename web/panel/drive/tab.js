@@ -6,6 +6,7 @@
  * @import { Panel } from "../panel.js"
  * @import { Bar } from "../widgets/bars.js"
  */
+import { TOUCH_SCREEN } from "../../page/keycaps.js";
 import { DriverStatus } from "../../page/driver_status.js";
 import { hasWon } from "../../page/results.js";
 import { button, element, keyed, setText } from "../../shared/dom.js";
@@ -159,7 +160,7 @@ export class DriveTab {
     this.#agents.element.hidden = agents.length < 2;
     this.#agents.set(agents, this.#panel.shown.agent);
     setText(this.#howTo, scene.controls ?? "");
-    this.#howTo.hidden = !scene.controls;
+    this.#howTo.hidden = !scene.controls || TOUCH_SCREEN.matches; // it names keys, and there they are buttons with names
     this.#rewards.setHelp(scene.rewards ?? "");
     const isPerson = Boolean(scene.agents.find(({ id }) => id === this.#panel.shown.agent)?.is_person);
     this.#sections.why.hidden = this.#sections.maps.hidden = isPerson; // only who decides by the percept can be asked

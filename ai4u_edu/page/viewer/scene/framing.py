@@ -19,6 +19,11 @@ MIN_LANDSCAPE_ASPECT = 1.6
 UNCOVERED_SHARE_ABOVE_KEYS = 0.9
 """Upper share of a window between the two, whose lower edge the keys cover."""
 
+BANNER_SHARE = 0.06
+"""Upper share of a window that is not a phone's, where the goal and how an episode ended stand."""
+MAX_BANNER_ASPECT = 2.0
+"""Aspect of a phone on its side, from which on they stand beside the arena."""
+
 
 @dataclass(frozen=True)
 class Frame:
@@ -86,7 +91,7 @@ def frame_tilted(bounds: Bounds, aspect: float) -> TiltedFrame:
     (left, low), (right, high) = bounds
     corners = [(x, y, z) for x in (left, right) for y in (low, high) for z in (0.0, TALL_M)]
     free, size = uncovered_share(aspect), max(right - left, high - low, 1.0)
-    middle, limit = 1.0 - free, 1.0 - 2 * MARGIN
+    middle, limit = _middle(aspect), 1.0 - 2 * MARGIN
     y, distance = (low + high) / 2, 2.0 * size
     frame = TiltedFrame(((left + right) / 2, y, 0.0), distance)
     for _ in range(12):  # nearer or farther, and up or down, until it fits
@@ -106,10 +111,24 @@ def visible_height(distance: float) -> float:
 
 
 def uncovered_share(aspect: float) -> float:
+    """Return the share of a window's height that neither panel nor keys nor banner cover."""
+    return _uncovered_above(aspect) - _banner_share(aspect)
+
+
+def _uncovered_above(aspect: float) -> float:
     """Return the upper share of a window that neither panel nor keys cover."""
     if aspect < MAX_PORTRAIT_ASPECT:
         return PORTRAIT_UNCOVERED_SHARE
     return UNCOVERED_SHARE_ABOVE_KEYS if aspect < MIN_LANDSCAPE_ASPECT else 1.0
+
+
+def _banner_share(aspect: float) -> float:
+    return BANNER_SHARE if MAX_PORTRAIT_ASPECT <= aspect < MAX_BANNER_ASPECT else 0.0
+
+
+def _middle(aspect: float) -> float:
+    """Return the place of the uncovered part's middle in a window, from -1 (low) to 1 (high)."""
+    return 1.0 - _uncovered_above(aspect) - _banner_share(aspect)
 
 
 def frame_arena(bounds: Bounds, aspect: float) -> Frame:
@@ -129,7 +148,7 @@ def frame_arena(bounds: Bounds, aspect: float) -> Frame:
 
 def frame_point(x: float, y: float, height: float, aspect: float) -> Frame:
     """Return the frame that shows a point in the middle of the uncovered part of a window."""
-    return Frame(x, y - (1 - uncovered_share(aspect)) / 2 * height, height)
+    return Frame(x, y - _middle(aspect) / 2 * height, height)
 
 
 def ground_at_center(position: Iterable[float], look_at: Iterable[float]) -> tuple[float, float]:

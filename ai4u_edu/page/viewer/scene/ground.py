@@ -284,10 +284,7 @@ def _area(
     fill = drawer.mesh(f"{name}/fill", mesh, top + layers.area, colour, opacity=AREA_OPACITY)
     for edge in (outline,) if hole is None else (outline, hole):
         drawer.line(segments(edge, top + layers.outline), colour)
-    text = area.label or area.name
-    if not text.isspace():
-        drawer.label(f"{name}/label", text, (*area.position, top))
-    return fill
+    return fill  # its label is one of labels.py
 
 
 def _rectangle_around(static_scene: StaticScene, times: float) -> Mesh:

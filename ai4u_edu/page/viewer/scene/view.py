@@ -228,15 +228,10 @@ class View:
         elif is_new:
             self._begin(snapshot, body)
         else:
-            self._follow(body, self._shape())
-
-    def _shape(self) -> float:
-        """Return the window's width / height; a window that is minimized reports 0 for both."""
-        camera = self._client.camera
-        return max(camera.image_width, 1) / max(camera.image_height, 1)
+            self._follow(body, aspect_of(self._client.camera))
 
     def _show_all(self, snapshot: Snapshot) -> None:
-        bounds, aspect = camera_bounds(snapshot.static_scene), self._shape()
+        bounds, aspect = camera_bounds(snapshot.static_scene), aspect_of(self._client.camera)
         reshaped = abs(aspect - self._aspect) > 0.02 * self._aspect and not self._is_moved_by_user
         if bounds != self._bounds or reshaped:
             self._bounds, self._aspect = bounds, aspect
@@ -288,7 +283,7 @@ class View:
         self._has_arrived = self._is_moved_by_user = False
 
     def _begin(self, snapshot: Snapshot, body: BodyState) -> None:
-        aspect = self._shape()
+        aspect = aspect_of(self._client.camera)
         (reach,) = (b.shape.reach for b in snapshot.static_scene.bodies if b.name == body.name)
         whole = frame_arena(camera_bounds(snapshot.static_scene), aspect).height
         height = min(whole, FOLLOW_HEIGHT_IN_RADII * reach)
@@ -375,6 +370,11 @@ class View:
                 camera.up_direction = up
             camera.position = centre + offset
             camera.look_at = centre
+
+
+def aspect_of(camera: CameraHandle) -> float:
+    """Return a window's width / height; a window that is minimized reports 0 for both."""
+    return max(camera.image_width, 1) / max(camera.image_height, 1)
 
 
 def _same(place: Array, other: Array) -> bool:
