@@ -14,7 +14,7 @@ from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.bodies import Bodies
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, Stages
-from tests.page.viewer.pages import page, publish, shown
+from tests.page.viewer.pages import page, part_of, publish, shown
 from tests.page.viewer.worlds import busy_sim
 from tests.waiting import LIMIT_S, until
 
@@ -81,6 +81,22 @@ def test_wheels_roll_ahead_and_pupils_turn_to_the_target(viewer: Viewer, runner:
     left, right = 2 * np.arcsin(treads.batched_wxyzs[:, 2]) - rolled
     assert left > 0 > right
     assert eyes.position.tolist() == pytest.approx([0, 0.04, 0], abs=2e-4)
+
+
+def test_wheels_and_pupils_of_a_robot_that_fell_vanish_with_it(
+    viewer: Viewer, runner: Runner
+) -> None:
+    robot, *others = runner.latest.bodies
+    fallen = robot._replace(x=50.0, z=-3.0, on_ground=False, fallen=True)
+    bodies = part_of(viewer, Bodies)
+    bodies.draw(replace(runner.latest, bodies=(fallen, *others)))
+    scene = viewer.server.scene
+    for part in ("body", "treads", "pupils"):
+        drawn: Any = scene.get_handle_by_name(f"/bodies1/0/{part}")
+        assert not drawn.batched_scales.any(), part
+    bodies.draw(runner.latest)
+    treads: Any = scene.get_handle_by_name("/bodies1/0/treads")
+    assert treads.batched_scales.all()
 
 
 def test_only_what_changed_is_sent(viewer: Viewer, runner: Runner) -> None:

@@ -503,6 +503,8 @@ class _BodyGroup:
         self._looks = looks
         for batch in (self._body, *self._marks):
             batch.batched_scales = poses.scales[members]
+        if self.moving_parts is not None:
+            self.moving_parts.resize(float(poses.scales[members][0]))
         self._shadow.batched_scales = poses.shadow_scales[members]
         self._body.batched_colors = self._colours(poses.depths[members])
 

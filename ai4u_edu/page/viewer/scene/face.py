@@ -122,10 +122,15 @@ class MovingParts:
         if parts.wheels:
             colours = [TREAD] * len(parts.wheels)
             self._treads = drawer.batch("treads", treads(parts.wheels[0]), colours)
-            self._treads.batched_positions = np.array(
-                [(wheel.x, wheel.y, wheel.radius) for wheel in parts.wheels], np.float32
-            )
-            self._treads.batched_scales = np.ones(len(parts.wheels), np.float32)
+            self.resize(1.0)
+
+    def resize(self, scale: float) -> None:
+        """Draw the parts at a share of their size, as the body that they are on: it may fall."""
+        self._pupils.batched_scales = np.full(1, scale, np.float32)
+        if self._treads is not None:
+            places = [(wheel.x, wheel.y, wheel.radius) for wheel in self._wheels]
+            self._treads.batched_positions = scale * np.array(places, np.float32)
+            self._treads.batched_scales = np.full(len(places), scale, np.float32)
 
     def move(self, pose: tuple[float, float, float], direction: float) -> None:
         """Roll the wheels by the way since the last call, and turn the pupils.

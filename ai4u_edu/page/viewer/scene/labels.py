@@ -158,8 +158,9 @@ class Labels:
         metres = self._metres_per_pixel(snapshot.static_scene)
         things: list[tuple[int, _Box]] = []
         for placed in shown:
-            body = snapshot.bodies[placed.label.number]
-            if not body.fallen and snapshot.static_scene.bodies[placed.label.number].kind != "static":
+            number = placed.label.number
+            body, described = snapshot.bodies[number], snapshot.static_scene.bodies[number]
+            if not body.fallen and described.kind != "static":
                 half = THING_SHARE * placed.label.reach
                 box = body.x - half, body.y - half, body.x + half, body.y + half
                 things.append((placed.rank, box))
