@@ -62,7 +62,7 @@ class SceneDescription(Description):
     areas: tuple[AreaDescription, ...] = ()
     bodies: tuple[BodyDescription, ...] = ()
     generate: FieldDescription | None = None
-    """A maze or a line that is generated for each episode from its seed."""
+    """A maze, a line or a rescue line that is generated for each episode from its seed."""
     agents: Annotated[tuple[Mapping[str, Any], ...], Field(min_length=1, max_length=64)]
     """Parameters of each agent, blocks as mappings with a ``type``."""
 

@@ -19,7 +19,7 @@ from ai4u_edu.world.edit import (
     reorder,
     sampled_region,
 )
-from ai4u_edu.world.fields import FieldDescription, LineField, MazeField
+from ai4u_edu.world.fields import AnyField, FieldDescription, LineField, MazeField, RescueField
 from ai4u_edu.world.rays import Cast, RayFan, RayGrid
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.shapes import (
@@ -34,6 +34,7 @@ from ai4u_edu.world.view import WorldView
 from ai4u_edu.world.world import World
 
 __all__ = [
+    "AnyField",
     "AreaDescription",
     "Body",
     "BodyDescription",
@@ -53,6 +54,7 @@ __all__ = [
     "RayGrid",
     "Region",
     "RegionDescription",
+    "RescueField",
     "RingShape",
     "SegmentShape",
     "Variation",

@@ -12,7 +12,7 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
-from ai4u_edu.world.fields import LineField, MazeField
+from ai4u_edu.world.fields import AnyField
 from ai4u_edu.world.world import World
 
 Pose = tuple[float, float, float]
@@ -117,7 +117,7 @@ def redescribe(
     world: World,
     things: Iterable[BodyDescription | FloorDescription | AreaDescription],
     settings: WorldSettings,
-    field: MazeField | LineField | None,
+    field: AnyField | None,
 ) -> None:
     """Give things, and the world, other descriptions, which count from the next reset on.
 

@@ -1,14 +1,15 @@
-"""Search for free places."""
+"""Places of things: free ones by chance, and those that a generated field has for them."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
 import pymunk
 
-from ai4u_edu.base.errors import WorldError
+from ai4u_edu.base.errors import WorldError, suggest
+from ai4u_edu.base.parameters import Point
 from ai4u_edu.base.seeding import Seeds
 from ai4u_edu.world.build import core, make_shape, set_material
 from ai4u_edu.world.descriptions import (
@@ -17,6 +18,7 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     Variation,
 )
+from ai4u_edu.world.fields import AnyField, FieldBase
 from ai4u_edu.world.native import FastBody, contact_distances
 from ai4u_edu.world.region import Ground, Region
 from ai4u_edu.world.shapes import BodyShape, CircleShape, RingShape
@@ -303,3 +305,87 @@ def is_overlap(
 
 def _depth(shape: pymunk.Shape, place: tuple[float, float]) -> float:
     return -shape.point_query(place).distance
+
+
+def place_field(
+    field: AnyField, things: Sequence[Thing], seed: int
+) -> tuple[dict[str, Thing], list[Thing]]:
+    """Generate a field, and put the things of a scene into it.
+
+    Bodies that can move and have no random place stand in the middle of a cell, so that no wall
+    goes through them; start, goal and marks where the field has them.
+
+    Args:
+        field: its description.
+        things: everything in the scene, as described.
+        seed: the episode's seed.
+
+    Returns:
+        The things of the scene that are put somewhere, by name, and the new pieces.
+
+    Raises:
+        WorldError: something that the field places is not there or too large.
+    """
+    check_field(field, things)
+    generated = field.generate(Seeds(seed).child("field"))
+    taken = {*generated.blocked, *(place for place, _ in generated.places.values())}
+    placed: dict[str, Thing] = {}
+    for thing in things:
+        put = generated.places.get(thing.name)
+        if put is None and field.room() is not None and _stands_in(thing, field):
+            put = _nearest_free(field, thing.position, taken), None
+            taken.add(put[0])
+        if put is not None:
+            placed[thing.name] = _put(thing, *put)
+    return placed, list(generated.pieces)
+
+
+def check_field(field: AnyField, things: Sequence[Thing]) -> None:
+    """Check that a scene has the things that a field places, and that they fit.
+
+    Raises:
+        WorldError: one is missing or does not fit; it names the thing.
+    """
+    known = {thing.name: thing for thing in things}
+    for name, parameter in field.names().items():
+        if name not in known:
+            raise WorldError(
+                f"{parameter}: nothing is named {name!r}; {suggest(name, known)}",
+                thing="generate",
+            )
+    room = field.room()
+    if room is not None:
+        for thing in things:
+            is_placed = thing.name in field.names() or _stands_in(thing, field)
+            if is_placed and isinstance(thing, BodyDescription) and thing.shape.reach > room:
+                raise WorldError(
+                    f"body {thing.name!r} reaches {thing.shape.reach:g} m, and a cell has room "
+                    f"for {room:g} m; make the cells larger",
+                    thing=thing.name,
+                )
+
+
+def _put(thing: Thing, place: Point, heading: float | None) -> Thing:
+    """Return a thing at the place that a field gives it; chance has no part in it."""
+    fresh: dict[str, object] = {"position": place, "random": None}
+    if heading is not None:
+        fresh["heading_deg"] = heading
+    return thing.model_copy(update=fresh)
+
+
+def _stands_in(thing: Thing, field: FieldBase) -> bool:
+    """Return True for a body that can move and has a fixed place inside a field."""
+    (left, low), (right, high) = field.bounds()
+    x, y = thing.position
+    is_mover = isinstance(thing, BodyDescription) and thing.kind != "static"
+    return is_mover and thing.random is None and left <= x <= right and low <= y <= high
+
+
+def _nearest_free(field: FieldBase, place: Point, taken: Collection[Point]) -> Point:
+    cells = [field.centre((x, y)) for y in range(field.height) for x in range(field.width)]
+    free = [each for each in cells if each not in taken]
+    if not free:
+        raise WorldError(
+            "expected a cell for each body that can move; make more cells", thing="generate"
+        )
+    return min(free, key=lambda each: math.dist(each, place))

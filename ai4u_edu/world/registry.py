@@ -12,7 +12,7 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     RegionDescription,
 )
-from ai4u_edu.world.fields import LineField, MazeField
+from ai4u_edu.world.fields import AnyField
 from ai4u_edu.world.placement import Thing
 from ai4u_edu.world.region import Region
 
@@ -43,7 +43,7 @@ class Registry:
         self.floors: dict[str, tuple[FloorDescription, Region]] = {}
         self.areas: dict[str, Region] = {}
         self.has_random = False
-        self.field: MazeField | LineField | None = None
+        self.field: AnyField | None = None
         self.placed: dict[str, Thing] = {}
         self._pieces: list[str] = []
 
@@ -63,7 +63,7 @@ class Registry:
             things.pop(name, None)
         self._update_has_random()
 
-    def set_field(self, field: MazeField | LineField | None) -> None:
+    def set_field(self, field: AnyField | None) -> None:
         """Set the field of the episodes from the next reset on."""
         self.field = field
         if field is None:

@@ -18,12 +18,20 @@ from ai4u_edu.world.descriptions import (
     FloorDescription,
     WorldSettings,
 )
-from ai4u_edu.world.fields import LineField, MazeField, place_field
+from ai4u_edu.world.fields import AnyField
 from ai4u_edu.world.ink import Ink
 from ai4u_edu.world.messages import Messages
 from ai4u_edu.world.native import IS_NATIVE, contact_distances
 from ai4u_edu.world.physics import Physics
-from ai4u_edu.world.placement import MAX_OVERLAP_M, Places, Thing, ThingT, is_overlap, randomize
+from ai4u_edu.world.placement import (
+    MAX_OVERLAP_M,
+    Places,
+    Thing,
+    ThingT,
+    is_overlap,
+    place_field,
+    randomize,
+)
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.registry import Rectangle, Registry
 from ai4u_edu.world.shapes import BodyShape, RegionShape
@@ -84,7 +92,7 @@ class World(NoStrayAttributes):
         return tuple(self._registry.described.values())
 
     @property
-    def field(self) -> MazeField | LineField | None:
+    def field(self) -> AnyField | None:
         """Description of the field that is generated at each reset; None for none."""
         return self._registry.field
 
@@ -164,7 +172,7 @@ class World(NoStrayAttributes):
         """Add a floor or an area from its description."""
         self.add_all([description])
 
-    def add_all(self, things: Iterable[Thing], field: MazeField | LineField | None = None) -> None:
+    def add_all(self, things: Iterable[Thing], field: AnyField | None = None) -> None:
         """Add bodies, floors and areas, in this order, and a field that has places for them.
 
         Before the first tick everything random is sampled together, so that the world is the one
@@ -182,7 +190,7 @@ class World(NoStrayAttributes):
             for each in things:
                 self._add_now(each)
 
-    def set_field(self, field: MazeField | LineField | None) -> None:
+    def set_field(self, field: AnyField | None) -> None:
         """Generate a field for this episode and each later one, by its seed; None for none.
 
         Raises:
@@ -265,7 +273,7 @@ class World(NoStrayAttributes):
         self._registry.bodies[body.name] = body
         physics.height.update_support(body)
 
-    def _add_and_rebuild(self, things: list[Thing], field: MazeField | LineField | None) -> None:
+    def _add_and_rebuild(self, things: list[Thing], field: AnyField | None) -> None:
         """Add things before the first tick, and find places for everything random."""
         registry, added = self._registry, list[str]()
         before = registry.field

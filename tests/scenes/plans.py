@@ -5,6 +5,8 @@ from collections import deque
 from collections.abc import Iterable
 
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.seeding import Seeds
+from ai4u_edu.world import RescueField
 from tests.scenes.newcomer import (
     REACTION_S,
     STRAIGHT_RAD,
@@ -17,6 +19,7 @@ from tests.scenes.newcomer import (
     towards,
 )
 from tests.scenes.printed_track import route
+from tests.world.rescue_reading import Reading
 
 NONE: Keys = frozenset()
 AHEAD: Keys = frozenset({"KeyW"})
@@ -419,6 +422,37 @@ def along_line(sim: ControlRequestor) -> Plan:
     return plan
 
 
+def through_rescue(sim: ControlRequestor) -> Plan:
+    """Follow a rescue line from tile to tile, around its obstacles, and go to the victim."""
+    field = sim.world.field
+    assert isinstance(field, RescueField)
+    reading = Reading(field, field.generate(Seeds(sim.world.seeds.seed).child("field")))
+    tiles = [field.centre(tile) for tile in reading.follow()]
+    route: list[Point] = tiles[:1]
+    for before, (x, y), after in zip(tiles, tiles[1:], [*tiles[2:], None], strict=False):
+        is_blocked = any(x0 < x < x1 and y0 < y < y1 for x0, y0, x1, y1 in reading.solid)
+        if is_blocked and after is not None:
+            along = (x - before[0]) / 2, (y - before[1]) / 2
+            aside = 1.2 * along[1], -1.2 * along[0]
+            route += [
+                (x + share * along[0] + aside[0], y + share * along[1] + aside[1])
+                for share in (-1.0, 1.0)
+            ]
+        else:
+            route.append((x, y))
+    (ax, ay), (bx, by) = tiles[-2:]
+    route += [(2 * bx - ax, 2 * by - ay), sim.world["victim"].position]
+    index = 0
+
+    def plan(sight: Sight) -> Keys:
+        nonlocal index
+        while index < len(route) - 1 and math.dist(sight.own, route[index]) < 0.4:
+            index += 1
+        return towards(sight, route[index])
+
+    return plan
+
+
 LINE: list[Point] = [
     (-4, -3.5), (-0.5, -3.5), (3, -3.5), (4.5, -2), (5, -1.2), (5, 0), (5, 1.5), (4.2, 2.4),
     (3.4, 3), (1.6, 3), (0.75, 2.25), (0, 1.5), (-1.4, 1.5), (-2.25, 2.25), (-3, 3),
@@ -432,6 +466,7 @@ PLANS: dict[str, Planner] = {
     "draw_figure": draw_house,
     "endless_line": along_line,
     "endless_maze": through_field,
+    "endless_rescue": through_rescue,
     "forage": forage,
     "grid_world": clean,
     "jumper": jump_blocks,

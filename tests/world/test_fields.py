@@ -19,9 +19,10 @@ from ai4u_edu.world import (
     LineField,
     MazeField,
     Region,
+    RescueField,
     World,
 )
-from ai4u_edu.world.fields import GAP_SHARE, GeneratedField
+from ai4u_edu.world.fields import GAP_SHARE, AnyField, GeneratedField
 from tests.scenes.solvers import solver_of
 from tests.scenes.test_solvers import successes
 
@@ -41,10 +42,18 @@ LINES = (
     LineField(width=9, height=9, length=40, curves=0.1, position=(2, 1)),
     LineField(width=8, height=8, length=30, curves=1.0, gaps=1),
 )
+RESCUES = (
+    RescueField(),
+    RescueField(width=8, height=6, length=16, crossings=2, marks=("a", "b", "c")),
+    RescueField(width=10, height=8, length=30, crossings=3, gaps=2, obstacles=2, room_size=3),
+    RescueField(width=5, height=5, length=9, crossings=0, gaps=1, obstacles=0, position=(3, -2)),
+    RescueField(width=9, height=7, length=24, curves=1.0, crossings=2, gaps=2, difficulty=0.5),
+)
+SCENES = pytest.mark.parametrize("name", ["endless_maze", "endless_line", "endless_rescue"])
 RASTER_M = 0.1
 
 
-def generated(field: MazeField | LineField, seed: int) -> GeneratedField:
+def generated(field: AnyField, seed: int) -> GeneratedField:
     return field.generate(np.random.default_rng(seed))
 
 
@@ -110,8 +119,8 @@ def test_a_search_finds_the_way_along_each_line(line: LineField, seeds: range) -
         assert reached.all(), seed
 
 
-@pytest.mark.parametrize("field", [*MAZES, *LINES], ids=str)
-def test_bounds_cover_all_seeds_and_no_world_gets_too_full(field: MazeField | LineField) -> None:
+@pytest.mark.parametrize("field", [*MAZES, *LINES, *RESCUES], ids=str)
+def test_bounds_cover_all_seeds_and_no_world_gets_too_full(field: AnyField) -> None:
     (left, low), (right, high) = field.bounds()
     for seed in range(30):
         made = generated(field, seed)
@@ -171,7 +180,7 @@ def test_a_difficulty_makes_the_shortest_way_longer(easy: MazeField, hard: MazeF
     assert means[1] > 1.3 * means[0]
 
 
-def world_with(field: MazeField | LineField, **more: tuple[float, float]) -> World:
+def world_with(field: AnyField, **more: tuple[float, float]) -> World:
     world = World(seed=1)
     things: list[BodyDescription | AreaDescription] = [
         BodyDescription(name="robot", shape=CircleShape(radius=0.4)),
@@ -199,8 +208,9 @@ def test_a_new_start_is_a_new_field_and_the_same_seed_the_same_one() -> None:
     assert [thing.name for thing in world.described] == ["robot", "exit"]
 
 
-def test_things_that_can_move_never_stand_in_a_wall() -> None:
-    world = world_with(MazeField(loops=3), one=(0.0, 0.05), two=(0.0, 0.0), three=(2.0, 1.0))
+@pytest.mark.parametrize("field", [MazeField(loops=3), RescueField()], ids=str)
+def test_things_that_can_move_never_stand_in_a_wall(field: MazeField | RescueField) -> None:
+    world = world_with(field, one=(0.0, 0.05), two=(0.0, 0.0), three=(2.0, 1.0))
     for seed in range(50):
         world.reset(seed)
         for name in ("robot", "one", "two", "three"):
@@ -249,18 +259,19 @@ def test_a_scene_says_where_its_field_is_wrong() -> None:
         Scene.loads(text.replace("difficulty: 0.7", "goal: exti"))
 
 
-@pytest.mark.parametrize("name", ["endless_maze", "endless_line"])
+@SCENES
 def test_a_scene_is_saved_with_its_generator_and_without_its_walls(name: str) -> None:
     scene = Scene.load(name)
     text = Scene(scene.description).dumps()
     assert "generate:" in text
     assert "field wall" not in text
     assert "field line" not in text
+    assert "field obstacle" not in text
     assert Scene.loads(text) == scene
     assert SceneDescription.model_validate(scene.plain()) == scene.description
 
 
-@pytest.mark.parametrize("name", ["endless_maze", "endless_line"])
+@SCENES
 def test_an_episode_is_replayed_continued_and_copied_in_its_own_field(name: str) -> None:
     scene = Scene.load(name)
     sim = scene.build()
@@ -306,7 +317,7 @@ def _distance(sim: object, seeds: Iterable[int], options: dict[str, float]) -> f
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("name", ["endless_maze", "endless_line"])
+@SCENES
 def test_a_driver_solves_a_hundred_of_them(name: str) -> None:
     seeds = range(100)
     assert successes(name, lambda _agent, _seed: solver_of(name), seeds) == list(seeds)
