@@ -1,6 +1,6 @@
-"""A flat fan of rays."""
+"""A fan of rays."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Annotated, Any
 
@@ -9,19 +9,20 @@ import numpy.typing as npt
 from gymnasium.spaces import Box
 from pydantic import Field
 
-from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
-from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
+from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, picture_of, spread
 from ai4u_edu.blocks.sensors.sensor import Array
-from ai4u_edu.world import BodyView, Cast, WorldView
+from ai4u_edu.world import BodyView, RayFan, RayGrid, WorldView
 
 
 class LinearRayCastingSensor(RaySensor):
-    """Codes and distances of what a level fan of rays hits: a laser scanner.
+    """Codes and distances of what a fan of rays hits: a laser scanner.
 
     The angle of ray i from the heading is ``(i + 1) * fov / (n + 1) - fov / 2 - shift``, positive
-    to the left: as in a laser scan, ray 0 is the rightmost and the last one the leftmost.
+    to the left: as in a laser scan, ray 0 is the rightmost and the last one the leftmost. The rays
+    are level; with ``vertical_shift`` all point down by that angle, and hit the floor as well.
 
     Reading: (n,) codes; with ``return_distance`` (2 n,): code, then distance, ray by ray; without
     ``return_code`` (n,) distances alone. Codes are 0..1, a share of the largest code in use (whole
@@ -31,21 +32,15 @@ class LinearRayCastingSensor(RaySensor):
     Source: AI4U's LinearRayCastingSensor.
 
     Differs from AI4U: ``no_object_code`` is 0, there 1. ``normalize_distance`` is on, there off.
-    The fan is level, there verticalShift (30 degrees) tilts it.
+    ``vertical_shift`` is 0 and points down; there verticalShift is 30 and points up, so that what
+    is -15 there is 15 here. All rays point down alike; there the whole fan is tilted, so that rays
+    at its sides point down less. A code's range ends at the largest code; there it is 0..255.
     """
 
     number_of_rays: Annotated[int, Field(ge=1, le=1024)] = 10
     """Number of rays."""
-    return_code: bool = True
-    """True reads the code of what each ray hits; False needs ``return_distance``."""
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not (self.return_code or self.return_distance):
-            raise BlockError(
-                f"{type(self).__name__} {self.perception_key!r}: expected return_code or "
-                "return_distance, got neither"
-            )
+    vertical_shift: Annotated[float, quantity("deg", gt=-90, lt=90)] = 0.0
+    """Angle by which all rays point down; below 0 up."""
 
     def space(self) -> Box:
         """Return the ranges of codes and distances (metres, or 0..1 with normalize_distance)."""
@@ -61,11 +56,16 @@ class LinearRayCastingSensor(RaySensor):
         check_groups(self, "group_code", view)
         angles = spread(self.number_of_rays, self.field_of_view)
         angles -= np.radians(self.horizontal_shift)
-        self._fan = view.ray_fan(
-            angles.tolist(), self.vision_max_distance, self.code_of, **self._options()
-        )
+        reach, options = self.vision_max_distance, self._options()
+        self._pitches = np.radians([-self.vertical_shift])
+        self._fan: RayFan | RayGrid
+        if self.vertical_shift:
+            pitches = self._pitches.tolist()
+            self._fan = view.ray_grid(angles.tolist(), pitches, reach, self.code_of, **options)
+        else:  # level rays meet no floor, so that they need no heights
+            self._fan = view.ray_fan(angles.tolist(), reach, self.code_of, **options)
         self._far = np.array(self.vision_max_distance)
-        self._shares = np.zeros(self.number_of_rays)
+        self._shares = np.zeros_like(self._fan.distances)
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
         """Cast the rays."""
@@ -88,18 +88,10 @@ class LinearRayCastingSensor(RaySensor):
 
     def capture(self) -> Callable[[], RayPicture]:
         """Return a function that makes the picture of the last reading."""
-        return partial(_picture, self._fan.last_cast(), self.vision_max_distance, self._names())
+        cast, reach = self._fan.last_cast(), self.vision_max_distance
+        return partial(picture_of, cast, self._pitches, reach, self._names())
 
     def _by_ray(self, code: float, distance: float) -> npt.NDArray[np.float64]:
         """Return one number for codes and one for distances, in the order of the reading."""
         parts = [code] * self.return_code + [distance] * self.return_distance
         return np.tile(np.array(parts), self.number_of_rays)
-
-
-def _picture(cast: Cast, reach: float, names: Mapping[float, str]) -> RayPicture:
-    hit = cast.distances > 0
-    length = np.where(hit, cast.distances, reach)[:, None]
-    x, y, z = cast.origin
-    flat = length * cast.directions + (x, y)
-    ends = np.column_stack([flat, np.full(len(flat), z)])
-    return RayPicture(cast.origin, ends, groups_met(names, cast.codes, hit))

@@ -38,6 +38,8 @@ class CodeLegend:
     """Number of pictures in one reading; the codes are the first."""
     nothing: float = 0.0
     """The code of nothing, and of anything without a group."""
+    has_codes: bool = True
+    """False if the reading is distances alone."""
 
     def groups_in(self, reading: npt.ArrayLike) -> Groups:
         """Return the group in each cell; of stacked readings, the latest one's."""

@@ -1,6 +1,6 @@
 """A grid of rays in perspective."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Annotated, Any
 
@@ -13,9 +13,9 @@ from ai4u_edu.base.parameters import Degrees, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.pictures import CodeLegend
-from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, groups_met, spread
+from ai4u_edu.blocks.sensors.ray_sensor import RayPicture, RaySensor, picture_of, spread
 from ai4u_edu.blocks.sensors.sensor import Array
-from ai4u_edu.world import BodyView, Cast, WorldView
+from ai4u_edu.world import BodyView, WorldView
 
 
 class RayCastingSensor(RaySensor):
@@ -26,9 +26,10 @@ class RayCastingSensor(RaySensor):
     from the middle is ``fov * ((i + 1) / (n + 1) - 1/2)``, clockwise.
 
     Reading: (rows, columns) codes; with ``return_distance`` (2, rows, columns), codes first, then
-    distances along the rays. Codes are 0..1, a share of the largest code in use (whole codes with
-    ``normalized=False``). Distances are 0..1, a share of ``vision_max_distance`` (metres with
-    ``normalize_distance=False``); 0 if the ray hits nothing. ``flattened`` gives one row.
+    distances along the rays; without ``return_code`` (rows, columns) distances alone. Codes are
+    0..1, a share of the largest code in use (whole codes with ``normalized=False``). Distances are
+    0..1, a share of ``vision_max_distance`` (metres with ``normalize_distance=False``); 0 if the
+    ray hits nothing. ``flattened`` gives one row.
 
     Source: AI4U's RayCastingSensor.
 
@@ -50,19 +51,12 @@ class RayCastingSensor(RaySensor):
 
     def space(self) -> Box:
         """Return the ranges of codes and distances (metres, or 0..1 with normalize_distance)."""
-        codes = np.full((self.rows, self.columns), self.largest_code, np.float32)
-        high = np.stack([codes, np.full_like(codes, self.farthest)])
-        if not self.return_distance:
-            high = codes
-        if self.flattened:
-            high = high.ravel()
+        high = self._by_plane(self.largest_code, self.farthest).astype(np.float32)
         return Box(np.zeros_like(high), high)
 
     def scale(self) -> Any:
         """Return the divisors: the largest code, and 1 for distances (see normalize_distance)."""
-        codes = np.full((self.rows, self.columns), self.largest_code)
-        by = np.stack([codes, np.ones_like(codes)]) if self.return_distance else codes
-        return by.ravel() if self.flattened else by
+        return self._by_plane(self.largest_code, 1.0)
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the groups and prepare the rays."""
@@ -84,41 +78,31 @@ class RayCastingSensor(RaySensor):
         grid = self._grid
         grid.cast(body)
         planes = out.reshape(-1, self.rows, self.columns)
-        planes[0] = grid.codes
+        if self.return_code:
+            planes[0] = grid.codes
         if self.return_distance:
             far = self.vision_max_distance / self.farthest
-            np.divide(grid.distances, far, out=planes[1], casting="unsafe")
+            np.divide(grid.distances, far, out=planes[-1], casting="unsafe")
 
     def capture(self) -> Callable[[], RayPicture]:
         """Return a function that makes the picture of the last reading, its rays row by row."""
         grid = self._grid
         return partial(
-            _picture, grid.last_cast(), grid.pitches, self.vision_max_distance, self._names()
+            picture_of, grid.last_cast(), grid.pitches, self.vision_max_distance, self._names()
         )
 
     def legend(self) -> CodeLegend:
         """Return the group of each code."""
         scale = self.largest_code if self.normalized else 1.0
         codes = tuple(code / scale for code in self.group_code.values())
-        planes = 2 if self.return_distance else 1
+        planes = self.return_code + self.return_distance
         groups, nothing = tuple(self.group_code), self.no_object_code / scale
-        return CodeLegend((self.rows, self.columns), codes, groups, planes, nothing)
+        shape = self.rows, self.columns
+        return CodeLegend(shape, codes, groups, planes, nothing, has_codes=self.return_code)
 
-
-def _picture(
-    cast: Cast, pitches: npt.NDArray[np.float64], reach: float, names: Mapping[float, str]
-) -> RayPicture:
-    hit = cast.distances > 0
-    length = np.where(hit, cast.distances, reach)
-    along = length * np.cos(pitches)[:, None]
-    x, y, z = cast.origin
-    ends = np.stack(
-        [
-            x + along * cast.directions[:, 0],
-            y + along * cast.directions[:, 1],
-            z + length * np.sin(pitches)[:, None],
-        ],
-        axis=-1,
-    )
-    groups = groups_met(names, cast.codes.ravel(), hit.ravel())
-    return RayPicture(cast.origin, ends.reshape(-1, 3), groups)
+    def _by_plane(self, code: float, distance: float) -> npt.NDArray[np.float64]:
+        """Return one number for codes and one for distances, in the shape of the reading."""
+        numbers = [code] * self.return_code + [distance] * self.return_distance
+        planes = [np.full((self.rows, self.columns), number) for number in numbers]
+        whole = np.stack(planes) if len(planes) > 1 else planes[0]
+        return whole.ravel() if self.flattened else whole

@@ -7,8 +7,10 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field
 
+from ai4u_edu.base.errors import BlockError
 from ai4u_edu.base.parameters import Bits, Degrees, Metres, Name, PositiveMetres, quantity
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.world import Cast
 
 Code = Annotated[int, Field(ge=0, le=255)]
 
@@ -41,6 +43,8 @@ class RaySensor(Sensor):
     """Code, 0..255, of each group (tag); of a body's tags, the first that has a code counts."""
     no_object_code: Code = 0
     """Code of a ray that hits nothing, or something without a code."""
+    return_code: bool = True
+    """True reads the code of what each ray hits; False needs ``return_distance``."""
     return_distance: bool = False
     """True also reads the distance to what each ray hits."""
     normalize_distance: bool = True
@@ -53,6 +57,14 @@ class RaySensor(Sensor):
     """True reads codes as a share of the largest one in use, False as whole numbers."""
 
     looks_at: ClassVar[tuple[str, ...]] = ("bodies", "floors")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (self.return_code or self.return_distance):
+            raise BlockError(
+                f"{type(self).__name__} {self.perception_key!r}: expected return_code or "
+                "return_distance, got neither"
+            )
 
     def code_of(self, tags: Sequence[str]) -> float:
         """Return the code of something with these tags."""
@@ -93,7 +105,34 @@ class RaySensor(Sensor):
         return {float(code): name for name, code in reversed(self.group_code.items())}
 
 
-def groups_met(
+def picture_of(
+    cast: Cast, pitches: npt.NDArray[np.float64], reach: float, names: Mapping[float, str]
+) -> RayPicture:
+    """Return the picture of a cast.
+
+    Args:
+        cast: codes and distances of (rows, columns), or of one row.
+        pitches: of each row, radians, upwards positive.
+        reach: length of a ray that hits nothing, metres.
+        names: the group of each code.
+    """
+    hit = cast.distances > 0
+    length = np.where(hit, cast.distances, reach)
+    along = length * np.cos(pitches)[:, None]
+    x, y, z = cast.origin
+    ends = np.stack(
+        [
+            x + along * cast.directions[:, 0],
+            y + along * cast.directions[:, 1],
+            z + length * np.sin(pitches)[:, None],
+        ],
+        axis=-1,
+    )
+    groups = _groups_met(names, cast.codes.ravel(), hit.ravel())
+    return RayPicture(cast.origin, ends.reshape(-1, 3), groups)
+
+
+def _groups_met(
     names: Mapping[float, str], codes: npt.NDArray[np.float64], hit: npt.NDArray[np.bool_]
 ) -> tuple[str, ...]:
     """Return the group that each ray hit, as in :class:`RayPicture`."""

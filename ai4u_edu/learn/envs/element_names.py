@@ -107,11 +107,10 @@ def _units(sensor: Sensor, count: int) -> list[str]:
 def _ray_labels(sensor: RaySensor) -> Iterator[Label]:
     code = Label("code", "")
     distance = Label("distance", "" if sensor.normalize_distance else "m")
+    parts = [code] * sensor.return_code + [distance] * sensor.return_distance
     if isinstance(sensor, LinearRayCastingSensor):
-        parts = [code] * sensor.return_code + [distance] * sensor.return_distance
         for ray, part in product(range(sensor.number_of_rays), parts):
             yield Label(f"{part.name}, ray {ray}", part.unit)
     elif isinstance(sensor, RayCastingSensor):
-        planes = [code, distance] if sensor.return_distance else [code]
-        for plane, row, column in product(planes, range(sensor.rows), range(sensor.columns)):
+        for plane, row, column in product(parts, range(sensor.rows), range(sensor.columns)):
             yield Label(f"{plane.name}, row {row}, column {column}", plane.unit)

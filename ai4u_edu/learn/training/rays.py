@@ -63,5 +63,5 @@ def rays_of(agent: BasicAgent) -> list[RayNearness]:
 
 
 def _tells_both(sensor: Sensor) -> TypeGuard[RaySensor]:
-    both = isinstance(sensor, RaySensor) and sensor.return_distance
-    return both and getattr(sensor, "return_code", True) and sensor.stacked_observations == 1
+    both = isinstance(sensor, RaySensor) and sensor.return_code and sensor.return_distance
+    return both and sensor.stacked_observations == 1

@@ -66,10 +66,12 @@ SAMPLES = (
     LineSensor(group="goal"),
     LightSensor(group="target", angle_deg=40),
     LinearRayCastingSensor(group_code=CODES, return_distance=True),
+    LinearRayCastingSensor(group_code=CODES, vertical_shift=20, return_distance=True),
     LocalGridSensor(width=16, height=16, cell_size=0.5, stacked_observations=2),
     OrientationSensor(target="box", visibility_test=True),
     Sample(PresenceSensor(group="target"), script=remove_ball),
     RayCastingSensor(rows=3, columns=5, group_code=CODES, return_distance=True),
+    RayCastingSensor(rows=3, columns=5, return_code=False, return_distance=True),
     TouchSensor(target="box"),
     VelocitySensor(noise=0.1, delay=1, stacked_observations=2, dropout=0.1),
 )

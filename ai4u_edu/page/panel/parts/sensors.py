@@ -264,12 +264,18 @@ def _pictures(
         VOID if group == "void" else colours.get(group, UNKNOWN_GROUP) for group in legend.groups
     ]
     array = np.asarray(value)
-    made = [_picture(legend.groups_in(value), known, "")]
-    if isinstance(legend, CodeLegend) and legend.planes > 1:
-        planes = array.reshape(-1, *legend.shape)[1 - legend.planes :]
-        made += [_picture(shaded(plane), GREYS, "distance: dark is near") for plane in planes]
     older = split_stack(array, legend, stack)[:-1][-MAX_OLDER_READINGS:]
-    return made + [_picture(legend.groups_in(each), known, "earlier") for each in older]
+    if isinstance(legend, CodeLegend):
+        latest = array.reshape(-1, *legend.shape)[-legend.planes :]
+        distances = latest[legend.has_codes :]
+        greys = [_picture(shaded(plane), GREYS, "distance: dark is near") for plane in distances]
+        if not legend.has_codes:
+            shades = [shaded(each.reshape(legend.shape)) for each in older]
+            return greys + [_picture(cells, GREYS, "earlier") for cells in shades]
+    else:
+        greys = []
+    earlier = [_picture(legend.groups_in(each), known, "earlier") for each in older]
+    return [_picture(legend.groups_in(value), known, ""), *greys, *earlier]
 
 
 def _picture(cells: Cells, colours: Sequence[Rgb], caption: str) -> ReadingPicture:
