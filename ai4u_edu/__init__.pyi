@@ -38,6 +38,7 @@ from ai4u_edu.blocks import DynamicFallReward as DynamicFallReward
 from ai4u_edu.blocks import EvalBoolValue as EvalBoolValue
 from ai4u_edu.blocks import EvalFloatValue as EvalFloatValue
 from ai4u_edu.blocks import EvalIntValue as EvalIntValue
+from ai4u_edu.blocks import EventRewardFunc as EventRewardFunc
 from ai4u_edu.blocks import FallReward as FallReward
 from ai4u_edu.blocks import FigureReward as FigureReward
 from ai4u_edu.blocks import FleeController as FleeController

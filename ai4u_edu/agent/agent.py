@@ -9,7 +9,7 @@ from weakref import ReferenceType, ref
 from pydantic import Field, field_validator
 
 from ai4u_edu.agent.bound_blocks import BoundBlocks
-from ai4u_edu.agent.events import Event
+from ai4u_edu.agent.events import ContactEvents, Event
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
 from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest
 from ai4u_edu.base.parameters import Count, Name, Number, WholeNumber
@@ -58,7 +58,9 @@ class BasicAgent(Parameterized):
     """A body plus blocks (sensors, actuators, reward functions) plus exactly one enabled brain.
 
     Events are attributes: ``agent.end_of_step.connect(f)``, and so on for all of
-    :data:`~ai4u_edu.agent.events.EVENTS`. ``print(agent)`` shows all blocks in a table.
+    :data:`~ai4u_edu.agent.events.EVENTS`, and ``agent.touched``, ``agent.area_entered`` and
+    ``agent.area_left``, whose handlers get the agent and the name of the body or area.
+    ``print(agent)`` shows all blocks in a table.
 
     Source: AI4U's BasicAgent.
     """
@@ -139,6 +141,11 @@ class BasicAgent(Parameterized):
         self.end_of_apply_action: Event[BasicAgent] = Event("end_of_apply_action")
         self.end_of_step: Event[BasicAgent] = Event("end_of_step")
         self.end_of_episode: Event[BasicAgent] = Event("end_of_episode")
+        self.contacts: ContactEvents[BasicAgent] = ContactEvents()
+        """The events of touching bodies, and of entering and leaving areas."""
+        self.touched = self.contacts.touched
+        self.area_entered = self.contacts.area_entered
+        self.area_left = self.contacts.area_left
         self.percept_ready: Event[BasicAgent] = Event("percept_ready")
         """Our own event, for recorders and connections: percept, reward and end of a decision are
         final. It also comes once after each reset."""
@@ -361,6 +368,7 @@ class BasicAgent(Parameterized):
         self.terminated = self.truncated = self.paused = self.stopped = False
         self._done_requested = False
         self.last_action = {}
+        self.contacts.begin()
         self.bound_blocks.reset()
 
     def sense(self) -> Percept:
@@ -376,12 +384,14 @@ class BasicAgent(Parameterized):
 
     def get_state(self) -> dict[str, Any]:
         """Return all that an episode changes in the agent itself, by attribute."""
-        return {name: copy(getattr(self, name)) for name in CARRIED}
+        values = {name: copy(getattr(self, name)) for name in CARRIED}
+        return values | {"contacts": self.contacts.get_state()}
 
     def set_state(self, state: Mapping[str, Any]) -> None:
         """Take over the state of this agent in another copy of its world, after its blocks have."""
-        for name, value in state.items():
-            setattr(self, name, copy(value))
+        for name in CARRIED:
+            setattr(self, name, copy(state[name]))
+        self.contacts.set_state(state["contacts"])
         self._percept = self.bound_blocks.percept()
 
     def replace_percept(self, percept: Percept) -> None:

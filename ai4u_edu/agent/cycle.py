@@ -8,7 +8,8 @@ The order is a contract::
     step:      reward := 0, begin_of_step
     each tick: on the first, or on all with repeat_action: begin_of_apply_action, all actuators
                that the action names act, in the action's order, end_of_apply_action; then the
-               world ticks; then actuators' and reward functions' on_tick
+               world ticks; then touched, area_left, area_entered if they have handlers; then
+               actuators' and reward functions' on_tick
     end:       every reward function's on_update, end_of_step, steps += 1; the episode may be over:
                end_of_episode
     sense:     ... the reading that ends one decision is the one that begins the next;
@@ -399,6 +400,7 @@ class _DecisionCycle:
         self._repeat = True
         self._action: list[tuple[Actuator, Numbers]] = []
         self._bound = agent.bound_blocks
+        self._has_contact_handlers = False
 
     def decide(self) -> Command | None:
         """Ask the brain: return its command, or begin a step with its action."""
@@ -425,6 +427,7 @@ class _DecisionCycle:
         self._tick, self._ticks = 0, brain.skip_frame + 1
         self._repeat = brain.repeat_action
         self.under_way = True
+        self._has_contact_handlers = agent.contacts.has_handlers
         agent.begin_step()
         return None
 
@@ -450,6 +453,7 @@ class _DecisionCycle:
         actuators = self._bound.actuators
         self.under_way = decision.under_way
         self._tick, self._ticks, self._repeat = decision.phase
+        self._has_contact_handlers = agent.contacts.has_handlers
         self._action = [
             (actuators[name], numbers) for name, numbers in decision.action if name in actuators
         ]
@@ -501,6 +505,8 @@ class _DecisionCycle:
         """
         bound = self._bound
         self._tick += 1
+        if self._has_contact_handlers:
+            self.agent.contacts.fire(self.agent, bound.body, bound.view)
         block: Actuator | RewardFunc | None = None
         try:
             for block in bound.tick_actuators:
@@ -528,6 +534,7 @@ class _DecisionCycle:
         return self.under_way and not (
             bound.tick_actuators
             or bound.tick_rewards
+            or self._has_contact_handlers
             or agent.begin_of_apply_action.handlers
             or agent.end_of_apply_action.handlers
         )

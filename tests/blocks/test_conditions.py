@@ -234,9 +234,9 @@ def test_what_is_no_property() -> None:
         f"{who}: property: no body, agent or sensor has a 'on_groud'; did you mean 'on_ground'?"
     )
     assert setup_error(EvalBoolValue(property="eye[0]"), sensors=[TouchSensor(target="box")]) == (
-        f"{who}: property: no body, agent or sensor has a 'eye'; known are 'fallen', "
-        "'heading_deg', 'on_ground', 'speed', 'steps', 'touch', 'turning_speed', 'vz', 'x', 'y', "
-        "'z'"
+        f"{who}: property: no body, agent or sensor has a 'eye'; known are 'episode_reward', "
+        "'fallen', 'heading_deg', 'on_ground', 'speed', 'steps', 'touch', 'turning_speed', 'vz', "
+        "'x', 'y', 'z'"
     )
     assert setup_error(EvalBoolValue(property="__class__")).startswith(
         f"{who}: property: no body, agent or sensor has a '__class__'"

@@ -21,7 +21,8 @@ REWARDS = (
     "TouchRewardFunc CollisionWithRewardFunc MinDistReward DistanceToTargetRewardFunc FallReward "
     "DynamicFallReward RestlessnessRewardFunc EvalBoolValue EvalIntValue EvalFloatValue "
     "AndRewardFunc OrRewardFunc HomeostaticReward CheckpointsReward BodyInAreaRewardFunc "
-    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward FigureReward"
+    "ParkedRewardFunc GoneReward TargetFallReward ProgressReward FigureReward "
+    "EventRewardFunc"
 )
 CONTROLLERS = (
     "WASDRBMoveController ArrowController DiscreteArrowController ReplayController "

@@ -7,6 +7,7 @@ from ai4u_edu.blocks.rewards.combined import AndRewardFunc, OrRewardFunc
 from ai4u_edu.blocks.rewards.distance_to_target import DistanceToTargetRewardFunc
 from ai4u_edu.blocks.rewards.dynamic_fall import DynamicFallReward
 from ai4u_edu.blocks.rewards.eval_value import EvalBoolValue, EvalFloatValue, EvalIntValue
+from ai4u_edu.blocks.rewards.event import EventRewardFunc
 from ai4u_edu.blocks.rewards.fall import FallReward
 from ai4u_edu.blocks.rewards.figure import FigureReward
 from ai4u_edu.blocks.rewards.gone import GoneReward
@@ -29,6 +30,7 @@ __all__ = [
     "EvalBoolValue",
     "EvalFloatValue",
     "EvalIntValue",
+    "EventRewardFunc",
     "FallReward",
     "FigureReward",
     "GoneReward",

@@ -28,8 +28,11 @@ BODY_PROPERTIES: dict[str, Callable[[BodyView], float]] = {
 }
 """Properties of a body by name; in metres, seconds, radians unless the name says otherwise."""
 
-_STEPS_PROPERTY = "steps"
-"""The only property of an agent: the number of decisions before this one."""
+AGENT_PROPERTIES: dict[str, Callable[[AgentView], float]] = {
+    "steps": lambda agent: agent.steps,
+    "episode_reward": lambda agent: agent.episode_reward,
+}
+"""Properties of the agent by name: its decisions before this one, and what it was paid so far."""
 
 
 class EvalValue(RewardFunc):
@@ -40,8 +43,10 @@ class EvalValue(RewardFunc):
     property: str
     """Property of a body at the end of the decision: x, y, z (m), heading_deg, speed (m/s), vz
     (m/s), turning_speed (rad/s), on_ground or fallen. Or of the agent: steps, its decisions in this
-    episode before this one; or the perception key of one of its sensors (key[2] for the third
-    number of a longer reading), as it was when the decision was taken."""
+    episode before this one; episode_reward (AI4U's EpisodeReward), all that it was paid in this
+    episode, in this decision only by the rewards listed before; or the perception key of one of its
+    sensors (key[2] for the third number of a longer reading), as it was when the decision was
+    taken."""
     target: str = ""
     """Name of a body; left out: the agent's."""
     reward: Number = 1.0
@@ -141,8 +146,8 @@ def _find_property(name: str, target: str, agent: AgentView, view: WorldView) ->
     """Return a function that reads a property.
 
     Args:
-        name: a key of :data:`BODY_PROPERTIES`; ``steps``; or the perception key of one of the
-            agent's sensors, ``key[2]`` for its third number.
+        name: a key of :data:`BODY_PROPERTIES` or :data:`AGENT_PROPERTIES`; or the perception key
+            of one of the agent's sensors, ``key[2]`` for its third number.
         target: name of the body; empty for the agent's own.
         agent: the agent.
         view: the world.
@@ -157,15 +162,16 @@ def _find_property(name: str, target: str, agent: AgentView, view: WorldView) ->
         return lambda body, view: look(view[target] if target else body)
     if target:
         raise BlockError(f"property: a body has no {name!r}; {suggest(name, BODY_PROPERTIES)}")
-    if name == _STEPS_PROPERTY:
-        return lambda *_: agent.steps
+    if name in AGENT_PROPERTIES:
+        look_at = AGENT_PROPERTIES[name]
+        return lambda *_: look_at(agent)
     keys = [sensor.perception_key for sensor in agent.sensors if sensor.is_active]
     match = re.fullmatch(r"(.+)\[(\d+)\]", name)
     key, index = (match[1], int(match[2])) if match else (name, None)
     if key not in keys:
         raise BlockError(
             f"property: no body, agent or sensor has a {key!r}; "
-            f"{suggest(key, [*BODY_PROPERTIES, _STEPS_PROPERTY, *keys])}"
+            f"{suggest(key, [*BODY_PROPERTIES, *AGENT_PROPERTIES, *keys])}"
         )
     return lambda *_: _number(agent.percept[key], key, index)
 

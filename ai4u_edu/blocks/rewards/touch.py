@@ -21,7 +21,7 @@ class TouchRewardFunc(RewardFunc):
     Source: AI4U's TouchRewardFunc.
 
     Differs from AI4U: ``cool_down`` is 0; there it is _collisionCheckInterval, 5 s (in 2D 0.2 s).
-    Instead of the signal OnTouch, a handler of ``end_of_step`` can read ``agent.reward_terms``.
+    The signal OnTouch is the agent's event ``touched``, for all bodies.
     """
 
     target: str

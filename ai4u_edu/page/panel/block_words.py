@@ -184,6 +184,12 @@ _REWARDS = {
     "BodyInAreaRewardFunc": BlockWords(
         "Bring something into an area", _REACH, "area", "A reward when a thing lies in an area."
     ),
+    "EventRewardFunc": BlockWords(
+        "Each touch, or way in or out",
+        _REACH,
+        "area",
+        "A reward each time the robot touches a thing, or goes into an area or out of it.",
+    ),
     "ParkedRewardFunc": BlockWords(
         "Park in an area", _REACH, "area", "A reward for standing straight in an area."
     ),

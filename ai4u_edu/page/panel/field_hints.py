@@ -38,6 +38,7 @@ FIELD_HINTS = {
     "field_of_view": "How wide it looks; 360 is all around.",
     "vision_max_distance": "How far it sees.",
     "vertical_field_of_view": "How far it looks up and down.",
+    "vertical_shift": "How far down it looks.",
     "return_distance": "On: also tells how far away.",
     "return_code": "On: tells what each ray hits.",
     "normalize_distance": "On: distance from 0 to 1; off: in metres.",
@@ -69,6 +70,7 @@ FIELD_HINTS = {
     "eye": "Where the eye is: forward, left and up, in metres.",
     "property": "What to look at: x, y, z, speed, on_ground, steps or a sensor's name.",
     "PositionSensor.target": "Which thing? Empty: the robot.",
+    "event": "Which moment pays: to touch it or go in, or to leave it.",
     "ParkedRewardFunc.max_speed": "The highest speed that counts as parked.",
     **dict.fromkeys(
         (f"{name}.target" for name in ("EvalBoolValue", "EvalFloatValue", "EvalIntValue")),
