@@ -112,8 +112,12 @@ class SentState(NamedTuple):
     truncated: bool
     paused: bool = False
     stopped: bool = False
+    warning: str = ""
+    """A sentence about what had no effect in the script's messages; sent only if there is one."""
 
 
+WARNING = "__warning__"
+"""Name of our own field with a sentence for the script, which finds it in its ``info``."""
 STANDARD = ("done", "reward", "id", "steps", "truncated")
 """Names of the fields that every state has, whether or not sensors have these names."""
 
@@ -155,7 +159,8 @@ class AI4UDialogue:
         self.in_flight = False
         """True while a request waits for its reply; no other one may be sent."""
         self._last = ""
-        self._first_kind = ReplyKind.NOOP
+        self._first = AI4UReply(ReplyKind.NOOP, [])
+        """The answer to the request that found the script; it counts after the handshake."""
         self._id = Field("id", Kind.TEXT, agent)
         self._handshake = encode_request(
             (
@@ -216,10 +221,10 @@ class AI4UDialogue:
             raise WireError(f"expected an answer for agent {self.agent!r}, got {orders[1:]}")
         self.in_flight, self._last = False, name
         if self.phase is SessionPhase.CONNECTING:
-            self.phase, self._first_kind = SessionPhase.HANDSHAKE, kind
+            self.phase, self._first = SessionPhase.HANDSHAKE, AI4UReply(kind, orders)
             return AI4UReply(ReplyKind.NOOP, orders)
-        if kind is ReplyKind.CONFIGURED and self._first_kind is not ReplyKind.NOOP:
-            kind = self._first_kind
+        if kind is ReplyKind.CONFIGURED and self._first.kind is not ReplyKind.NOOP:
+            kind, orders = self._first
         match kind:
             case ReplyKind.ACTION | ReplyKind.WAIT:
                 pass  # most replies
@@ -267,6 +272,7 @@ class AI4UDialogue:
                 _PAUSED[state.paused],
                 _STOPPED[state.stopped],
                 *self._always,
+                *([packed(Field(WARNING, Kind.TEXT, state.warning))] if state.warning else ()),
             ]
         )
 

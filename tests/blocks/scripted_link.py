@@ -73,6 +73,9 @@ class ScriptedLink:
         """Ask for more time, as a script does that still computes."""
         self.time_asked_at = self.clock()
 
+    def note(self, warning: str) -> None:
+        """Nobody is told."""
+
     def refuse(self, answered: Reply, reason: str) -> bool:
         self.refused.append(reason)
         return self.may_try_again

@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import (
+    AgentArraySensor,
     BasicAgent,
     CircleShape,
     ControlRequestor,
@@ -241,6 +242,27 @@ def test_two_agents_with_their_ids(ports: int) -> None:
         assert mine == record.steps[:20]
         assert sum(done for _, _, done in mine) == 2  # each began episodes of its own
     assert sim.episode == 1
+
+
+def test_fields_reach_the_agent_and_unknown_ones_are_reported_to_the_script() -> None:
+    world = World()
+    world.add_body("robot", CircleShape(radius=0.5))
+    port = free_port()
+    brain = RemoteBrain(port=port, receive_timeout=int(LIMIT_MS))
+    agent = BasicAgent(
+        body="robot",
+        sensors=[PositionSensor(), AgentArraySensor(perception_key="goal", size=2)],
+        actuators=[RBMoveActuator()],
+        brains=[brain],
+    )
+    found: list[dict[str, tuple[str, ...]]] = []
+    agent.end_of_step.connect(lambda agent: found.append(agent.fields))
+    first, then = run_in(ControlRequestor(world, [agent]), "fields.py", port)
+    assert first == [[0, 0], ""]
+    assert then[0] == [0.25, 1]
+    assert then[1].startswith("field 'nobody' of 'move' had no effect: expected names of other")
+    assert found[0] == {"goal": ("0.25", "1"), "nobody": ("7",)}
+    assert brain.status().warning == then[1]
 
 
 @pytest.mark.nightly

@@ -428,8 +428,11 @@ def test_fields_reach_the_agent_and_its_sensor_of_numbers(script: UDPScript) -> 
         "field 'note' of 'move' had no effect: expected names of other actuators or sensors of "
         "numbers (known are 'goal'), once each"
     )
+    assert state["__warning__"] == brain.status().warning, "the script finds it in its info"
     script.say(AHEAD)
-    assert script.next(sim)["goal"].tolist() == [0.25, 1]
+    state = script.next(sim)
+    assert state["goal"].tolist() == [0.25, 1]
+    assert "__warning__" not in state
     assert sim.agents[0].fields == {}
     brain.close()
 

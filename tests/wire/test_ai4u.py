@@ -266,6 +266,22 @@ def test_a_session_from_its_beginning() -> None:
     assert dialogue.parse_reply(b"halt").kind is ReplyKind.HALT
 
 
+def test_fields_of_a_reset_that_answers_the_first_request_count_after_the_handshake() -> None:
+    dialogue = AI4UDialogue("0", metadata="{}")
+    dialogue.request(None)
+    dialogue.parse_reply(b"__restart__;0;@goalDist;1;3")
+    dialogue.request(None)
+    heard = dialogue.parse_reply(b"max_steps;1;0@id;1;0")
+    assert heard.kind is ReplyKind.RESET
+    assert [order.name for order in heard.orders] == ["__restart__", "goalDist"]
+
+
+def test_a_warning_is_one_more_field() -> None:
+    plain = asked(playing(), STATE)
+    warned = asked(playing(), STATE._replace(warning="field 'x' had no effect"))
+    assert warned == plain | {"__warning__": "field 'x' had no effect"}
+
+
 def test_who_asks_for_time_is_told_the_same_again() -> None:
     dialogue = playing()
     request = dialogue.request(STATE)

@@ -349,7 +349,10 @@ class RemoteBrain(Brain):
     def _warn(self, *sentences: str) -> None:
         """Report what had no effect in one reply; empty sentences report nothing."""
         if any(sentences):
-            self._status.warn("; ".join(filter(None, sentences)), self._patience.now())
+            warning = "; ".join(filter(None, sentences))
+            self._status.warn(warning, self._patience.now())
+            if self._link is not None:
+                self._link.note(warning)
 
     def _decide_overridden(self, brain: Brain, link: Link, observation: Observation) -> Answer:
         """Let another brain decide; the script gets the observation, and only its resets count."""

@@ -33,6 +33,9 @@ class Line:
 
     def tell(self, situation: Any) -> None: ...
 
+    def note(self, warning: str) -> None:
+        """Nobody is told."""
+
     def refuse(self, answered: Any, reason: str) -> bool:
         return False
 

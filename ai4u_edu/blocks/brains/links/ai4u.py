@@ -115,6 +115,8 @@ class AI4ULink:
         """The last observation that was converted, and its state."""
         self._early_reply: Reply | None = None
         """A reply that came while the world stood still."""
+        self._note = ""
+        """A sentence for the script about what had no effect."""
         self._malformed = ""
         """A sentence about the last message of the session that was no reply, or had no effect."""
         self._is_open = True
@@ -142,6 +144,10 @@ class AI4ULink:
     def refuse(self, reply: Reply, reason: str) -> bool:
         """Return False: the protocol can't express it; the script gets the next state instead."""
         return False
+
+    def note(self, warning: str) -> None:
+        """Send a sentence with the next new observation."""
+        self._note = warning
 
     def idle(self) -> None:
         """Repeat the question to a script that asked for time, or poll one that has not started."""
@@ -193,7 +199,8 @@ class AI4ULink:
                 return False
             self._asked = observation
             if self._state is None or self._state[0] is not observation:
-                self._state = observation, self._codec.state(observation)
+                note, self._note = self._note, ""
+                self._state = observation, self._codec.state(observation)._replace(warning=note)
         udp = self._opened_socket()
         # the protocol has no numbers: an old reply would be taken for the answer to this request
         self.ignored += udp.drain()
@@ -325,7 +332,7 @@ class AI4ULink:
             self.state = state
         self.reason = reason
         self._asked = self._state = None
-        self._malformed = ""
+        self._malformed = self._note = ""
         self._codec.begin()
         self._dialogue.begin()
 

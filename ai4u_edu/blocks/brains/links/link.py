@@ -182,6 +182,12 @@ class Link(Protocol):
             True if the script may answer the same observation again.
         """
 
+    def note(self, warning: str) -> None:
+        """Keep a sentence about what had no effect, for the script's next observation.
+
+        A transport that reports to the script in another way ignores it.
+        """
+
     def idle(self) -> None:
         """Keep the connection alive while the world stands still; called now and then."""
 

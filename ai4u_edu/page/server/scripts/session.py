@@ -100,6 +100,9 @@ class Session:
             self._send_percept(observation)  # the late answer counts now; the observation is new
         return reply
 
+    def note(self, warning: str) -> None:
+        """Do nothing: the world's reports reach the script in messages of their own."""
+
     def refuse(self, reply: Reply, reason: str) -> bool:
         """Tell the script that its action can't be carried out."""
         observation = reply.observation
