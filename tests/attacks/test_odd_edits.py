@@ -18,8 +18,9 @@ from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.editing.forms import block_form
 from ai4u_edu.page.editing.scene_names import SceneNames
-from ai4u_edu.page.editing.settings import agent_form, scene_form
+from ai4u_edu.page.editing.settings import agent_form, field_form, scene_form
 from ai4u_edu.page.editing.suggestion import suggest_block
+from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import is_serializable
 from ai4u_edu.world import BodyDescription
 from tests.page.editing.harness import TEXT, EditorHarness
@@ -190,6 +191,14 @@ def test_every_setting_of_agent_and_scene(harness: Attacked) -> None:
             given = {field.name: value}
             what = f"{field.name} = {str(value)[:40]}"
             harness.attempt(lambda given=given: editor.change_settings(given), what)  # type: ignore[misc]
+    for value in ODD:
+        given = {"type": value}
+        harness.attempt(lambda given=given: editor.change_field(given), f"type = {str(value)[:40]}")  # type: ignore[misc]
+    for field in field_form(Scene.load("endless_rescue").description):
+        for value in ODD:
+            given = {"type": "rescue"} | {field.name: value}
+            what = f"{field.name} = {str(value)[:40]}"
+            harness.attempt(lambda given=given: editor.change_field(given), what)  # type: ignore[misc]
     assert harness.attempt(lambda: editor.change_agent("0", {"reward_scale": 2}), "2")
     assert harness.attempt(lambda: editor.change_settings({"gravity": 2}), "2")
 

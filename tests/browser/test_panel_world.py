@@ -41,8 +41,22 @@ SETTINGS = [
     {"name": "title", "label": "title", "kind": "text", "value": "Small"},
     {"name": "gravity", "label": "gravity (m/s^2)", "kind": "number", "value": 9.81},
 ]
+FIELD = [
+    {
+        "name": "type",
+        "label": "kind",
+        "kind": "choice",
+        "value": "maze",
+        "shown": "maze",
+        "choices": ["(none)", "maze"],
+        "is_first": True,
+    },
+    {"name": "loops", "label": "loops", "kind": "whole", "value": 0, "is_first": True},
+]
+NO_FIELD = [{**FIELD[0], "value": None, "shown": "(none)"}]
 PART: dict[str, Any] = {
     "bodies": [ROBOT, BOX, PLATE],
+    "field": NO_FIELD,
     "form": None,
     "settings": SETTINGS,
     "unsaved": None,
@@ -271,6 +285,22 @@ def test_settings_of_the_scene_change(tab: TabPage) -> None:
     assert tab.sent() == [{"command": "change_settings", "values": {"gravity": "1.6"}}]
 
 
+def test_a_field_by_chance_is_chosen_and_drawn_again(tab: TabPage) -> None:
+    tab.page.get_by_text("Field by chance").click()
+    expect(tab.page.get_by_role("button", name="New field")).to_be_hidden()
+    tab.page.get_by_label("kind").select_option("maze")
+    assert tab.sent() == [{"command": "change_field", "values": {"type": "maze"}}]
+    tab.give({**PART, "field": FIELD})
+    loops = tab.page.get_by_label("loops")
+    loops.fill("3")
+    loops.press("Enter")
+    tab.page.get_by_role("button", name="New field").click()
+    assert tab.sent() == [
+        {"command": "change_field", "values": {"loops": "3"}},
+        {"command": "new_start"},
+    ]
+
+
 @pytest.mark.parametrize(("is_touch", "smallest"), [(False, 28), (True, 40)])
 def test_controls_are_large_enough_and_have_names(
     chromium: Browser, is_touch: bool, smallest: float
@@ -278,7 +308,8 @@ def test_controls_are_large_enough_and_have_names(
     size = (390, 844)
     options: dict[str, Any] = {"has_touch": is_touch, "is_mobile": is_touch}
     tab = TabPage(chromium, "panel/world/tab", "WorldTab", "world", size=size, **options)
-    tab.give({**PART, "unsaved": {"when": "06:26"}})
+    tab.give({**PART, "unsaved": {"when": "06:26"}, "field": FIELD})
+    tab.page.get_by_text("Field by chance").click()
     chosen(tab)
     assert tab.small_controls(smallest) == []
     assert tab.unnamed_controls() == []

@@ -959,6 +959,8 @@ export interface WorldPart {
   form: ThingForm | null;
   /** Form of the scene itself. */
   settings: FormField[];
+  /** Form of the field that is generated at each start. */
+  field: FormField[];
   /** A scene that can be restored; null if there is none. */
   unsaved: UnsavedScene | null;
   /** The reason why the scene is not kept while it is changed; empty if it is. */
@@ -1208,6 +1210,11 @@ export interface ChangeBlock {
 /** Change properties of a thing. */
 export interface ChangeBody {
   name: string;
+  values: Record<string, unknown>;
+}
+
+/** Change the field that is generated at each start; a new episode begins with it. */
+export interface ChangeField {
   values: Record<string, unknown>;
 }
 
@@ -1701,6 +1708,7 @@ export interface Commands {
   change_agent: ChangeAgent;
   change_block: ChangeBlock;
   change_body: ChangeBody;
+  change_field: ChangeField;
   change_settings: ChangeSettings;
   compare: CompareDrivers;
   continue: ContinueHere;

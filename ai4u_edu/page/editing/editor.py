@@ -432,6 +432,10 @@ class SceneEditor:
         """
         return self._submit(lambda: proposals.change_settings(self.state, values))
 
+    def change_field(self, values: Plain) -> "Future[ChangeResult]":
+        """Change the field that is generated at each start; ``type`` is its kind, None for none."""
+        return self._submit(lambda: proposals.change_field(self.state, values))
+
     def open(self, scene: Scene) -> "Future[ChangeResult]":
         """Run another scene in place of this one; undo brings this one back."""
         state = EditState(scene.description, scene.folder, source=scene.source)

@@ -241,6 +241,12 @@ def change_settings(state: EditState, values: Plain) -> Proposal:
     return Proposal(replace(state, description=description), "change the scene")
 
 
+def change_field(state: EditState, values: Plain) -> Proposal:
+    """Propose another generated field, which is there at once, in a new episode."""
+    description = settings.with_field(state.description, values)
+    return Proposal(replace(state, description=description), "change the field", restarts=True)
+
+
 def _amounts(reward: Plain) -> dict[str, float]:
     """Return what a reward function pays, by the names of its parameters."""
     cls = Block.types[str(reward["type"])]

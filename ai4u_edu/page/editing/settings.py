@@ -1,5 +1,6 @@
-"""Forms for, and changes of, the parameters of an agent and of a scene themselves."""
+"""Forms for, and changes of, the parameters of an agent, of a scene itself and of its field."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -7,16 +8,17 @@ from typing import Any
 from pydantic import TypeAdapter, ValidationError
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.errors import ParameterError
+from ai4u_edu.base.errors import ParameterError, shown
 from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.blocks import Block
 from ai4u_edu.page.editing import blocks
 from ai4u_edu.page.editing.errors import ChangeError
-from ai4u_edu.page.editing.forms import ParameterField, field_of
+from ai4u_edu.page.editing.forms import NONE_LABEL, ParameterField, field_of
 from ai4u_edu.page.editing.input_checks import check_typed, schema_of
 from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.world import WorldSettings
+from ai4u_edu.world import AreaDescription, CircleShape, WorldSettings
+from ai4u_edu.world.fields import FieldBase, LineField, MazeField, RescueField
 
 RUNTIME_PARAMETERS = (
     "max_steps_per_episode",
@@ -33,6 +35,34 @@ START = ("wait_for_key",)
 """Parameters of a scene about how its episodes start."""
 SCHEDULING = ("spread_decisions",)
 """Parameters of a scene about all its agents."""
+
+FIELDS: dict[str, type[FieldBase]] = {
+    "maze": MazeField,
+    "line": LineField,
+    "rescue": RescueField,
+}
+"""Kinds of generated fields, by the name that a scene file has for them."""
+FIELD_WORDS = {
+    "width": "Cells from left to right",
+    "height": "Cells from bottom to top",
+    "length": "Cells through which the line goes",
+    "loops": "Walls that are missing: more of them, more ways",
+    "curves": "How often the line turns",
+    "crossings": "Places where lines cross",
+    "gaps": "Places where a piece of the line is missing",
+    "obstacles": "Blocks on the line, to drive around",
+    "difficulty": "How long and hard the way is",
+    "room_size": "Cells along each side of the room",
+    "cell": "Side of a cell",
+    "position": "Middle of the field: x and y in metres",
+    "start": "What begins where the field begins",
+    "goal": "What has to be reached",
+    "marks": "Areas that lie on the line, in this order",
+    "line_width": "Width of the line",
+    "wall": "Thickness of the walls",
+    "wall_height": "Height of the walls and blocks",
+}
+"""Plain sentences on the parameters of a generated field, in the order of the form."""
 
 
 def agent_form(agent: Plain) -> list[ParameterField]:
@@ -65,6 +95,88 @@ def scene_form(scene: SceneDescription) -> list[ParameterField]:
         ),
         *_applying_later(_fields(world, tuple(WorldSettings.model_fields), settings)),
     ]
+
+
+def field_form(scene: SceneDescription) -> list[ParameterField]:
+    """Return the form of a scene's generated field: its kind, and the parameters of that kind."""
+    field = scene.generate
+    kind = ParameterField(
+        "type",
+        "kind",
+        "choice",
+        None if field is None else field.type,
+        "A new field at each start: a maze, a line, or a rescue line with marks, obstacles and a "
+        "room. Without one the world is as you built it",
+        (NONE_LABEL, *FIELDS),
+    )
+    if field is None:
+        return [kind]
+    values = field.model_dump(mode="json")
+    about = FIELDS[field.type].model_json_schema()["properties"]
+    bodies = [body.name for body in scene.bodies]
+    names = {"start": bodies, "goal": [*bodies, *(area.name for area in scene.areas)]}
+    fields = [
+        field_of(name, about[name], values[name], known=names.get(name))
+        for name in FIELD_WORDS
+        if name in values
+    ]
+    return [kind, *(replace(each, hint=FIELD_WORDS[each.name] + _ends(each)) for each in fields)]
+
+
+def with_field(scene: SceneDescription, values: Plain) -> SceneDescription:
+    """Change a scene's generated field; None resets a parameter to its default.
+
+    Another kind keeps the size and the place. A field needs something to reach: if the scene has
+    nothing of the name, an area is added.
+
+    Args:
+        scene: the scene.
+        values: by parameter; ``type`` is the kind, None for no field.
+
+    Raises:
+        ChangeError: some values are wrong, or together impossible.
+    """
+    before = {} if scene.generate is None else scene.generate.model_dump(exclude_unset=True)
+    name = values.get("type", before.get("type"))
+    if name is None:
+        return scene.model_copy(update={"generate": None})
+    if not isinstance(name, str) or name not in FIELDS:
+        text = f"expected one of {', '.join(FIELDS)}, got {shown(name)}"
+        raise ChangeError([ParameterProblem(("type",), text)])
+    cls = FIELDS[name]
+    is_other = name != before.get("type")
+    if is_other:
+        kept = ("width", "height", "position", "start", "goal")
+        before = {key: before[key] for key in kept if key in before}
+        before.setdefault("start", str(scene.agents[0]["body"]))
+    chosen = {key: value for key, value in {**before, **values}.items() if value is not None}
+    try:
+        field: Any = cls(**chosen)
+    except ParameterError as error:
+        details = error.details
+        if not isinstance(details, ValidationError):
+            raise
+        raise ChangeError(list(explain(details.errors(), cls))) from None
+    if is_other:
+        field = _with_room(field, scene)
+    changes: dict[str, Any] = {"generate": field}
+    if field.goal not in {thing.name for thing in scene.things}:
+        goal = AreaDescription(
+            name=field.goal, shape=CircleShape(radius=0.5), colour="orange", label=field.goal
+        )
+        changes["areas"] = (*scene.areas, goal)
+    return scene.model_copy(update=changes)
+
+
+def _with_room(field: Any, scene: SceneDescription) -> Any:
+    """Return a field of which each cell has room for everything that can move."""
+    room, reach = (
+        field.room(),
+        max((body.shape.reach for body in scene.bodies if body.kind != "static"), default=0.0),
+    )
+    if room is None or reach <= room:
+        return field
+    return field.model_copy(update={"cell": math.ceil(10 * (field.cell + 2 * (reach - room))) / 10})
 
 
 def brain_of(agent: Plain) -> BlockPath:
@@ -115,6 +227,13 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     if problems:
         raise ChangeError(problems)
     return scene.model_copy(update=fields)
+
+
+def _ends(field: ParameterField) -> str:
+    """Return the range of a number in words; empty for lengths, whose limits nobody meets."""
+    if field.low is None or field.high is None or field.unit == "m":
+        return ""
+    return f", {field.low:g} to {field.high:g}"
 
 
 def _fields(

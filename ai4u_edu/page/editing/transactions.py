@@ -23,7 +23,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.scene import RANDOM_RESETS
 from ai4u_edu.scenes.serialization import PlainDataError
-from ai4u_edu.world import Pose
+from ai4u_edu.world import Pose, Region
 
 MAX_UNDO_STEPS = 200
 """Changes that can be undone."""
@@ -307,7 +307,20 @@ def _warnings(step: _Step) -> str:
         warnings.append("the ground was endless; now there is ground on the floors only")
     if not step.replaces_world and before.floors and not after.floors:
         warnings.append("without a floor the ground is endless")
+    if after.generate != before.generate and _is_beyond_floor(after):
+        warnings.append("the field reaches beyond the floor: make it smaller, or the floor larger")
     return "; ".join(warnings)
+
+
+def _is_beyond_floor(description: SceneDescription) -> bool:
+    """Return True if a corner of the generated field has no floor."""
+    if description.generate is None or not description.floors:
+        return False
+    (left, low), (right, high) = description.generate.bounds()
+    floors = [Region(floor) for floor in description.floors]
+    return not all(
+        any(floor.contains(x, y) for floor in floors) for x in (left, right) for y in (low, high)
+    )
 
 
 def _warnings_of_moved(description: SceneDescription, names: Iterable[str]) -> Iterator[str]:

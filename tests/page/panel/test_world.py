@@ -380,3 +380,69 @@ def test_moving_with_the_mouse(room: PanelRoom) -> None:
         assert page.part("world", lambda m: m["form"])["form"]["name"] == "box"
         client.panel.on_dropped(room.editor.move_body("box", 3, 3))
         assert page.receive(lambda m: m["type"] == "note")["text"].startswith("Moved box.")
+
+
+def field_of(part: Message) -> dict[str, Message]:
+    return {field["name"]: field for field in part["field"]}
+
+
+def test_a_field_by_chance_is_made_changed_drawn_again_and_undone(
+    page: PanelPage, room: PanelRoom
+) -> None:
+    assert list(field_of(page.part("world"))) == ["type"]
+    page.done("add_body", template="wall")
+    drawn = things(page.part("world", lambda m: "wall" in str(list(things(m)))))
+    done = page.done("change_field", values={"type": "maze"})
+    assert done["text"].startswith("Here is the new field.")
+    part = page.part("world", lambda m: len(m["field"]) > 1)
+    fields = field_of(part)
+    assert (fields["type"]["shown"], fields["width"]["low"], fields["width"]["high"]) == (
+        "maze",
+        2,
+        20,
+    )
+    assert fields["width"]["hint"] == "Cells from left to right, 2 to 20."
+    assert fields["goal"]["choices"][-1] == "exit"
+    assert {*things(part)} == {*drawn, "exit"}, "what was drawn stays, and an exit is there"
+    assert walls(room), "the field is there at once"
+
+    page.done("change_field", values={"loops": "4"})
+    text = room.editor.text()
+    assert "generate:" in text
+    assert "field wall" not in text
+    before = walls(room)
+    page.done("new_start")
+    until(lambda: walls(room) != before)
+    failed = page.failed("change_field", values={"width": "1"})
+    assert failed["problems"] == [{"path": ["width"], "text": "expected at least 2, got 1"}]
+    page.failed("change_field", values={"type": "lake"})
+
+    page.done("undo")
+    assert field_of(page.part("world", lambda m: field_of(m)["loops"]["value"] == 0))
+    page.done("undo")
+    part = page.part("world", lambda m: len(m["field"]) == 1)
+    assert things(part) == drawn
+    assert not walls(room)
+
+
+def walls(room: PanelRoom) -> list[tuple[float, float]]:
+    """Return where the walls of the generated field stand."""
+    bodies = room.runner.sim.world.bodies
+    return [body.position for name, body in bodies.items() if name.startswith("field wall")]
+
+
+@pytest.mark.parametrize("kind", ["line", "rescue"])
+def test_another_kind_of_field_keeps_the_size_and_says_what_is_impossible(
+    page: PanelPage, room: PanelRoom, kind: str
+) -> None:
+    page.done("change_field", values={"type": "maze"})
+    page.done("change_field", values={"width": "9", "height": "7"})
+    page.done("change_field", values={"type": kind})
+    part = page.part("world", lambda m: field_of(m).get("length"))
+    assert field_of(part)["width"]["value"] == 9
+    failed = page.failed("change_field", values={"length": "100"})
+    assert "expected a length of at most" in failed["problems"][0]["text"]
+    done = page.done("change_field", values={"width": "20", "height": "20"})
+    assert "The field reaches beyond the floor" in done["text"]
+    page.done("change_field", values={"type": "(none)"})
+    assert room.editor.state.description.generate is None

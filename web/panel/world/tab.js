@@ -4,7 +4,7 @@
  * @import { WorldPart } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
  */
-import { element, fileButton, keyed, setText } from "../../shared/dom.js";
+import { button, element, fileButton, keyed, setText } from "../../shared/dom.js";
 import { BodyCard } from "./body_card.js";
 import { chooseAdded, chooseMore, setMoveMode } from "./selection.js";
 import { Form } from "../widgets/form.js";
@@ -31,6 +31,8 @@ export class WorldTab {
   #snaps;
   #hint = element("p", { className: "ai4u-hint-text" });
   #settings;
+  #field;
+  #newField;
   #files;
   #lays = fileButton("Lay a picture on the ground", "image/png,image/jpeg", (file) => this.#lay(file));
 
@@ -46,6 +48,10 @@ export class WorldTab {
       title: "Hold Alt to move freely",
     });
     this.#settings = new Form({ onChange: (values) => panel.send("change_settings", { values }) });
+    this.#field = new Form({ onChange: (values) => panel.send("change_field", { values }) });
+    this.#newField = button("New field", () => panel.send("new_start"), {
+      title: "Begin again with another field of this kind",
+    });
     root.append(
       this.#files.element,
       section(
@@ -56,6 +62,13 @@ export class WorldTab {
         this.#hint, // below the buttons, which its other texts would move
         element("div", { className: "ai4u-tools" }, this.#lays),
         this.#list,
+      ),
+      section(
+        "world-field",
+        "Field by chance",
+        { isOpen: false },
+        element("div", { className: "ai4u-tools" }, this.#newField),
+        this.#field.element,
       ),
       section("world-settings", "Scene settings", { isOpen: false }, this.#settings.element),
       this.#files.kept,
@@ -85,6 +98,9 @@ export class WorldTab {
       (_, body) => this.#cards.get(body.name).update(body, part.form),
     );
     this.#settings.update(part.settings ?? []);
+    const field = part.field ?? [];
+    this.#field.update(field);
+    this.#newField.hidden = field.length < 2; // only the kind, which is none
   }
 
   /**

@@ -12,7 +12,7 @@ from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.page.editing import ChangeError, SceneEditor
 from ai4u_edu.page.editing.forms import read_values
 from ai4u_edu.page.editing.proposals import NewThing
-from ai4u_edu.page.editing.settings import scene_form
+from ai4u_edu.page.editing.settings import field_form, scene_form
 from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
 from ai4u_edu.page.editing.things import (
     Thing,
@@ -423,6 +423,19 @@ async def _settings(page: Page, command: ChangeSettings) -> Answer:
     return change_answer("Settings of the scene changed.", result)
 
 
+class ChangeField(PageCommand, tag="change_field"):
+    """Change the field that is generated at each start; a new episode begins with it."""
+
+    values: Values
+
+
+async def _field(page: Page, command: ChangeField) -> Answer:
+    editor = page.context.required_editor()
+    values = read_values(field_form(editor.state.description), command.values)
+    result = await page.result(editor.change_field(values))
+    return change_answer("Here is the new field.", result)
+
+
 def _described(page: Page, editor: SceneEditor, template: Template) -> Mapping[str, Any]:
     if template.kind != "agents":
         return template.description
@@ -524,5 +537,6 @@ HANDLERS: Mapping[type[PageCommand], Handler] = {
     Nudge: _nudge,
     RemoveBodies: _remove,
     ChangeSettings: _settings,
+    ChangeField: _field,
 }
 """Handlers by the type of their command."""

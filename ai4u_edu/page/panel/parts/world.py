@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from ai4u_edu.blocks import RespawnActuator
 from ai4u_edu.page.editing import EditState, SceneEditor
-from ai4u_edu.page.editing.settings import scene_form
+from ai4u_edu.page.editing.settings import field_form, scene_form
 from ai4u_edu.page.editing.thing_form import thing_form
 from ai4u_edu.page.editing.things import Thing, kind_of
 from ai4u_edu.page.panel.page_view import PageView
@@ -16,6 +16,19 @@ from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.world import AreaDescription, BodyDescription
 
+FIRST_OF_FIELD = (
+    "type",
+    "width",
+    "height",
+    "length",
+    "loops",
+    "curves",
+    "crossings",
+    "gaps",
+    "obstacles",
+    "difficulty",
+)
+"""Parameters of a generated field that matter most."""
 LAMP_TAG = "lamp"
 """Tag of bodies that are lamps for light sensors."""
 
@@ -74,6 +87,8 @@ class WorldPart(PanelPart, frozen=True, kw_only=True):
     """Form of the selected thing; null if there is none."""
     settings: list[FormField]
     """Form of the scene itself."""
+    field: list[FormField]
+    """Form of the field that is generated at each start."""
     unsaved: UnsavedScene | None
     """A scene that can be restored; null if there is none."""
     problem: str
@@ -108,6 +123,7 @@ def world_part(editor: SceneEditor, view: PageView) -> WorldPart:
         bodies=[_thing(thing, agents, described) for thing in reversed(described.things)],
         form=_form(state, view.show.body, agents),
         settings=[form_field(setting) for setting in scene_form(described)],
+        field=[form_field(each, FIRST_OF_FIELD, "generate") for each in field_form(described)],
         unsaved=None if unsaved is None else UnsavedScene(unsaved.name, unsaved.when),
         problem="" if autosave is None else autosave.problem,
         can_save=editor.scene_store is not None,
