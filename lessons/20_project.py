@@ -242,5 +242,5 @@ progress()
 # - Add a second agent, and make them rivals or friends (lesson 16).
 # - Swap worlds with somebody, and write a controller for theirs.
 #
-# **Words of this lesson:** scene file, YAML, chance level, evidence. You have been through all lessons:
-# congratulations.
+# **Words of this lesson:** scene file, YAML, chance level, evidence. If you have done 21,
+# "Traces and signals", you have been through all lessons: congratulations.

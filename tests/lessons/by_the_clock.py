@@ -37,6 +37,8 @@ ACTION = "action"
 """Name of what a schedule replaces, if it is the action and no reading."""
 SETTLED = ("00.", "08.")
 """Beginnings of the exercises in which a plan by the clock is a right answer."""
+TWO_ROBOTS = ("21.4",)
+"""Exercises in which two robots are driven at once, whose percepts have different keys."""
 
 
 @dataclass(frozen=True)
@@ -264,7 +266,9 @@ def drivers() -> list[str]:
     return [
         exercise
         for exercise in exercise_ids()
-        if not is_ticket(exercise) and exercise not in SLOW and not exercise.startswith(SETTLED)
+        if not is_ticket(exercise)
+        and exercise not in (*SLOW, *TWO_ROBOTS)
+        and not exercise.startswith(SETTLED)
         if "percept" in answers_to(exercise).solution
     ]
 

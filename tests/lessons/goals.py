@@ -66,6 +66,7 @@ GOALS: dict[str, Callable[[], bytes]] = {
     "16": lambda: solved("16.1"),
     "18": lambda: solved("18.2"),
     "20": lambda: solved("20.2"),
+    "21": lambda: solved("21.2"),
     "09": lambda: solved("09.2"),
     "15": lambda: solved("15.2"),
     "10": lambda: way("box_chase", trained_brain("zoo:box_chase"), seed=7),

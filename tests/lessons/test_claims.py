@@ -9,6 +9,7 @@ from ai4u_edu import CircleShape
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import lesson
 from ai4u_edu.lessons.exercises import lesson_07
+from ai4u_edu.lessons.exercises.lesson_21 import loads_home
 from ai4u_edu.lessons.notebook import Cell
 from tests.lessons.workbook import names_after_setup, run, tried
 
@@ -49,6 +50,12 @@ COUNTER_EXAMPLES = {
     "13.3": ("swapped codes", "angles left out"),
     # running at the ball is not enough, nor is running to the place behind it
     "17.4": ("runs at the ball", "pushes the ball on its way"),
+    # "Which of the four tells orange from blue *and* from white?"
+    "21.1": ("by brightness", "by red alone"),
+    # "Only `heard` says whether somebody spoke."
+    "21.3": ("takes silence for the middle", "asks whether x and y are 0"),
+    # "Two robots share no variables; the tower has to *say* it."
+    "21.4": ("a variable that both know",),
 }
 CASES = [
     pytest.param(exercise, name, id=f"{exercise} {name}")
@@ -80,6 +87,10 @@ def test_a_heading_can_stand_for_a_variable() -> None:
         each for each in answers_to("07.2").all if each.name == "its heading is its memory"
     )
     assert tried(lesson("07"), "07.2", answer.code).passed
+
+
+def test_without_ink_ants_bring_home_less_than_half() -> None:
+    assert 0 < loads_home(has_ink=False) < loads_home(has_ink=True) / 2
 
 
 def test_the_film_of_07_lasts_as_long_as_the_check(capsys: pytest.CaptureFixture[str]) -> None:

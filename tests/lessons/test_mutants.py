@@ -35,6 +35,7 @@ EXACT = (
     "13.3",
     "17.1",
     "17.2",
+    "21.3",
 )
 SAMPLE = ("02.1", "18.1")
 CASES = [pytest.param(each, marks=[] if each in SAMPLE else pytest.mark.nightly) for each in EXACT]
