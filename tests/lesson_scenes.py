@@ -11,11 +11,13 @@ import numpy as np
 
 from ai4u_edu import (
     Actuator,
+    AndRewardFunc,
     BasicAgent,
     Brain,
     ControlRequestor,
     DistanceToTargetRewardFunc,
     FallReward,
+    FigureReward,
     LocalBrain,
     OrientationSensor,
     RBMoveActuator,
@@ -31,6 +33,7 @@ from ai4u_edu import (
 from ai4u_edu.lessons.exercises.lesson_02 import runway
 from ai4u_edu.lessons.exercises.lesson_05 import vehicle
 from ai4u_edu.lessons.exercises.lesson_08 import feeler_runway
+from ai4u_edu.lessons.exercises.lesson_21 import road
 from ai4u_edu.lessons.rollouts import seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.page.editing.scene_pictures import TEMPLATES
@@ -43,7 +46,13 @@ WHEELS = LocalBrain(
         actuator_name="wheels", speed=0.5, turn_amount=0.3, jump=[], jump_forward=[]
     )
 )
+PEN = LocalBrain(
+    controller=WASDController(
+        speed=0.5, turn_amount=0.5, jump=[], jump_forward=[], switches={"pen": ["Space"]}
+    )
+)
 HIT = "hit"
+INKED = "inked"
 CONTROLS = "W forward, S backward, A left, D right, R restart"
 TOUCH = TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)
 
@@ -74,6 +83,19 @@ def lamp_world(exercise: str) -> ControlRequestor:
         brains=[WHEELS],
     )
     return ControlRequestor(worlds[0].world, [changed])
+
+
+def striped_road() -> ControlRequestor:
+    """Return the world of 21.1, which is won at the end of the road if orange and ink agree."""
+    sim = road(lambda _: {}, seed=3)
+    agent = sim.agents[0]
+    parts = [
+        TouchRewardFunc(name="there", target="end"),
+        FigureReward(group="orange", at_least=0.6),
+    ]
+    won = AndRewardFunc(name=INKED, reward=10, cause_episode_to_end=True, children=parts)
+    changed = agent.changed(rewards=[won, *agent.rewards], brains=[PEN])
+    return ControlRequestor(sim.world, [changed])
 
 
 def driven_by_keys(sim: ControlRequestor, brain: Brain = KEYS) -> ControlRequestor:
@@ -132,6 +154,11 @@ WORLDS: Mapping[str, tuple[str, str, Callable[[], ControlRequestor]]] = {
             ],
         ),
     ),
+    "lesson_21": (
+        "A striped road",
+        "Drive to the end, and ink the orange stripes.",
+        striped_road,
+    ),
 }
 """Title, goal and world of each scene, by its name."""
 
@@ -141,7 +168,7 @@ def lesson_scene(name: str) -> Scene:
     title, goal, make = WORLDS[name]
     sim = make()
     # where rewards are to be chosen, the page finds the goal among those that are
-    success = HIT if name == "lesson_05" else None
+    success = {"lesson_05": HIT, "lesson_21": INKED}.get(name)
     like = SceneDescription(
         name=name, title=title, goal=goal, controls=CONTROLS, success=success, agents=({},)
     )

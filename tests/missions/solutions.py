@@ -342,6 +342,18 @@ def sense_7(do: Doing) -> None:
     do.answer("The first number of bearing")
 
 
+def sense_8(do: Doing) -> None:
+    do.drive(lambda agent: STOP if agent.percept["hear"][0] else move(0, -0.3)(agent))
+    do.drive(solved(do), 4000)
+    do.drive(solved(do), 8000)
+
+
+def sense_9(do: Doing) -> None:
+    search = by_solver("ants")
+    do.drive(lambda agent: STOP if agent.percept["line"][3] else search(agent), 6000)
+    do.drive(solved(do), 12000, through=True)
+
+
 def think_5(do: Doing) -> None:
     do.open("code")
     do.drive(lambda agent: move(0, -agent.percept["bearing"][0])(agent))
@@ -521,6 +533,16 @@ def code_19(do: Doing) -> None:
     do.drive(lambda agent: {"wheels": wires(agent)}, 3000, through=True)
 
 
+def code_21(do: Doing) -> None:
+    do.drive(lambda agent: STOP if agent.percept["colour"][2] < 0.3 else move(0.5, 0)(agent))
+    do.again()
+    do.drive(ink_orange)
+
+
+def ink_orange(agent: BasicAgent) -> Action:
+    return {"move": [1, 0, 0, 0], "pen": [float(agent.percept["colour"][2] < 0.5)]}
+
+
 def change_agent(do: Doing, **kinds: object) -> None:
     do.change(agents=({**do.scene.agents[0], **kinds},))
     if isinstance(do.run.step.check, Solves):
@@ -655,6 +677,8 @@ SOLUTIONS: dict[str, Solution] = {
     "sense-5": sense_5,
     "sense-6": sense_6,
     "sense-7": sense_7,
+    "sense-8": sense_8,
+    "sense-9": sense_9,
     "think-1": think_1,
     "think-2": think_2,
     "think-3": think_3,
@@ -683,6 +707,8 @@ SOLUTIONS: dict[str, Solution] = {
     "code-17": code_17,
     "code-18": code_18,
     "code-19": code_19,
+    "code-20": exercise,
+    "code-21": code_21,
     "build-1": build_1,
     "build-2": build_2,
     "build-3": build_3,

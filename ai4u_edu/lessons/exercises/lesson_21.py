@@ -36,7 +36,7 @@ ROAD_M = 11.0
 ROAD_DECISIONS = 240
 SAMPLE_M = 0.05
 """Distance of the points of the road at which 21.1 looks for ink."""
-LEAST_INKED, MOST_ELSEWHERE = 0.75, 0.25
+LEAST_INKED, MOST_ELSEWHERE = 0.75, 0.35
 """Share of an orange stripe that needs ink, and largest share of the rest that has some."""
 FOLLOW_DECISIONS = 330
 LOST_M = 1.0
@@ -66,7 +66,7 @@ def road(paint: Any, seed: int = 0) -> ControlRequestor:
         x += float(rng.uniform(0.5, 0.8)) + length
         world.add_area(
             f"stripe {number}",
-            BoxShape(size=(length, 2.0)),
+            BoxShape(size=(length, 0.3)),
             position=(x - length / 2, 0),
             tags=(str(colour),),
             colour=str(colour),
@@ -76,10 +76,10 @@ def road(paint: Any, seed: int = 0) -> ControlRequestor:
     world.add_body("end", BoxShape(size=(0.4, 3)), kind="static", position=(6, 0), tags=("target",))
     agent = BasicAgent(
         body="robot",
-        sensors=[ColourSensor(ahead=0.15)],
+        sensors=[ColourSensor(ahead=0.2)],
         actuators=[
             RBMoveActuator(move_amount=1.5, turn_amount=2),
-            PenActuator(colours=["blue"], width=0.1),
+            PenActuator(colours=["blue"], width=0.3),
         ],
         rewards=[TouchRewardFunc(name="end", target="end", reward=1, cause_episode_to_end=True)],
         brains=[as_brain(paint)],
