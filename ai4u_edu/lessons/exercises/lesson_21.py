@@ -30,7 +30,7 @@ from ai4u_edu.scenes import Scene
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
 STRIPE_COLOURS = ("orange", "sky blue")
-"""Colours of the stripes of 21.1: the first is to be inked. They are almost equally bright."""
+"""Colours of the stripes of 21.1: the first should be inked. They are almost equally bright."""
 ROAD_M = 11.0
 """Way from the robot to the end of the road in 21.1."""
 ROAD_DECISIONS = 240
@@ -91,7 +91,7 @@ def road(paint: Any, seed: int = 0) -> ControlRequestor:
     "21.1",
     "Ink the orange stripes",
     hints={
-        "begin": "The pen is up all the time. `pen` gets 1 where it is to be down: choose by "
+        "begin": "The pen is up all the time. `pen` gets 1 where it should be down: choose by "
         '`percept["colour"]`.',
         "always": "The pen is down wherever it drives. Put it down over orange alone.",
         "bright": "It inks the blue stripes, too. Both colours are about equally bright, so "
