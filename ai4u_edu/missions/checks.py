@@ -72,6 +72,8 @@ class Decision:
     distances: Mapping[str, float] = field(repr=False)
     """Distance (m) to what is nearest, by the side: around, ahead, left, right; empty without a
     flat fan of rays that read distances."""
+    network: str = ""
+    """File of the network that drives; empty for another driver."""
 
     def value_of(self, what: str) -> float:
         """Return a quantity, such as ``speed``, ``distance ahead`` or a number of a sensor."""
@@ -133,6 +135,7 @@ def decision_of(sim: ControlRequestor, agent: BasicAgent) -> Decision:
         outcome=outcome,
         percept=percept,
         distances=_distances(agent),
+        network=getattr(getattr(active_brain(agent.brain), "controller", None), "model_path", ""),
     )
 
 

@@ -82,8 +82,8 @@ class Step(Description):
     light: Annotated[list[Control], Field(max_length=6)] = Field(default_factory=list)
     """Names of controls on the way to the one that is meant: the last one that can be seen is lit,
     such as ``[Code, Run]``."""
-    by: Driver | Literal["anyone"] = "anyone"
-    """The driver that counts."""
+    by: Driver | Literal["new network", "anyone"] = "anyone"
+    """The driver that counts; a new network is one that did not drive before the step."""
     check: AnyCheck
     done: Text = "Done."
     """One sentence about what happened."""

@@ -54,10 +54,11 @@ OTHER_DRIVER_DECISIONS = 24
 HINT_DECISIONS = 120
 """Decisions (10 s) in which a hint counts once, however often what it is about happens."""
 MOVING_M_PER_S = 0.1
-HAS_TO_DRIVE: Mapping[Driver, str] = {
+HAS_TO_DRIVE: Mapping[str, str] = {
     "keys": "This step is for *you*: let go of the program, or choose keys again, and drive.",
     "program": "This step is for *your program*: open *Code* and press *Run*.",
     "network": "This step is for a *network*.",
+    "new network": "This step is for a *new* network: see *Learn* and *Practise*.",
     "controller": "This step is for a driver that comes with the scene.",
 }
 DOES_DRIVE: Mapping[Driver, str] = {
@@ -206,6 +207,10 @@ class MissionRun:
         self._latest: Decision | None = None
         self._page = SeenPage("")
         self._scene: SceneDescription | None = None
+        self._networks: set[str] = set()
+        """Files of networks that have driven so far."""
+        self._old_networks: frozenset[str] = frozenset()
+        """Those that had when the present step began."""
         self._stars = [Following(star.check) for star in mission.stars]
         self._other_decisions = 0
         self._decisions = 0
@@ -228,6 +233,7 @@ class MissionRun:
         """Hints in this step so far; see :data:`HINT_DECISIONS`."""
         self._hint_at: int | None = None
         self._other_decisions = 0
+        self._old_networks = frozenset(self._networks)
         self._following.see(self._page)
         if self._scene is not None:
             self._following.see(self._scene)
@@ -265,6 +271,7 @@ class MissionRun:
         elif isinstance(event, Decision):
             self._latest = event
             self._decisions += 1
+            self._networks.add(event.network)
         if not isinstance(event, Decision) or self._is_asked_driver(event):
             self._following.see(event)
             for star in self._stars:
@@ -304,7 +311,11 @@ class MissionRun:
     def _is_asked_driver(self, decision: Decision) -> bool:
         """Return True if the step asks for the driver of a decision; note it otherwise."""
         by = self.step.by
-        if by == "anyone" or by == decision.driver or self.is_step_done:
+        if by == "new network":
+            is_asked = decision.driver == "network" and decision.network not in self._old_networks
+        else:
+            is_asked = by in ("anyone", decision.driver)
+        if is_asked or self.is_step_done:
             self._other_decisions, self.driver = 0, ""
             return True
         self._other_decisions += abs(decision.speed) > MOVING_M_PER_S

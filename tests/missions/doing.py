@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -160,8 +160,10 @@ class Doing:
 
     def _on_percept(self, agent: BasicAgent) -> None:
         asked = self.run.step.by
-        driver = self._driver or ("keys" if asked == "anyone" else asked)
-        self.run.see(replace(decision_of(self.sim, agent), driver=driver))
+        network = f"{self.run.index}" if "network" in asked else ""
+        asked = {"anyone": "keys", "new network": "network"}.get(asked, asked)
+        driver = self._driver or cast("Driver", asked)
+        self.run.see(replace(decision_of(self.sim, agent), driver=driver, network=network))
 
 
 def scene_of(name: str) -> Scene:

@@ -103,6 +103,25 @@ def test_another_driver_does_not_count_and_is_told(run: MissionRun) -> None:
     assert run.driver == ""
 
 
+def test_a_network_that_drove_before_the_step_is_not_new() -> None:
+    run = MissionRun(library_missions().get("teach-2"))
+    old = replace(STILL, driver="network", network="networks/box_chase-1.onnx", speed=1.0)
+    run.see(old)
+    run.begin(1)
+    for _ in range(100):
+        run.see(old)
+    assert not run.is_step_done
+    assert run.driver == (
+        "A network is driving. This step is for a *new* network: see *Learn* and *Practise*."
+    )
+    for _ in range(60):
+        run.see(replace(old, network="networks/box_chase-2.onnx"))
+    assert run.is_step_done
+    run.begin(2)
+    run.see(old)
+    assert run.driver == ""
+
+
 def test_in_another_scene_nothing_counts(run: MissionRun) -> None:
     run.see_scene(Scene.load("tag").description)
     assert (run.is_here, run.counts("0")) == (False, False)

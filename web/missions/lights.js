@@ -16,6 +16,8 @@ export class Lights {
   #names = [];
   /** @type {Element[]} */
   #lit = [];
+  /** Names whose controls were scrolled into view: once, so that a person can scroll on. */
+  #scrolled = new Set();
   #timer = 0;
   #outside;
 
@@ -29,6 +31,7 @@ export class Lights {
    * @param {string[]} names none to put all lights out
    */
   show(names) {
+    if (names.join() !== this.#names.join()) this.#scrolled.clear();
     this.#names = names;
     clearInterval(this.#timer);
     this.look();
@@ -44,6 +47,15 @@ export class Lights {
     for (const control of this.#lit) if (!lit.includes(control)) setAttributes(control, { "data-ai4u-lit": false });
     for (const control of lit) setAttributes(control, { "data-ai4u-lit": true });
     this.#lit = lit;
+    for (const control of lit) this.#scrollTo(control);
+  }
+
+  /** @param {Element} control */
+  #scrollTo(control) {
+    const name = nameOf(control);
+    if (this.#scrolled.has(name)) return;
+    this.#scrolled.add(name);
+    control.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
   /**

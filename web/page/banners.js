@@ -4,6 +4,7 @@
 import { element } from "../shared/dom.js";
 /** @import { Result } from "./results.js" */
 import { capitalized } from "./driver_status.js";
+import { openMission } from "../missions/progress.js";
 import { openNextScene } from "../scenes/next_scene.js";
 import { raceText, slowedText, timeText } from "./results.js";
 
@@ -206,7 +207,7 @@ function outcomeBanner(state, page) {
     text: outcomeText(state, page),
     hint: page.restart && !page.isWatching && ` Press ${page.restart} to ${isWin ? "play" : "try"} again.`,
     score: [`Score ${signed(reward)}`, parts.length > 1 && sum].filter(Boolean).join(": "),
-    buttons: page.isWatching ? ["Beat it!", "Watch again", "Stop watching"] : isWin ? ["Play again", "New start", "Next scene"] : ["Try again", "New start"],
+    buttons: page.isWatching ? ["Beat it!", "Watch again", "Stop watching"] : isWin ? ["Play again", "New start", ...(openMission() ? [] : ["Next scene"])] : ["Try again", "New start"],
   };
 }
 

@@ -164,8 +164,10 @@ function islandOf(island, missions, next) {
   const list = element("ol", {}, ...missions.map((mission) => missionCard(mission, mission === next)));
   // there are too many missions to see all at once: the island of the next one is open
   const isOpen = next !== undefined && missions.includes(next);
-  const made = element("details", { className: "ai4u-island", open: isOpen }, element("summary", {}, heading), list);
+  const made = element("details", { className: "ai4u-island", name: "island", open: isOpen }, element("summary", {}, heading), list);
   made.toggleAttribute("data-done", done === missions.length);
+  // the one above it closes, which moves this one
+  made.addEventListener("toggle", () => made.open && !isOpen && made.scrollIntoView({ block: "nearest" }));
   return made;
 }
 
