@@ -41,12 +41,13 @@ Title = Annotated[str, StringConstraints(min_length=1, max_length=60)]
 CONTROLS = (
     *("Add a reward", "Add a sensor", "Add an actuator", "Arena", "Ball", "Blocks", "Box", "Build"),
     *("Code", "Compare", "Details", "Drive", "Follow", "Keys", "Learn", "Let it drive"),
-    *("New start", "Past", "Pause", "Practise", "Program", "Python", "Rewards", "Run", "Sensors"),
-    *("Simple", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes", "Trail"),
+    *("Networks", "New start", "Past", "Pause", "Practise", "Program", "Python", "Rewards", "Run"),
+    *("Sensors", "Simple", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes", "Trail"),
     *("Try again", "Wall", "World"),
 )
 """Controls of the page that a mission can light, by the names that they have there; ``Keys`` are
-the keys on the screen, ``Program`` is the editor of a program."""
+the keys on the screen, ``Program`` is the editor of a program, and ``Networks`` is the card of a
+network in the tab "Teach"."""
 
 
 def _known_control(name: str) -> str:

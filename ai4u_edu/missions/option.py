@@ -475,6 +475,9 @@ class MissionOption:
 
     def _choose(self, view: PageView, name: str, mission: Mission, step: int) -> _Chosen:
         run, agent = MissionRun(mission, step), view.agent
+        # the first part already says so, as the page then opens the scene
+        if self._editor is not None:
+            run.is_here = self._editor.state.description.name == mission.scene
         chosen = _Chosen(name, run)
         view.choose(KEY, chosen, KEY)
 

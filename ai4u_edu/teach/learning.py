@@ -192,8 +192,13 @@ class Learner(Protocol):
     def key(self) -> object:
         """Changes, and can be hashed, whenever the answer of :meth:`state` may change."""
 
-    def state(self, agent: str) -> LearningState | None:
-        """Return the state of the latest learning if it is an agent's; else None."""
+    def state(self, scene: str, agent: str) -> LearningState | None:
+        """Return the state of the latest learning if it is an agent's; else None.
+
+        Args:
+            scene: name of the present scene; a learning that is over is shown in its own only.
+            agent: id of the agent.
+        """
 
     def begin(self, scene: str, drives: Sequence[Path], agent: str) -> None:
         """Have a network learn.
@@ -223,6 +228,8 @@ class LocalLearner:
 
     def __init__(self, on_learned: Callable[[Learned], object]) -> None:
         self._on_learned = on_learned
+        self._scene = ""
+        """Name of the scene of the latest learning."""
         self._learning: Learning | None = None
 
     @property
@@ -236,10 +243,12 @@ class LocalLearner:
         learning = self._learning
         return None if learning is None else (learning, len(learning.errors), learning.is_over)
 
-    def state(self, agent: str) -> LearningState | None:
+    def state(self, scene: str, agent: str) -> LearningState | None:
         """Return the state of the latest learning if it is an agent's; else None."""
         learning = self._learning
         if learning is None or learning.agent != agent:
+            return None
+        if learning.is_over and self._scene != scene:
             return None
         note = learning.note
         return LearningState(
@@ -263,6 +272,7 @@ class LocalLearner:
             about = learning.drives, note.decisions, note.alike, note.held_out, note.score
             self._on_learned(Learned(scene, agent, *about, network))
 
+        self._scene = scene
         self._learning = Learning(drives, agent, seed=0, on_done=on_done)
 
     def stop(self) -> bool:
@@ -307,10 +317,12 @@ class ClassLearner:
         """Changes with each message of the class."""
         return self._trainings.latest, self._trainings.is_connected
 
-    def state(self, agent: str) -> LearningState | None:
+    def state(self, scene: str, agent: str) -> LearningState | None:
         """Return the state of the latest learning if it is an agent's; else None."""
         latest = self._trainings.latest
         if latest is None or latest.agent != agent:
+            return None
+        if latest.is_over and latest.scene != scene:
             return None
         waiting = f"Your place in the line: {latest.place}." if latest.place else ""
         if not latest.is_over and not self._trainings.is_connected:

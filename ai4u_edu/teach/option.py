@@ -300,7 +300,7 @@ class TeachOption:
             agent=agent,
             problem=work.problems.get(agent, ""),
             drives=list(work.drives.get(agent, ())),
-            learning=self._learner.state(agent),
+            learning=self._learner.state(self._scene, agent),
             rewards=list(work.rewards.get(agent, ())),
             opponents=list(work.opponents.get(agent, ())),
             practice=self._practices.state(agent),

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -161,8 +161,12 @@ class Doing:
     def _on_percept(self, agent: BasicAgent) -> None:
         asked = self.run.step.by
         network = f"{self.run.index}" if "network" in asked else ""
-        asked = {"anyone": "keys", "new network": "network"}.get(asked, asked)
-        driver = self._driver or cast("Driver", asked)
+        driver: Driver
+        if asked == "anyone":
+            driver = "keys"
+        else:
+            driver = "network" if asked == "new network" else asked
+        driver = self._driver or driver
         self.run.see(replace(decision_of(self.sim, agent), driver=driver, network=network))
 
 

@@ -60,6 +60,12 @@ def test_an_unknown_mission_is_refused_with_a_suggestion(page: PanelPage) -> Non
     assert "no mission is open" in page.failed("mission_answer", answer="1")["text"]
 
 
+def test_the_first_part_says_that_the_world_has_another_scene(page: PanelPage) -> None:
+    page.done("mission_open", mission="teach-3")
+    part = page.part("mission", mission="teach-3")
+    assert (part["is_here"], part["scene"]) == (False, "box_chase_ai4u")
+
+
 def test_a_tab_and_a_number_are_seen(room: PanelRoom, page: PanelPage) -> None:
     room.runner.reset(1).result(LIMIT_S)
     page.done("mission_open", mission="code-1")

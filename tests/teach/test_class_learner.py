@@ -39,7 +39,7 @@ def asking(tmp_path: Path) -> Asking:
 
 
 def shown(asking: Asking) -> tuple[str, str, bool]:
-    state = asking.learner.state("0")
+    state = asking.learner.state("box_chase", "0")
     assert state is not None
     return state.waiting, state.problem, state.is_over
 
@@ -47,7 +47,8 @@ def shown(asking: Asking) -> tuple[str, str, bool]:
 def test_a_room_shows_what_its_learning_waits_for(asking: Asking) -> None:
     assert asking.request.drives == ("box_chase-1.episode",)
     assert shown(asking) == ("", "", False)
-    assert asking.learner.state("1") is None
+    assert asking.learner.state("box_chase", "1") is None
+    assert asking.learner.state("maze", "0") is not None  # it still learns, for another scene
     asking.tell(place=3)
     assert shown(asking) == ("Your place in the line: 3.", "", False)
     key = asking.learner.key

@@ -86,6 +86,12 @@ def test_a_network_learns_from_drives_and_then_drives(room: PanelRoom, page: Pan
     assert (file["name"], base64.b64decode(file["data"])) == (kept.name, kept.read_bytes())
 
 
+def test_what_was_learned_in_another_scene_is_not_shown(room: PanelRoom, page: PanelPage) -> None:
+    learned(page, *SEEDS)
+    room.editor.open(Scene.load("box_chase_ai4u")).result()
+    page.part("teach", drives=[], learning=None)
+
+
 def test_the_network_reaches_the_goal_where_nobody_drove(room: PanelRoom, page: PanelPage) -> None:
     learned(page, *SEEDS)
     brain = room.editor.driver_brain("0", room.editor.driver_of("0"))

@@ -4,10 +4,16 @@ import { setAttributes } from "../shared/dom.js";
 
 const CONTROLS = "button, [role=tab], [role=switch], summary, select, a[href]";
 /**
- * Parts of the page that are no control.
+ * Parts of the page that are no control, or whose names are a person's.
  * @type {Record<string, string>}
  */
-const PLACES = { Keys: ".ai4u-dpad:not(:empty), .ai4u-dock", Program: ".ai4u-code-editor, .ai4u-blocks-editor" };
+const PLACES = {
+  Keys: ".ai4u-dpad:not(:empty), .ai4u-dock",
+  Networks: ".ai4u-networks [aria-expanded=true], .ai4u-networks [aria-expanded]",
+  Program: ".ai4u-code-editor, .ai4u-blocks-editor",
+};
+/** Attributes of controls that stay as they were chosen. */
+const CHOICES = ["aria-selected", "aria-pressed", "aria-checked", "aria-expanded"];
 /** Interval at which controls are looked for: tabs and lists come and go (ms). */
 const LOOK_MS = 300;
 
@@ -87,11 +93,11 @@ function nameOf(control) {
  * @param {Element} control
  */
 function isChoice(control) {
-  return control.localName === "summary" || ["aria-selected", "aria-pressed", "aria-checked"].some((name) => control.hasAttribute(name));
+  return control.localName === "summary" || CHOICES.some((name) => control.hasAttribute(name));
 }
 
 /** @param {Element} control */
 function isChosen(control) {
   if (control.localName === "summary") return /** @type {HTMLDetailsElement} */ (control.parentElement).open;
-  return ["aria-selected", "aria-pressed", "aria-checked"].some((name) => control.getAttribute(name) === "true");
+  return CHOICES.some((name) => control.getAttribute(name) === "true");
 }

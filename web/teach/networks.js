@@ -28,7 +28,7 @@ export class Networks {
   #file = element("input", { type: "file", accept: ".onnx", hidden: true });
   #opener = button("Open a file", () => this.#file.click(), { icon: "open" });
   #opening = element("p", { role: "status" });
-  element = element("div", {}, this.#list, element("div", { className: "ai4u-tools" }, this.#opener, this.#file), this.#opening);
+  element = element("div", { className: "ai4u-networks" }, this.#list, element("div", { className: "ai4u-tools" }, this.#opener, this.#file), this.#opening);
 
   /** @param {Panel} panel */
   constructor(panel) {
