@@ -1,0 +1,204 @@
+"""The missions of the island "Think", done in a served page with blocks and the real Python."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from ai4u_edu.missions.mission import library_missions
+from tests.browser.blocks import State, act, block, compare, near, program, stack
+from tests.browser.code_page import WORLD_WAITS, set_limits
+from tests.browser.served_viser import ready
+from tests.chromium import new_page
+from tests.playing import played
+
+pytestmark = [pytest.mark.browser, pytest.mark.nightly]
+
+SIZE = 1366, 768
+SEED = "4"
+"""A start of the maze with room ahead."""
+FOREVER = block("on_decision")
+
+
+class Card:
+    """The card of a mission, and the tab "Code" beside it."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.card = page.get_by_role("region", name="Mission")
+
+    @property
+    def done(self) -> Locator:
+        return self.card.locator(".ai4u-mission-done")
+
+    def press(self, name: str) -> None:
+        self.page.locator(".ai4u-panel").get_by_role("button", name=name, exact=True).click()
+
+    def press_lit(self, name: str) -> None:
+        """Press the one button that is lit."""
+        lit = self.page.locator("[data-ai4u-lit]")
+        expect(lit).to_have_text([name])
+        expect(lit).to_be_in_viewport()
+        lit.click()
+
+    def go_on(self) -> None:
+        """Wait until the step is done, and press Next."""
+        expect(self.done).to_be_visible()
+        self.card.get_by_role("button", name="Next", exact=True).click()
+        expect(self.done).to_be_hidden()
+
+    def snap(self, *blocks: State) -> None:
+        """Replace the program with blocks, which Blockly puts together."""
+        script = """async (blocks) => {
+          const { joinProgram } = await import("./web/blocks/text.js");
+          return joinProgram("", blocks, true);
+        }"""
+        text: str = self.page.evaluate(script, program(stack(FOREVER, *blocks)))
+        with self.page.expect_file_chooser() as chooser:
+            self.press("Open .py")
+        chooser.value.set_files(
+            {"name": "mine.py", "mimeType": "text/x-python", "buffer": text.encode()}
+        )
+        expect(self.page.locator(".ai4u-blocks-editor")).to_be_visible()
+
+    def drag(self, group: str, title: str, below: str) -> None:
+        """Drag a block out of a group, and drop it under another one."""
+        editor = self.page.locator(".ai4u-blocks-editor")
+        editor.locator(".blocklyToolboxCategory").filter(has_text=group).click()
+        source = editor.locator(".blocklyFlyout .blocklyDraggable").filter(has_text=title).first
+        start = source.bounding_box()
+        assert start is not None
+        above = editor.locator(".blocklyBlockCanvas .blocklyDraggable").filter(has_text=below).last
+        end = above.bounding_box()
+        assert end is not None
+        mouse, grip = self.page.mouse, 12
+        mouse.move(start["x"] + grip, start["y"] + grip)
+        mouse.down()
+        mouse.move(start["x"] + 60, start["y"] + 60, steps=5)
+        mouse.move(end["x"] + grip, end["y"] + end["height"] + grip, steps=5)
+        mouse.up()
+
+
+@contextmanager
+def card(chromium: Browser, mission: str) -> Iterator[Card]:
+    """Open a mission's first step in its scene, and go on to the second one."""
+    page, problems = new_page(chromium, *SIZE), list[str]()
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    scene = library_missions().get(mission).scene
+    with played(scene, "--seed", SEED, *WORLD_WAITS) as server:
+        kept = f'{{"mission": "{mission}", "step": 0}}'
+        page.add_init_script(f"localStorage['ai4u-mission-'] ??= '{kept}'")
+        page.goto(server.url)
+        ready(page)
+        set_limits(page)
+        yield Card(page)
+        page.context.close()
+    assert problems == []
+
+
+def test_a_block_is_dragged_and_drives(chromium: Browser) -> None:
+    with card(chromium, "think-1") as ada:
+        ada.press_lit("Code")
+        ada.go_on()
+        ada.press_lit("Blocks")
+        ada.drag("Actions", "forward", below="forever")
+        expect(ada.page.get_by_role("textbox", name="Program in Python")).to_contain_text(
+            "forward = 1"
+        )
+        ada.press_lit("Run")
+        ada.go_on()
+        room = compare(near_ahead(), "GT", 0.8)
+        ada.snap(block("if", IF=room, DO=act(0, 0.5)))
+        ada.press("New start")
+        ada.press("Run")
+        expect(ada.done).to_contain_text("It looked before it acted")
+
+
+def near_ahead() -> State:
+    return {**near("ahead"), "type": "near:vision"}
+
+
+def arithmetic(left: State | float, operator: str, right: State | float) -> State:
+    return block("arithmetic", {"OP": operator}, A=left, B=right)
+
+
+def if_else(condition: State, then: State, otherwise: State) -> State:
+    return block("if_else", IF=condition, DO=then, ELSE=otherwise)
+
+
+def sees(group: str) -> State:
+    return block("sees:vision", {"GROUP": group, "SIDE": "around"})
+
+
+def to(group: str) -> State:
+    """Drive to things of a group."""
+    direction = arithmetic(block("angle:vision", {"GROUP": group}), "DIVIDE", 40)
+    return stack(act(0, 0.6), act(1, direction))
+
+
+def to_seen(group: str) -> State:
+    return if_else(sees(group), to(group), act(1, 0.4))
+
+
+def sense(key: str, slot: int) -> State:
+    return block(f"sense:{key}", {"SLOT": str(slot)})
+
+
+def wheel_rests(eye: int, other: int, wheel: int) -> State:
+    brighter = compare(sense("line", eye), "GT", sense("line", other))
+    return block("if", IF=brighter, DO=act(wheel, 0))
+
+
+def chase(number: int) -> State:
+    left = sense(f"runner {number}", 1)
+    return stack(act(1, arithmetic(left, "MULTIPLY", -8)), act(0, 0.9))
+
+
+ALONG_THE_WALL = if_else(
+    compare(near_ahead(), "LT", 0.9),
+    act(1, -0.8),
+    stack(
+        act(0, 0.5),
+        act(1, arithmetic(block("near:vision", {"SIDE": "right"}), "MINUS", 0.8)),
+    ),
+)
+TO_THE_EXIT = if_else(sees("target"), to("target"), ALONG_THE_WALL)
+NEEDS = if_else(
+    compare(sense("inside", 0), "LT", sense("inside", 1)), to_seen("food"), to_seen("water")
+)
+ALL_RUNNERS = if_else(
+    compare(sense("free", 0), "GT", 0),
+    chase(1),
+    if_else(compare(sense("free", 1), "GT", 0), chase(2), chase(3)),
+)
+TO_THE_DISC = act(1, arithmetic(sense("bearing", 0), "MULTIPLY", -1))
+PROGRAMS: dict[str, Sequence[tuple[str, Sequence[State]]]] = {
+    "think-2": [("Run", [if_else(compare(near_ahead(), "LT", 1.2), act(1, 0.5), act(0, 0.5))])],
+    "think-3": [("Run", [ALONG_THE_WALL])],
+    "think-4": [("Run", [TO_THE_EXIT]), ("Test", [TO_THE_EXIT])],
+    "think-5": [("Run", [TO_THE_DISC]), ("Test", [TO_THE_DISC, act(0, sense("bearing", 1))])],
+    "think-6": [("Run", [to_seen("food")]), ("Run", [NEEDS])],
+    "think-7": [
+        ("Run", [act(0, 0.2), act(1, 0.4)]),
+        ("Run", [act(0, 0.4), act(1, 0.4), wheel_rests(0, 2, 0), wheel_rests(2, 0, 1)]),
+    ],
+    "think-8": [("Run", [chase(1)]), ("Run", [ALL_RUNNERS])],
+}
+"""For each mission, the button to press with the blocks that its sentences say."""
+
+
+@pytest.mark.parametrize("mission", PROGRAMS)
+def test_the_blocks_that_its_sentences_say_do_a_mission(chromium: Browser, mission: str) -> None:
+    with card(chromium, mission) as ada:
+        ada.page.get_by_role("tab", name="Code", exact=True).click()
+        if mission != "think-4":
+            ada.go_on()
+        for index, (name, blocks) in enumerate(PROGRAMS[mission]):
+            ada.snap(*blocks)
+            if index:
+                ada.press("New start")
+            ada.press(name)
+            if index < len(PROGRAMS[mission]) - 1:
+                ada.go_on()
+        expect(ada.done).to_be_visible()
