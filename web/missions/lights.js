@@ -53,7 +53,7 @@ export class Lights {
     for (const control of this.#lit) if (!lit.includes(control)) setAttributes(control, { "data-ai4u-lit": false });
     for (const control of lit) setAttributes(control, { "data-ai4u-lit": true });
     this.#lit = lit;
-    for (const control of lit) this.#scrollTo(control);
+    if (lit.length) this.#scrollTo(lit[0]);
   }
 
   /** @param {Element} control */
@@ -61,7 +61,8 @@ export class Lights {
     const name = nameOf(control);
     if (this.#scrolled.has(name)) return;
     this.#scrolled.add(name);
-    control.scrollIntoView({ block: "nearest", inline: "nearest" });
+    // of a section, what is in it has to be seen, too
+    control.scrollIntoView({ block: control.localName === "summary" ? "start" : "nearest", inline: "nearest" });
   }
 
   /**
