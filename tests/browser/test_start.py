@@ -219,7 +219,8 @@ def test_its_controls_can_be_read_in_all_states(
     open_start(page, world)
     assert low_contrasts(page, controls=len(Scene.names()) + 3) == []
     page.get_by_role("button", name="Missions").click()
-    page.evaluate("for (const island of document.querySelectorAll('details')) island.open = true")
+    islands = page.locator("details")
+    islands.evaluate_all("all => all.forEach((each) => { each.name = ''; each.open = true; })")
     assert low_contrasts(page, controls=len(MISSIONS().missions) + 4 + len(ISLANDS) - 1) == []
     close_page(page)
 

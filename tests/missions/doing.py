@@ -162,10 +162,7 @@ class Doing:
         asked = self.run.step.by
         network = f"{self.run.index}" if "network" in asked else ""
         driver: Driver
-        if asked == "anyone":
-            driver = "keys"
-        else:
-            driver = "network" if asked == "new network" else asked
+        driver = "keys" if asked == "anyone" else "network" if asked == "new network" else asked
         driver = self._driver or driver
         self.run.see(replace(decision_of(self.sim, agent), driver=driver, network=network))
 
