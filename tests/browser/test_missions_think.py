@@ -185,7 +185,7 @@ PROGRAMS: dict[str, Sequence[tuple[str, Sequence[State]]]] = {
     ],
     "think-8": [("Run", [chase(1)]), ("Run", [ALL_RUNNERS])],
 }
-"""For each mission, the button to press with the blocks that its sentences say."""
+"""The button to press with the blocks that the sentences say, by mission and step."""
 
 
 @pytest.mark.parametrize("mission", PROGRAMS)
