@@ -1,5 +1,6 @@
 """The missions of the island "Think", done in a served page with blocks and the real Python."""
 
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
@@ -60,7 +61,8 @@ class Card:
         chooser.value.set_files(
             {"name": "mine.py", "mimeType": "text/x-python", "buffer": text.encode()}
         )
-        expect(self.page.locator(".ai4u-blocks-editor")).to_be_visible()
+        editor = self.page.get_by_role("textbox", name="Program in Python")
+        expect(editor).to_contain_text(re.compile(r"\w+ = \w+ = 0"))  # as blocks begin
 
     def drag(self, group: str, title: str, below: str) -> None:
         """Drag a block out of a group, and drop it under another one."""
