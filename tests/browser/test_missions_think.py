@@ -1,7 +1,7 @@
-"""The missions of the island "Think", done in a served page with blocks and the real Python."""
+"""A mission of the island "Think", done in a served page with blocks and the real Python."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
@@ -119,88 +119,3 @@ def test_a_block_is_dragged_and_drives(chromium: Browser) -> None:
 
 def near_ahead() -> State:
     return {**near("ahead"), "type": "near:vision"}
-
-
-def arithmetic(left: State | float, operator: str, right: State | float) -> State:
-    return block("arithmetic", {"OP": operator}, A=left, B=right)
-
-
-def if_else(condition: State, then: State, otherwise: State) -> State:
-    return block("if_else", IF=condition, DO=then, ELSE=otherwise)
-
-
-def sees(group: str) -> State:
-    return block("sees:vision", {"GROUP": group, "SIDE": "around"})
-
-
-def to(group: str) -> State:
-    """Drive to things of a group."""
-    direction = arithmetic(block("angle:vision", {"GROUP": group}), "DIVIDE", 40)
-    return stack(act(0, 0.6), act(1, direction))
-
-
-def to_seen(group: str) -> State:
-    return if_else(sees(group), to(group), act(1, 0.4))
-
-
-def sense(key: str, slot: int) -> State:
-    return block(f"sense:{key}", {"SLOT": str(slot)})
-
-
-def wheel_rests(eye: int, other: int, wheel: int) -> State:
-    brighter = compare(sense("line", eye), "GT", sense("line", other))
-    return block("if", IF=brighter, DO=act(wheel, 0))
-
-
-def chase(number: int) -> State:
-    left = sense(f"runner {number}", 1)
-    return stack(act(1, arithmetic(left, "MULTIPLY", -8)), act(0, 0.9))
-
-
-ALONG_THE_WALL = if_else(
-    compare(near_ahead(), "LT", 0.9),
-    act(1, -0.8),
-    stack(
-        act(0, 0.5),
-        act(1, arithmetic(block("near:vision", {"SIDE": "right"}), "MINUS", 0.8)),
-    ),
-)
-TO_THE_EXIT = if_else(sees("target"), to("target"), ALONG_THE_WALL)
-NEEDS = if_else(
-    compare(sense("inside", 0), "LT", sense("inside", 1)), to_seen("food"), to_seen("water")
-)
-ALL_RUNNERS = if_else(
-    compare(sense("free", 0), "GT", 0),
-    chase(1),
-    if_else(compare(sense("free", 1), "GT", 0), chase(2), chase(3)),
-)
-TO_THE_DISC = act(1, arithmetic(sense("bearing", 0), "MULTIPLY", -1))
-PROGRAMS: dict[str, Sequence[tuple[str, Sequence[State]]]] = {
-    "think-2": [("Run", [if_else(compare(near_ahead(), "LT", 1.2), act(1, 0.5), act(0, 0.5))])],
-    "think-3": [("Run", [ALONG_THE_WALL])],
-    "think-4": [("Run", [TO_THE_EXIT]), ("Test", [TO_THE_EXIT])],
-    "think-5": [("Run", [TO_THE_DISC]), ("Test", [TO_THE_DISC, act(0, sense("bearing", 1))])],
-    "think-6": [("Run", [to_seen("food")]), ("Run", [NEEDS])],
-    "think-7": [
-        ("Run", [act(0, 0.2), act(1, 0.4)]),
-        ("Run", [act(0, 0.4), act(1, 0.4), wheel_rests(0, 2, 0), wheel_rests(2, 0, 1)]),
-    ],
-    "think-8": [("Run", [chase(1)]), ("Run", [ALL_RUNNERS])],
-}
-"""The button to press with the blocks that the sentences say, by mission and step."""
-
-
-@pytest.mark.parametrize("mission", PROGRAMS)
-def test_the_blocks_that_its_sentences_say_do_a_mission(chromium: Browser, mission: str) -> None:
-    with card(chromium, mission) as ada:
-        ada.page.get_by_role("tab", name="Code", exact=True).click()
-        if mission != "think-4":
-            ada.go_on()
-        for index, (name, blocks) in enumerate(PROGRAMS[mission]):
-            ada.snap(*blocks)
-            if index:
-                ada.press("New start")
-            ada.press(name)
-            if index < len(PROGRAMS[mission]) - 1:
-                ada.go_on()
-        expect(ada.done).to_be_visible()
