@@ -42,6 +42,25 @@
     if (checks === MAX_CHECKS) clearInterval(timer);
   }, CHECK_PERIOD_MS);
 
+  // Without a graphics chip, smooth edges take a third of a picture's time, and a higher resolution looks better.
+  // The prototype is as it was once viser has its context.
+  const prototype = /** @type {any} */ (HTMLCanvasElement.prototype);
+  const { getContext } = prototype;
+  prototype.getContext = function (/** @type {string} */ kind, /** @type {any} */ options) {
+    if (kind !== "webgl2" || !options?.antialias) return getContext.call(this, kind, options);
+    prototype.getContext = getContext;
+    return getContext.call(this, kind, { ...options, antialias: !isDrawnBySoftware() });
+  };
+
+  /** Return true if WebGL is drawn by the processor; page/graphics.js, a module, comes too late. */
+  function isDrawnBySoftware() {
+    const gl = document.createElement("canvas").getContext("webgl2");
+    const names = gl?.getExtension("WEBGL_debug_renderer_info");
+    const renderer = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : "";
+    gl?.getExtension("WEBGL_lose_context")?.loseContext(); // browsers keep few contexts
+    return /swiftshader|llvmpipe|softpipe|software/i.test(renderer);
+  }
+
   /** Return the resolution that page/resolution.js found for this browser; 0 for viser's own. */
   function rememberedResolution() {
     try {

@@ -13,8 +13,8 @@ const SLOW = 25;
 const GOAL = 30;
 /** Pictures a second above which the next page has more pixels. */
 const FAST = 45;
-/** Least resolution, as a share of the screen's. */
-const MIN_SHARE = 0.55;
+/** Least resolution, as a share of the screen's: at a lower one, lines of the grid vanish without smooth edges. */
+const MIN_SHARE = 0.65;
 /** Factor by which it grows. */
 const STEP_UP = 1.15;
 /** Time of driving (ms) that is measured. */

@@ -1,7 +1,10 @@
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from ai4u_edu.base.colors import PALETTE, rgb
+from ai4u_edu.base.colors import PALETTE, hex_colour, rgb
 from ai4u_edu.page.viewer.scene.light import line_colours, shown_colour, surface_colours, tone_map
 from ai4u_edu.snapshot.theme import FLOOR, VOID, WALL, Rgb
 
@@ -20,6 +23,13 @@ def test_the_palette_comes_out_close_to_what_is_meant(name: str) -> None:
     (shown,) = 255 * shown_colour(surface_colours([rgb(name)]) / 255)
     assert np.abs(shown - rgb(name)).max() < 60
     assert np.abs(shown - rgb(name)).mean() < 20
+
+
+def test_the_page_s_background_is_what_is_around_the_floors() -> None:
+    style = Path(__file__).parents[3] / "web" / "styles" / "page" / "page.css"
+    rule = re.search(r"canvas\[data-engine\] {\s*background: (\S+);", style.read_text("utf-8"))
+    assert rule
+    assert rule[1] == hex_colour(VOID)
 
 
 def test_lines_take_linear_numbers() -> None:

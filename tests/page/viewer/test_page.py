@@ -3,6 +3,7 @@
 import contextlib
 import io
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,13 +30,14 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 
+STYLE = Path(__file__).parents[3] / "web" / "styles" / "page" / "page.css"
 READY = "() => window.__viserMutable?.camera?.fov < 3 && !window.__viserMutable.firstMessageBatch"
 """The camera has its long lens: the scene has come, and it is framed."""
 
 
 @contextlib.contextmanager
 def opened(viewer: Viewer) -> "Iterator[Page]":
-    """Open a viewer's page."""
+    """Open a viewer's page with the style of ours, which has the colour around the floors."""
     from tests.chromium import browser, new_page
 
     viewer.runner.start()
@@ -45,6 +47,7 @@ def opened(viewer: Viewer) -> "Iterator[Page]":
         # viser takes rare frames for a slow machine, and draws fewer pixels from then on
         tab.goto(f"http://127.0.0.1:{viewer.port}?fixedDpr=1")
         tab.wait_for_function(READY)
+        tab.add_style_tag(path=STYLE)
         yield tab
 
 

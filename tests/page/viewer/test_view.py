@@ -236,6 +236,8 @@ def test_a_tilted_camera_sees_the_whole_arena_before_a_sky(
     view.choose(Mode.TILTED)
     view.update(runner.latest, "0")
     wanted = frame_tilted(camera_bounds(runner.latest.static_scene), 1.2)
+    nodes = watched.client.scene._handle_from_node_name
+    assert "/outside/void" in nodes  # below the sky; from above, the page's background is enough
     assert camera.position == pytest.approx(wanted.position)
     assert camera.look_at == pytest.approx(wanted.target)
     assert camera.up_direction == pytest.approx((0, 0, 1))
@@ -250,6 +252,7 @@ def test_a_tilted_camera_sees_the_whole_arena_before_a_sky(
     assert camera.position == pytest.approx(PLACE)
     view.choose(Mode.ARENA)
     view.update(runner.latest, "0")
+    assert "/outside/void" not in nodes
     assert camera.fov < 0.1
     assert camera.up_direction == pytest.approx((0, 1, 0))
 

@@ -38,7 +38,6 @@ def pushed(viewer: Viewer) -> int:
 def test_the_scene_is_complete_before_anybody_watches(viewer: Viewer) -> None:
     names = nodes(viewer)
     for expected in (
-        "/ground1/void",
         "/ground1/floor plate/top",
         "/ground1/floor ring/side",
         "/ground1/area goal/fill",

@@ -5,7 +5,7 @@ import { nextResolution } from "../../../web/page/resolution.js";
 
 test("a slow picture gets as few pixels as its rate asks for, within limits", () => {
   assert.equal(nextResolution(14, 1, 1), 0.7);
-  assert.equal(nextResolution(3, 1, 1), 0.55);
+  assert.equal(nextResolution(3, 1, 1), 0.65);
   assert.equal(nextResolution(14, 2, 2), 1.35);
 });
 

@@ -9,6 +9,10 @@ from ai4u_edu.page.viewer.scene.geometry import Array, Mesh
 from ai4u_edu.page.viewer.scene.light import line_colours, surface_colours
 from ai4u_edu.snapshot.theme import Rgb
 
+LINE_PX = 1.55
+"""Thickness of lines: one pixel at the lowest resolution of a page, which may have no smooth edges
+(``web/page/resolution.js``), so that none vanishes."""
+
 
 class MeshDrawer:
     """Adds things below a scene node; :meth:`finish` adds all collected lines at once.
@@ -88,6 +92,6 @@ class MeshDrawer:
         """Add the collected lines as one node."""
         if self._colours:
             colours = line_colours(self._colours)
-            lines = self.moving_lines("lines", len(colours), 1.3)
+            lines = self.moving_lines("lines", len(colours), LINE_PX)
             lines.points = np.concatenate(self._lines).astype(np.float32)
             lines.colors = np.stack([colours, colours], axis=1)

@@ -21,6 +21,7 @@ from ai4u_edu.page.viewer.scene.framing import (
     visible_height,
 )
 from ai4u_edu.page.viewer.scene.geometry import Array
+from ai4u_edu.page.viewer.scene.ground import add_void
 from ai4u_edu.page.viewer.scene.layers import Layers
 from ai4u_edu.snapshot import AgentState, BodyState, Snapshot, StaticScene
 from ai4u_edu.snapshot.theme import Rgb
@@ -53,9 +54,10 @@ class _Daylight:
 
     Args:
         scene: viser's scene of the page.
+        static_scene: the world.
     """
 
-    def __init__(self, scene: SceneApi) -> None:
+    def __init__(self, scene: SceneApi, static_scene: StaticScene) -> None:
         self._scene = scene
         scene.set_background_image(_SKY, format="png")
         self._lights = [
@@ -64,9 +66,12 @@ class _Daylight:
             )
             for number, (position, intensity) in enumerate(_SIDE_LIGHTS)
         ]
+        self._void = add_void(scene, static_scene)
 
     def remove(self) -> None:
-        """Remove the sky and the lights."""
+        """Remove the sky, the lights and the ground."""
+        if self._void is not None:
+            self._void.remove()
         self._scene.set_background_image(None)
         for light in self._lights:
             light.remove()
@@ -77,16 +82,20 @@ class _Haze:
 
     Args:
         scene: viser's scene of the page.
+        static_scene: the world.
         distance: of the camera from its target (m).
     """
 
-    def __init__(self, scene: SceneApi, distance: float) -> None:
+    def __init__(self, scene: SceneApi, static_scene: StaticScene, distance: float) -> None:
         self._scene = scene
         scene.set_background_image(np.array([[_HAZE]], np.uint8), format="png")
         scene.configure_fog(_HAZE_NEAR * distance, _HAZE_FAR * distance, color=_HAZE)
+        self._void = add_void(scene, static_scene)
 
     def remove(self) -> None:
-        """Remove the sky and the fading."""
+        """Remove the sky, the fading and the ground."""
+        if self._void is not None:
+            self._void.remove()
         self._scene.set_background_image(None)
         self._scene.configure_fog(1.0, 2.0, enabled=False)
 
@@ -236,7 +245,7 @@ class View:
         if bounds != self._bounds or reshaped:
             self._bounds, self._aspect = bounds, aspect
             if self.mode is Mode.TILTED:
-                self._tilt(bounds, aspect)
+                self._tilt(snapshot.static_scene, bounds, aspect)
             else:
                 self._put(frame_arena(bounds, aspect))
 
@@ -260,13 +269,13 @@ class View:
             camera.position = position
             camera.look_at = (self.frame.x, self.frame.y, 0.0)
 
-    def _tilt(self, bounds: Bounds, aspect: float) -> None:
+    def _tilt(self, static_scene: StaticScene, bounds: Bounds, aspect: float) -> None:
         """Put the camera before the arena, tilted."""
         camera, frame = self._client.camera, frame_tilted(bounds, aspect)
         self._note_sent(frame.position)
         with self._client.atomic():
             self._clear_sky()
-            self._sky = _Haze(self._client.scene, frame.distance)
+            self._sky = _Haze(self._client.scene, static_scene, frame.distance)
             camera.up_direction = (0.0, 0.0, 1.0)
             camera.position = frame.position
             camera.look_at = frame.target
@@ -298,7 +307,7 @@ class View:
         with self._client.atomic():
             if is_new:
                 self._clear_sky()
-                self._sky = _Daylight(self._client.scene)
+                self._sky = _Daylight(self._client.scene, snapshot.static_scene)
                 camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
                 camera.up_direction = (0.0, 0.0, 1.0)
                 camera.fov = _EYE_FIELD_OF_VIEW_RAD
