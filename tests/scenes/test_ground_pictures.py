@@ -1,6 +1,8 @@
 """Pictures on the ground of a scene: sensors see them, and they go wherever the scene goes."""
 
+import base64
 import io
+import zipfile
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
@@ -12,18 +14,28 @@ from PIL import Image
 
 from ai4u_edu import LocalBrain, Scene
 from ai4u_edu.base.errors import SceneError
+from ai4u_edu.games.tournament.game import game
+from ai4u_edu.member.my_work import open_my_work
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.editing.autosave import Autosave, latest
 from ai4u_edu.page.editing.scene_store import SceneStore
 from ai4u_edu.page.editing.sharing import shared_link
 from ai4u_edu.recording import Episode, Recorder, Replay
+from ai4u_edu.recording.episode import decode
+from ai4u_edu.recording.exports.html_page import write_html
 from ai4u_edu.recording.player import Player
+from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes.scene_data import scene_data, scene_from
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 from ai4u_edu.wire.class_link import MAX_SCENE_CHARS as MAX_CLASS_CHARS
+from ai4u_edu.wire.class_link import Assignment
 from ai4u_edu.world.pictures import MAX_PICTURE_CHARS, picture_data
+from tests.member.fake_link import joined
+from tests.member.test_assignment import applied
+from tests.waiting import LIMIT_S
 
 TEXT = """\
 name: mat
@@ -168,6 +180,64 @@ def test_a_replay_with_another_picture_is_not_exact(scene: Scene, tmp_path: Path
     white = mat.model_copy(update={"picture": picture_data(track((255, 255, 255)))})
     other = episode.scene.model_copy(update={"areas": (white,)})
     assert not Replay(replace(episode, scene=other)).verdict.exact
+
+
+def test_a_changed_scene_is_restored_with_it(scene: Scene, tmp_path: Path) -> None:
+    runner, saver = Runner(scene.build(), seed=1), Autosave(tmp_path, "mat")
+    editor = SceneEditor(runner, scene)
+    editor.recovery.autosave = saver
+    finish(runner, editor.move_body("mat", 1.0, 0.5))
+    saver.stop()
+    left = latest(tmp_path)
+    assert left is not None
+    assert left.scene() == editor.scene
+    assert left.scene().description.pictures == scene.description.pictures
+
+
+def test_my_work_has_it(scene: Scene, tmp_path: Path) -> None:
+    recorded(scene).save(tmp_path / "mat-5.episode")
+    with zipfile.ZipFile(tmp_path / "my-work.zip", "w") as archive:
+        archive.writestr("scene.yaml", scene.dumps())
+        archive.writestr("scenes/A mat.yaml", scene.dumps())
+        archive.write(tmp_path / "mat-5.episode", "episodes/mat-5.episode")
+    work = open_my_work(tmp_path / "my-work.zip")
+    assert Scene.load(work.scene) == scene
+    assert SceneStore(work.scenes).load("A mat") == scene
+    assert Replay(Episode.load(work.episodes / "mat-5.episode")).verdict.exact
+
+
+def test_a_class_assigns_it_and_keeps_what_a_student_made_of_it(
+    scene: Scene, tmp_path: Path
+) -> None:
+    pictures = scene.description.pictures
+    with joined(folder=tmp_path) as room:
+        room.tell(Assignment("a", "A mat", scene.dumps(), 3))
+        assert applied(room, "a") == ""
+        assert room.editor.state.description.pictures == pictures
+        room.editor.move_body("mat", 1.0, 0.5).result(LIMIT_S)
+        room.tell(Assignment("b", "Maze", "maze", 7))
+        assert applied(room, "b") == ""
+        store = room.editor.scene_store
+        assert store is not None
+        (name,) = store.names()
+        assert store.load(name).description.pictures == pictures
+
+
+def test_games_of_a_tournament_are_played_and_recorded_on_it(file: Path) -> None:
+    entry = {"name": "a", "drivers": {"": {"kind": "random"}}}
+    told = game(scene_data(str(file)), 3, [entry])
+    assert told["reason"] == ""
+    episode = decode(Episode, base64.b64decode(told["episode"]), "game")
+    assert episode.scene.pictures == Scene.load(file).description.pictures
+    assert Replay(episode).verdict.exact
+
+
+def test_a_running_world_and_a_page_are_exported_with_it(scene: Scene, tmp_path: Path) -> None:
+    exported = export_scene(scene.build(), scene.description)
+    assert Scene.loads(Scene(exported).dumps()).description.pictures == scene.description.pictures
+    page = write_html(Replay(recorded(scene)), tmp_path / "drive.html").read_text(encoding="utf-8")
+    (picture,) = scene.description.pictures
+    assert picture in page
 
 
 def test_a_link_says_that_it_cannot_carry_it(scene: Scene) -> None:
