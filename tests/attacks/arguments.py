@@ -51,6 +51,7 @@ FORMS = {
     "change_agent": "agent settings",
     "change_body": "thing",
     "change_settings": "scene settings",
+    "change_field": "field",
 }
 """Forms whose values the commands send."""
 LISTS = {"drivers": "driver", "scenes": "scene", "gallery": "class", "palette": "template"}
@@ -84,6 +85,7 @@ class Known:
             case "world":
                 self.names["body"] = [body["name"] for body in part["bodies"]]
                 self.forms["scene settings"] = part["settings"]
+                self.forms["field"] = part["field"]
                 self._note_form("thing", part["form"], "name")
             case "past":
                 self.names["number"] = [0, *(each["number"] for each in part["episodes"])]
