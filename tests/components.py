@@ -48,7 +48,11 @@ AI4U_SETTINGS = (
     "beforeTheReset endOfEpisode beginOfEpisode endOfStep beginOfStep beginOfUpdateState "
     "endOfUpdateState beginOfApplyAction endOfApplyAction OnResetStart OnEpisodeEnd OnEpisodeStart "
     "OnStepEnd OnStepStart OnStateUpdateStart OnStateUpdateEnd OnActionStart OnActionEnd "
-    "OnAgentStart"
+    "OnAgentStart eye Enabled GetStateSize GetStateName GetFieldArgAsInt GetFieldArgAsFloat "
+    "GetFieldArgAsBool GetFieldArgAsString GetFieldArgAsFloatArray GetFieldArgAsIntArray "
+    "ContainsField fields add_field request_reset EpisodeReward NSteps OnTouch body_entered "
+    "body_exited returnDistance verticalShift ExportAgentMetadata RemoteStarter "
+    "RemoteConfiguration ControllerConfiguration --ai4u_port --ai4u_host --ai4u_rid sac_export_to"
 )
 """The settings, methods and events of these classes, an underscore in place of a space."""
 

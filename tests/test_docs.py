@@ -37,6 +37,7 @@ START_PAGE = ROOT / "docs/README.md"
 RUN_ELSEWHERE = {
     "remote.md": "tests/remote/test_guide.py",
     "README.md": "test_the_start_page_drives_a_robot",
+    "from-ai4u.md": "tests/remote/test_ai4u_ports.py",
 }
 """Pages whose programs need worlds of their own, and the tests that run them."""
 
