@@ -1,8 +1,8 @@
 """Takes film strips of the page, to look at: ``python -m tests.film_sheet``.
 
 A strip shows one thing in time: the opening, a win, a fall, a network that is watched, a program,
-and building. Each is taken on a desk, a tablet and a phone, light above dark. World and page are
-real.
+building, and the map with twelve missions. Each is taken on a desk, a tablet and a phone, light
+above dark. World and page are real.
 """
 
 import argparse
@@ -14,6 +14,7 @@ from typing import Any
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect
 
+from ai4u_edu.missions.mission import library_missions
 from tests.browser.served_viser import ready
 from tests.chromium import browser
 from tests.playing import played
@@ -30,6 +31,11 @@ TURN_S = 0.4
 """World time (s) to turn to the left until the near box is ahead."""
 TIME_SCALE = "0.4"
 """Slow enough for a machine that draws without a graphics card."""
+MISSIONS = (
+    *("drive-1", "drive-7", "sense-1", "sense-5", "think-1", "think-7"),
+    *("code-9", "code-18", "build-1", "build-13", "teach-1", "teach-4"),
+)
+"""Two of each island up to Teach."""
 Film = Callable[[Page], Iterable[bytes]]
 
 
@@ -146,6 +152,22 @@ def _build(page: Page) -> Iterable[bytes]:
         yield page.screenshot()
 
 
+def _missions(page: Page) -> Iterable[bytes]:
+    world = page.url
+    page.goto(f"{world}start#missions")
+    page.locator(".ai4u-island[open]").wait_for()
+    yield page.screenshot()
+    for name in MISSIONS:
+        kept = f'{{"mission": "{name}", "step": 0}}'
+        page.evaluate("kept => (localStorage['ai4u-mission-'] = kept)", kept)
+        page.request.post(f"{world}api/scene", data={"name": library_missions().get(name).scene})
+        page.goto(world)
+        ready(page)
+        page.locator(".ai4u-mission-say").wait_for()
+        page.wait_for_timeout(800)
+        yield page.screenshot()
+
+
 FILMS: dict[str, tuple[Film, str]] = {
     "opening": (_opening, FAR_SEED),
     "win": (_win, NEAR_SEED),
@@ -153,6 +175,7 @@ FILMS: dict[str, tuple[Film, str]] = {
     "watch": (_watch, FAR_SEED),
     "code": (_code, FAR_SEED),
     "build": (_build, FAR_SEED),
+    "missions": (_missions, FAR_SEED),
 }
 """The films by name, with the seed of their world."""
 

@@ -13,6 +13,7 @@ from ai4u_edu import (
     Actuator,
     AndRewardFunc,
     BasicAgent,
+    BearingSensor,
     Brain,
     ControlRequestor,
     DistanceToTargetRewardFunc,
@@ -27,12 +28,16 @@ from ai4u_edu import (
     Scene,
     Sensor,
     TouchRewardFunc,
+    TouchSensor,
     WASDController,
     WASDRBMoveController,
 )
 from ai4u_edu.lessons.exercises.lesson_02 import runway
 from ai4u_edu.lessons.exercises.lesson_05 import vehicle
+from ai4u_edu.lessons.exercises.lesson_06 import stroll_world
+from ai4u_edu.lessons.exercises.lesson_07 import WALL_DECISIONS, robot_with, wall_world
 from ai4u_edu.lessons.exercises.lesson_08 import feeler_runway
+from ai4u_edu.lessons.exercises.lesson_18 import creature
 from ai4u_edu.lessons.exercises.lesson_21 import road
 from ai4u_edu.lessons.rollouts import seeds_of
 from ai4u_edu.lessons.worlds import plate
@@ -51,8 +56,8 @@ PEN = LocalBrain(
         speed=0.5, turn_amount=0.5, jump=[], jump_forward=[], switches={"pen": ["Space"]}
     )
 )
-HIT = "hit"
-INKED = "inked"
+HIT, INKED, ARRIVED = "hit", "inked", "arrived"
+FALL_ENDS = FallReward(cause_episode_to_end=True)
 CONTROLS = "W forward, S backward, A left, D right, R restart"
 TOUCH = TouchRewardFunc(target="box", reward=10, cause_episode_to_end=True)
 
@@ -79,7 +84,7 @@ def lamp_world(exercise: str) -> ControlRequestor:
     agent = worlds[0].agents[0]
     changed = agent.changed(
         actuators=[*agent.actuators, RespawnActuator(poses=poses)],
-        rewards=[*rewards, FallReward(cause_episode_to_end=True)],
+        rewards=[*rewards, FALL_ENDS],
         brains=[WHEELS],
     )
     return ControlRequestor(worlds[0].world, [changed])
@@ -96,6 +101,22 @@ def striped_road() -> ControlRequestor:
     won = AndRewardFunc(name=INKED, reward=10, cause_episode_to_end=True, children=parts)
     changed = agent.changed(rewards=[won, *agent.rewards], brains=[PEN])
     return ControlRequestor(sim.world, [changed])
+
+
+def plate_with_an_edge() -> ControlRequestor:
+    """Return the world of 06.1, in which a fall ends an episode, as it ends the exercise."""
+    sim = stroll_world()
+    return ControlRequestor(sim.world, [sim.agents[0].changed(brains=[KEYS], rewards=[FALL_ENDS])])
+
+
+def behind_a_wall() -> ControlRequestor:
+    """Return a world of 07.1, with a wall that has an arm."""
+    arrived = TouchRewardFunc(name=ARRIVED, target="box", reward=1, cause_episode_to_end=True)
+    senses = [TouchSensor(target="wall", perception_key="bumper"), BearingSensor(target="box")]
+    agent = robot_with(KEYS, senses, arrived).changed(
+        rewards=[arrived, FALL_ENDS], max_steps_per_episode=WALL_DECISIONS
+    )
+    return ControlRequestor(wall_world(1, has_arm=True), [agent])
 
 
 def driven_by_keys(sim: ControlRequestor, brain: Brain = KEYS) -> ControlRequestor:
@@ -130,6 +151,16 @@ WORLDS: Mapping[str, tuple[str, str, Callable[[], ControlRequestor]]] = {
         "Hit the lamp.",
         lambda: lamp_world("05.1"),
     ),
+    "lesson_06": (
+        "A plate with an edge",
+        "Stroll about for 30 seconds, and do not fall.",
+        plate_with_an_edge,
+    ),
+    "lesson_07": (
+        "A wall in the way",
+        "Get to the box behind the wall.",
+        behind_a_wall,
+    ),
     "lesson_08": (
         "A runway",
         "Drive to the end, and do not fall.",
@@ -154,6 +185,11 @@ WORLDS: Mapping[str, tuple[str, str, Callable[[], ControlRequestor]]] = {
             ],
         ),
     ),
+    "lesson_18": (
+        "A creature with needs",
+        "Stay alive for a minute.",
+        lambda: driven_by_keys(creature(lambda _: {})),
+    ),
     "lesson_21": (
         "A striped road",
         "Drive to the end, and ink the orange stripes.",
@@ -168,7 +204,7 @@ def lesson_scene(name: str) -> Scene:
     title, goal, make = WORLDS[name]
     sim = make()
     # where rewards are to be chosen, the page finds the goal among those that are
-    success = {"lesson_05": HIT, "lesson_21": INKED}.get(name)
+    success = {"lesson_05": HIT, "lesson_07": ARRIVED, "lesson_21": INKED}.get(name)
     like = SceneDescription(
         name=name, title=title, goal=goal, controls=CONTROLS, success=success, agents=({},)
     )

@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,8 @@ from tests.classroom.served_class import served_class
 from tests.waiting import until
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
+
+HOW_TO = Path(__file__).parents[2] / "docs" / "how-to" / "write-a-mission.md"
 
 
 def test_missions_in_a_class(chromium: Browser, tmp_path: Path) -> None:
@@ -40,6 +43,47 @@ def test_missions_in_a_class(chromium: Browser, tmp_path: Path) -> None:
             the_class_hears_of_it_later(day, ada)
             another_device_has_it_too(day, ada)
             day.close()
+
+
+def test_a_mission_of_the_teachers_own(chromium: Browser, tmp_path: Path) -> None:
+    """The one of the how-to, from its file to the wall."""
+    folder = tmp_path / "missions"
+    folder.mkdir()
+    file = folder / "stop-early.yaml"
+    file.write_text(first_yaml(HOW_TO), encoding="utf-8")
+    with served_class(tmp_path / "class", "--missions", str(folder)) as school:
+        day = Day(chromium, school)
+        day.open_teachers_page()
+        day.join()
+        ((name, page),) = day.students.items()
+        page.set_viewport_size({"width": 1300, "height": 800})
+        page.get_by_role("link", name="Missions: learn step by step").click()
+        page.locator("summary", has_text="My class").click()
+        page.get_by_role("button", name=re.compile("^Stop early")).click()
+        connected(page)
+        expect(card(page)).to_contain_text("Step 1 of 2")
+        expect(day.card(name)).to_contain_text("Stop early 1/2")
+        page.bring_to_front()
+        page.locator("canvas").first.click()
+        page.keyboard.down("KeyD")  # a circle, in which no wall holds it up
+        press_until_done(page, "KeyW")
+        page.keyboard.up("KeyD")
+        until(lambda: school.state()["mission_progress"] == {"1": {"stop-early": [1, 0]}})
+        page.get_by_role("button", name="Next", exact=True).click()
+        expect(day.card(name)).to_contain_text("Stop early 2/2")
+        changed = file.read_text(encoding="utf-8").replace("Stop in front of", "Halt before")
+        file.write_text(changed, encoding="utf-8")
+        expect(page.locator(".ai4u-mission-say")).to_contain_text("Halt before a wall")
+        day.close()
+
+
+def first_yaml(page: Path) -> str:
+    """Return the first YAML file that a page of the docs shows."""
+    found = re.search(
+        r"^( *)```yaml\n(.*?)^ *```", page.read_text("utf-8"), re.DOTALL | re.MULTILINE
+    )
+    assert found is not None
+    return textwrap.dedent(found[2])
 
 
 def one_begins_on_the_map(day: Day, page: Page) -> None:

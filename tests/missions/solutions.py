@@ -10,7 +10,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LinearRayCastingSensor
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.missions.checks import Solves, decision_of
+from ai4u_edu.missions.checks import Solves, Starts, decision_of
 from ai4u_edu.world import BodyDescription
 from tests.missions.doing import Action, Doing, Policy
 from tests.scenes.solvers import solver_of
@@ -529,6 +529,54 @@ def code_18(do: Doing) -> None:
     do.drive(lambda agent: {"wheels": wires(agent)[::-1]}, 3000)
 
 
+def by_code(code: str) -> Policy:
+    """Return a policy that drives as an answer of a lesson does, with what its notebook has."""
+    known: dict[str, Any] = {"Controller": object, "to": to_bearing, "math": math}
+    exec(code, known)  # noqa: S102 - the lessons' own answers
+    *_, made = (each for each in known.values() if callable(each) and each is not to_bearing)
+    state: dict[str, Any] = {"episode": -1}
+
+    def policy(agent: BasicAgent) -> Action:
+        if state["episode"] != agent.episode:
+            decide = made().get_action if isinstance(made, type) else made
+            state.update(episode=agent.episode, decide=decide)
+        action: Action = state["decide"](agent.percept)
+        return action
+
+    return policy
+
+
+def to_bearing(bearing: Any) -> Action:
+    """Drive towards a bearing, as the function of lessons 06, 07 and 18 does."""
+    left, ahead = bearing
+    if ahead < 0:
+        return {"move": [0, -1 if left > 0 else 1, 0, 0]}
+    return {"move": [1, -left, 0, 0]}
+
+
+def program(do: Doing, code: str = "") -> None:
+    """Drive with a program through the mission, with a new start where one is asked for.
+
+    Args:
+        do: the mission.
+        code: the program; default: the lesson's own solution.
+    """
+    policy = by_code(code or answers_to(do.run.mission.exercise).solution)
+    do.open("code")
+    while not do.is_done:
+        if isinstance(do.run.step.check, Starts):
+            do.new_start()
+        elif not do.drive(policy, 4000):
+            return
+
+
+def code_22(do: Doing) -> None:
+    do.open("code")
+    do.drive(move(0.1, 0))
+    do.drive(by_code(answers_to("00.2").solution))
+    do.drive(move(0.1, 0.2))
+
+
 def code_19(do: Doing) -> None:
     do.drive(lambda agent: {"wheels": wires(agent)}, 3000, through=True)
 
@@ -709,6 +757,12 @@ SOLUTIONS: dict[str, Solution] = {
     "code-19": code_19,
     "code-20": exercise,
     "code-21": code_21,
+    "code-22": code_22,
+    "code-23": program,
+    "code-24": program,
+    "code-25": program,
+    "code-26": program,
+    "code-27": program,
     "build-1": build_1,
     "build-2": build_2,
     "build-3": build_3,

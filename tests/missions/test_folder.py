@@ -13,6 +13,7 @@ from ai4u_edu.base.errors import SceneError
 from ai4u_edu.missions import mission_map, mission_schema
 from ai4u_edu.missions.checks import Check
 from ai4u_edu.missions.mission import (
+    CONTROLS,
     MAX_FILES,
     Mission,
     MissionFolder,
@@ -151,3 +152,8 @@ def test_play_shows_a_teachers_missions_and_warns_of_wrong_ones(tmp_path: Path) 
         with PanelPage(world.url + "ws/panel") as page:
             page.done("mission_open", mission="mine")
             page.part("mission", title="Test", is_here=True)
+
+
+def test_the_how_to_names_all_controls() -> None:
+    text = (Path(__file__).parents[2] / "docs/how-to/write-a-mission.md").read_text("utf-8")
+    assert [name for name in CONTROLS if f"`{name}`" not in text] == []

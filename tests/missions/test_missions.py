@@ -17,7 +17,14 @@ from ai4u_edu.missions.checks import Chooses, Opens, Reads, Solves
 from ai4u_edu.missions.mission import ISLANDS, LIBRARY, library_missions, read_mission
 from ai4u_edu.program import ProgramError
 from tests.missions.doing import Action, Doing
-from tests.missions.solutions import SOLUTIONS, STOP, WRONG_ROBOTS, change_agent, move
+from tests.missions.solutions import (
+    SOLUTIONS,
+    STOP,
+    WRONG_ROBOTS,
+    change_agent,
+    move,
+    program,
+)
 
 MISSIONS = library_missions().by_name
 CHANCE = random.Random(
@@ -137,6 +144,19 @@ def test_wrong_functions_of_an_exercise_do_not_pass(name: str) -> None:
         with contextlib.suppress(ProgramError):  # some of them fail, in the page as here
             do.solve("import math\n" + answer.code)
         assert do.is_done == answer.is_right, answer.name
+
+
+DRIVEN = [name for name in EXERCISES if SOLUTIONS[name] is program]
+
+
+@pytest.mark.parametrize("name", drawn(DRIVEN))
+def test_wrong_programs_of_an_exercise_do_not_pass(name: str) -> None:
+    failed = []
+    for answer in answers_to(EXERCISES[name].exercise).wrong:
+        do = Doing(name)
+        program(do, answer.code)
+        failed += [] if do.is_done else [answer.name]
+    assert len(failed) >= 3, failed
 
 
 @pytest.mark.parametrize("name", WRONG_ROBOTS)

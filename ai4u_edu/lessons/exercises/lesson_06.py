@@ -141,12 +141,8 @@ def strolls_fast(quick_stroll: Any) -> Done:
     )
 
 
-def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]:
-    """Run 30 seconds in each of 10 worlds; yield each, with the sides to which the robot turned.
-
-    Raises:
-        NotYet: the robot fell, or it saw little of the plate.
-    """
+def stroll_world() -> ControlRequestor:
+    """Return the world of 06.1: a plate, and a robot with three feelers near an edge."""
     agent = _robot(
         LocalBrain(controller=lambda _: {}),
         [
@@ -166,8 +162,17 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
     world = World()
     world.add_floor("plate", BoxShape(size=(10, 10)))
     world.add_body("robot", CircleShape(radius=0.5), tags=("agent",), random=EDGE)
-    sim = ControlRequestor(world, [agent])
-    agent.use_brain(as_brain(stroll))
+    return ControlRequestor(world, [agent])
+
+
+def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]:
+    """Run 30 seconds in each of 10 worlds; yield each, with the sides to which the robot turned.
+
+    Raises:
+        NotYet: the robot fell, or it saw little of the plate.
+    """
+    sim = stroll_world()
+    sim.agents[0].use_brain(as_brain(stroll))
     for seed in seeds_of(exercise_id, 10):
         turns: set[bool] = set()
         actions: set[tuple[float, ...]] = set()
@@ -181,7 +186,7 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
             if move[1]:
                 turns.add(move[1] > 0)
 
-        done = drive(sim, agent, seed, 360, watch)
+        done = drive(sim, sim.agents[0], seed, 360, watch)
         if done.fell:
             steady = len(actions) == 1 and bool(turns) and not _reacts(stroll)
             is_aware = len(turns) > 1 or _turns_away(stroll)
