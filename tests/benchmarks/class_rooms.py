@@ -4,7 +4,8 @@ A class on this machine, and as many students that join within a second. Each ha
 client of viser's socket and of the panel's, which reads everything) and holds A. Printed: the time
 from a student's first request to the first tick of the driven world, ticks' lateness, pictures a
 second, processor time and memory of rooms and gateway. ``--without-pages`` leaves rooms running
-that nobody looks at. The clients compete for the same cores; their share stands beside.
+that nobody looks at. ``--scene draw_figure --hold "KeyW KeyA Space" "KeyW KeyD Space"`` draws; the
+same without Space does not. The clients compete for the same cores; their share stands beside.
 """
 
 import argparse
@@ -15,6 +16,7 @@ import os
 import tempfile
 import time
 from contextlib import suppress
+from itertools import count
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -30,6 +32,8 @@ from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.load.clients import CAMERA, VISER, is_picture
 
 HOLD_S = 0.1
+HOLDS_OF_KEYS = 9
+"""Number of times that the same keys are held before the next ones."""
 REST_S = 15.0
 """Time after which a room that nobody looks at stands still, with some room."""
 TIMEOUT_S = 120.0
@@ -41,21 +45,29 @@ def main() -> None:
     parser.add_argument("--rooms", type=int, default=30)
     parser.add_argument("--seconds", type=float, default=20)
     parser.add_argument("--without-pages", action="store_true")
+    parser.add_argument("--scene", default="box_chase")
+    parser.add_argument("--hold", nargs="+", default=["KeyA"], help="keys, held in turn")
     options = parser.parse_args()
     multiprocessing.set_start_method("spawn")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         os.environ["AI4U_LATENESS_FOLDER"] = str(folder)
         blocks = ["--blocks", str(tick_lateness.__file__)]
-        with served_class(folder / "class", *blocks) as served:
-            _measure(served, folder, options.rooms, options.seconds, not options.without_pages)
+        with served_class(folder / "class", options.scene, *blocks) as served:
+            has_pages, keys = not options.without_pages, [each.split() for each in options.hold]
+            _measure(served, folder, options.rooms, options.seconds, has_pages, keys)
 
 
 def _measure(
-    served: ServedClass, folder: Path, rooms: int, seconds: float, has_pages: bool
+    served: ServedClass,
+    folder: Path,
+    rooms: int,
+    seconds: float,
+    has_pages: bool,
+    keys: list[list[str]],
 ) -> None:
     here, there = multiprocessing.Pipe()
-    args = (served.url, rooms, has_pages, there)
+    args = (served.url, rooms, has_pages, keys, there)
     clients = multiprocessing.Process(target=_clients, args=args, daemon=True)
     clients.start()
     starts = sorted(_receive(here))
@@ -112,13 +124,18 @@ def _receive(end: Connection) -> Any:
     return end.recv()
 
 
-def _clients(url: str, count: int, has_pages: bool, ends: Connection) -> None:
-    asyncio.run(_Students(url, count, has_pages, ends).main())
+def _clients(
+    url: str, count: int, has_pages: bool, keys: list[list[str]], ends: Connection
+) -> None:
+    asyncio.run(_Students(url, count, has_pages, keys, ends).main())
 
 
 class _Students:
-    def __init__(self, url: str, count: int, has_pages: bool, ends: Connection) -> None:
+    def __init__(
+        self, url: str, count: int, has_pages: bool, keys: list[list[str]], ends: Connection
+    ) -> None:
         self.url, self.count, self.has_pages, self.ends = url, count, has_pages, ends
+        self.keys = [json.dumps({"type": "keys", "held": each}) for each in keys]
         self.frames = [0] * count
         self.is_counting = False
 
@@ -155,7 +172,7 @@ class _Students:
             headers = {"Cookie": cookie}
             async with connect(path + "ws/input", additional_headers=headers, proxy=None) as keys:
                 reading = [asyncio.create_task(self._read(keys))]
-                await keys.send(json.dumps({"type": "keys", "held": ["KeyA"]}))
+                await keys.send(self.keys[0])
                 while (await client.get(room + "api/snapshot")).json()["tick"] == 0:
                     await asyncio.sleep(0.05)
                 begun.set_result(time.monotonic() - first)
@@ -164,8 +181,8 @@ class _Students:
                 sockets = await self._open_page(path, headers)
                 reading += [asyncio.create_task(self._read(sockets[1]))]
                 reading += [asyncio.create_task(self._count(sockets[0], number))]
-                while True:
-                    await keys.send(json.dumps({"type": "keys", "held": ["KeyA"]}))
+                for sent in count():
+                    await keys.send(self.keys[sent // HOLDS_OF_KEYS % len(self.keys)])
                     await asyncio.sleep(HOLD_S)
 
     async def _open_page(self, path: str, headers: dict[str, str]) -> list[Any]:
