@@ -3,6 +3,7 @@
 import asyncio
 import re
 from collections.abc import Awaitable, Callable, Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import psutil
@@ -14,12 +15,13 @@ from ai4u_edu.classroom.practice_queue import (
     CPU_FILE,
     MAX_CPU_S,
     MAX_OPEN,
-    MISSING,
     TOO_LONG,
     TOO_MANY,
     PracticeQueue,
 )
+from ai4u_edu.classroom.room_queue import MISSING
 from ai4u_edu.classroom.trainings import FULL
+from ai4u_edu.learn.small.ppo import PpoSettings
 from ai4u_edu.learn.training.run import Run
 from ai4u_edu.teach.learning import DIED, STOPPED
 from ai4u_edu.teach.practice import FOLDER as PRACTICES
@@ -313,3 +315,35 @@ def test_nothing_of_a_practice_is_left_after_forget(tmp_path: Path) -> None:
         assert not (tmp_path / "rooms").exists()
     with ClassStore(tmp_path) as store:
         assert store.query("select * from practices") == []
+
+
+@pytest.mark.slow
+def test_a_practice_survives_a_kill_of_its_room_and_of_the_class(tmp_path: Path) -> None:
+    with served_class(tmp_path) as served:
+        (page, room), class_process = page_of(served), psutil.Process(served.process.pid)
+        with page:
+            page.done("teach_practise", steps=LATE, weights=AWAY)
+            page.part("teach", lambda p: p["practice"] and p["practice"]["rewards"])
+            learner = process_of(served, "practice_process")
+            folder = tmp_path / "rooms" / room
+            (run,) = [Run(practice / "run") for practice in (folder / PRACTICES).glob("*.practice")]
+            (room_process,) = [
+                each
+                for each in class_process.children(recursive=True)
+                if any(one.status == psutil.CONN_LISTEN for one in each.net_connections("tcp"))
+            ]
+            room_process.kill()
+            count = len(run.checks())
+            until(lambda: len(run.checks()) > count)  # the room's end is nothing to it
+            assert learner.is_running()
+        class_process.kill()
+        assert psutil.wait_procs([learner], LIMIT_S)[1] == []  # nobody would stop it otherwise
+        before = run.checks()
+    with served_class(tmp_path) as served:
+        until(lambda: len(run.checks()) > len(before) + 1)
+        after = run.checks()
+        assert after[: len(before)] == before
+        gaps = {later.steps - earlier.steps for earlier, later in pairwise(after)}
+        assert gaps == {PpoSettings().check_every}  # nothing is learned twice or left out
+        until(lambda: learning_of(served, room).startswith("practises, "))
+        assert served.command("stop training", room=room).status_code == 200

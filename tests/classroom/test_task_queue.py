@@ -11,7 +11,8 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.classroom import ClassStore
-from ai4u_edu.classroom.task_queue import MISSING, TOO_MANY, TaskQueue
+from ai4u_edu.classroom.room_queue import MISSING
+from ai4u_edu.classroom.task_queue import TOO_MANY, TaskQueue
 from ai4u_edu.classroom.trainings import FULL
 from ai4u_edu.learn.training.varying import with_driver
 from ai4u_edu.teach import tries
