@@ -5,6 +5,9 @@ import { element, keyed, setText } from "../shared/dom.js";
 import { percent } from "../shared/numbers.js";
 import { Curve } from "../panel/widgets/curve.js";
 
+/** Share by which a network should act more like its driver than one that always does the same. */
+const LITTLE_BETTER = 0.1;
+
 export class LearningView {
   #curve = new Curve("The error, which falls while it learns");
   #result = element("p", { role: "status" });
@@ -35,5 +38,6 @@ function sentenceOf({ is_over: isOver, problem, waiting, drives, alike, commones
   if (problem) return `It could not learn: ${problem}.`;
   if (waiting) return waiting;
   if (!isOver) return `It learns from ${from}…`;
-  return `It acts like you in ${percent(alike)} of moments that it had not seen, and drives now. Always doing the same would be alike in ${percent(commonest)}.`;
+  const more = alike - commonest < LITTLE_BETTER ? " Show it more: drive again from other starts, and learn from all of these drives." : "";
+  return `It acts like you in ${percent(alike)} of moments that it had not seen, and drives now. Always doing the same would be alike in ${percent(commonest)}.${more}`;
 }

@@ -16,6 +16,9 @@ const LENGTHS = [
   { value: "131072", text: "Long" },
 ];
 const NEW = "";
+const FIRST =
+  "The robot tries things out, and does more of what is paid. Each line is a reward of this scene: 0 switches it off, 2 makes it worth twice as much. " +
+  "Begin with a network that learned from your drives: it knows the way already.";
 /** Players of the other side, besides networks, by the name in the command. */
 const OPPONENTS = { player: "The scene's player", self: "Itself" };
 const NOBODY = "";
@@ -47,7 +50,8 @@ export class PracticeView {
     this.#panel = panel;
     this.#tools = element("div", { className: "ai4u-tools" }, this.#start, this.#goOn, this.#pause, this.#stop, this.#put);
     const settings = [this.#weights, this.#against.element, this.#length.element, this.#begin.element];
-    this.element.append(...settings, this.#tools, this.#bar, this.#left, this.#curve.element, this.#text, this.#hint);
+    const first = element("p", { className: "ai4u-hint-text", textContent: FIRST });
+    this.element.append(first, ...settings, this.#tools, this.#bar, this.#left, this.#curve.element, this.#text, this.#hint);
   }
 
   /**
