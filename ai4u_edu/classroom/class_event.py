@@ -20,6 +20,7 @@ from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from ai4u_edu.scenes.star_goals import library_star_counts
+from ai4u_edu.wire.class_link import MAX_SENT_SCENE_CHARS
 
 _AGENT = re.compile(r"^  - id: \"?([^\W_]+)", re.MULTILINE)
 _TITLE = re.compile(r"^title: *(.+?) *$", re.MULTILINE)
@@ -82,6 +83,7 @@ class ClassEvents:
                 live.tournament, live.seats.all(), is_projected=is_projected
             ),
             "scenes": _library(),
+            "max_scene_chars": MAX_SENT_SCENE_CHARS,
             "exercises": [each._asdict() for each in course_index()],
             "lessons": _lessons(),
             "seats": self._seats(),

@@ -19,7 +19,7 @@ BUSY_SHARE = 0.6
 """Share of a core above which a process gets a lower priority than the others."""
 BUSY_NICENESS, NICENESS = 10, 3
 """Priorities of a busy process and of the others; the class itself has 0."""
-MAX_FILE_BYTES = 64 * MB
+MAX_ROOM_FILE_BYTES = 64 * MB
 """Largest file that a room may write."""
 
 
@@ -68,7 +68,7 @@ class RoomWatch:
         self._unanswered_since: float | None = None
         self._queued_before: dict[int, float] = {}
         self._is_busy = False
-        self._max_file_bytes = MAX_FILE_BYTES
+        self._max_file_bytes = MAX_ROOM_FILE_BYTES
         with suppress(psutil.Error):
             self._process.cpu_percent()  # measures from here on
         self._set_niceness(NICENESS)
@@ -101,7 +101,7 @@ class RoomWatch:
 
     def limit_files(self, *, is_full: bool) -> None:
         """Let the process write no more to files while the class's folder is full (on Linux)."""
-        limit = 0 if is_full else MAX_FILE_BYTES
+        limit = 0 if is_full else MAX_ROOM_FILE_BYTES
         if sys.platform == "linux" and limit != self._max_file_bytes:
             with suppress(psutil.Error, OSError, ValueError):
                 _, hard = self._process.rlimit(psutil.RLIMIT_FSIZE)
@@ -170,5 +170,7 @@ def limit_own_files() -> None:
     import resource
 
     _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    limit = MAX_FILE_BYTES if hard == resource.RLIM_INFINITY else min(MAX_FILE_BYTES, hard)
+    limit = (
+        MAX_ROOM_FILE_BYTES if hard == resource.RLIM_INFINITY else min(MAX_ROOM_FILE_BYTES, hard)
+    )
     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, hard))

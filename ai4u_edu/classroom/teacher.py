@@ -45,11 +45,11 @@ from ai4u_edu.teach.networks import FOLDER as TAUGHT
 from ai4u_edu.teach.networks import HANDED_OUT, KeptNetwork, NetworkFolder
 from ai4u_edu.wire.class_link import (
     MAX_MESSAGE_CHARS,
-    MAX_SCENE_CHARS,
+    MAX_SENT_SCENE_CHARS,
     MAX_STARTING_PROGRAM_CHARS,
 )
 
-MAX_BODY_BYTES = 4 * MAX_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
+MAX_BODY_BYTES = 4 * MAX_SENT_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
 MAX_COUNTDOWN_S = 60.0
 HANDED_OUT_TITLE = "From your teacher"
 STOPPED_BY_TEACHER = "your teacher has stopped it"
@@ -71,7 +71,7 @@ class SceneText(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
 
-    yaml: str = Field(max_length=MAX_SCENE_CHARS)
+    yaml: str = Field(max_length=MAX_SENT_SCENE_CHARS)
 
 
 class SceneOfLesson(BaseModel):

@@ -19,7 +19,7 @@ from ai4u_edu.lessons.exercise import Exercise, find
 from ai4u_edu.lessons.notebook_output import marked
 from ai4u_edu.lessons.progress_file import FILE, ExerciseProgress, read_entries
 
-MAX_FILE_BYTES = 5_000_000
+MAX_COLLECTED_BYTES = 5_000_000
 """Limit of a progress file that is read."""
 HEADER = ("student", "exercise", "title", "passed", "when", "tries", "mistake", "text")
 COMMON_MISTAKES = 3
@@ -120,8 +120,8 @@ def collect(folder: Path) -> ClassProgress:
 
 
 def _entries(path: Path) -> Mapping[str, ExerciseProgress]:
-    if path.stat().st_size > MAX_FILE_BYTES:
-        raise ValueError(f"expected at most {MAX_FILE_BYTES} bytes")
+    if path.stat().st_size > MAX_COLLECTED_BYTES:
+        raise ValueError(f"expected at most {MAX_COLLECTED_BYTES} bytes")
     return read_entries(path.read_text(encoding="utf-8"))
 
 

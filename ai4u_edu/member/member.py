@@ -33,7 +33,7 @@ from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.class_link import (
     HEARTBEAT_S,
     MAX_EPISODE_BYTES,
-    MAX_SCENE_CHARS,
+    MAX_SENT_SCENE_CHARS,
     POSES_PER_S,
     Assignment,
     Attention,
@@ -317,7 +317,7 @@ class ClassMember:
         version, text = editor.version, editor.text()
         # noted also if the text is too large to send: it would be made again at each poll
         self._work_version, self._work_sent_at = version, now
-        if len(text) <= MAX_SCENE_CHARS:
+        if len(text) <= MAX_SENT_SCENE_CHARS:
             self.link.send(Work(shorten(editor.title, MAX_TEXT_CHARS), text))
 
 

@@ -29,7 +29,7 @@ from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.editing.scene_store import DEVICES, MAX_SCENES
 from ai4u_edu.page.editing.scene_store import NAME as SCENE_NAME
-from ai4u_edu.recording.episode import MAX_FILE_BYTES as MAX_EPISODE_BYTES
+from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_BYTES, YamlFile
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
@@ -177,7 +177,7 @@ def _limit_of(name: str, known: dict[str, bytes]) -> int | None:
     if folder == SCENES and ending == "yaml" and SCENE_NAME.fullmatch(stem):
         return MAX_SCENE_BYTES if count < MAX_SCENES else None
     if folder == EPISODES and _EPISODE.fullmatch(last):
-        return MAX_EPISODE_BYTES if count < MAX_EPISODES else None
+        return MAX_RECORDING_BYTES if count < MAX_EPISODES else None
     if folder == PROGRAMS and _PROGRAM.fullmatch(last):
         return MAX_PROGRAM_BYTES if count < MAX_PROGRAMS else None
     if folder == NETWORKS and _NETWORK.fullmatch(last):

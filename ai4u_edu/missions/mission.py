@@ -28,7 +28,7 @@ from ai4u_edu.world.shapes import Description
 LIBRARY = Path(__file__).parent / "library"
 MAX_FILES = 100
 """Most files of a folder that are read."""
-MAX_FILE_BYTES = 64 * 1024
+MAX_MISSION_BYTES = 64 * 1024
 REREAD_S = 1.0
 """Time (s) after which a folder is looked at again."""
 EMPTY_SCENES = template_names()
@@ -289,11 +289,11 @@ def _with_folder(folder: Path, files: Sequence[Path]) -> Missions:
 def _text_of(path: Path) -> str:
     try:
         with path.open("rb") as file:
-            data = file.read(MAX_FILE_BYTES + 1)
+            data = file.read(MAX_MISSION_BYTES + 1)
     except OSError as error:
         raise SceneError(f"{path.name}: can't be read: {error.strerror}") from None
-    if len(data) > MAX_FILE_BYTES:
-        raise SceneError(f"{path.name}: expected at most {MAX_FILE_BYTES} bytes, got more")
+    if len(data) > MAX_MISSION_BYTES:
+        raise SceneError(f"{path.name}: expected at most {MAX_MISSION_BYTES} bytes, got more")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

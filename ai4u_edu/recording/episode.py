@@ -33,7 +33,7 @@ MAX_INPUTS = 20_000
 """Most inputs of an episode; what happens later is not recorded."""
 MAX_OPTIONS = 1000
 """Most options of an episode."""
-MAX_FILE_BYTES = 16 * 2**20
+MAX_RECORDING_BYTES = 16 * 2**20
 """Size of a file."""
 MAX_UNPACKED_MB = 24
 """Size of its decompressed content."""
@@ -251,7 +251,7 @@ class Episode:
         path = Path(path)
         try:
             with path.open("rb") as file:
-                data = file.read(MAX_FILE_BYTES + 1)
+                data = file.read(MAX_RECORDING_BYTES + 1)
         except OSError as error:
             raise RecordingError(f"{path}: can't be read: {error.strerror}") from None
         return decode(cls, data, path.name)
@@ -376,8 +376,8 @@ def _read(cls: type[E], data: bytes) -> E:
         raise RecordingError(
             "expected a recorded episode, as ai4u-edu record writes it, and this is none"
         )
-    if len(data) > MAX_FILE_BYTES:
-        raise RecordingError(f"expected at most {MAX_FILE_BYTES // 2**20} MB")
+    if len(data) > MAX_RECORDING_BYTES:
+        raise RecordingError(f"expected at most {MAX_RECORDING_BYTES // 2**20} MB")
     file = _validated(_unpacked(data[len(HEADER) :]))
     episode = cls(
         scene=_scene(file.scene),

@@ -225,6 +225,8 @@ class TeachPart(PanelPart, frozen=True, kw_only=True):
     """Networks of this scene, the latest first."""
     max_networks: int
     """Networks that are kept for a scene."""
+    max_network_bytes: int
+    """Size of a network's file at most."""
     opening: str
     """Sentence about the file that is being opened; empty if none is."""
     warning: str

@@ -53,6 +53,7 @@ from ai4u_edu.teach.scene_work import SceneWork
 from ai4u_edu.teach.tasks import FOLDER as TASKS
 from ai4u_edu.teach.tasks import ClassTask, LocalTask, TaskWork
 from ai4u_edu.teach.tries import TryingPages
+from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 T = TypeVar("T")
 
@@ -319,6 +320,7 @@ class TeachOption:
                 for network in work.networks
             ],
             max_networks=MAX_NETWORKS,
+            max_network_bytes=MAX_NETWORK_BYTES,
             opening=self._opening_sentence,
             warning=work.warning,
         )

@@ -38,7 +38,7 @@ PATH = "/link"
 """Path of the class's WebSocket for links."""
 MAX_FRAME_BYTES = 6 * 2**20
 """Largest frame of either side: one with a network."""
-MAX_SCENE_CHARS = 1_600_000
+MAX_SENT_SCENE_CHARS = 1_600_000
 """Length of a scene's text: 200,000 characters, and its pictures."""
 MAX_EPISODE_BYTES = 5 * 2**19
 """Size of an episode: 1 MB, and the pictures of its scene."""
@@ -56,7 +56,7 @@ HEARTBEAT_S = 2.0
 Key = Annotated[str, Meta(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
 """Random id of a result."""
 _Colour = Annotated[str, Meta(pattern=r"^#[0-9a-f]{6}$")]
-_Scene = Annotated[str, Meta(max_length=MAX_SCENE_CHARS)]
+_Scene = Annotated[str, Meta(max_length=MAX_SENT_SCENE_CHARS)]
 _Seed = Annotated[int, Meta(ge=0, le=MAX_SEED)]
 _Numbers = Annotated[tuple[Finite, ...], LIST]
 

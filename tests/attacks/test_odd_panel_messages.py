@@ -16,7 +16,7 @@ from ai4u_edu.page.panel import socket
 from ai4u_edu.page.panel.socket import MAX_PENDING_COMMANDS as MAX_PENDING
 from ai4u_edu.page.panel.upload import MAX_PART_BYTES
 from ai4u_edu.page.server import page_receiver
-from ai4u_edu.recording.episode import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 from tests.attacks.arguments import EXPLAIN_COMMANDS, NAMES, OWN_COMMANDS
 from tests.attacks.test_odd_input_messages import ODD
 from tests.page.panel.rooms import PanelPage, PanelRoom, panel_room
@@ -107,11 +107,11 @@ def test_a_large_part_of_a_file_closes_the_connection(room: PanelRoom) -> None:
 
 def test_a_file_that_never_ends_is_dropped(room: PanelRoom) -> None:
     with room.page() as page:
-        for _ in range(MAX_FILE_BYTES // MAX_PART_BYTES + 1):
+        for _ in range(MAX_RECORDING_BYTES // MAX_PART_BYTES + 1):
             page.socket.send(bytes(MAX_PART_BYTES))
         note = page.receive(lambda m: m["type"] == "note")
         assert note["text"] == "expected a file of at most 16 MB"
-        assert "got 0" in page.failed("open_recording", name="x", size=MAX_FILE_BYTES)["text"]
+        assert "got 0" in page.failed("open_recording", name="x", size=MAX_RECORDING_BYTES)["text"]
 
 
 def test_commands_that_wait_are_bounded(room: PanelRoom) -> None:

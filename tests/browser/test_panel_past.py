@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, expect
 
-from ai4u_edu.recording.episode import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 from tests.browser.served_viser import record_texts
 from tests.browser.tab_page import TabPage
 from tests.chromium import until_on
@@ -226,13 +226,13 @@ def test_a_recording_is_opened(tab: TabPage, tmp_path: Path) -> None:
 
 def test_a_recording_that_the_server_would_refuse_is_not_sent(tab: TabPage, tmp_path: Path) -> None:
     file = tmp_path / "long.episode"
-    file.write_bytes(bytes(MAX_FILE_BYTES + 1))
+    file.write_bytes(bytes(MAX_RECORDING_BYTES + 1))
     with tab.page.expect_file_chooser() as chooser:
         tab.page.get_by_role("button", name="Open a recording").click()
     chooser.value.set_files(file)
     until_on(tab.page, lambda: tab.page.evaluate("panel.notices.length"))
     (notice,) = tab.page.evaluate("panel.notices")
-    assert f"at most {MAX_FILE_BYTES // 2**20} MB, got 16.0 MB" in notice
+    assert f"at most {MAX_RECORDING_BYTES // 2**20} MB, got 16.0 MB" in notice
     assert tab.sent() == []
 
 

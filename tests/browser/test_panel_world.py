@@ -64,6 +64,8 @@ PART: dict[str, Any] = {
     "undo": {"label": ""},
     "redo": {"label": ""},
     "is_move_mode": False,
+    "max_picture_bytes": 2**20,
+    "max_scene_bytes": 2**20,
     "is_dragging": False,
     "snap": 0.5,
 }
@@ -266,6 +268,19 @@ def test_a_picture_is_laid_on_the_ground(tab: TabPage, tmp_path: Path) -> None:
     notice = tab.page.wait_for_function("panel.notices.at(-1)").json_value()
     assert notice.startswith("error: large.png: expected a picture of at most 1 MB, got 1.0 MB")
     assert "lay_picture" not in [each["command"] for each in tab.sent()]
+
+
+def test_a_scene_that_is_larger_than_the_world_takes_is_not_sent(
+    tab: TabPage, tmp_path: Path
+) -> None:
+    file = tmp_path / "large.yaml"
+    file.write_bytes(bytes(2**20 + 1))
+    with tab.page.expect_file_chooser() as chooser:
+        tab.page.get_by_role("button", name="Open a file").click()
+    chooser.value.set_files(file)
+    notice = tab.page.wait_for_function("panel.notices.at(-1)").json_value()
+    assert notice.startswith("error: large.yaml: expected a scene file (YAML) of at most 1 MB")
+    assert "load_text" not in [each["command"] for each in tab.sent()]
 
 
 def test_an_unsaved_scene_is_offered(tab: TabPage) -> None:

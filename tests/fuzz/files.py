@@ -12,7 +12,7 @@ from ruamel.yaml import YAML
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block
 from ai4u_edu.recording import Episode, Recorder, RecordingError
-from ai4u_edu.recording.episode import HEADER, MAX_FILE_BYTES, decode, encode
+from ai4u_edu.recording.episode import HEADER, MAX_RECORDING_BYTES, decode, encode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
 from tests.fuzz.mutate import ODD, bent, bent_and_packed, mangled
@@ -169,7 +169,7 @@ def read_recording(data: bytes) -> None:
 
 def read_packed(data: bytes) -> None:
     """Read the unpacked part of a file, since a fuzzer without zlib gets no further."""
-    read_recording(HEADER + zlib.compress(data[:MAX_FILE_BYTES], 1))
+    read_recording(HEADER + zlib.compress(data[:MAX_RECORDING_BYTES], 1))
 
 
 SCENE = Target(

@@ -96,7 +96,7 @@ def test_too_large(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     bomb = HEADER + zlib.compress(bytes(MAX_UNPACKED_MB * 2**20 + 1), 9)
     assert len(bomb) < 30_000
     assert error(bomb) == "mine.episode: expected at most 24 MB when it is unpacked"
-    monkeypatch.setattr("ai4u_edu.recording.episode.MAX_FILE_BYTES", 1000)
+    monkeypatch.setattr("ai4u_edu.recording.episode.MAX_RECORDING_BYTES", 1000)
     path = tmp_path / "big.episode"
     path.write_bytes(BYTES)
     with pytest.raises(RecordingError, match=r"big\.episode: expected at most 0 MB"):

@@ -30,8 +30,7 @@ from ai4u_edu.scenes.scene_data import scene_data, scene_from
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
-from ai4u_edu.wire.class_link import MAX_SCENE_CHARS as MAX_CLASS_CHARS
-from ai4u_edu.wire.class_link import Assignment
+from ai4u_edu.wire.class_link import MAX_SENT_SCENE_CHARS, Assignment
 from ai4u_edu.world.pictures import MAX_PICTURE_CHARS, picture_data
 from tests.member.fake_link import joined
 from tests.member.test_assignment import applied
@@ -263,7 +262,7 @@ def test_a_large_picture_fits_into_a_file_and_a_class(scene: Scene) -> None:
     noise = np.random.default_rng(1).integers(0, 255, (580, 600, 3), np.uint8)
     data = picture_data(png(Image.fromarray(noise)))
     assert len(data) > MAX_SCENE_CHARS
-    assert MAX_PICTURE_CHARS + 200_000 <= MAX_CLASS_CHARS
+    assert MAX_PICTURE_CHARS + 200_000 <= MAX_SENT_SCENE_CHARS
     (mat,) = scene.description.areas
     areas = (mat.model_copy(update={"picture": data}),)
     large = Scene(scene.description.model_copy(update={"areas": areas}))

@@ -15,7 +15,7 @@ import { copyLink } from "../scenes/share.js";
 import { SharedOffer, sharedFor, sharedPrograms } from "../scenes/shared_program.js";
 
 /** Largest program that is read from a file (bytes). */
-const MAX_FILE_BYTES = 100_000;
+const MAX_PROGRAM_BYTES = 100_000;
 const NOW = "now";
 
 export class ProgramSection {
@@ -203,7 +203,7 @@ export class ProgramSection {
 
   /** @param {File} file */
   async #openFile(file) {
-    if (file.size > MAX_FILE_BYTES) {
+    if (file.size > MAX_PROGRAM_BYTES) {
       this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
       return;
     }

@@ -459,6 +459,8 @@ export interface PastPart {
   problem: string;
   /** Files of the chosen episode; empty if none is chosen. */
   downloads: DownloadLink[];
+  /** Size of a recording at most. */
+  max_recording_bytes: number;
 }
 
 /** The range of one number of an action. */
@@ -775,6 +777,8 @@ export interface TeachPart {
   networks: TaughtNetwork[];
   /** Networks that are kept for a scene. */
   max_networks: number;
+  /** Size of a network's file at most. */
+  max_network_bytes: number;
   /** Sentence about the file that is being opened; empty if none is. */
   opening: string;
   /** Sentence about why a drive could not be kept; empty if all could. */
@@ -981,6 +985,10 @@ export interface WorldPart {
   redo: UndoLabel;
   /** True if a change takes effect in the next episode. */
   waits_for_reset: boolean;
+  /** Size of a scene file at most. */
+  max_scene_bytes: number;
+  /** Size of a picture for the ground at most. */
+  max_picture_bytes: number;
 }
 
 /** The parts of the panel by name. */

@@ -39,3 +39,16 @@ export function clock(seconds) {
   const whole = Math.max(0, Math.ceil(seconds));
   return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
 }
+
+/**
+ * Return the sentence about a file that is too large; empty for one that is not.
+ * @param {File} file
+ * @param {string} what it is expected to be
+ * @param {number} maxBytes
+ * @param {string} [help] what to do about it
+ */
+export function sizeProblem(file, what, maxBytes, help = "") {
+  if (file.size <= maxBytes) return "";
+  const [most, size] = [maxBytes, file.size].map((bytes) => bytes / 2 ** 20);
+  return `${file.name}: expected ${what} of at most ${Number(most.toFixed(1))} MB, got ${size.toFixed(1)} MB${help && `; ${help}`}.`;
+}

@@ -7,12 +7,11 @@
 import { ask } from "../shared/dialog.js";
 import { button, element, keyed, setText, tableHead } from "../shared/dom.js";
 import { field, showForm } from "../shared/form_dialog.js";
-import { percent } from "../shared/numbers.js";
+import { percent, sizeProblem } from "../shared/numbers.js";
 import { Card } from "../panel/widgets/card.js";
 import { choice } from "../panel/widgets/parts.js";
 
 const MAX_TITLE_CHARS = 40;
-const MAX_NETWORK_MB = 5;
 
 export class Networks {
   #panel;
@@ -108,9 +107,9 @@ export class Networks {
 
   /** @param {File} file */
   async #openFile(file) {
-    if (file.size > MAX_NETWORK_MB * 2 ** 20) {
-      const text = `expected a network (.onnx) of at most ${MAX_NETWORK_MB} MB, got ${(file.size / 2 ** 20).toFixed(1)} MB`;
-      this.#panel.notice(`${file.name}: ${text}.`, "error");
+    const problem = sizeProblem(file, "a network (.onnx)", this.#panel.part("teach").max_network_bytes);
+    if (problem) {
+      this.#panel.notice(problem, "error");
       return;
     }
     await this.#panel.sendFile("teach_open", file);

@@ -228,6 +228,8 @@ export interface ClassState {
   race: Race | null;
   tournament: Tournament | null;
   scenes: LibraryScene[];
+  /** Longest text of a scene file. */
+  max_scene_chars: number;
   exercises: LessonExercises[];
   lessons: Lesson[];
   seats: Seat[];

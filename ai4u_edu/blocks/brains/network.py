@@ -15,7 +15,7 @@ import numpy.typing as npt
 from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.blocks.brains import zoo
 
-MAX_NETWORK_BYTES = 64 * 2**20
+MAX_LOADED_NETWORK_BYTES = 64 * 2**20
 """Largest file of a network."""
 
 MAX_PORT_NUMBERS = 2**24
@@ -187,11 +187,11 @@ class Network:
 def _bytes_of(path: Path) -> bytes:
     try:
         with path.open("rb") as file:
-            data = file.read(MAX_NETWORK_BYTES + 1)
+            data = file.read(MAX_LOADED_NETWORK_BYTES + 1)
     except OSError as error:
         raise BlockError(f"{path}: can't be read: {error.strerror}") from None
-    if len(data) > MAX_NETWORK_BYTES:
-        raise BlockError(f"{path.name}: expected at most {MAX_NETWORK_BYTES // 2**20} MB")
+    if len(data) > MAX_LOADED_NETWORK_BYTES:
+        raise BlockError(f"{path.name}: expected at most {MAX_LOADED_NETWORK_BYTES // 2**20} MB")
     return data
 
 

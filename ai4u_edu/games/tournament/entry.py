@@ -11,9 +11,9 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Block, Controller
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
-from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES, ZOO_PREFIX, find_network
+from ai4u_edu.blocks.brains.network import MAX_LOADED_NETWORK_BYTES, ZOO_PREFIX, find_network
 from ai4u_edu.games.tournament.sides import Sides
-from ai4u_edu.recording.episode import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 from ai4u_edu.scenes.serialization import is_serializable
 
 MAX_NAME_CHARS = 40
@@ -114,9 +114,9 @@ def _driver(spec: str, scene: str, trust_python: bool) -> Driver:
     spec = f"{ZOO_PREFIX}{scene}" if spec == "zoo" else spec
     path = Path(spec)
     if spec.startswith(ZOO_PREFIX) or path.suffix == ".onnx":
-        return file_driver("network", find_network(spec), MAX_NETWORK_BYTES)
+        return file_driver("network", find_network(spec), MAX_LOADED_NETWORK_BYTES)
     if path.suffix == ".episode":
-        return file_driver("episode", path, MAX_FILE_BYTES)
+        return file_driver("episode", path, MAX_RECORDING_BYTES)
     file, colon, name = spec.rpartition(":")
     file, name = (file, name) if colon and file.endswith(".py") else (spec, "")
     if file.endswith(".py"):

@@ -33,7 +33,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.version import __version__
-from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES, TRAINING_KEY, VALUE_OUTPUT
+from ai4u_edu.blocks.brains.network import MAX_LOADED_NETWORK_BYTES, TRAINING_KEY, VALUE_OUTPUT
 from ai4u_edu.learn.envs.spaces_of import (
     Observer,
     action_space_of,
@@ -109,8 +109,8 @@ def read_network(data: bytes, agent: BasicAgent) -> ActorCritic:
     Raises:
         SetupError: the file is of another kind, or of another agent's network.
     """
-    if len(data) > MAX_NETWORK_BYTES:
-        raise SetupError(f"expected a network of at most {MAX_NETWORK_BYTES // 2**20} MB")
+    if len(data) > MAX_LOADED_NETWORK_BYTES:
+        raise SetupError(f"expected a network of at most {MAX_LOADED_NETWORK_BYTES // 2**20} MB")
     try:
         graph = dict(_fields(data))[7]
         numbers = dict(map(_read_array, (part for field, part in _fields(graph) if field == 5)))

@@ -24,7 +24,7 @@ from ai4u_edu.scenes import Scene
 EPISODES = 100
 MIN_SUCCESS_SHARE = 0.95
 """Share of the episodes that has to succeed, in a scene that defines a success."""
-MAX_NETWORK_BYTES = 200_000
+MAX_ZOO_NETWORK_BYTES = 200_000
 """Limit of a network's size."""
 TRIES = 3
 
@@ -62,7 +62,7 @@ def make(scene: str, folder: Path) -> Evaluation | None:
 def take(scene: str, file: Path, told: Evaluation) -> bool:
     """Accept a network if it is good and small enough; return True if so."""
     good = told.success is None or told.success >= MIN_SUCCESS_SHARE
-    if good and file.stat().st_size <= MAX_NETWORK_BYTES:
+    if good and file.stat().st_size <= MAX_ZOO_NETWORK_BYTES:
         write_atomically(zoo.network_of(scene), file.read_bytes())
         return True
     return False

@@ -22,7 +22,7 @@ LOCK_NAME = re.compile(r"[0-9a-f]{12}" + re.escape(LOCK_ENDING))
 MAX_LEFT = 20
 """Files that are kept; the latest of each scene is always kept."""
 MAX_AGE_S = 30 * 24 * 3600.0
-MAX_FILE_BYTES = 32 * 2**20
+MAX_UNSAVED_BYTES = 32 * 2**20
 MAX_TOLD = 5
 """Unsaved scenes that a message lists."""
 
@@ -142,7 +142,7 @@ def _is_owner_running(file: Path) -> bool:
 
 
 def _load(file: Path) -> Unsaved:
-    if file.stat().st_size > MAX_FILE_BYTES:
+    if file.stat().st_size > MAX_UNSAVED_BYTES:
         raise ValueError(file.name)
     data = json.loads(file.read_text(encoding="utf-8"))
     place = Path(data["folder"]) if data["folder"] else None

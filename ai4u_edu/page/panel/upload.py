@@ -4,7 +4,7 @@ import asyncio
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
-from ai4u_edu.recording.episode import MAX_FILE_BYTES
+from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 
 MAX_PART_BYTES = 2**19
 
@@ -27,9 +27,9 @@ class Upload:
         Raises:
             SetupError: the file is too large; its parts are dropped.
         """
-        if len(self._data) + len(part) > MAX_FILE_BYTES:
+        if len(self._data) + len(part) > MAX_RECORDING_BYTES:
             self.drop()
-            raise SetupError(f"expected a file of at most {MAX_FILE_BYTES // 2**20} MB")
+            raise SetupError(f"expected a file of at most {MAX_RECORDING_BYTES // 2**20} MB")
         self._data += part
         self._stop_timer()
         self._timer = asyncio.get_running_loop().call_later(self._idle_timeout, self.drop)

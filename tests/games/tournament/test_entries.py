@@ -9,7 +9,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import AI4UError, SetupError
-from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES
+from ai4u_edu.blocks.brains.network import MAX_LOADED_NETWORK_BYTES
 from ai4u_edu.games.tournament import python_controller
 from ai4u_edu.games.tournament.entry import parse_entry, with_names
 from ai4u_edu.games.tournament.game import game
@@ -85,7 +85,7 @@ def test_what_is_no_entry_is_told(text: str, told: str) -> None:
 def test_a_file_that_is_too_large_is_refused_unread(tmp_path: Path) -> None:
     path = tmp_path / "huge.onnx"
     with path.open("wb") as file:
-        file.truncate(MAX_NETWORK_BYTES + 1)
+        file.truncate(MAX_LOADED_NETWORK_BYTES + 1)
     with pytest.raises(SetupError, match=r"huge\.onnx: expected at most 67,108,864 bytes"):
         entry(str(path))
 

@@ -10,7 +10,12 @@ import pytest
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import trained_brain
-from ai4u_edu.blocks.brains.network import MAX_NETWORK_BYTES, TRAINING_KEY, VALUE_OUTPUT, Network
+from ai4u_edu.blocks.brains.network import (
+    MAX_LOADED_NETWORK_BYTES,
+    TRAINING_KEY,
+    VALUE_OUTPUT,
+    Network,
+)
 from ai4u_edu.explain.policy import Policy, has_critic, values_of
 from ai4u_edu.games.tournament.drivers import load_network
 from ai4u_edu.games.tournament.entry import file_driver
@@ -138,7 +143,7 @@ def test_explanations_and_tournaments_take_it(tmp_path: Path) -> None:
     numbers = policy.decide(env.agent.percept)
     np.testing.assert_allclose(numbers, network.act(seen[None])[0], atol=1e-5)
     assert policy.components == ("move 0", "move 1", "move 2", "move 3")
-    load_network(file_driver("network", path, MAX_NETWORK_BYTES), tmp_path)
+    load_network(file_driver("network", path, MAX_LOADED_NETWORK_BYTES), tmp_path)
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -168,7 +173,7 @@ def test_bytes_of_another_kind_are_refused() -> None:
         with pytest.raises(SetupError, match="expected a network"):
             read_network(each, env.agent)
     with pytest.raises(SetupError, match="at most 64 MB"):
-        read_network(bytes(MAX_NETWORK_BYTES + 1), env.agent)
+        read_network(bytes(MAX_LOADED_NETWORK_BYTES + 1), env.agent)
 
 
 def test_numbers_that_are_not_finite_are_refused() -> None:

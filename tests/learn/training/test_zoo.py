@@ -7,7 +7,7 @@ from ai4u_edu.blocks.brains import zoo
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.learn.training.evaluating import evaluate
 from ai4u_edu.learn.training.policies import entrant
-from ai4u_edu.learn.training.zoo import MAX_NETWORK_BYTES, MIN_SUCCESS_SHARE
+from ai4u_edu.learn.training.zoo import MAX_ZOO_NETWORK_BYTES, MIN_SUCCESS_SHARE
 
 pytestmark = pytest.mark.needs("train")
 
@@ -21,7 +21,7 @@ def test_the_first_scenes_have_one() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_it_is_small_and_says_where_it_learned(name: str) -> None:
-    assert zoo.network_of(name).stat().st_size <= MAX_NETWORK_BYTES
+    assert zoo.network_of(name).stat().st_size <= MAX_ZOO_NETWORK_BYTES
     about = Network(zoo.network_of(name)).about
     assert about["scene"] == name
     assert about["steps"] > 0

@@ -7,9 +7,6 @@ import { element } from "../../shared/dom.js";
 import { roomName } from "../room_words.js";
 import { scenePicture } from "../../scenes/picture.js";
 
-/** Largest scene file; as MAX_SCENE_CHARS of the class link. */
-const MAX_SCENE_CHARS = 200_000;
-
 /**
  * Return {nodes, value}: elements for a form, and a function that resolves to the command's `scene`.
  *
@@ -58,7 +55,8 @@ export function sceneChoice(state, { withLessons = false } = {}) {
     if (from === "room") return { room: ofRoom.value };
     if (!file.files[0]) throw new Error("Choose a scene file first.");
     const yaml = await file.files[0].text();
-    if (yaml.length > MAX_SCENE_CHARS) throw new Error(`This file has ${yaml.length} characters; a scene has at most ${MAX_SCENE_CHARS}.`);
+    const most = state.max_scene_chars;
+    if (yaml.length > most) throw new Error(`This file has ${yaml.length} characters; a scene has at most ${most}.`);
     return { yaml };
   }
   return { nodes: [source, ...Object.values(fields), place], value };

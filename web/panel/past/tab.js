@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, fileButton, keyed } from "../../shared/dom.js";
+import { sizeProblem } from "../../shared/numbers.js";
 import { Comparison } from "./compare.js";
 import { EpisodeCard } from "./episode_card.js";
 import { PaidTerms } from "./paid.js";
@@ -13,8 +14,6 @@ import { Player } from "./player.js";
 
 /** Number that stands for the episode that is still running. */
 const RUNNING_EPISODE = 0;
-/** Largest recording that is sent, the server's limit (MAX_FILE_BYTES of episodes). */
-const MAX_RECORDING_MB = 16;
 
 export class PastTab {
   #panel;
@@ -102,9 +101,9 @@ export class PastTab {
 
   /** @param {File} file */
   async #open(file) {
-    if (file.size > MAX_RECORDING_MB * 2 ** 20) {
-      const text = `expected a recording (.episode) of at most ${MAX_RECORDING_MB} MB, got ${(file.size / 2 ** 20).toFixed(1)} MB`;
-      this.#panel.notice(`${file.name}: ${text}.`, "error");
+    const problem = sizeProblem(file, "a recording (.episode)", this.#panel.part("past").max_recording_bytes);
+    if (problem) {
+      this.#panel.notice(problem, "error");
       return;
     }
     const answer = await this.#panel.sendFile("open_recording", file);

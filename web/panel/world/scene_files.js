@@ -5,12 +5,10 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, fileButton, setText } from "../../shared/dom.js";
+import { sizeProblem } from "../../shared/numbers.js";
 import { freeId } from "../../shared/ids.js";
 import { section } from "../widgets/parts.js";
 import { copyLink, isThisComputer } from "../../scenes/share.js";
-
-/** Largest file that is read here; the server has limits of its own (bytes). */
-const MAX_SCENE_BYTES = 4_000_000;
 
 export class SceneFiles {
   #panel;
@@ -95,8 +93,9 @@ export class SceneFiles {
 
   /** @param {File} file */
   async #load(file) {
-    if (file.size > MAX_SCENE_BYTES) {
-      this.#panel.notice(`${file.name}: expected a scene file (YAML), got ${file.size} bytes.`, "error");
+    const problem = sizeProblem(file, "a scene file (YAML)", this.#panel.part("world").max_scene_bytes);
+    if (problem) {
+      this.#panel.notice(problem, "error");
       return;
     }
     this.#panel.show({ body: null, block: null });

@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, fileButton, keyed, setText } from "../../shared/dom.js";
+import { sizeProblem } from "../../shared/numbers.js";
 import { BodyCard } from "./body_card.js";
 import { chooseAdded, chooseMore, setMoveMode } from "./selection.js";
 import { Form } from "../widgets/form.js";
@@ -13,8 +14,6 @@ import { remember } from "../../shared/storage.js";
 import { MOVES_KEY, SNAP_KEY, SNAP_M } from "./palette.js";
 import { SceneFiles } from "./scene_files.js";
 
-/** Largest picture that is sent; the server has the same limit (bytes). */
-const MAX_PICTURE_BYTES = 2 ** 20;
 const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
 const HINT_ON =
   "Drag things to move them (Esc cancels). Click one to turn it or change its size. Shift and a click, or a frame, take several.";
@@ -121,9 +120,9 @@ export class WorldTab {
    * @param {File} file
    */
   async #lay(file) {
-    if (file.size > MAX_PICTURE_BYTES) {
-      const size = (file.size / 2 ** 20).toFixed(1);
-      this.#panel.notice(`${file.name}: expected a picture of at most 1 MB, got ${size} MB; save it with fewer pixels, or a photo as JPEG.`, "error");
+    const problem = sizeProblem(file, "a picture", this.#panel.part("world").max_picture_bytes, "save it with fewer pixels, or a photo as JPEG");
+    if (problem) {
+      this.#panel.notice(problem, "error");
       return;
     }
     const answer = await this.#panel.sendFile("lay_picture", file);

@@ -11,6 +11,7 @@ from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.recording import ArchiveEntry
+from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
 from ai4u_edu.snapshot import Snapshot
 
@@ -109,6 +110,8 @@ class PastPart(PanelPart, frozen=True, kw_only=True):
     """The reason why an episode could not be recorded, kept or replayed; empty if all went well."""
     downloads: list[DownloadLink]
     """Files of the chosen episode; empty if none is chosen."""
+    max_recording_bytes: int = MAX_RECORDING_BYTES
+    """Size of a recording at most."""
 
 
 def past_part(context: PanelContext, snapshot: Snapshot) -> PastPart:

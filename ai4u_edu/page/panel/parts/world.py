@@ -14,7 +14,9 @@ from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.fields import FormField, form_field
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.scenes import SceneDescription
+from ai4u_edu.scenes.yaml.file import MAX_SCENE_BYTES
 from ai4u_edu.world import AreaDescription, BodyDescription
+from ai4u_edu.world.pictures import MAX_PICTURE_BYTES
 
 FIRST_OF_FIELD = (
     "type",
@@ -109,6 +111,10 @@ class WorldPart(PanelPart, frozen=True, kw_only=True):
     """The change that redo makes again."""
     waits_for_reset: bool
     """True if a change takes effect in the next episode."""
+    max_scene_bytes: int = MAX_SCENE_BYTES
+    """Size of a scene file at most."""
+    max_picture_bytes: int = MAX_PICTURE_BYTES
+    """Size of a picture for the ground at most."""
 
 
 def world_part(editor: SceneEditor, view: PageView) -> WorldPart:
