@@ -54,6 +54,9 @@ def class_app(
 ) -> Starlette:
     """Return the ASGI app of a class.
 
+    Call its ``state.begin()`` once the event loop runs: practices of an earlier process go on then,
+    though nobody may come soon.
+
     Args:
         store: of the class.
         seats: of the class.
@@ -84,7 +87,7 @@ def class_app(
         TokenAuth, token=teacher_token, attempts=attempts, token_page=TokenPage()
     )
     projector = WallSocket(live, events, is_projected=True)
-    return Starlette(
+    app = Starlette(
         routes=[
             Route("/", join.page),
             Route("/api/names", join.names),
@@ -114,3 +117,5 @@ def class_app(
             )
         ],
     )
+    app.state.begin = live.ensure_ticking
+    return app

@@ -123,6 +123,7 @@ def classroom(
 
         def announce(url: str) -> None:
             local.class_url = url
+            app.state.begin()
             typer.echo(class_banner(join_address(host, url), seats.code, url, token))
             if open_page:
                 open_on_desktop(teacher_address(url, token))
