@@ -42,7 +42,7 @@ class QueueRow(Generic[StateT, ProcessT]):
 
     room: str
     state: StateT
-    """What the room is told of it."""
+    """State that the room is told."""
     process: ProcessT | None = None
     is_ending: bool = False
     """True from when its end is certain; its room learns of it when the process has ended."""
