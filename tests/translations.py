@@ -28,7 +28,7 @@ from ai4u_edu.lessons.course import is_ticket, lessons
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.translation import texts_of
 from ai4u_edu.locale import LANGUAGES, LESSONS, PAGE, PYTHON, SOURCE
-from ai4u_edu.locale.catalogue import catalogue_file
+from ai4u_edu.locale.catalogues import catalogue_file
 
 ROOT = Path(__file__).parents[1]
 TRANSLATED = tuple(code for code in LANGUAGES if code != SOURCE)
@@ -43,7 +43,7 @@ Keywords = Mapping[str, tuple[int, ...] | None]
 PYTHON_KEYWORDS: Keywords = {"_": None, "gettext": None, "ngettext": (1, 2)}
 PAGE_KEYWORDS: Keywords = {"t": None, "tn": (1, 2)}
 _VALUES = re.compile(r"\{[^{}]*\}")
-_MARKUP = re.compile(r"`[^`]*`|\]\([^()]*\)|<[^<>]+>|\*\*|&\w+;")
+_MARKUP = re.compile(r"<code>.*?</code>|`[^`]*`|\]\([^()]*\)|<[^<>]+>|\*\*|&\w+;")
 
 
 @dataclass
@@ -69,6 +69,7 @@ class Domain:
 def domains() -> list[Domain]:
     """Return all domains, with all English texts."""
     python = Domain(PYTHON, list(_in_code("ai4u_edu", "**.py", "python", PYTHON_KEYWORDS)))
+    python.texts += _in_code("web", "pages/**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
     page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
     return [python, page, *_lesson_domains()]
@@ -80,6 +81,7 @@ def _in_code(
     extracted = extract_from_dir(
         ROOT / folder,
         method_map=[("node_modules/**", "ignore"), ("vendor/**", "ignore"), (pattern, method)],
+        options_map={"pages/**.html": {"trimmed": "true", "silent": "false"}},
         keywords=keywords,
     )
     for file, _, text, *_ in sorted(extracted, key=lambda each: each[:2]):

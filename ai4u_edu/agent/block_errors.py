@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_frames import calls_of_error, find_place
-from ai4u_edu.base.errors import AI4UError, BlockError, shorten
+from ai4u_edu.base.errors import AI4UError, BlockError, shorten, text_of
 from ai4u_edu.blocks import RemoteBrain
 
 MAX_SENTENCE_CHARS = 1000
@@ -41,7 +41,7 @@ def message_of(error: BaseException) -> str:
     'ValueError: no idea'
     """
     if isinstance(error, AI4UError):
-        return shorten(str(error), MAX_SENTENCE_CHARS)
+        return shorten(text_of(error), MAX_SENTENCE_CHARS)
     return sentence_of(error)
 
 

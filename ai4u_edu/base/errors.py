@@ -30,6 +30,8 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Any
 
+from ai4u_edu.locale import Text
+
 MAX_SHOWN_CHARS = 60
 """Maximum length of a value in a message."""
 MAX_NAMES_COMPARED = 500
@@ -98,6 +100,15 @@ class ActionError(AI4UError):
 
 class NoDecisionError(AI4UError):
     """An agent took no decision when one was needed."""
+
+
+def text_of(error: BaseException) -> str:
+    """Return an error's message, as a text that can be translated if it is one.
+
+    ``str(error)`` makes a plain string of it.
+    """
+    (message,) = error.args if len(error.args) == 1 else ("",)
+    return message if isinstance(message, Text) else str(error)
 
 
 def suggest(name: str, known: Iterable[str]) -> str:

@@ -28,6 +28,7 @@ from ai4u_edu.classroom.work_routes import WorkRoutes
 from ai4u_edu.page.server.host_origin import LOOPBACK, HostOriginCheck
 from ai4u_edu.page.server.limits.attempts import Attempts
 from ai4u_edu.page.server.proxy import AGENT_COOKIE, DARK_COOKIE
+from ai4u_edu.page.server.reader_language import ReaderLanguage
 from ai4u_edu.page.server.token_auth import PageCookie, TokenAuth
 from ai4u_edu.page.server.token_page import TokenPage
 from ai4u_edu.wire.class_link import MAX_FRAME_BYTES
@@ -112,9 +113,10 @@ def class_app(
             Mount("/r", app=entrance),
         ],
         middleware=[
+            Middleware(ReaderLanguage),
             Middleware(
                 HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts, pages=PAGES
-            )
+            ),
         ],
     )
     app.state.begin = live.ensure_ticking

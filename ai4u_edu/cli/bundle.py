@@ -15,7 +15,7 @@ import typer
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.version import __version__
-from ai4u_edu.locale import own_catalogue
+from ai4u_edu.locale import catalogue
 
 FILES = "ai4u_edu.cli.bundle_files"
 SCRIPTS = {"start.py": "\n", "start.sh": "\n", "start.command": "\n", "start.bat": "\r\n"}
@@ -92,7 +92,7 @@ def write_course(folder: Path) -> None:
     """Write the notebooks of the course; those that are there already are kept."""
     from ai4u_edu.lessons.handout import hand_out
 
-    hand_out(folder, own_catalogue().language)
+    hand_out(folder, catalogue().language)
 
 
 def write_scenes(folder: Path) -> None:

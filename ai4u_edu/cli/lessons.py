@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ai4u_edu.locale import catalogue, ngettext, translate
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import ngettext, own_catalogue, translate
 
 FIRST = "00_start_here.ipynb"
 KERNEL_STOP_S = 0.5
@@ -49,7 +49,7 @@ def lessons(
 
     if start:
         need("lessons", "jupyterlab", "ipykernel", "matplotlib")
-    done = hand_out(folder, own_catalogue().language)
+    done = hand_out(folder, catalogue().language)
     new, kept = len(done.new), len(done.kept)
     _say(
         ngettext(

@@ -36,10 +36,10 @@ from ai4u_edu.locale import (
     PYTHON,
     SOURCE,
     VARIABLE,
+    catalogue,
     known_language,
-    own_catalogue,
 )
-from ai4u_edu.locale.catalogue import FOLDER
+from ai4u_edu.locale.catalogues import FOLDER
 
 LANGUAGE_OPTION = "--lang"
 ONE_THREAD_COMMANDS = ("clone", "train")
@@ -64,7 +64,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
     _take_language(sys.argv)
-    run = app if own_catalogue().language == SOURCE else _translated_command()
+    run = app if catalogue().language == SOURCE else _translated_command()
     try:
         run()
     except AI4UError as error:
@@ -99,7 +99,7 @@ def _take_language(words: list[str]) -> None:
         os.environ[VARIABLE] = code  # rooms, notebooks and other processes inherit it
         break
     # click has its own words translated by gettext's global domain
-    os.environ["LANGUAGE"] = own_catalogue().language
+    os.environ["LANGUAGE"] = catalogue().language
     gnu.bindtextdomain(PYTHON, FOLDER)
     gnu.textdomain(PYTHON)
 
@@ -107,7 +107,7 @@ def _take_language(words: list[str]) -> None:
 def _translated_command() -> Callable[[], object]:
     command = typer.main.get_command(app)
     for part in _helped(command):
-        part.help = own_catalogue().message(part.help)
+        part.help = catalogue().message(part.help)
     return command
 
 

@@ -14,7 +14,7 @@ from itertools import groupby
 
 from ai4u_edu.lessons.course import lesson
 from ai4u_edu.lessons.notebook import Cell
-from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, own_catalogue
+from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, catalogue
 
 Translate = Callable[[str], str]
 SETUP = "setup"
@@ -78,7 +78,7 @@ def translated_code(exercise: str, code: str) -> str:
         code: the code in English.
     """
     name = lesson(exercise.partition(".")[0]).name
-    return _code_in(code, Catalogue(own_catalogue().language, f"{LESSONS}/{name}").message)
+    return _code_in(code, Catalogue(catalogue().language, f"{LESSONS}/{name}").message)
 
 
 # -- text ----------------------------------------------------------------------------------------

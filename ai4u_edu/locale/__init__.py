@@ -5,13 +5,14 @@ as strings, until they reach a reader: a page's socket, a terminal, a notebook's
 :class:`Catalogue` translates them. English is the key; what has no translation is shown in English.
 """
 
-from ai4u_edu.locale.catalogue import (
+from ai4u_edu.locale.catalogues import (
     LESSONS,
     PAGE,
     PYTHON,
     Catalogue,
-    own_catalogue,
+    catalogue,
     page_catalogue,
+    reader,
     set_language,
     translate,
 )
@@ -25,7 +26,7 @@ from ai4u_edu.locale.languages import (
     language_of_header,
     language_of_page,
 )
-from ai4u_edu.locale.text import Text, gettext, join, ngettext
+from ai4u_edu.locale.text import Text, gettext, join, ngettext, sentence
 
 __all__ = [
     "LANGUAGES",
@@ -37,6 +38,7 @@ __all__ = [
     "VARIABLE",
     "Catalogue",
     "Text",
+    "catalogue",
     "gettext",
     "join",
     "known_language",
@@ -44,8 +46,9 @@ __all__ = [
     "language_of_header",
     "language_of_page",
     "ngettext",
-    "own_catalogue",
     "page_catalogue",
+    "reader",
+    "sentence",
     "set_language",
     "translate",
 ]

@@ -15,7 +15,7 @@ class Text(str):
     care gets a string.
     """
 
-    __slots__ = ("msgid", "number", "plural", "values")
+    __slots__ = ("is_sentence", "msgid", "number", "plural", "values")
 
     msgid: str
     """The sentence with names in braces for its values: its key in the catalogues."""
@@ -25,18 +25,27 @@ class Text(str):
     """The number that decides between them."""
     values: Mapping[str, Value]
     """Values by their names in ``msgid``."""
+    is_sentence: bool
+    """True if it is shown with a capital letter and a full stop."""
 
     def __new__(
-        cls, msgid: str, values: Mapping[str, Value] = {}, plural: str = "", number: int = 1
+        cls,
+        msgid: str,
+        values: Mapping[str, Value] = {},
+        plural: str = "",
+        number: int = 1,
+        is_sentence: bool = False,
     ) -> Self:
         """Make a sentence."""
         pattern = plural if plural and number != 1 else msgid
-        text = super().__new__(cls, pattern.format_map(values) if values else pattern)
+        english = pattern.format_map(values) if values else pattern
+        text = super().__new__(cls, sentence(english) if is_sentence else english)
         text.msgid, text.plural, text.number, text.values = msgid, plural, number, values
+        text.is_sentence = is_sentence
         return text
 
-    def __reduce__(self) -> tuple[type[Self], tuple[str, Mapping[str, Value], str, int]]:
-        return type(self), (self.msgid, self.values, self.plural, self.number)
+    def __reduce__(self) -> tuple[type[Self], tuple[str, Mapping[str, Value], str, int, bool]]:
+        return type(self), (self.msgid, self.values, self.plural, self.number, self.is_sentence)
 
 
 def gettext(msgid: str, /, **values: Value) -> Text:
@@ -76,3 +85,14 @@ def join(texts: list[str], separator: str = " ") -> Text:
     """
     values = {f"text{number}": text for number, text in enumerate(texts)}
     return Text(separator.join(f"{{{name}}}" for name in values), values)
+
+
+def sentence(text: str) -> str:
+    """Return a text with a capital letter and a full stop.
+
+    >>> sentence(gettext("no body is called {name!r}", name="bxo"))
+    "No body is called 'bxo'."
+    """
+    if isinstance(text, Text):
+        return Text(text.msgid, text.values, text.plural, text.number, is_sentence=True)
+    return text[:1].upper() + text[1:].rstrip(".") + "." if text else ""

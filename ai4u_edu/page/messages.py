@@ -11,6 +11,7 @@ from msgspec import Meta, Struct
 
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.base.limits import MAX_EXACT_INT
+from ai4u_edu.locale import Text, translate
 
 MAX_NAME_CHARS = 200
 MAX_PATH_PARTS = 12
@@ -106,6 +107,28 @@ def id_in(text: str | bytes) -> int | None:
         return _ENVELOPE.decode(text).id
     except (msgspec.MsgspecError, RecursionError, UnicodeError):
         return None
+
+
+def translated(value: object) -> str:
+    """Return a text in the reader's language; a hook for msgspec's encoders.
+
+    Raises:
+        NotImplementedError: it is something else, which msgspec can't encode.
+    """
+    if isinstance(value, Text):
+        return translate(value)
+    raise NotImplementedError(f"expected data, got a {type(value).__name__}")
+
+
+_ENCODER = msgspec.json.Encoder(enc_hook=translated)
+
+
+def to_json(message: object) -> bytes:
+    """Return a message to a page as JSON, with its texts in the page's language.
+
+    Numbers that JSON can't hold (NaN, infinity) become null.
+    """
+    return _ENCODER.encode(message)
 
 
 class _Envelope(Struct):

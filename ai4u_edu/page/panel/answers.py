@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ai4u_edu.agent.block_errors import message_of
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import shorten
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, sentence
 from ai4u_edu.page.editing import ChangeError, ChangeResult
 from ai4u_edu.page.editing.change_result import When
 from ai4u_edu.page.editing.scene_store import SceneExistsError
@@ -13,8 +15,8 @@ MAX_ERROR_CHARS = 2000
 """Length of an error that is sent to a page; it may repeat the page's own message."""
 _LATER: dict[When, str] = {
     "now": "",
-    "next decision": "It works right away.",
-    "next reset": "It works after the next start.",
+    "next decision": _("It works right away."),
+    "next reset": _("It works after the next start."),
 }
 
 
@@ -39,25 +41,21 @@ def change_answer(text: str, result: ChangeResult, **more: Any) -> Answer:
     'Ray sensor added. It works right away.'
     """
     if not result.label and result.note:
-        return Answer(_sentence(result.note), more)  # nothing has changed
-    note = _sentence(result.note) if result.note else ""
-    return Answer(" ".join(filter(None, (text, _LATER[result.when], note))), more)
+        return Answer(sentence(result.note), more)  # nothing has changed
+    note = sentence(result.note)
+    return Answer(join([part for part in (text, _LATER[result.when], note) if part]), more)
 
 
 def failure(error: BaseException) -> dict[str, Any]:
     """Return the fields of the message about a command that failed."""
     problems = error.problems if isinstance(error, ChangeError) else ()
-    text = str(error) if isinstance(error, AI4UError) else message_of(error)
+    text = message_of(error)
     code = "exists" if isinstance(error, SceneExistsError) else ""
     return {
         "code": code,
-        "text": text[:MAX_ERROR_CHARS],
+        "text": shorten(text, MAX_ERROR_CHARS),
         "problems": [
-            {"path": list(problem.path), "text": problem.text[:MAX_ERROR_CHARS]}
+            {"path": list(problem.path), "text": shorten(problem.text, MAX_ERROR_CHARS)}
             for problem in problems
         ],
     }
-
-
-def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:].rstrip(".") + "."

@@ -5,10 +5,10 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-import msgspec
-
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import catalogue
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.messages import to_json
 from ai4u_edu.page.panel.page_view import Pictures
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.recording import Ghosts
@@ -21,7 +21,7 @@ MAX_CACHED = 200
 
 
 class PartCache:
-    """JSON texts of parts, so that pages that look at the same thing share them.
+    """JSON texts of parts, so that pages in one language that look at the same thing share them.
 
     Belongs to the server's event loop.
     """
@@ -88,10 +88,10 @@ class PanelContext:
 
 
 def _cached(texts: dict[object, bytes], key: object, build: Callable[[], object]) -> bytes:
+    key = catalogue().language, key
     text = texts.get(key)
     if text is None:
         if len(texts) >= MAX_CACHED:
             texts.clear()
-        # numbers that JSON can't hold (NaN, infinity) become null
-        text = texts[key] = msgspec.json.encode(build())
+        text = texts[key] = to_json(build())
     return text

@@ -4,16 +4,16 @@ import asyncio
 from collections.abc import Collection, Coroutine, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
+from contextvars import copy_context
 from typing import Protocol
 
-import msgspec
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from ai4u_edu.base.errors import AI4UError, NameNotFoundError
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.page.editing import ChangeResult
-from ai4u_edu.page.messages import MessageReader, PageCommand, id_in
+from ai4u_edu.page.messages import MessageReader, PageCommand, id_in, to_json
 from ai4u_edu.page.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
 from ai4u_edu.page.panel.commands import blocks, past, run, scenes, view, world
 from ai4u_edu.page.panel.commands.handler import Handler
@@ -110,6 +110,7 @@ class _PanelConnection:
         self._changed = asyncio.Event()
         self._sent: dict[str, bytes] = {}
         self._tasks: set[asyncio.Task[None]] = set()
+        self._language = copy_context()  # has the page's; viser's callbacks come from another one
 
     async def serve(self) -> None:
         """Send parts and carry out commands until the page leaves."""
@@ -146,7 +147,7 @@ class _PanelConnection:
         try:
             result = await self._page.result(change)
         except Exception as error:
-            self._note("error", str(failure(error)["text"]))
+            self._note("error", failure(error)["text"])
             return
         self._note("info", change_answer(f"{past_tense(result.label)}.", result).text)
         self._changed.set()
@@ -215,7 +216,7 @@ class _PanelConnection:
         await self._refuse(id_in(data), text)
 
     async def _refuse(self, number: int | None, text: str) -> None:
-        text = text[:MAX_ERROR_CHARS]
+        text = shorten(text, MAX_ERROR_CHARS)
         if number is None:
             await self._send({"type": "note", "level": "error", "text": text})
         else:
@@ -255,18 +256,18 @@ class _PanelConnection:
             self._view.choose_agent(agents[0].id)
 
     def _note(self, level: Level, text: str) -> None:
-        self._spawn_send({"type": "note", "level": level, "text": text[:MAX_ERROR_CHARS]})
+        self._spawn_send({"type": "note", "level": level, "text": shorten(text, MAX_ERROR_CHARS)})
 
     def _spawn_send(self, message: Mapping[str, object]) -> None:
         self._spawn(self._send(message))
 
     def _spawn(self, work: Coroutine[None, None, None]) -> None:
-        task = asyncio.create_task(work)
+        task = asyncio.create_task(work, context=self._language.copy())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
     async def _send(self, message: Mapping[str, object]) -> None:
-        await self._send_text(msgspec.json.encode(message).decode())
+        await self._send_text(to_json(message).decode())
 
     async def _send_text(self, text: str) -> None:
         if self._socket.application_state is WebSocketState.CONNECTED:

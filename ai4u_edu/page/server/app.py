@@ -21,6 +21,7 @@ from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
 from ai4u_edu.page.server.page import PageRoutes
 from ai4u_edu.page.server.past import Past
 from ai4u_edu.page.server.proxy import ViserProxy
+from ai4u_edu.page.server.reader_language import ReaderLanguage
 from ai4u_edu.page.server.scene_routes import SceneRoutes
 from ai4u_edu.page.server.scripts import RemoteSockets, Rules, ScriptLog
 from ai4u_edu.page.server.start_page import MissionsView, StartPage
@@ -118,7 +119,8 @@ def room_app(
             ),
         ],
         middleware=[
-            Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts)
+            Middleware(ReaderLanguage),
+            Middleware(HostOriginCheck, allowed_hosts=allowed_hosts, proxy_hosts=proxy_hosts),
         ],
     )
 

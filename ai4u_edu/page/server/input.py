@@ -17,9 +17,9 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
-from ai4u_edu.base.errors import NameNotFoundError
+from ai4u_edu.base.errors import NameNotFoundError, shorten
 from ai4u_edu.blocks.keyboard import CENTERED, Stick
-from ai4u_edu.page.messages import Message, PageCommand
+from ai4u_edu.page.messages import Message, PageCommand, translated
 from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.class_feed import ClassFeed, PageOfClass
 from ai4u_edu.page.server.control_lock import ControlLock
@@ -237,7 +237,7 @@ class _Page:
         await self._send_error(text)
 
     async def _send_error(self, text: str) -> None:
-        await self._send(_json(ErrorEvent(text[:MAX_ERROR_CHARS])))
+        await self._send(_json(ErrorEvent(shorten(text, MAX_ERROR_CHARS))))
 
     async def _send(self, text: str) -> None:
         # the task that sends events may wake up just after the other one has closed the socket
@@ -273,4 +273,4 @@ class _Page:
 
 def _json(message: object) -> str:
     # msgspec's own encoder refuses half of a surrogate pair, which a student's error may have
-    return json.dumps(msgspec.to_builtins(message))
+    return json.dumps(msgspec.to_builtins(message, enc_hook=translated))

@@ -14,6 +14,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import SOURCE, catalogue, page_catalogue
 from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles
 
 _PLACE = "<title>Viser</title>"
@@ -71,16 +72,18 @@ class PageRoutes:
         self._files = WebFiles()
         self._modules = self._files.modules("page/main.js", *["panel/panel.js"] * has_panel)
         self._title, self._has_panel = title, has_panel
-        self._index = self._read_index()
+        self._indexes = {SOURCE: self._read_index()}
 
     async def index(self, request: Request) -> Response:
-        """Return the page."""
-        index = self._index
+        """Return the page in the reader's language."""
+        language = catalogue().language
+        index = self._indexes.get(language)
         # another scene has been opened, or somebody works on our files
-        if (index.title, index.version) != (self._title(), self._files.version):
-            index = self._index = self._read_index()
+        if index is None or (index.title, index.version) != (self._title(), self._files.version):
+            index = self._indexes[language] = self._read_index()
         headers = ALWAYS_ASK | {
             "ETag": index.etag,
+            "Vary": "Accept-Language",
             "Content-Security-Policy": _policy(request.headers["host"]),
         }
         if request.headers.get("if-none-match") == index.etag:
@@ -106,6 +109,17 @@ class PageRoutes:
     def _read_index(self) -> "_Index":
         """Return the page with its present title."""
         return _index(self._title(), self._modules, self._files, has_panel=self._has_panel)
+
+
+def with_catalogue(page: str) -> str:
+    """Return an HTML page that says its language, and holds the texts of its scripts in it."""
+    language = catalogue().language
+    texts = page_catalogue(language).replace("<", "\\u003c")  # else it could end the element
+    page = page.replace('<html lang="en">', f'<html lang="{language.replace("_", "-")}">', 1)
+    element = f'<script type="application/json" id="ai4u-texts">{texts}</script>'
+    return page.replace(
+        "<title>", f"{element}\n    <title>", 1
+    )  # the first one of a page is its own
 
 
 class _Index(NamedTuple):
@@ -134,7 +148,7 @@ def _index(title: str, modules: list[str], files: WebFiles, *, has_panel: bool) 
             f'<link rel="modulepreload" href="./web/{each}" />' for each in modules
         ),
     )
-    content = text.replace(_PLACE, files.versioned(ours)).encode()
+    content = with_catalogue(text.replace(_PLACE, files.versioned(ours))).encode()
     return _Index(title, files.version, content, f'"{hashlib.sha256(content).hexdigest()[:32]}"')
 
 

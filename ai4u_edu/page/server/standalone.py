@@ -1,8 +1,12 @@
 """Pages without viser, which need no inline scripts and styles, with a policy."""
 
+from functools import lru_cache
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from starlette.responses import HTMLResponse
 
-from ai4u_edu.page.server.page import FRAME_ANCESTORS
+from ai4u_edu.locale import catalogue, ngettext
+from ai4u_edu.page.server.page import FRAME_ANCESTORS, with_catalogue
 from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles, web_folder
 
 STANDALONE_POLICY = "; ".join(
@@ -21,7 +25,34 @@ STANDALONE_POLICY = "; ".join(
 
 
 def standalone_page(name: str) -> HTMLResponse:
-    """Return a page of ``web/pages/``."""
-    text = (web_folder() / "pages" / name).read_text(encoding="utf-8")
-    headers = {"Content-Security-Policy": STANDALONE_POLICY, **ALWAYS_ASK}
-    return HTMLResponse(WebFiles().versioned(text), headers=headers)
+    """Return a page of ``web/pages/`` in the reader's language."""
+    headers = {"Content-Security-Policy": STANDALONE_POLICY, "Vary": "Accept-Language"}
+    return HTMLResponse(WebFiles().versioned(page_text(name)), headers=headers | ALWAYS_ASK)
+
+
+def page_text(name: str, **values: str) -> str:
+    """Return the HTML of a page of ``web/pages/`` in the reader's language.
+
+    Args:
+        name: its file's name.
+        values: texts by their names in the file.
+    """
+    return with_catalogue(_templates().get_template(name).render(values))
+
+
+@lru_cache(maxsize=1)
+def _templates() -> Environment:
+    templates = Environment(
+        loader=FileSystemLoader(web_folder() / "pages"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        extensions=["jinja2.ext.i18n"],
+        keep_trailing_newline=True,
+    )
+    templates.policies["ext.i18n.trimmed"] = True
+    # chosen when a page is rendered: each has its reader
+    templates.install_gettext_callables(  # type: ignore[attr-defined]  # of the extension
+        lambda text: catalogue().message(text),
+        lambda one, many, number: catalogue().translate(ngettext(one, many, number)),
+    )
+    return templates

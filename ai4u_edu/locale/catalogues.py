@@ -7,6 +7,9 @@ import gettext as gnu
 import json
 import re
 import unicodedata
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import lru_cache
 from pathlib import Path
 
@@ -17,7 +20,7 @@ from ai4u_edu.locale.languages import (
     known_language,
     language_of_environment,
 )
-from ai4u_edu.locale.text import Text, Value
+from ai4u_edu.locale.text import Text, Value, sentence
 
 FOLDER = Path(__file__).parent
 """Folder of the languages, in gettext's layout: ``pt_BR/LC_MESSAGES/DOMAIN.mo``."""
@@ -30,7 +33,7 @@ LESSONS = "lessons"
 
 GROWTH = 0.4
 """Growth of a text in the pseudo-locale."""
-_KEPT = re.compile(r"\{[^{}]*\}|<[^<>]*>|`[^`]*`|\]\([^()]*\)|&\w+;|\n")
+_KEPT = re.compile(r"<code>.*?</code>|\{[^{}]*\}|<[^<>]*>|`[^`]*`|\]\([^()]*\)|&\w+;|\n")
 """Parts that a translator keeps, too: values, markup, code, addresses."""
 _ACUTE = "\N{COMBINING ACUTE ACCENT}"
 _WITH_ACUTE = {
@@ -70,9 +73,9 @@ class Catalogue:
             pattern = self._translations.ngettext(text.msgid, text.plural, text.number)
         else:
             pattern = self.message(text.msgid)
-        if not text.values:
-            return pattern
-        return pattern.format_map({name: self._value(v) for name, v in text.values.items()})
+        if text.values:
+            pattern = pattern.format_map({name: self._value(v) for name, v in text.values.items()})
+        return sentence(pattern) if text.is_sentence else pattern
 
     def message(self, msgid: str) -> str:
         """Return the translation of a text that is its own key, such as the title of a scene."""
@@ -123,6 +126,7 @@ def page_catalogue(language: str) -> str:
 
 _TRANSLATED = tuple(code for code in LANGUAGES if code != SOURCE)
 _own: list[Catalogue] = []
+_reader: ContextVar[Catalogue | None] = ContextVar("reader", default=None)
 
 
 def set_language(language: str) -> None:
@@ -140,19 +144,39 @@ def set_language(language: str) -> None:
     _own[:] = [Catalogue(code)]
 
 
-def own_catalogue() -> Catalogue:
-    """Return the catalogue of this process's terminal or notebook.
+@contextmanager
+def reader(language: str) -> Iterator[None]:
+    """Translate into a language in this context: in a page's request or socket.
 
-    Its language is the one that :func:`set_language` chose; else that of the environment.
+    Tasks that are begun meanwhile, and what they run in threads, have it, too.
+
+    Args:
+        language: the code of a known language.
     """
+    token = _reader.set(Catalogue(language))
+    try:
+        yield
+    finally:
+        _reader.reset(token)
+
+
+def catalogue() -> Catalogue:
+    """Return the catalogue of the reader: of the page that is served, of the terminal or notebook.
+
+    The language of a terminal or notebook is the one that :func:`set_language` chose; else that of
+    the environment.
+    """
+    reading = _reader.get()
+    if reading is not None:
+        return reading
     if not _own:
         _own.append(Catalogue(language_of_environment()))
     return _own[0]
 
 
 def translate(text: str) -> str:
-    """Return a text in the language of this process's terminal or notebook."""
-    return own_catalogue().translate(text)
+    """Return a text in the reader's language; see :func:`catalogue`."""
+    return catalogue().translate(text)
 
 
 def pseudo(text: str) -> str:

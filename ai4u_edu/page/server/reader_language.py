@@ -1,0 +1,25 @@
+"""Middleware that chooses the language of each page."""
+
+from starlette.datastructures import Headers
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from ai4u_edu.locale import language_of_page, reader
+
+
+class ReaderLanguage:
+    """Translates what a request or socket is answered with into its browser's language.
+
+    Args:
+        app: the app that answers.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve a request or a socket."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        with reader(language_of_page(Headers(scope=scope).get("accept-language", ""))):
+            await self._app(scope, receive, send)

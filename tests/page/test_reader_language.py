@@ -1,0 +1,78 @@
+"""A page in its browser's language; several pages of one world, each in its own."""
+
+import json
+import re
+from collections.abc import Iterator
+
+import httpx
+import pytest
+
+from ai4u_edu.locale import PSEUDO, VARIABLE, Catalogue, gettext
+from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes import Scene
+from tests.page.panel.rooms import PanelPage, panel_room
+from tests.page.server.rooms import Room, served
+
+
+@pytest.fixture(scope="module")
+def room() -> Iterator[Room]:
+    scene = Scene.load("box_chase")
+    with served(editor=SceneEditor(Runner(scene.build(), seed=1), scene)) as room:
+        yield room
+
+
+@pytest.fixture(autouse=True)
+def _no_option(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    monkeypatch.setenv("LANGUAGE", "en")
+
+
+def page(room: Room, path: str, language: str) -> httpx.Response:
+    return httpx.get(room.url + path, headers={"Accept-Language": language})
+
+
+@pytest.mark.parametrize("path", ["", "start"])
+@pytest.mark.parametrize(
+    ("accepted", "language"), [("pt-BR,pt;q=0.9", "pt-BR"), ("en", "en"), ("ko", "en")]
+)
+def test_a_page_says_its_language_and_holds_its_texts(
+    room: Room, path: str, accepted: str, language: str
+) -> None:
+    answer = page(room, path, accepted)
+    assert f'<html lang="{language}">' in answer.text
+    (texts,) = re.findall(
+        r'<script type="application/json" id="ai4u-texts">(.*?)</script>', answer.text
+    )
+    assert json.loads(texts)["language"] == language.replace("-", "_")
+    assert "Accept-Language" in answer.headers["vary"]
+
+
+def test_a_browser_that_has_a_page_gets_it_in_another_language(room: Room) -> None:
+    etag = page(room, "", "en").headers["etag"]
+    headers = {"Accept-Language": "pt-BR", "If-None-Match": etag}
+    assert httpx.get(room.url, headers=headers).status_code == 200
+
+
+def test_html_is_translated(room: Room) -> None:
+    assert "Passo a passo" in page(room, "start", "pt-BR").text
+    assert "Step by step" in page(room, "start", "en").text
+    accented = page(room, "start", "en-XA").text
+    assert "Step by step" not in accented
+    assert "<code>ai4u-edu lessons</code>" in accented
+
+
+def test_two_pages_of_one_world_hear_two_languages() -> None:
+    header = {"Accept-Language": "en-XA"}
+    with (
+        panel_room() as room,
+        room.page() as english,
+        PanelPage(room.url + "ws/panel", additional_headers=header) as accented,
+    ):
+        texts = [
+            each.done("add_block", **{"class": "GrabActuator", "parent": ["actuators"]})["text"]
+            for each in (english, accented)
+        ]
+    works = gettext("It works right away.")
+    assert texts[0].endswith(works)
+    assert texts[1].endswith(Catalogue(PSEUDO).translate(works))
