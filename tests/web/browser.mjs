@@ -38,6 +38,9 @@ export function openWindow(address = "http://world.example/") {
     createElement() {
       return new HTMLElement();
     }
+    getElementById() {
+      return null;
+    }
     hasFocus() {
       return true;
     }

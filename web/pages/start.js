@@ -4,6 +4,7 @@ import { syncMissions } from "../classroom/student/missions.js";
 import { syncStars } from "../classroom/student/stars.js";
 import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
+import { t } from "../shared/text.js";
 import { assignedMission, progressOf, setOpenMission } from "../missions/progress.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
@@ -31,7 +32,7 @@ for (const [card, section] of sections) {
   });
 }
 if (location.hash === "#play") show(find("#scenes"));
-find("#build").addEventListener("click", () => open({ name: EMPTY_SCENE }, "My scene"));
+find("#build").addEventListener("click", () => open({ name: EMPTY_SCENE }, t("My scene")));
 watchSharedScene(goToWorld);
 showPresent();
 showScenes();
@@ -67,12 +68,12 @@ async function open(wanted, title) {
   isOpening = true;
   try {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: `Open ${title}?`, text, yes: "Open" }))) return;
+    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return;
     find("main").setAttribute("aria-busy", "true");
     await request("api/scene", wanted);
     goToWorld();
   } catch (error) {
-    await tell("The scene can't be opened", error.message);
+    await tell(t("The scene can't be opened"), error.message);
   } finally {
     find("main").removeAttribute("aria-busy");
     isOpening = false;
@@ -81,7 +82,7 @@ async function open(wanted, title) {
 
 async function showPresent() {
   const { title } = await request("api/scene");
-  find("#present").textContent = `Back to “${title}”`;
+  find("#present").textContent = t("Back to “{title}”", { title });
 }
 
 async function showScenes() {
@@ -108,7 +109,7 @@ async function showScenes() {
 function sceneCard({ name, title, goal, level, minutes, stars, key, picture }, wanted) {
   cards += 1;
   const id = cards;
-  const facts = [level, minutes && `${minutes} min`].filter(Boolean).join(" · ");
+  const facts = [level, minutes && t("{minutes} min", { minutes })].filter(Boolean).join(" · ");
   const row = stars > 0 && starRow(starsOf(name), stars).element;
   const times = timesText(key);
   const button = element(
@@ -160,7 +161,7 @@ async function showMissions() {
  */
 function islandOf(island, missions, next) {
   const done = missions.filter(({ name, steps }) => progressOf(name).steps >= steps).length;
-  const heading = element("h3", {}, island, element("span", { className: "ai4u-facts", textContent: `${done} of ${missions.length}` }));
+  const heading = element("h3", {}, island, element("span", { className: "ai4u-facts", textContent: t("{done} of {all}", { done, all: missions.length }) }));
   const list = element("ol", {}, ...missions.map((mission) => missionCard(mission, mission === next)));
   // there are too many missions to see all at once: the island of the next one is open
   const isOpen = next !== undefined && missions.includes(next);
@@ -179,18 +180,18 @@ function missionCard(mission, isNext) {
   const { name, title, minutes, steps, stars, idea } = mission;
   const reached = progressOf(name);
   const isDone = reached.steps >= steps;
-  const state = isDone ? "done" : reached.steps ? `${reached.steps} of ${steps} steps` : `${minutes} min`;
+  const state = isDone ? t("done") : reached.steps ? t("{done} of {all} steps", { done: reached.steps, all: steps }) : t("{minutes} min", { minutes });
   const facts = element("span", { className: "ai4u-facts", textContent: [idea, state].filter(Boolean).join(" · ") });
   const row = starRow(reached.stars, stars).element;
-  row.title = "Stars of this mission";
+  row.title = t("Stars of this mission");
   const button = element("button", { type: "button" }, element("span", { className: "ai4u-name", textContent: `${isDone ? "✓ " : ""}${title}` }), facts, row);
   button.toggleAttribute("data-done", isDone);
   button.toggleAttribute("data-next", isNext);
   const isGiven = name === assignedMission() && !isDone;
-  if (isGiven) button.append(element("span", { className: "ai4u-facts", textContent: "From your teacher" }));
+  if (isGiven) button.append(element("span", { className: "ai4u-facts", textContent: t("From your teacher") }));
   button.toggleAttribute("data-given", isGiven);
-  button.setAttribute("aria-label", [title, isGiven ? "from your teacher" : "", isDone ? "done" : isNext ? "the next one" : "", row.getAttribute("aria-label")].filter(Boolean).join(", "));
-  button.title = mission.scene === EMPTY_SCENE ? "My scene" : "";
+  button.setAttribute("aria-label", [title, isGiven ? t("from your teacher") : "", isDone ? t("done") : isNext ? t("the next one") : "", row.getAttribute("aria-label")].filter(Boolean).join(", "));
+  button.title = mission.scene === EMPTY_SCENE ? t("My scene") : "";
   button.addEventListener("click", () => begin(mission, isDone ? 0 : reached.steps));
   return element("li", {}, button);
 }

@@ -1,5 +1,7 @@
 /** The page that asks for a world's token. Without this script the form works too. */
 
+import { t } from "../shared/text.js";
+
 const form = document.querySelector("form");
 const input = /** @type {HTMLInputElement} */ (document.querySelector("#token"));
 const button = document.querySelector("button");
@@ -21,7 +23,7 @@ form.addEventListener("submit", async (event) => {
     }
     problem.textContent = sentence(answer);
   } catch {
-    problem.textContent = "The world can't be reached. Is it still running?";
+    problem.textContent = t("The world can't be reached. Is it still running?");
   }
   button.disabled = false;
   input.focus();
@@ -50,7 +52,7 @@ function addressWith(token) {
 
 /** @param {Response} answer */
 function sentence(answer) {
-  if (answer.status === 401) return "That token is wrong.";
-  if (answer.status !== 429) return `The world answers with error ${answer.status}.`;
-  return `Too many wrong tokens came from this address. Try again in ${answer.headers.get("Retry-After")} s.`;
+  if (answer.status === 401) return t("That token is wrong.");
+  if (answer.status !== 429) return t("The world answers with error {status}.", { status: answer.status });
+  return t("Too many wrong tokens came from this address. Try again in {seconds} s.", { seconds: answer.headers.get("Retry-After") });
 }

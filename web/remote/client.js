@@ -4,6 +4,7 @@
 /** @import { Flow, Step } from "./dialogue.js" */
 
 import { randomId } from "../shared/ids.js";
+import { t } from "../shared/text.js";
 import { ConnectionLostError, Dialogue, RemoteError } from "./dialogue.js";
 import { SUBPROTOCOL } from "./messages.js";
 
@@ -98,7 +99,7 @@ export class RemoteClient {
 
   /** Give the agent back to the brain that it had before; what waits is rejected. It may be called twice. */
   async close(reason = "the page has stopped its program") {
-    this.#connection.interrupt(new RemoteError("The connection was closed.", "closed"));
+    this.#connection.interrupt(new RemoteError(t("The connection was closed."), "closed"));
     await this.#run(this.#dialogue.end(reason));
   }
 
@@ -145,7 +146,7 @@ class Connection {
    */
   #frames = [];
   /** The reason why the socket closed. */
-  #lost = new ConnectionLostError("there is no connection");
+  #lost = new ConnectionLostError(t("there is no connection"));
   /** @type {Error | null} */
   #interruption = null;
   /** Called when anything has happened. */
@@ -188,18 +189,18 @@ class Connection {
     };
     socket.onclose = ({ code, reason }) => {
       if (this.#socket !== socket) return;
-      this.#lost = new ConnectionLostError(reason || "no answer", code);
+      this.#lost = new ConnectionLostError(reason || t("no answer"), code);
       this.#wake();
     };
     await this.#happened(() => socket.readyState === WebSocket.OPEN || this.#lost, timeout);
     if (this.#lost) throw this.#lost;
-    if (socket.readyState !== WebSocket.OPEN) throw new ConnectionLostError("no answer");
+    if (socket.readyState !== WebSocket.OPEN) throw new ConnectionLostError(t("no answer"));
   }
 
   /** @param {Uint8Array<ArrayBuffer>} frame */
   #send(frame) {
     if (this.#socket?.readyState !== WebSocket.OPEN) {
-      throw this.#lost ?? new ConnectionLostError("the connection is closing");
+      throw this.#lost ?? new ConnectionLostError(t("the connection is closing"));
     }
     this.#socket.send(frame);
   }
@@ -215,7 +216,7 @@ class Connection {
   #close() {
     this.#socket?.close();
     this.#socket = null;
-    this.#lost ??= new ConnectionLostError("there is no connection");
+    this.#lost ??= new ConnectionLostError(t("there is no connection"));
   }
 
   /**

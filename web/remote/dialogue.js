@@ -9,6 +9,7 @@
 /** @import { Percept, Problem, Welcome } from "../types/remote.js" */
 
 import { limits } from "../shared/limits.js";
+import { t } from "../shared/text.js";
 import { actionFrame, frameOf, messageIn, PROBLEMS, resetFrame, valuesOf, VERSION } from "./messages.js";
 
 /** Time after which a frame is repeated for the first time; it doubles with each repetition. */
@@ -106,7 +107,7 @@ export class Dialogue {
     const lost = yield* this.#connect(performance.now() + limits.connectMs);
     if (lost === null) return;
     yield { close: true };
-    throw new RemoteError(`The world does not answer (${lost.message}). Is it still running?`, "lost");
+    throw new RemoteError(t("The world does not answer ({reason}). Is it still running?", { reason: lost.message }), "lost");
   }
 
   /**
@@ -146,7 +147,7 @@ export class Dialogue {
     }
     const readable = this.welcome?.fields || [];
     const unread = Object.keys(this.#told).filter((name) => !readable.includes(name));
-    return unread.length ? `No sensor reads ${unread.join(", ")}: expected an AgentArraySensor of that name.` : "";
+    return unread.length ? t("No sensor reads {names}: expected an AgentArraySensor of that name.", { names: unread.join(", ") }) : "";
   }
 
   /**
@@ -157,7 +158,7 @@ export class Dialogue {
   *act(values) {
     const percept = yield* this.sense();
     if (percept.terminated || percept.truncated) {
-      throw new RemoteError("The episode is over; reset begins another.", "episode_over");
+      throw new RemoteError(t("The episode is over; reset begins another."), "episode_over");
     }
     yield* this.#answer(actionFrame(percept, values, this.#told), percept.seq);
   }
@@ -197,7 +198,7 @@ export class Dialogue {
    */
   *end(reason) {
     if (this.#ended !== null) return;
-    this.#ended = new RemoteError("The connection was closed.", "closed");
+    this.#ended = new RemoteError(t("The connection was closed."), "closed");
     try {
       yield { send: frameOf("bye", reason) };
     } catch {
@@ -214,7 +215,7 @@ export class Dialogue {
   *#connect(deadline) {
     const isFirst = this.welcome === null;
     let backoff = FIRST_BACKOFF_MS;
-    let lost = new ConnectionLostError("no answer");
+    let lost = new ConnectionLostError(t("no answer"));
     while (performance.now() < deadline) {
       try {
         yield* this.#attempt(Math.min(deadline, performance.now() + ATTEMPT_TIMEOUT_MS));
@@ -253,7 +254,7 @@ export class Dialogue {
         if (heard !== null && this.#handleWelcome(heard)) return;
       }
     }
-    throw new ConnectionLostError("no answer");
+    throw new ConnectionLostError(t("no answer"));
   }
 
   /**
@@ -267,7 +268,7 @@ export class Dialogue {
     const { grace } = this.welcome;
     const final = yield* this.#connect(performance.now() + 1000 * grace);
     if (final === null) return;
-    this.#ended = new RemoteError(`The connection to the world is lost (${final.message}). Press Run again.`, "lost");
+    this.#ended = new RemoteError(t("The connection to the world is lost ({reason}). Press Run again.", { reason: final.message }), "lost");
     yield { close: true };
     throw this.#ended;
   }
@@ -310,7 +311,7 @@ export class Dialogue {
       this.percept = { values: valuesOf(this.welcome.readings, { data, texts }), ...rest };
       this.#isAnswered = false;
     } else if (message.type === "bye") {
-      this.#end(new RemoteError(`The world has ended the session: ${message.reason}`, "ended"));
+      this.#end(new RemoteError(t("The world has ended the session: {reason}", { reason: message.reason }), "ended"));
     } else if (message.type === "problem") {
       this.#handleProblem(message, latest);
     }

@@ -7,6 +7,7 @@
 /** @import { Message, PerceptMessage, Reading, Value } from "../types/remote.js" */
 
 import { decode, Encoder } from "../vendor/msgpack.js?v=269ec7b2";
+import { t } from "../shared/text.js";
 
 export const VERSION = 1;
 export const SUBPROTOCOL = `ai4u-edu-remote.v${VERSION}`;
@@ -105,7 +106,7 @@ function isEmpty(told) {
  */
 export function messageIn(frame) {
   const [type, ...fields] = decode(frame);
-  if (!Object.hasOwn(FIELDS, type)) throw new Error(`a message of an unknown type, ${String(type).slice(0, 40)}`);
+  if (!Object.hasOwn(FIELDS, type)) throw new Error(t("a message of an unknown type, {type}", { type: String(type).slice(0, 40) }));
   const message = { type, ...named(FIELDS[/** @type {keyof typeof FIELDS} */ (type)], fields) };
   if (type === "welcome") {
     message.readings = message.readings.map((/** @type {unknown[]} */ values) => readingOf(named(READING, values)));
@@ -145,7 +146,7 @@ function valueOf({ kind, sensorType, dtype, shape, offset }, data, texts) {
 function numbersIn(data, dtype, offset, count) {
   const [size, list] = NUMBERS[dtype];
   const bytes = data.slice(offset, offset + count * size); // a copy, at an address that is a multiple of size
-  if (bytes.length !== count * size) throw new Error("a percept that is shorter than the welcome says");
+  if (bytes.length !== count * size) throw new Error(t("a percept that is shorter than the welcome says"));
   return list(bytes.buffer);
 }
 

@@ -1,5 +1,7 @@
 /** Requests about the scene that runs. Addresses are relative: the page may be served below a path. */
 
+import { t } from "../shared/text.js";
+
 /**
  * Request JSON.
  *
@@ -17,10 +19,10 @@ export async function request(path, body) {
   try {
     answer = await fetch(path, options);
   } catch {
-    throw new Error("The world can't be reached. Is it still running?");
+    throw new Error(t("The world can't be reached. Is it still running?"));
   }
   if (answer.ok) return answer.json();
-  if (answer.status === 404) throw new Error("The scene of this world can't be changed or shared from here.");
+  if (answer.status === 404) throw new Error(t("The scene of this world can't be changed or shared from here."));
   throw new Error((await answer.text()).trim());
 }
 
@@ -29,6 +31,6 @@ export async function unsavedSentence() {
   const { is_changed: isChanged, is_autosaved: isAutosaved } = await request("api/scene");
   if (!isChanged) return "";
   return isAutosaved
-    ? "Your scene is kept; find it under Unsaved."
-    : "Your scene has changes that are not saved. Undo brings it back.";
+    ? t("Your scene is kept; find it under Unsaved.")
+    : t("Your scene has changes that are not saved. Undo brings it back.");
 }

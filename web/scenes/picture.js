@@ -2,6 +2,7 @@
 
 import { element } from "../shared/dom.js";
 import { icon } from "../shared/icons.js";
+import { t } from "../shared/text.js";
 
 /**
  * Return a frame with a scene's picture, which is loaded when it comes into view. If the picture is
@@ -14,7 +15,7 @@ export function scenePicture(address, title) {
   const showNone = () => frame.replaceChildren(icon("picture", 40));
   if (address) {
     // `loading` comes first: some browsers load as soon as there is an address
-    const image = element("img", { loading: "lazy", alt: `${title} from above`, width: 400, height: 300, src: address });
+    const image = element("img", { loading: "lazy", alt: t("{title} from above", { title }), width: 400, height: 300, src: address });
     image.addEventListener("error", showNone);
     frame.append(image);
   } else showNone();

@@ -5,6 +5,8 @@
  * text only: the tab "Code" offers it, and runs nothing by itself.
  */
 
+import { t } from "../shared/text.js";
+
 /** Longest program (characters); a class keeps no longer one. */
 export const MAX_PROGRAM_CHARS = 100_000;
 /** Longest compressed program, in base64 (characters). */
@@ -12,8 +14,8 @@ const MAX_DATA_CHARS = 60_000;
 /** Longest link; as MAX_LINK_CHARS of scene_link.py. */
 const MAX_LINK_CHARS = 100_000;
 const MAX_AGENT_CHARS = 100;
-const DAMAGED = "The link's program is damaged: a part of it is missing or was changed.";
-const TOO_LARGE = "This program is too large for a link. Download it, and share its file.";
+const DAMAGED = t("The link's program is damaged: a part of it is missing or was changed.");
+const TOO_LARGE = t("This program is too large for a link. Download it, and share its file.");
 
 /**
  * Return a link's fragment with a program in it. Rejects with a sentence.

@@ -4,13 +4,14 @@
 
 import { element } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
+import { t } from "../shared/text.js";
 import { programIn, withoutProgram, withProgram } from "./program_link.js";
 import { request, unsavedSentence } from "./api.js";
 import { keepShared } from "./shared_program.js";
 
 const PREFIX = "#scene=";
-const BRINGS_PROGRAM = "It contains a program, which the tab “Code” offers you. It does not run by itself.";
-const ONLY_HERE = " In a browser it opens on this computer only. To give the scene to someone else, send its file (World, Download).";
+const BRINGS_PROGRAM = t("It contains a program, which the tab “Code” offers you. It does not run by itself.");
+const ONLY_HERE = t("In a browser it opens on this computer only. To give the scene to someone else, send its file (World, Download).");
 let isAsking = false;
 
 /**
@@ -28,14 +29,14 @@ export async function copyLink(program = null) {
     return error.message;
   }
   const link = new URL(`./#${made.fragment}`, location.href.replace(/[?#].*/, "")).href;
-  const needs = made.needs.length ? ` It needs this too, which a link can't carry: ${made.needs.join(", ")}.` : "";
+  const needs = made.needs.length ? t("It needs this too, which a link can't carry: {names}.", { names: made.needs.join(", ") }) : "";
   try {
     await navigator.clipboard.writeText(link);
   } catch {
     await showLink(made.title, link); // no secure page, or in a frame that may not copy
-    return `Here is the link.${needs}`;
+    return sentences(t("Here is the link."), needs);
   }
-  return `Link copied.${isThisComputer() ? ONLY_HERE : ""}${needs}`;
+  return sentences(t("Link copied."), isThisComputer() && ONLY_HERE, needs);
 }
 
 /** Return true if the page's address leads to its world from this computer only. */
@@ -48,12 +49,12 @@ export function isThisComputer() {
  * @param {string} link
  */
 async function showLink(title, link) {
-  const box = element("textarea", { readOnly: true, value: link, ariaLabel: "Link", spellcheck: false });
+  const box = element("textarea", { readOnly: true, value: link, ariaLabel: t("Link"), spellcheck: false });
   box.addEventListener("focus", () => box.select());
   const answered = ask({
-    title: `Link to “${title}”`,
-    text: `Select the link and copy it (Ctrl+C, or ⌘C).${isThisComputer() ? ONLY_HERE : ""}`,
-    yes: "Close",
+    title: t("Link to “{title}”", { title }),
+    text: sentences(t("Select the link and copy it (Ctrl+C, or ⌘C)."), isThisComputer() && ONLY_HERE),
+    yes: t("Close"),
     no: "",
     content: [box],
   });
@@ -84,15 +85,23 @@ async function offerSharedScene(link, onopen) {
   try {
     const program = await programIn(link);
     const { title, name } = await request("api/scene/link", { link: withoutProgram(link) });
-    const text = [program && BRINGS_PROGRAM, await unsavedSentence()].filter(Boolean).join(" ");
-    if (await ask({ title: `Open the shared scene “${title}”?`, text, yes: "Open" })) {
+    const text = sentences(program && BRINGS_PROGRAM, await unsavedSentence());
+    if (await ask({ title: t("Open the shared scene “{title}”?", { title }), text, yes: t("Open") })) {
       await request("api/scene", { link: withoutProgram(link) });
       if (program !== null) keepShared({ scene: name, ...program });
       onopen();
     }
   } catch (error) {
-    await tell("The shared scene can't be opened", error.message);
+    await tell(t("The shared scene can't be opened"), error.message);
   } finally {
     isAsking = false;
   }
+}
+
+/**
+ * Return sentences as one text.
+ * @param {(string | false | null)[]} parts what is empty, false or null is left out
+ */
+function sentences(...parts) {
+  return parts.filter(Boolean).join(" ");
 }

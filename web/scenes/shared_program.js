@@ -4,6 +4,7 @@ import { splitProgram } from "../blocks/text.js";
 import { button, element, setText } from "../shared/dom.js";
 import { roomOfPage } from "../shared/room.js";
 import { forget, recall, remember } from "../shared/storage.js";
+import { t, tn } from "../shared/text.js";
 
 /** Students of a class may use one device in turn. */
 const KEY = `shared-program-${roomOfPage()}`;
@@ -40,16 +41,16 @@ export function forgetShared() {
 /** The offer of such a program: its text to read, a button that takes it, and one that does not. */
 export class SharedOffer {
   #words = element("p");
-  #text = element("pre", { tabIndex: 0, ariaLabel: "The shared program" });
+  #text = element("pre", { tabIndex: 0, ariaLabel: t("The shared program") });
   /** @type {string | null} */
   #source = null;
-  element = element("div", { className: "ai4u-code-shared", role: "group", ariaLabel: "A shared program", hidden: true });
+  element = element("div", { className: "ai4u-code-shared", role: "group", ariaLabel: t("A shared program"), hidden: true });
 
   /** @param {(source: string) => void} onTake called with the program that the person takes */
   constructor(onTake) {
-    const take = button("Take it", () => this.#end(onTake), { kind: "main" });
-    const refuse = button("No, thanks", () => this.#end(() => {}), {});
-    const details = element("details", {}, element("summary", { textContent: "Read it" }), this.#text);
+    const take = button(t("Take it"), () => this.#end(onTake), { kind: "main" });
+    const refuse = button(t("No, thanks"), () => this.#end(() => {}), {});
+    const details = element("details", {}, element("summary", { textContent: t("Read it") }), this.#text);
     this.element.append(this.#words, details, element("div", { className: "ai4u-inline" }, take, refuse));
   }
 
@@ -63,7 +64,12 @@ export class SharedOffer {
     if (source === null) return;
     const { python } = splitProgram(source);
     const lines = python.trim().split("\n").length;
-    setText(this.#words, `The link brought a program of ${lines} ${lines === 1 ? "line" : "lines"}. Yours stays among the earlier runs if you take it.`);
+    const words = tn(
+      "The link brought a program of {n} line. Yours stays among the earlier runs if you take it.",
+      "The link brought a program of {n} lines. Yours stays among the earlier runs if you take it.",
+      lines,
+    );
+    setText(this.#words, words);
     setText(this.#text, python);
   }
 

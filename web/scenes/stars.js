@@ -3,6 +3,7 @@
 import { element, setAttributes, setText } from "../shared/dom.js";
 import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 
 const MAX_STARS = 3;
 /** Most scenes whose stars are kept. */
@@ -47,8 +48,8 @@ export function starRow(earned = 0, total = 0) {
   const set = (/** @type {number} */ count, /** @type {number} */ of) => {
     const filled = Math.min(count, of);
     setText(made, "★".repeat(filled) + "☆".repeat(of - filled));
-    setAttributes(made, { "aria-label": `${filled} of ${of} stars`, "data-earned": filled > 0 });
-    made.title = of ? "Stars for your program" : "";
+    setAttributes(made, { "aria-label": t("{filled} of {all} stars", { filled, all: of }), "data-earned": filled > 0 });
+    made.title = of ? t("Stars for your program") : "";
     made.hidden = of === 0;
   };
   set(earned, total);

@@ -2,6 +2,7 @@
 
 import { element } from "./dom.js";
 import { freeId } from "./ids.js";
+import { t } from "./text.js";
 
 /**
  * Show a dialog until it is closed. It is named by its heading, and keeps keys from the world behind it.
@@ -32,7 +33,7 @@ export function showDialog(dialog, heading, { closesOutside = false } = {}) {
  *   with more elements between text and buttons, if any
  * @returns {Promise<boolean>}
  */
-export async function ask({ title, text = "", yes, no = "Cancel", content = [] }) {
+export async function ask({ title, text = "", yes, no = t("Cancel"), content = [] }) {
   const heading = element("h2", { textContent: title });
   const words = element("p", { id: freeId(), textContent: text, hidden: !text });
   const accept = element("button", { type: "button", className: "ai4u-button", textContent: yes });
@@ -54,5 +55,5 @@ export async function ask({ title, text = "", yes, no = "Cancel", content = [] }
  */
 export async function tell(title, problem) {
   const text = problem.charAt(0).toUpperCase() + problem.slice(1); // the server's sentences begin with any word
-  await ask({ title, text, yes: "Close", no: "" });
+  await ask({ title, text, yes: t("Close"), no: "" });
 }

@@ -2,6 +2,7 @@
 
 import { showDialog } from "./dialog.js";
 import { element } from "./dom.js";
+import { t } from "./text.js";
 
 /**
  * Show a form until it is sent or closed.
@@ -12,7 +13,7 @@ import { element } from "./dom.js";
  *   the form stays
  * @returns {Promise<boolean>} true if it was sent
  */
-export async function showForm({ title, text = "", content, yes = "", no = "Cancel", isDanger = false }, send = async () => {}) {
+export async function showForm({ title, text = "", content, yes = "", no = t("Cancel"), isDanger = false }, send = async () => {}) {
   const heading = element("h2", { textContent: title });
   const problem = element("p", { className: "ai4u-problem", role: "alert" });
   const accept = yes ? element("button", { className: "ai4u-button", textContent: yes }) : null;

@@ -1,5 +1,7 @@
 /** Numbers as text for people. */
 
+import { t } from "./text.js";
+
 /**
  * Return a number with at most three digits that matter; "–" if there is none.
  * @param {number | string | null | undefined} value
@@ -20,7 +22,7 @@ export function number(value) {
  */
 export function seconds(value) {
   if (value === null || value === undefined) return "–";
-  return value < 60 ? `${value.toFixed(1)} s` : `${clock(Math.floor(value))} min`;
+  return value < 60 ? t("{seconds} s", { seconds: value.toFixed(1) }) : t("{minutes} min", { minutes: clock(Math.floor(value)) });
 }
 
 /**
