@@ -2,6 +2,8 @@
 
 /** @import { ClassState, MissionPlace, Room } from "../types/class.js" */
 
+import { t, tn } from "../shared/text.js";
+
 /** From this need of help (0 to 100, see help_score.py) on, a card is marked. */
 const MIN_HELP = 30;
 
@@ -10,17 +12,17 @@ const MIN_HELP = 30;
  * @type {Record<string, {text: string, sign: string}>}
  */
 const STATUSES = {
-  waiting: { text: "not started", sign: "○" },
-  driving: { text: "driving", sign: "▶" },
-  solved: { text: "solved", sign: "✓" },
-  fell: { text: "fell", sign: "↓" },
-  over: { text: "ended", sign: "■" },
-  idle: { text: "idle", sign: "–" },
-  paused: { text: "paused", sign: "Ⅱ" },
-  error: { text: "error", sign: "!" },
-  mistake: { text: "program stopped", sign: "!" },
-  asleep: { text: "asleep", sign: "☾" },
-  away: { text: "not connected", sign: "×" },
+  waiting: { text: t("not started"), sign: "○" },
+  driving: { text: t("driving"), sign: "▶" },
+  solved: { text: t("solved"), sign: "✓" },
+  fell: { text: t("fell"), sign: "↓" },
+  over: { text: t("ended"), sign: "■" },
+  idle: { text: t("idle"), sign: "–" },
+  paused: { text: t("paused"), sign: "Ⅱ" },
+  error: { text: t("error"), sign: "!" },
+  mistake: { text: t("program stopped"), sign: "!" },
+  asleep: { text: t("asleep"), sign: "☾" },
+  away: { text: t("not connected"), sign: "×" },
 };
 
 /** @param {Room} room */
@@ -49,8 +51,10 @@ export function seatsOf(room, state) {
  */
 export function roomName(room, state) {
   const names = seatsOf(room, state).map((seat) => seat.name);
-  if (names.length === 0) return "Empty room";
-  return names.length > 2 ? `${names[0]} and ${names.length - 1} others` : names.join(" and ");
+  if (names.length === 0) return t("Empty room");
+  const [name, other] = names;
+  if (names.length === 2) return t("{name} and {other}", { name, other });
+  return names.length === 1 ? name : tn("{name} and {n} other", "{name} and {n} others", names.length - 1, { name });
 }
 
 /**
@@ -59,13 +63,4 @@ export function roomName(room, state) {
  */
 export function placeText({ title, step, steps, is_done: isDone }) {
   return isDone && step === steps - 1 ? `${title} ✓` : `${title} ${step + 1}/${steps}`;
-}
-
-/**
- * Return a count with its noun: "1 fall", "6 falls".
- * @param {number} count
- * @param {string} noun
- */
-export function counted(count, noun) {
-  return `${count} ${noun}${count === 1 ? "" : "s"}`;
 }

@@ -3,8 +3,9 @@
 /** @import { ClassState, DrawingMessage, PosesMessage } from "../types/class.js" */
 
 import { JsonSocket } from "../shared/socket.js";
+import { t } from "../shared/text.js";
 
-const LOST = "The class can't be reached. Is its program still running? This page tries again by itself.";
+const LOST = t("The class can't be reached. Is its program still running? This page tries again by itself.");
 
 /**
  * Open the socket, and open it again whenever it is lost.

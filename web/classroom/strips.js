@@ -7,6 +7,7 @@ import { clock } from "../shared/numbers.js";
 import { HELD, isHeld } from "./teacher/attention_dialog.js";
 import { commandOrTell } from "./teacher/command.js";
 import { element, setText } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 const TICK_MS = 250;
 const MAX_PLACES = 3;
@@ -56,7 +57,7 @@ export class ClassStrips {
     if (isHeld(state.attention)) build(this.#held); // the toolbar has the button that ends it
     if (state.race) {
       const { is_board_hidden: isHidden, phase } = state.race;
-      build(this.#race, [isHidden ? "Show the board" : "Hide the board", { do: "board", hide: !isHidden }], [phase === "over" ? "Close the race" : "End race", { do: "end race" }]);
+      build(this.#race, [isHidden ? t("Show the board") : t("Hide the board"), { do: "board", hide: !isHidden }], [phase === "over" ? t("Close the race") : t("End race"), { do: "end race" }]);
     }
     this.#update();
   }
@@ -65,8 +66,8 @@ export class ClassStrips {
     if (!this.#state) return;
     const { attention, race } = this.#state;
     if (isHeld(attention)) {
-      const end = this.#ends.left ? ` Ends in ${clock(this.#ends.left)}.` : "";
-      say(this.#held, `${HELD[attention.kind]}.`, (attention.message && `“${attention.message}”`) + end);
+      const end = this.#ends.left ? t("Ends in {time}.", { time: clock(this.#ends.left) }) : "";
+      say(this.#held, HELD[attention.kind], [attention.message && `“${attention.message}”`, end].filter(Boolean).join(" "));
     }
     if (race) say(this.#race, raceWords(race, this.#starts.left), boardWords(race.board));
   }
@@ -77,8 +78,8 @@ export class ClassStrips {
  * @param {number} left seconds to its start
  */
 function raceWords({ phase, scene }, left) {
-  if (phase === "countdown" && left) return `Race “${scene}”: starts in ${clock(left)}.`;
-  return phase === "over" ? `Race “${scene}” is over.` : `Race “${scene}” is on.`;
+  if (phase === "countdown" && left) return t("Race “{scene}”: starts in {time}.", { scene, time: clock(left) });
+  return phase === "over" ? t("Race “{scene}” is over.", { scene }) : t("Race “{scene}” is on.", { scene });
 }
 
 /**
@@ -90,7 +91,7 @@ function boardWords(board) {
   const refused = board.filter(({ outcome }) => outcome === "refused");
   return [
     ...best.map(({ name, seconds }, index) => `${index + 1}. ${name} ${seconds.toFixed(1)} s`),
-    ...refused.map(({ name, why }) => `Refused: ${name} (${why})`),
+    ...refused.map(({ name, why }) => t("Refused: {name} ({why})", { name, why })),
   ].join("   ");
 }
 

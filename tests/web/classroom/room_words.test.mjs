@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { counted, needsHelp, roomName, seatsOf, statusOf } from "../../../web/classroom/room_words.js";
+import { needsHelp, roomName, seatsOf, statusOf } from "../../../web/classroom/room_words.js";
 
 const SEATS = ["Red Fox", "Calm Owl", "Blue Jay", "Old Elk"].map((name, index) => ({ number: index, name, state: index === 3 ? "out" : "in" }));
 const room = (...seats) => ({ seats });
@@ -21,8 +21,4 @@ test("a status has a word and a sign, an unknown one its own", () => {
 
 test("a card is marked from a need of 30 on", () => {
   assert.deepEqual([{ help: 30 }, { help: 29 }, {}].map(needsHelp), [true, false, false]);
-});
-
-test("one of a thing has no s", () => {
-  assert.deepEqual([0, 1, 2].map((count) => counted(count, "fall")), ["0 falls", "1 fall", "2 falls"]);
 });

@@ -1,6 +1,7 @@
 /** The page that checks a browser and its network before a class. */
 
 import { element, find } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 
 const ECHOES = 5;
 const ECHO_TIMEOUT_MS = 5000;
@@ -14,12 +15,12 @@ const result = find("#result");
 /** @type {Map<string, HTMLElement>} */
 const lines = new Map();
 
-add("browser", "This browser can read the page");
-add("cookies", "It keeps your seat (cookies)");
-add("graphics", "It draws the world (WebGL 2)");
-add("connection", "The network lets the world through (WebSocket)");
-add("speed", "The network is fast enough");
-add("keys", "Keys arrive");
+add("browser", t("This browser can read the page"));
+add("cookies", t("It keeps your seat (cookies)"));
+add("graphics", t("It draws the world (WebGL 2)"));
+add("connection", t("The network lets the world through (WebSocket)"));
+add("speed", t("The network is fast enough"));
+add("keys", t("Keys arrive"));
 tell("browser", true);
 checkCookies();
 checkGraphics();
@@ -50,7 +51,8 @@ function tell(name, isFine, sentence = "") {
   const line = lines.get(name);
   line.dataset.answer = isFine ? "yes" : "no";
   line.querySelector(".ai4u-sign").textContent = SIGNS[line.dataset.answer];
-  line.querySelector(".ai4u-answer").textContent = isFine ? " yes" : " no";
+  const word = isFine ? t("yes") : t("no");
+  line.querySelector(".ai4u-answer").textContent = ` ${word}`;
   line.querySelector("small").textContent = sentence;
   sum();
 }
@@ -59,18 +61,18 @@ function sum() {
   const answers = [...lines].map(([name, line]) => [name, line.dataset.answer]);
   const isBad = answers.some(([, answer]) => answer === "no");
   const isOpen = answers.some(([name, answer]) => answer === "open" && name !== "keys");
-  const text = isBad ? "Not everything works yet. Read the lines with a cross." : isOpen ? "Checking …" : "Yes, this device can join.";
+  const text = isBad ? t("Not everything works yet. Read the lines with a cross.") : isOpen ? t("Checking …") : t("Yes, this device can join.");
   if (result.textContent !== text) result.textContent = text;
   result.dataset.answer = isBad ? "no" : isOpen ? "open" : "yes";
 }
 
 function checkCookies() {
-  tell("cookies", navigator.cookieEnabled, navigator.cookieEnabled ? "" : "Allow cookies for this address; the class keeps one, for your seat.");
+  tell("cookies", navigator.cookieEnabled, navigator.cookieEnabled ? "" : t("Allow cookies for this address; the class keeps one, for your seat."));
 }
 
 function checkGraphics() {
   const isFine = document.createElement("canvas").getContext("webgl2") !== null;
-  const no = "Turn on hardware acceleration in the browser's settings, update it, or use another browser.";
+  const no = t("Turn on hardware acceleration in the browser's settings, update it, or use another browser.");
   tell("graphics", isFine, isFine ? "" : no);
 }
 
@@ -80,12 +82,13 @@ async function checkNetwork() {
     tell("connection", true);
     const middle = times.sort((a, b) => a - b)[Math.floor(times.length / 2)];
     const isFine = middle <= MAX_ROUND_TRIP_MS;
-    const measured = `An answer takes ${Math.round(middle)} ms.`;
-    tell("speed", isFine, isFine ? measured : `${measured} Driving will feel late; go nearer to the access point, or use a cable.`);
+    const measured = t("An answer takes {time} ms.", { time: Math.round(middle) });
+    const slow = t("Driving will feel late; go nearer to the access point, or use a cable.");
+    tell("speed", isFine, isFine ? measured : `${measured} ${slow}`);
   } catch {
-    const no = "A proxy or firewall between this device and the class stops WebSockets; ask for an exception for this address, or use another network.";
+    const no = t("A proxy or firewall between this device and the class stops WebSockets; ask for an exception for this address, or use another network.");
     tell("connection", false, no);
-    tell("speed", false, "It can't be measured without a connection.");
+    tell("speed", false, t("It can't be measured without a connection."));
   }
 }
 
@@ -123,7 +126,7 @@ function roundTrips() {
 
 function checkKeys() {
   const hasTouch = matchMedia("(pointer: coarse)").matches;
-  const how = hasTouch ? "A tablet or phone drives with the stick on the screen. With a keyboard, press an arrow key or W." : "Press an arrow key or W now.";
+  const how = hasTouch ? t("A tablet or phone drives with the stick on the screen. With a keyboard, press an arrow key or W.") : t("Press an arrow key or W now.");
   lines.get("keys").querySelector("small").textContent = how;
   addEventListener("keydown", (event) => {
     if (!DRIVING_KEYS.includes(event.code)) return;

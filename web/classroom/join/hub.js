@@ -1,8 +1,9 @@
 /** A student's page of a class at a JupyterHub: the name in the class, and the way to the own notebooks. */
 
 import { find } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 
-const UNREACHABLE = "The class can't be reached. Reload in a moment.";
+const UNREACHABLE = t("The class can't be reached. Reload in a moment.");
 
 try {
   const answer = await fetch("./api/me", { cache: "no-store" });

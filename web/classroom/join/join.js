@@ -3,6 +3,7 @@
 import { element, find } from "../../shared/dom.js";
 import { chosenIn } from "../../shared/form_dialog.js";
 import { randomId } from "../../shared/ids.js";
+import { t } from "../../shared/text.js";
 
 const code = /** @type {HTMLInputElement} */ (find("#code"));
 const join = /** @type {HTMLButtonElement} */ (find("#join"));
@@ -28,11 +29,11 @@ if (given) join.focus();
  */
 function moveHere(isMove) {
   isMoving = isMove;
-  find("#code-label").textContent = isMove ? "Code on your other device" : "Code on the board";
+  find("#code-label").textContent = isMove ? t("Code on your other device") : t("Code on the board");
   find("#choice").hidden = isMove;
   find("#move-note").hidden = !isMove;
-  find("#move").textContent = isMove ? "Join with the code on the board" : "Continue from another device";
-  join.textContent = isMove ? "Continue" : "Join";
+  find("#move").textContent = isMove ? t("Join with the code on the board") : t("Continue from another device");
+  join.textContent = isMove ? t("Continue") : t("Join");
   problem.textContent = "";
   code.value = isMove ? "" : (given ?? "");
   code.focus();
@@ -43,7 +44,7 @@ async function showNames() {
     const { names } = await (await fetch("./api/names", { cache: "no-store" })).json();
     find("#names").replaceChildren(...names.map(nameChoice));
   } catch {
-    problem.textContent = "The class can't be reached. Is this device in the right network?";
+    problem.textContent = t("The class can't be reached. Is this device in the right network?");
   }
 }
 
@@ -78,7 +79,7 @@ async function sendRequest() {
     problem.textContent = told.problem;
     if (answer.status === 409) await showNames();
   } catch {
-    problem.textContent = "The class can't be reached. Is this device in the right network?";
+    problem.textContent = t("The class can't be reached. Is this device in the right network?");
   }
   join.disabled = false;
 }

@@ -3,6 +3,7 @@
 import { element } from "../../shared/dom.js";
 import { recall, remember } from "../../shared/storage.js";
 import { playNotes } from "../../shared/sound.js";
+import { t } from "../../shared/text.js";
 
 /** Time from the third to the second, and from there to the first (ms). */
 const STEP_MS = 1200;
@@ -60,7 +61,7 @@ function isSoundOn() {
 
 /** Return the button that turns the sound on, as browsers allow none before a click. */
 export function soundButton() {
-  const made = element("button", { type: "button", className: "ai4u-plain ai4u-sound", textContent: "Sound" });
+  const made = element("button", { type: "button", className: "ai4u-plain ai4u-sound", textContent: t("Sound") });
   const draw = () => made.setAttribute("aria-pressed", String(isSoundOn()));
   made.addEventListener("click", () => {
     remember(SOUND_KEY, !isSoundOn());

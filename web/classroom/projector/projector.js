@@ -6,8 +6,8 @@ import { clock } from "../../shared/numbers.js";
 import { openClassSocket } from "../socket.js";
 import { Countdown } from "../strips.js";
 import { element, find, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 import { Podium, soundButton } from "./podium.js";
-import { counted } from "../room_words.js";
 import { dot } from "../tournament/tables.js";
 import { ProjectedTournament } from "./tournament.js";
 import { Wall } from "../wall/wall.js";
@@ -22,7 +22,7 @@ const FEW_NAMES = 12;
  * Words for how a drive of a race ended, if it did not reach the goal.
  * @type {Record<string, string>}
  */
-const OUTCOMES = { lost: "lost", fell: "fell", time: "out of time", over: "ended" };
+const OUTCOMES = { lost: t("lost"), fell: t("fell"), time: t("out of time"), over: t("ended") };
 const starts = new Countdown();
 const podium = new Podium();
 find("#board").before(podium.element);
@@ -67,12 +67,12 @@ function showJoin() {
   setText(find("#address"), state.address.replace(/^http:\/\//, "").replace(/\/$/, ""));
   setText(find("#code"), state.code);
   find("#code").hidden = !state.code; // at a JupyterHub students sign in
-  setText(find("#code-step"), state.code ? "and type the code" : "and sign in");
+  setText(find("#code-step"), state.code ? t("and type the code") : t("and sign in"));
   setAttributes(find("#qr"), { src: state.qr });
   const count = state.seats.filter((seat) => seat.state === "in").length;
-  const here = count ? `${counted(count, "student")} ${count === 1 ? "is" : "are"} here` : "Nobody is here yet";
+  const here = count ? tn("{n} student is here", "{n} students are here", count) : t("Nobody is here yet");
   showNames();
-  setText(find("#here"), state.open ? here : `${here}. The class is locked.`);
+  setText(find("#here"), state.open ? here : t("{here}. The class is locked.", { here }));
 }
 
 /** Show who has joined, the latest at the end. */
@@ -96,14 +96,14 @@ function showMissions() {
     setText(item.firstChild, String(count));
     setText(item.lastChild, title);
   });
-  setText(find("#missions p"), stuck ? `${stuck} of them ${stuck === 1 ? "is" : "are"} stuck` : "");
+  setText(find("#missions p"), stuck ? tn("{n} of them is stuck", "{n} of them are stuck", stuck) : "");
 }
 
 function showRace() {
   const { race } = state;
-  setText(find("#race h1"), race ? `Race: ${race.scene}` : "No race now");
+  setText(find("#race h1"), race ? t("Race: {scene}", { scene: race.scene }) : t("No race now"));
   const isHidden = Boolean(race?.is_board_hidden);
-  const text = isHidden ? "The board is hidden. Drive your own best!" : race && race.board.length === 0 && race.phase === "running" ? "Nobody has arrived yet." : "";
+  const text = isHidden ? t("The board is hidden. Drive your own best!") : race && race.board.length === 0 && race.phase === "running" ? t("Nobody has arrived yet.") : "";
   setText(find("#hidden-board"), text);
   starts.set(race?.starts_in ?? 0);
   showCountdown(race);
@@ -121,7 +121,7 @@ function showGame() {
   const address = shown.kind === "game" && tournament ? `./projector/game/${shown.game}?of=${tournament.id}` : "";
   const frame = find("#game iframe");
   if ((frame?.getAttribute("src") ?? "") === address) return;
-  const made = element("iframe", { title: `Recording of game ${shown.game}`, src: address });
+  const made = element("iframe", { title: t("Recording of game {number}", { number: shown.game }), src: address });
   find("#game").replaceChildren(...(address ? [made] : []));
 }
 

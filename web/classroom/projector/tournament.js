@@ -3,8 +3,8 @@
 /** @import { ClassState, Results, Tournament } from "../../types/class.js" */
 
 import { element, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 import { Podium } from "./podium.js";
-import { counted } from "../room_words.js";
 import { contestLine, dot, standingsTable } from "../tournament/tables.js";
 
 /** Entries up to which there is a table with ratings; more have a list in columns. */
@@ -29,7 +29,7 @@ export class ProjectedTournament {
 
   /** @param {ClassState} state */
   show({ tournament }) {
-    setText(this.#title, tournament ? `Tournament: ${tournament.title}` : "No tournament now");
+    setText(this.#title, tournament ? t("Tournament: {scene}", { scene: tournament.title }) : t("No tournament now"));
     setText(this.#state, tournament ? courseOf(tournament) : "");
     const results = tournament?.results ?? null;
     const told = JSON.stringify([results, tournament?.phase]);
@@ -47,9 +47,14 @@ export class ProjectedTournament {
 
 /** @param {Tournament} tournament */
 function courseOf({ phase, players, results }) {
-  if (phase === "open") return players ? `${counted(players, "player")} so far. Hand in your network!` : "Hand in your network!";
-  const played = results ? `${results.games} of ${counted(results.total, "game")}` : "It begins…";
-  return { running: played, over: `${played}. It is over.`, cancelled: `${played}. It was stopped.`, failed: `${played}. It was interrupted.` }[phase];
+  if (phase === "open") return players ? tn("{n} player so far. Hand in your network!", "{n} players so far. Hand in your network!", players) : t("Hand in your network!");
+  const played = results ? tn("{games} of {n} game", "{games} of {n} games", results.total, { games: results.games }) : t("It begins…");
+  return {
+    running: played,
+    over: t("{played}. It is over.", { played }),
+    cancelled: t("{played}. It was stopped.", { played }),
+    failed: t("{played}. It was interrupted.", { played }),
+  }[phase];
 }
 
 /** @param {Results} results */
@@ -74,5 +79,5 @@ function listOf({ standings }) {
     ),
   );
   const rest = standings.length - items.length;
-  return element("div", {}, element("ol", { className: "ai4u-ranks", "aria-label": "Standings: won, drawn, lost" }, ...items), rest > 0 && element("p", { textContent: `and ${rest} more` }));
+  return element("div", {}, element("ol", { className: "ai4u-ranks", "aria-label": t("Standings: won, drawn, lost") }, ...items), rest > 0 && element("p", { textContent: tn("and {n} more", "and {n} more", rest) }));
 }

@@ -12,6 +12,7 @@ import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { showHandIn } from "./hand_in_dialog.js";
 import { icon } from "../../shared/icons.js";
 import { ask, tell } from "../../shared/dialog.js";
+import { t, tn } from "../../shared/text.js";
 
 /** Interval at which countdowns are drawn (ms). */
 const TICK_MS = 200;
@@ -20,7 +21,7 @@ const CODE_POLL_MS = 3000;
 /** Most names of others in the bar. */
 const MAX_NAMES = 3;
 /** @type {Record<string, string>} */
-const OUTCOMES = { fell: "fell", time: "time is up", lost: "lost" };
+const OUTCOMES = { fell: t("fell"), time: t("time is up"), lost: t("lost") };
 
 export class ClassBar {
   #onChange;
@@ -28,7 +29,7 @@ export class ClassBar {
   #dot = element("span", { className: "ai4u-class-dot", ariaHidden: "true" });
   #name = element("strong");
   #lesson = element("span", { className: "ai4u-class-lesson" });
-  #others = element("ul", { className: "ai4u-class-others", ariaLabel: "Also in this world" });
+  #others = element("ul", { className: "ai4u-class-others", ariaLabel: t("Also in this world") });
   #teacher = element("span", { className: "ai4u-class-teacher", ariaLive: "polite" });
   #message = element("p", { className: "ai4u-class-message", role: "status" });
   #time = element("span", { className: "ai4u-class-time", role: "timer" });
@@ -38,10 +39,10 @@ export class ClassBar {
   #boardButton = element(
     "button",
     { type: "button", className: "ai4u-plain", ariaExpanded: "false", on: { click: () => this.#toggleBoard() } },
-    "Board",
+    t("Board"),
   );
   #actions = element("div", { className: "ai4u-class-actions" });
-  #bar = element("section", { className: "ai4u-class-bar", ariaLabel: "Class" });
+  #bar = element("section", { className: "ai4u-class-bar", ariaLabel: t("Class") });
   #blank = new BlankScreen();
   #countdown = new RaceCountdown();
   /** @type {ClassEvent | null} */
@@ -68,8 +69,8 @@ export class ClassBar {
   get heldText() {
     if (this.#msToRace() > 0) return "";
     const attention = this.#event?.attention;
-    if (this.#event?.role === "teacher") return attention.kind ? "You have stopped all worlds" : "";
-    return attention?.message || "Your teacher has stopped all worlds";
+    if (this.#event?.role === "teacher") return attention.kind ? t("You have stopped all worlds") : "";
+    return attention?.message || t("Your teacher has stopped all worlds");
   }
 
   /**
@@ -93,8 +94,8 @@ export class ClassBar {
     if (!this.#bar.isConnected) document.body.prepend(this.#bar);
     this.#drawPeople(event);
     this.#drawRace(race);
-    setText(this.#teacher, event.has_teacher ? "Your teacher looks in" : "");
-    setText(this.#lesson, event.lesson ? `Lesson ${event.lesson}` : "");
+    setText(this.#teacher, event.has_teacher ? t("Your teacher looks in") : "");
+    setText(this.#lesson, event.lesson ? t("Lesson {lesson}", { lesson: event.lesson }) : "");
     setText(this.#message, attention.kind ? "" : attention.message);
     this.#actions.hidden = event.role === "teacher";
     this.#tick();
@@ -109,7 +110,7 @@ export class ClassBar {
     const left = Number.isFinite(this.#attentionEndsAt) && !isOver ? clock((this.#attentionEndsAt - now) / 1000) : "";
     const isAny = Boolean(attention.kind || attention.message) && !isOver;
     if (isOver) setText(this.#message, "");
-    setText(this.#time, isAny && left ? `${attention.kind ? "Goes on in " : ""}${left}` : "");
+    setText(this.#time, isAny && left && attention.kind ? t("Goes on in {time}", { time: left }) : isAny ? left : "");
     const isBlank = attention.kind === "blank" && role !== "teacher" && !isOver;
     this.#blank.draw(isBlank ? { message: attention.message, left } : null);
     const toRace = this.#msToRace();
@@ -128,7 +129,7 @@ export class ClassBar {
   /** @param {ClassEvent} event */
   #drawPeople({ name, colour, role, people }) {
     const isTeacher = role === "teacher";
-    setText(this.#name, isTeacher ? "Teacher" : name || "Our world");
+    setText(this.#name, isTeacher ? t("Teacher") : name || t("Our world"));
     this.#dot.hidden = !colour;
     this.#dot.style.background = colour;
     const others = people.filter((each) => isTeacher || each.name !== name);
@@ -178,8 +179,8 @@ function makePerson({ name, colour }) {
  */
 function updatePerson(item, { name, is_here: isHere }) {
   item.toggleAttribute("data-away", !isHere);
-  item.title = isHere ? name : `${name} (not here)`;
-  setText(item.querySelector("small"), isHere ? "" : "(not here)");
+  item.title = isHere ? name : t("{name} (not here)", { name });
+  setText(item.querySelector("small"), isHere ? "" : t("(not here)"));
 }
 
 /** @param {StudentRace["board"][number]} row */
@@ -196,21 +197,22 @@ function boardRow({ name, colour, outcome, seconds }) {
  */
 function raceText(race, toRace) {
   if (!race) return "";
-  if (toRace > 0) return "Race";
-  const best = race.own_best === null ? "" : `your best: ${race.own_best.toFixed(2)} s`;
-  if (race.phase === "over") return best ? `Race over, ${best}` : "Race over";
-  return best ? `Race, ${best}` : "Race";
+  if (toRace > 0) return t("Race");
+  const isOver = race.phase === "over";
+  if (race.own_best === null) return isOver ? t("Race over") : t("Race");
+  const time = race.own_best.toFixed(2);
+  return isOver ? t("Race over, your best: {time} s", { time }) : t("Race, your best: {time} s", { time });
 }
 
 /** Return the buttons with which a student hands in a network, takes the work home, or goes on at another device. */
 function studentActions() {
-  const handIn = element("button", { type: "button", className: "ai4u-plain", title: "Hand in a network for a tournament" });
-  handIn.append(icon("upload", 16), element("span", { textContent: "Hand in" }));
+  const handIn = element("button", { type: "button", className: "ai4u-plain", title: t("Hand in a network for a tournament") });
+  handIn.append(icon("upload", 16), element("span", { textContent: t("Hand in") }));
   handIn.addEventListener("click", showHandIn);
-  const work = element("a", { className: "ai4u-plain", href: "../../api/my-work", download: "", title: "Download my work" });
-  work.append(icon("download", 16), element("span", { textContent: "My work" }));
-  const move = element("button", { type: "button", className: "ai4u-plain", title: "Go on at another device" });
-  move.append(icon("phone", 16), element("span", { textContent: "Other device" }));
+  const work = element("a", { className: "ai4u-plain", href: "../../api/my-work", download: "", title: t("Download my work") });
+  work.append(icon("download", 16), element("span", { textContent: t("My work") }));
+  const move = element("button", { type: "button", className: "ai4u-plain", title: t("Go on at another device") });
+  move.append(icon("phone", 16), element("span", { textContent: t("Other device") }));
   move.addEventListener("click", showMoveCode);
   return [handIn, work, move];
 }
@@ -224,14 +226,19 @@ async function showMoveCode() {
     if (!response.ok) throw new Error(answer.problem);
   } catch (error) {
     const isOurs = answer?.problem;
-    await tell("No code", isOurs ? error.message : "The class can't be reached. Try again in a moment.");
+    await tell(t("No code"), isOurs ? error.message : t("The class can't be reached. Try again in a moment."));
     return;
   }
   const { code, minutes } = answer;
   const home = new URL("../../", document.baseURI);
-  const text = `Open ${home.host}${home.pathname.replace(/\/$/, "")} there and type this code. It is yours alone, and works for ${minutes} minutes.`;
+  const text = tn(
+    "Open {address} there and type this code. It is yours alone, and works for {n} minute.",
+    "Open {address} there and type this code. It is yours alone, and works for {n} minutes.",
+    minutes,
+    { address: `${home.host}${home.pathname.replace(/\/$/, "")}` },
+  );
   const content = [element("p", { className: "ai4u-move-code", textContent: code })];
-  const shown = ask({ title: "Go on at another device", text, yes: "Close", no: "", content });
+  const shown = ask({ title: t("Go on at another device"), text, yes: t("Close"), no: "", content });
   const timer = setInterval(() => closeIfUsed(content[0]), CODE_POLL_MS);
   await shown;
   clearInterval(timer);

@@ -5,12 +5,13 @@
 import { element, keyed, setText } from "../../shared/dom.js";
 import { field, select, showForm } from "../../shared/form_dialog.js";
 import { tell } from "../../shared/dialog.js";
+import { t } from "../../shared/text.js";
 
 const ADDRESS = "../../api/network";
 /** Interval at which the class is asked for the verdict on a network (ms). */
 const POLL_MS = 2000;
-const UNREACHABLE = "The class can't be reached. Try again in a moment.";
-const ALL_PARTS = "All of my robots";
+const UNREACHABLE = t("The class can't be reached. Try again in a moment.");
+const ALL_PARTS = t("All of my robots");
 
 export async function showHandIn() {
   /** @type {HandedIn} */
@@ -18,15 +19,15 @@ export async function showHandIn() {
   try {
     facts = await ask();
   } catch (error) {
-    await tell("Nothing can be handed in", error.message);
+    await tell(t("Nothing can be handed in"), error.message);
     return;
   }
   const first = facts.scene || facts.scenes.find(({ name }) => name === "sumo")?.name;
   const scene = select(facts.scenes.map(({ name, title }) => [name, title]), first);
   const part = element("select");
-  const partField = field("It drives", part, "The scene’s own player drives robots for which you have no network.");
+  const partField = field(t("It drives"), part, t("The scene’s own player drives robots for which you have no network."));
   const file = element("input", { type: "file", accept: ".onnx" });
-  const list = element("ul", { className: "ai4u-handed-in", "aria-label": "Handed in", "aria-live": "polite" });
+  const list = element("ul", { className: "ai4u-handed-in", "aria-label": t("Handed in"), "aria-live": "polite" });
   let timer = 0;
 
   function showParts() {
@@ -55,12 +56,13 @@ export async function showHandIn() {
 
   scene.addEventListener("change", showParts);
   showParts();
-  const text = "For a tournament: your teacher lets the networks of the class play each other. The latest one counts.";
-  const content = [field("Scene", scene), partField, field("Network (.onnx)", file, `At most ${Math.round(facts.max_bytes / 2 ** 20)} MB.`), list];
-  const shown = showForm({ title: "Hand in a network", text, content, yes: "Hand in", no: "Close" }, async () => {
+  const text = t("For a tournament: your teacher lets the networks of the class play each other. The latest one counts.");
+  const size = Math.round(facts.max_bytes / 2 ** 20);
+  const content = [field(t("Scene"), scene), partField, field(t("Network (.onnx)"), file, t("At most {size} MB.", { size })), list];
+  const shown = showForm({ title: t("Hand in a network"), text, content, yes: t("Hand in"), no: t("Close") }, async () => {
     const [chosen] = file.files;
-    if (!chosen) throw new Error("Choose the .onnx file of your network first.");
-    if (chosen.size > facts.max_bytes) throw new Error(`This file is too large: a network may have at most ${Math.round(facts.max_bytes / 2 ** 20)} MB.`);
+    if (!chosen) throw new Error(t("Choose the .onnx file of your network first."));
+    if (chosen.size > facts.max_bytes) throw new Error(t("This file is too large: a network may have at most {size} MB.", { size }));
     show(await ask({ scene: scene.value, part: part.value, file: chosen.name }, chosen));
     return false; // the dialog stays, and tells the verdict
   });
@@ -84,7 +86,7 @@ async function ask(place = null, body = null) {
     throw new Error(UNREACHABLE);
   }
   const found = await answer.json().catch(() => ({}));
-  if (!answer.ok) throw new Error(found.problem ?? `The class answered with status ${answer.status}.`);
+  if (!answer.ok) throw new Error(found.problem ?? t("The class answered with status {status}.", { status: answer.status }));
   return found;
 }
 
@@ -98,8 +100,12 @@ function makeNetwork() {
  * @param {Record<string, string>} titles of scenes
  */
 function updateNetwork(item, { scene, part, file, verdict, reason }, titles) {
-  const words = { open: "is being checked…", right: "can play ✓", refused: `was not taken: ${reason}` };
+  const words = {
+    open: t("{file} is being checked…", { file }),
+    right: t("{file} can play ✓", { file }),
+    refused: t("{file} was not taken: {reason}", { file, reason }),
+  };
   item.dataset.verdict = verdict;
   setText(item.querySelector("strong"), [titles[scene] ?? scene, part].filter(Boolean).join(", "));
-  setText(item.querySelector("span"), `${file} ${words[verdict]}`);
+  setText(item.querySelector("span"), words[verdict]);
 }

@@ -1,11 +1,13 @@
 /** Overlays of a class: the teacher's blank screen, and a race's countdown. */
 
 import { element, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 
 /** Time that "Go!" is shown (ms). */
 const GO_MS = 900;
 /** Time that its words stay for screen readers (ms). */
 const GO_WORDS_MS = 3000;
+const GO = t("Go!");
 
 /** A screen that hides the page, and keeps focus and keys, until the teacher ends it. */
 export class BlankScreen {
@@ -15,7 +17,7 @@ export class BlankScreen {
   #isWanted = false;
 
   constructor() {
-    const title = element("h1", { id: "ai4u-blank-title", textContent: "Look at your teacher" });
+    const title = element("h1", { id: "ai4u-blank-title", textContent: t("Look at your teacher") });
     this.#dialog.append(title, this.#message, this.#time);
     this.#dialog.setAttribute("aria-labelledby", title.id);
     this.#dialog.setAttribute("aria-describedby", this.#message.id);
@@ -55,10 +57,10 @@ export class BlankScreen {
  */
 export function showLeft(reason) {
   if (document.querySelector(".ai4u-left")) return;
-  const title = element("h1", { id: "ai4u-left-title", textContent: "This world is closed for you now" });
+  const title = element("h1", { id: "ai4u-left-title", textContent: t("This world is closed for you now") });
   const words = `${reason.charAt(0).toUpperCase()}${reason.slice(1)}.`.replace(/\.+$/, ".");
   const message = element("p", { className: "ai4u-blank-message", textContent: words });
-  const link = element("a", { className: "ai4u-button", href: "../../", textContent: "To the class’s start page" });
+  const link = element("a", { className: "ai4u-button", href: "../../", textContent: t("To the class’s start page") });
   const dialog = element("dialog", { className: "ai4u-blank ai4u-left" }, title, message, link);
   dialog.setAttribute("aria-labelledby", title.id);
   dialog.addEventListener("cancel", (event) => event.preventDefault());
@@ -85,13 +87,13 @@ export class RaceCountdown {
   draw(ms) {
     const isCounting = ms > 0;
     const isGo = !isCounting && ms > -GO_MS && (this.#wasCounting || this.isShown);
-    if (isCounting && !this.#wasCounting) setText(this.#words, `A race starts in ${Math.ceil(ms / 1000)} seconds`);
-    if (isGo && this.#words.textContent !== "Go!") {
-      setText(this.#words, "Go!");
+    if (isCounting && !this.#wasCounting) setText(this.#words, tn("A race starts in {n} second", "A race starts in {n} seconds", Math.ceil(ms / 1000)));
+    if (isGo && this.#words.textContent !== GO) {
+      setText(this.#words, GO);
       setTimeout(() => this.#wasCounting || setText(this.#words, ""), GO_WORDS_MS);
     }
     this.#wasCounting = isCounting;
     this.#number.hidden = !(isCounting || isGo);
-    setText(this.#number, isCounting ? String(Math.ceil(ms / 1000)) : "Go!");
+    setText(this.#number, isCounting ? String(Math.ceil(ms / 1000)) : GO);
   }
 }

@@ -12,6 +12,7 @@ import { element, setText } from "../../shared/dom.js";
 import { randomId } from "../../shared/ids.js";
 import { roomOfPage } from "../../shared/room.js";
 import { recall, remember } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 
 /** Pause in typing after which a program is saved (ms). */
 const SAVE_DELAY_MS = 2000;
@@ -21,8 +22,8 @@ const RETRY_DELAYS_MS = [3000, 10_000, 30_000];
 const MAX_LAST_CHARS = 20_000;
 const MAX_SCENE_NAME_CHARS = 200;
 const ADDRESS = "../../api/program";
-const NEWER = "The class has a newer program of yours, from another device. It is among the earlier runs.";
-const UNREACHABLE = "The class can't be reached. Your program is kept in this browser, and saved there later.";
+const NEWER = t("The class has a newer program of yours, from another device. It is among the earlier runs.");
+const UNREACHABLE = t("The class can't be reached. Your program is kept in this browser, and saved there later.");
 
 /** @typedef {{scene: string, agent: string}} Place */
 /** @typedef {{place: Place, source: string}} Program */
@@ -152,10 +153,10 @@ export class ClassPrograms {
     remember(versionKey(place), version);
     this.#saved.set(keyOf(place), source);
     if (source === own) {
-      this.#say("Kept in the class.");
+      this.#say(t("Kept in the class."));
     } else if (!this.#isTouched && (own === null || !isSeen)) {
       this.#tab.take(source);
-      this.#say("This is your program from the class.");
+      this.#say(t("This is your program from the class."));
     } else {
       this.#tab.keep(source);
       if (own !== null) this.#queue(own, 0);
@@ -222,7 +223,7 @@ export class ClassPrograms {
       remember(versionKey(program.place), version);
     }
     if (status === 409 && isShown) this.#keepNewer(program.place);
-    if (isShown) this.#say(status === 200 ? "Kept in the class." : status === 409 ? NEWER : problem);
+    if (isShown) this.#say(status === 200 ? t("Kept in the class.") : status === 409 ? NEWER : problem);
     return true;
   }
 

@@ -1,8 +1,9 @@
 /** Commands of the teacher's page. */
 
 import { tell } from "../../shared/dialog.js";
+import { t } from "../../shared/text.js";
 
-const UNREACHABLE = "The class can't be reached. Is its program still running?";
+const UNREACHABLE = t("The class can't be reached. Is its program still running?");
 
 /** @typedef {{do: string, [argument: string]: unknown}} Command with its arguments */
 
@@ -25,7 +26,7 @@ export async function command(command) {
   }
   if (answer.ok) return answer.json();
   const { problem } = await answer.json().catch(() => ({}));
-  throw new Error(problem ?? `The class answered with status ${answer.status}.`);
+  throw new Error(problem ?? t("The class answered with status {status}.", { status: answer.status }));
 }
 
 /**
@@ -37,7 +38,7 @@ export async function commandOrTell(wanted) {
     await command(wanted);
     return true;
   } catch (error) {
-    await tell("That can't be done", error.message);
+    await tell(t("That can't be done"), error.message);
     return false;
   }
 }

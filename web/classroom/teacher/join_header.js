@@ -6,12 +6,13 @@ import { commandOrTell } from "./command.js";
 import { element, find, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { showMoveCode } from "./move_code_dialog.js";
 import { ask } from "../../shared/dialog.js";
+import { t } from "../../shared/text.js";
 
 /**
  * Words by a seat's state; "in" needs none.
  * @type {Record<string, string>}
  */
-const STATES = { left: "left", kicked: "sent out; may join again", banned: "may not come back" };
+const STATES = { left: t("left"), kicked: t("sent out; may join again"), banned: t("may not come back") };
 
 export class JoinHeader {
   #isOpen = true;
@@ -24,8 +25,8 @@ export class JoinHeader {
 
   constructor() {
     find("#new-code").addEventListener("click", async () => {
-      const text = "Students who are here stay. Whoever comes later needs the new code.";
-      if (await ask({ title: "A new code?", text, yes: "New code" })) await commandOrTell({ do: "new code" });
+      const text = t("Students who are here stay. Whoever comes later needs the new code.");
+      if (await ask({ title: t("A new code?"), text, yes: t("New code") })) await commandOrTell({ do: "new code" });
     });
     find("#open").addEventListener("click", () => commandOrTell({ do: this.#isOpen ? "close" : "open" }));
     find("#large").addEventListener("click", () => {
@@ -70,10 +71,10 @@ export class JoinHeader {
 function showGone(seats, hasCodes) {
   const gone = find("#gone");
   gone.hidden = seats.length === 0;
-  setText(gone.querySelector("summary"), `No longer here (${seats.length})`);
+  setText(gone.querySelector("summary"), t("No longer here ({count})", { count: seats.length }));
   const make = (/** @type {Seat} */ seat) => {
-    const code = element("button", { type: "button", className: "ai4u-plain", textContent: "Code…", hidden: !hasCodes });
-    code.setAttribute("aria-label", `Code for ${seat.name}`);
+    const code = element("button", { type: "button", className: "ai4u-plain", textContent: t("Code…"), hidden: !hasCodes });
+    code.setAttribute("aria-label", t("Code for {name}", { name: seat.name }));
     code.addEventListener("click", () => showMoveCode(seat));
     return element("li", {}, element("span", { className: "ai4u-name" }), " ", element("span", { className: "ai4u-facts" }), " ", code);
   };

@@ -4,7 +4,7 @@
 /** @import { RealNames } from "./real_names.js" */
 
 import { element } from "../../shared/dom.js";
-import { counted } from "../room_words.js";
+import { t, tn } from "../../shared/text.js";
 
 /** @typedef {Misconception & {names: string[]}} NamedMisconception */
 
@@ -31,7 +31,7 @@ export class Misconceptions {
     const exercises = grouped(named);
     const most = (/** @type {NamedMisconception[]} */ group) => Math.max(...group.map((each) => each.count));
     const groups = [...exercises].sort(([, a], [, b]) => most(b) - most(a));
-    const empty = "No mistakes yet. When a check of an exercise finds a known mistake, it is counted here.";
+    const empty = t("No mistakes yet. When a check of an exercise finds a known mistake, it is counted here.");
     this.#place.replaceChildren(
       ...(groups.length ? groups.map(section) : [element("p", { className: "ai4u-empty", textContent: empty })]),
     );
@@ -64,7 +64,7 @@ function section([exercise, group]) {
   return element(
     "section",
     { className: "ai4u-mistakes" },
-    element("h2", { textContent: `Exercise ${exercise}` }),
+    element("h2", { textContent: t("Exercise {exercise}", { exercise }) }),
     ...cards,
   );
 }
@@ -77,14 +77,14 @@ export function mistakeCard({ count, names, sentence, guide, diagnosis = "", exa
   return element(
     "article",
     {},
-    element("p", { className: "ai4u-count" }, element("strong", { textContent: count }), element("span", { textContent: count === 1 ? "time" : "times" })),
+    element("p", { className: "ai4u-count" }, element("strong", { textContent: count }), element("span", { textContent: tn("time", "times", count) })),
     element(
       "div",
       {},
       element("p", { className: "ai4u-sentence", textContent: sentence || diagnosis }),
       ...examples.map((text) => element("p", { textContent: `“${text}”` })),
-      guide && element("p", { className: "ai4u-guide" }, element("strong", { textContent: "Say: " }), guide),
-      element("p", { className: "ai4u-facts", textContent: `${counted(names.length, "student")}: ${names.join(", ")}` }),
+      guide && element("p", { className: "ai4u-guide" }, element("strong", { textContent: t("Say:") }), " ", guide),
+      element("p", { className: "ai4u-facts", textContent: tn("{n} student: {names}", "{n} students: {names}", names.length, { names: names.join(", ") }) }),
     ),
   );
 }

@@ -5,10 +5,11 @@
 
 import { splitProgram } from "../../blocks/text.js";
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { mistakeCard } from "./misconceptions.js";
 import { programFacts, programsOf } from "./room_programs.js";
 
-const EMPTY = "No programs yet. When students write programs in the tab Code, each of them appears here.";
+const EMPTY = t("No programs yet. When students write programs in the tab Code, each of them appears here.");
 /** Time until the programs are read again while they are shown (ms). */
 const REFRESH_MS = 4000;
 /**
@@ -16,8 +17,8 @@ const REFRESH_MS = 4000;
  * @type {Record<string, {sign: string, text: string}>}
  */
 const RUNS = {
-  running: { sign: "▶", text: "runs" },
-  mistake: { sign: "!", text: "stopped by a mistake" },
+  running: { sign: "▶", text: t("runs") },
+  mistake: { sign: "!", text: t("stopped by a mistake") },
 };
 
 export class ProgramsBoard {
@@ -33,7 +34,7 @@ export class ProgramsBoard {
   #problem = element("p", { className: "ai4u-problem", role: "alert" });
   #mistakes = element("section", { className: "ai4u-mistakes" });
   #empty = element("p", { className: "ai4u-empty", textContent: EMPTY });
-  #list = element("ul", { className: "ai4u-glances", ariaLabel: "Programs" });
+  #list = element("ul", { className: "ai4u-glances", ariaLabel: t("Programs") });
 
   /**
    * @param {HTMLElement} place the panel of the tab
@@ -81,7 +82,7 @@ export class ProgramsBoard {
     const told = JSON.stringify(named);
     if (told === this.#toldMistakes) return;
     this.#toldMistakes = told;
-    const title = element("h2", { textContent: "Mistakes that stopped programs" });
+    const title = element("h2", { textContent: t("Mistakes that stopped programs") });
     const cards = named.map((mistake) => mistakeCard({ ...mistake, sentence: mistake.title }));
     this.#mistakes.replaceChildren(...(cards.length ? [title, ...cards] : []));
   }
@@ -119,12 +120,12 @@ export class ProgramsBoard {
     const { python, isOfBlocks } = splitProgram(program.source);
     const { sign, text } = RUNS[run?.state] ?? { sign: "", text: "" };
     const isMistake = run?.state === "mistake";
-    const line = isMistake && run.line ? `line ${run.line}: ` : "";
+    const mistake = run?.line ? t("line {line}: {text}", { line: run.line, text: run.text }) : run?.text;
     const [head, state] = glance.children;
     const code = /** @type {HTMLElement} */ (glance.lastElementChild);
     setText(head.firstChild, this.#nameOf(seat));
-    setText(head.lastChild, [programFacts(program, this.#state), isOfBlocks && "made of blocks"].filter(Boolean).join(" · "));
-    setText(state, sign && `${sign} ${isMistake ? `${line}${run.text}` : text}`);
+    setText(head.lastChild, [programFacts(program, this.#state), isOfBlocks && t("made of blocks")].filter(Boolean).join(" · "));
+    setText(state, sign && `${sign} ${isMistake ? mistake : text}`);
     setAttributes(glance, { "data-run": run?.state ?? "" });
     drawCode(code, python, isMistake ? run.line : 0);
   }

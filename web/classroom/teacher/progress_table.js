@@ -4,7 +4,8 @@
 /** @import { RealNames } from "./real_names.js" */
 
 import { element, setText, tableHead } from "../../shared/dom.js";
-import { counted, placeText } from "../room_words.js";
+import { t, tn } from "../../shared/text.js";
+import { placeText } from "../room_words.js";
 import { starRow } from "../../scenes/stars.js";
 
 /**
@@ -12,9 +13,9 @@ import { starRow } from "../../scenes/stars.js";
  * @type {Record<string, {sign: string, text: string}>}
  */
 const STATES = {
-  solved: { sign: "✓", text: "solved" },
-  hint: { sign: "?", text: "hint read" },
-  tried: { sign: "×", text: "tried" },
+  solved: { sign: "✓", text: t("solved") },
+  hint: { sign: "?", text: t("hint read") },
+  tried: { sign: "×", text: t("tried") },
 };
 
 export class ProgressTable {
@@ -45,7 +46,7 @@ export class ProgressTable {
     const earned = this.#starTable(students, scenes, stars);
     const done = this.#missionTable(students, missions, reached, places);
     if (lessons.length === 0 && earned === null && done === null) {
-      const text = "Nothing yet. When students do missions, solve exercises of the lessons, or earn stars with their programs, a row for each of them appears here.";
+      const text = t("Nothing yet. When students do missions, solve exercises of the lessons, or earn stars with their programs, a row for each of them appears here.");
       this.#place.replaceChildren(element("p", { className: "ai4u-empty", textContent: text }));
       return;
     }
@@ -73,12 +74,12 @@ export class ProgressTable {
     const begun = new Set([...now, ...students.flatMap(({ number }) => Object.keys(reached[number] ?? {}))]);
     const shown = missions.filter(({ name }) => begun.has(name));
     if (shown.length === 0) return null;
-    const head = tableHead("Missions", ...shown.map(({ title }) => title));
+    const head = tableHead(t("Missions"), ...shown.map(({ title }) => title));
     const body = students.map((seat) => {
       const own = reached[seat.number] ?? {};
       const done = shown.filter(({ name, steps }) => (own[name]?.[0] ?? 0) >= steps).length;
       const place = places[seat.number];
-      const note = [this.#realNames.of(seat), `${done} done`, place && `now ${placeText(place)}`].filter(Boolean).join(" · ");
+      const note = [this.#realNames.of(seat), tn("{n} done", "{n} done", done), place && t("now {place}", { place: placeText(place) })].filter(Boolean).join(" · ");
       const title = element("span", { className: "ai4u-name", textContent: seat.name });
       const facts = element("span", { className: "ai4u-facts", textContent: note });
       return element("tr", {}, element("th", { scope: "row" }, title, facts), ...shown.map((mission) => missionCell(mission, own[mission.name])));
@@ -87,9 +88,9 @@ export class ProgressTable {
       const count = students.filter(({ number }) => (reached[number]?.[name]?.[0] ?? 0) >= steps).length;
       return element("td", { textContent: `${count}/${students.length}` });
     });
-    const foot = element("tfoot", {}, element("tr", {}, element("th", { scope: "row", textContent: "Done" }), ...sums));
+    const foot = element("tfoot", {}, element("tr", {}, element("th", { scope: "row", textContent: t("Done") }), ...sums));
     const table = element("table", { className: "ai4u-progress" }, head, element("tbody", {}, ...body), foot);
-    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Missions" }, table);
+    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": t("Missions") }, table);
   }
 
   /**
@@ -103,7 +104,7 @@ export class ProgressTable {
     const shown = scenes.filter(({ name }) => begun.has(name));
     const rows = students.filter(({ number }) => stars[number]);
     if (shown.length === 0 || rows.length === 0) return null;
-    const head = tableHead("Stars of programs", ...shown.map(({ title }) => title));
+    const head = tableHead(t("Stars of programs"), ...shown.map(({ title }) => title));
     const body = rows.map((seat) => {
       const note = element("span", { className: "ai4u-facts", textContent: this.#realNames.of(seat) });
       const cells = shown.map(({ name, stars: total }) => {
@@ -114,7 +115,7 @@ export class ProgressTable {
       return element("tr", {}, element("th", { scope: "row" }, title, note), ...cells);
     });
     const table = element("table", { className: "ai4u-progress" }, head, element("tbody", {}, ...body));
-    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Stars of programs" }, table);
+    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": t("Stars of programs") }, table);
   }
 
   /**
@@ -132,7 +133,7 @@ export class ProgressTable {
       element(
         "tr",
         {},
-        element("th", { scope: "col", rowSpan: 2, textContent: "Student" }),
+        element("th", { scope: "col", rowSpan: 2, textContent: t("Student") }),
         ...lessons.map(({ lesson, title, ids }) =>
           element("th", { scope: "colgroup", colSpan: ids.length, title, dataset: { first: "" } }, element("span", { textContent: `${lesson} ${title}` })),
         ),
@@ -143,7 +144,7 @@ export class ProgressTable {
       const real = this.#realNames.of(seat);
       const solved = ids.filter((id) => isSolved(seat, id)).length;
       const name = element("span", { className: "ai4u-name", textContent: seat.name });
-      const note = element("span", { className: "ai4u-facts", textContent: [real, `${solved} solved`].filter(Boolean).join(" · ") });
+      const note = element("span", { className: "ai4u-facts", textContent: [real, tn("{n} solved", "{n} solved", solved)].filter(Boolean).join(" · ") });
       const cells = ids.map((id) => cell(progress[seat.number]?.[id], firsts.has(id)));
       return element("tr", {}, element("th", { scope: "row" }, name, note), ...cells);
     });
@@ -151,9 +152,9 @@ export class ProgressTable {
       const count = students.filter((seat) => isSolved(seat, id)).length;
       return element("td", { textContent: `${count}/${students.length}`, dataset: firsts.has(id) ? { first: "" } : {} });
     });
-    const foot = element("tfoot", {}, element("tr", {}, element("th", { scope: "row", textContent: "Solved" }), ...sums));
+    const foot = element("tfoot", {}, element("tr", {}, element("th", { scope: "row", textContent: t("Solved") }), ...sums));
     const table = element("table", { className: "ai4u-progress" }, head, element("tbody", {}, ...rows), foot);
-    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": "Progress" }, table);
+    return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": t("Progress") }, table);
   }
 }
 
@@ -163,9 +164,9 @@ export class ProgressTable {
  */
 function missionCell({ steps, stars: total }, [done, stars] = [0, 0]) {
   if (!done && !stars) return element("td");
-  if (done < steps) return element("td", { dataset: { state: "tried" }, title: `${done} of ${steps} steps`, textContent: `${done}/${steps}` });
+  if (done < steps) return element("td", { dataset: { state: "tried" }, title: tn("{done} of {n} step", "{done} of {n} steps", steps, { done }), textContent: `${done}/${steps}` });
   const row = starRow(stars, total).element;
-  row.title = "Stars of this mission";
+  row.title = t("Stars of this mission");
   return element("td", { dataset: { state: "solved" } }, element("span", { textContent: "✓ ", "aria-hidden": "true" }), row);
 }
 
@@ -179,7 +180,7 @@ function cell(result, isFirst) {
   if (!state) return made;
   made.dataset.state = result.state;
   const minutes = Math.round(result.minutes ?? 0);
-  const facts = [state.text, result.tries && counted(result.tries, "try").replace("trys", "tries"), minutes && `${minutes} min`];
+  const facts = [state.text, result.tries && tn("{n} try", "{n} tries", result.tries), minutes && t("{minutes} min", { minutes })];
   made.title = facts.filter(Boolean).join(", ");
   made.append(
     element("span", { textContent: state.sign, "aria-hidden": "true" }),

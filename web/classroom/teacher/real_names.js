@@ -3,6 +3,7 @@
 /** @import { Seat } from "../../types/class.js" */
 
 import { forget, recall, remember } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 
 const STORAGE_KEY = "real-names";
 const MAX_NAME_CHARS = 60;
@@ -36,7 +37,7 @@ export class RealNames {
   load(text) {
     const names = parseNames(text);
     if (Object.keys(names).length === 0) {
-      throw new Error("Expected lines such as “Red Fox,Ada Lovelace” or “3,Ada Lovelace”, found none in this file.");
+      throw new Error(t("Expected lines such as “Red Fox,Ada Lovelace” or “3,Ada Lovelace”, found none in this file."));
     }
     this.#names = names;
     remember(STORAGE_KEY, names);

@@ -11,9 +11,10 @@ import { element } from "../../shared/dom.js";
 import { choices, chosenIn, closeDialogOf, showForm } from "../../shared/form_dialog.js";
 import { showMoveCode } from "./move_code_dialog.js";
 import { ask, tell } from "../../shared/dialog.js";
+import { t, tn } from "../../shared/text.js";
 import { showNetworks } from "./room_networks.js";
 import { showPrograms } from "./room_programs.js";
-import { counted, placeText, roomName, seatsOf, statusOf } from "../room_words.js";
+import { placeText, roomName, seatsOf, statusOf } from "../room_words.js";
 
 /**
  * @param {Room} room
@@ -28,37 +29,37 @@ export function showRoom(room, state, realNames) {
       closeDialogOf(button);
       await commandOrTell(wanted);
     });
-  const assign = action("Assign a scene…", (button) => {
+  const assign = action(t("Assign a scene…"), (button) => {
     closeDialogOf(button);
     showAssign(state, room.id);
   });
-  const code = action("Code", (button) => {
+  const code = action(t("Code"), (button) => {
     closeDialogOf(button);
     showPrograms(room, state);
   });
-  const networks = action("Networks", (button) => {
+  const networks = action(t("Networks"), (button) => {
     closeDialogOf(button);
     showNetworks(room, state);
   });
-  const lookIn = element("a", { className: "ai4u-button", href: room.look_in, target: "_blank", rel: "noopener", textContent: "Look in" });
+  const lookIn = element("a", { className: "ai4u-button", href: room.look_in, target: "_blank", rel: "noopener", textContent: t("Look in") });
   const actions = element(
     "div",
     { className: "ai4u-actions" },
     room.look_in && lookIn,
     isLocal && code,
     isLocal && networks,
-    act("Show to all", { do: "show", kind: "room", room: room.id }),
+    act(t("Show to all"), { do: "show", kind: "room", room: room.id }),
     assign,
-    room.is_learning && act("Stop learning", { do: "stop training", room: room.id }),
-    isLocal && room.is_running && act("Put to sleep", { do: "sleep", room: room.id }),
+    room.is_learning && act(t("Stop learning"), { do: "stop training", room: room.id }),
+    isLocal && room.is_running && act(t("Put to sleep"), { do: "sleep", room: room.id }),
   );
   const content = [
     facts(room, missionsOf(seats, state)),
-    room.error && element("pre", { className: "ai4u-error", tabIndex: 0, "aria-label": "Error", textContent: room.error }),
+    room.error && element("pre", { className: "ai4u-error", tabIndex: 0, "aria-label": t("Error"), textContent: room.error }),
     actions,
     element("ul", { className: "ai4u-people" }, ...seats.map((seat) => person(seat, realNames, Boolean(state.code)))),
   ];
-  return showForm({ title: roomName(room, state), content, no: "Close" });
+  return showForm({ title: roomName(room, state), content, no: t("Close") });
 }
 
 /**
@@ -70,7 +71,7 @@ function missionsOf(seats, state) {
   const lines = seats.map(({ name, number }) => {
     const place = state.mission_places?.[number];
     if (!place) return "";
-    const time = place.minutes && !place.is_done ? `for ${counted(place.minutes, "minute")}` : "";
+    const time = place.minutes && !place.is_done ? tn("for {n} minute", "for {n} minutes", place.minutes) : "";
     return [seats.length > 1 && name, placeText(place), time, !place.is_done && place.hint].filter(Boolean).join(", ");
   });
   return lines.filter(Boolean).join("; ");
@@ -83,16 +84,16 @@ function missionsOf(seats, state) {
 function facts(room, mission) {
   const { text } = statusOf(room);
   const first = [text, room.status === "driving" && clock(room.seconds), room.why].filter(Boolean).join(" · ");
-  const counts = `${counted(room.episodes, "drive")}, ${counted(room.falls, "fall")}${room.is_solved ? ", solved" : ", not solved yet"}`;
+  const counts = [tn("{n} drive", "{n} drives", room.episodes), tn("{n} fall", "{n} falls", room.falls), room.is_solved ? t("solved") : t("not solved yet")].join(", ");
   return element(
     "dl",
     { className: "ai4u-facts-list" },
-    ...pair("Now", first),
-    ...pair("Scene", room.scene),
-    ...(mission ? pair("Mission", mission) : []),
-    ...pair("Driven by", room.driver || "nobody"),
-    ...(room.learning ? pair("Network", room.learning) : []),
-    ...pair("So far", counts),
+    ...pair(t("Now"), first),
+    ...pair(t("Scene"), room.scene),
+    ...(mission ? pair(t("Mission"), mission) : []),
+    ...pair(t("Driven by"), room.driver || t("nobody")),
+    ...(room.learning ? pair(t("Network"), room.learning) : []),
+    ...pair(t("So far"), counts),
   );
 }
 
@@ -110,35 +111,38 @@ function pair(name, value) {
  * @param {boolean} hasCodes
  */
 function person(seat, realNames, hasCodes) {
+  const { name, colour } = seat;
   const dot = element("span", { className: "ai4u-dot" });
-  dot.style.background = seat.colour;
-  const rename = action("Rename…", (button) => {
+  dot.style.background = colour;
+  const rename = action(t("Rename…"), (button) => {
     closeDialogOf(button);
     showRename(seat);
   });
-  const kick = action("Send out…", async (button) => {
+  const kick = action(t("Send out…"), async (button) => {
     closeDialogOf(button);
-    const text = "The page closes. With the class’s code this student can join again, and finds all work there.";
-    if (await ask({ title: `Send ${seat.name} out?`, text, yes: "Send out" })) await commandOrTell({ do: "kick", seat: seat.number });
+    const text = t("The page closes. With the class’s code this student can join again, and finds all work there.");
+    if (await ask({ title: t("Send {name} out?", { name }), text, yes: t("Send out") })) await commandOrTell({ do: "kick", seat: seat.number });
   });
-  const ban = action("Ban…", async (button) => {
+  const ban = action(t("Ban…"), async (button) => {
     closeDialogOf(button);
     await showBan(seat, hasCodes);
   });
-  const move = action("Code…", async (button) => {
+  const move = action(t("Code…"), async (button) => {
     closeDialogOf(button);
     await showMoveCode(seat);
   });
   move.hidden = !hasCodes;
-  const verbs = new Map([[rename, "Rename"], [move, "Code for"], [kick, "Send out"], [ban, "Ban"]]);
-  for (const [button, verb] of verbs) button.setAttribute("aria-label", `${verb} ${seat.name}`);
+  rename.ariaLabel = t("Rename {name}", { name });
+  move.ariaLabel = t("Code for {name}", { name });
+  kick.ariaLabel = t("Send out {name}", { name });
+  ban.ariaLabel = t("Ban {name}", { name });
   const real = realNames.of(seat);
   return element(
     "li",
     {},
     dot,
-    element("span", { className: "ai4u-name", textContent: seat.name }),
-    element("span", { className: "ai4u-facts", textContent: [real, seat.is_here ? "" : "page closed"].filter(Boolean).join(" · ") }),
+    element("span", { className: "ai4u-name", textContent: name }),
+    element("span", { className: "ai4u-facts", textContent: [real, seat.is_here ? "" : t("page closed")].filter(Boolean).join(" · ") }),
     element("span", { className: "ai4u-actions" }, rename, move, kick, ban),
   );
 }
@@ -149,10 +153,10 @@ function person(seat, realNames, hasCodes) {
  * @param {boolean} hasCodes
  */
 async function showBan(seat, hasCodes) {
-  const options = { new: "Set a new code. Whoever knows the old one can’t join again.", keep: "Keep the code" };
-  const group = choices("Code of the class", "ban-code", options, "new");
-  const text = "This seat can’t be used again. Its work stays.";
-  await showForm({ title: `Ban ${seat.name}?`, text, content: hasCodes ? [group] : [], yes: "Ban", isDanger: true }, () =>
+  const options = { new: t("Set a new code. Whoever knows the old one can’t join again."), keep: t("Keep the code") };
+  const group = choices(t("Code of the class"), "ban-code", options, "new");
+  const text = t("This seat can’t be used again. Its work stays.");
+  await showForm({ title: t("Ban {name}?", { name: seat.name }), text, content: hasCodes ? [group] : [], yes: t("Ban"), isDanger: true }, () =>
     command({ do: "ban", seat: seat.number, new_code: hasCodes && chosenIn(group) === "new" }),
   );
 }
@@ -165,13 +169,13 @@ async function showRename(seat) {
   try {
     /** @type {{names: string[]}} */
     const { names } = await (await fetch("./api/names", { cache: "no-store" })).json();
-    const group = choices("New name", "new-name", Object.fromEntries(names.map((name) => [name, name])), names[0]);
-    const text = "Names come from a list. For a real name, use “Real names…”: it stays in this browser.";
-    await showForm({ title: `Rename ${seat.name}`, text, content: [group], yes: "Rename" }, () =>
+    const group = choices(t("New name"), "new-name", Object.fromEntries(names.map((name) => [name, name])), names[0]);
+    const text = t("Names come from a list. For a real name, use “Real names…”: it stays in this browser.");
+    await showForm({ title: t("Rename {name}", { name: seat.name }), text, content: [group], yes: t("Rename") }, () =>
       command({ do: "rename", seat: seat.number, name: chosenIn(group) }),
     );
   } catch {
-    await tell("That can't be done", "The class can't be reached. Is its program still running?");
+    await tell(t("That can't be done"), t("The class can't be reached. Is its program still running?"));
   }
 }
 

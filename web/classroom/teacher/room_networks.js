@@ -4,10 +4,11 @@
 
 import { element } from "../../shared/dom.js";
 import { showForm } from "../../shared/form_dialog.js";
+import { t } from "../../shared/text.js";
 import { roomName } from "../room_words.js";
 import { command } from "./command.js";
 
-const UNREACHABLE = "The class can't be reached. Is its program still running?";
+const UNREACHABLE = t("The class can't be reached. Is its program still running?");
 
 /**
  * @param {Room} room
@@ -16,12 +17,12 @@ const UNREACHABLE = "The class can't be reached. Is its program still running?";
 export function showNetworks(room, state) {
   const list = element("ul", { className: "ai4u-people" });
   const status = element("p", { role: "status" });
-  const text = "All other rooms on this computer get a copy of a network that you hand out. It names neither the student nor the network.";
-  const shown = showForm({ title: `Networks: ${roomName(room, state)}`, text, content: [status, list], no: "Close" });
+  const text = t("All other rooms on this computer get a copy of a network that you hand out. It names neither the student nor the network.");
+  const shown = showForm({ title: t("Networks: {room}", { room: roomName(room, state) }), text, content: [status, list], no: t("Close") });
   networksOf(room.id).then(
     (networks) => {
       list.replaceChildren(...networks.map((network) => row(room, state, network, status)));
-      if (networks.length === 0) status.textContent = "No network has learned here yet.";
+      if (networks.length === 0) status.textContent = t("No network has learned here yet.");
     },
     (error) => (status.textContent = error.message),
   );
@@ -40,7 +41,7 @@ async function networksOf(room) {
     throw new Error(UNREACHABLE);
   }
   const { networks, problem } = await answer.json().catch(() => ({}));
-  if (!answer.ok) throw new Error(problem ?? `The class answered with status ${answer.status}.`);
+  if (!answer.ok) throw new Error(problem ?? t("The class answered with status {status}.", { status: answer.status }));
   return networks;
 }
 
@@ -52,13 +53,13 @@ async function networksOf(room) {
  */
 function row(room, { scenes = [] }, { scene, number, title, how }, status) {
   const sceneTitle = scenes.find(({ name }) => name === scene)?.title ?? scene;
-  const label = `Hand out ${title} of ${sceneTitle}`;
-  const button = element("button", { type: "button", className: "ai4u-plain", textContent: "Hand out", ariaLabel: label });
+  const label = t("Hand out {network} of {scene}", { network: title, scene: sceneTitle });
+  const button = element("button", { type: "button", className: "ai4u-plain", textContent: t("Hand out"), ariaLabel: label });
   button.addEventListener("click", async () => {
     button.disabled = true;
     try {
       await command({ do: "hand out", room: room.id, scene, network: number });
-      status.textContent = `The other rooms get a copy of ${title}.`;
+      status.textContent = t("The other rooms get a copy of {network}.", { network: title });
     } catch (error) {
       status.textContent = error.message;
       button.disabled = false;

@@ -4,6 +4,7 @@
 
 import { choices, chosenIn, field, select } from "../../shared/form_dialog.js";
 import { element } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { roomName } from "../room_words.js";
 import { scenePicture } from "../../scenes/picture.js";
 
@@ -18,22 +19,22 @@ export function sceneChoice(state, { withLessons = false } = {}) {
   const rooms = state.rooms.map((room) => [room.id, `${roomName(room, state)}: ${room.scene}`]);
   const lessons = withLessons ? state.lessons.map(({ number, title }) => [number, `${number} ${title}`]) : [];
   const missions = withLessons ? (state.missions ?? []).map(({ name, title, island }) => [name, `${island}: ${title}`]) : [];
-  const sources = { library: "From the library", lesson: "A lesson", mission: "A mission", room: "A student’s present scene", file: "My own file" };
+  const sources = { library: t("From the library"), lesson: t("A lesson"), mission: t("A mission"), room: t("A student’s present scene"), file: t("My own file") };
   if (!withLessons) delete sources.lesson;
   if (missions.length === 0) delete sources.mission;
   if (rooms.length === 0) delete sources.room;
-  const source = choices("Scene", "scene-source", sources, "library");
+  const source = choices(t("Scene"), "scene-source", sources, "library");
   const inLibrary = select(scenes);
   const ofLesson = select(lessons);
   const ofMission = select(missions);
   const ofRoom = select(rooms);
   const file = element("input", { type: "file", accept: ".yaml,.yml" });
   const fields = {
-    library: field("Which scene", inLibrary),
-    lesson: field("Which lesson", ofLesson, "Worlds open the scene that it begins with. Notebooks show its title and keep their world."),
-    mission: field("Which mission", ofMission, "Worlds open its scene, and pages its card. Who has finished some steps goes on there."),
-    room: field("Whose", ofRoom),
-    file: field("Scene file (YAML)", file),
+    library: field(t("Which scene"), inLibrary),
+    lesson: field(t("Which lesson"), ofLesson, t("Worlds open the scene that it begins with. Notebooks show its title and keep their world.")),
+    mission: field(t("Which mission"), ofMission, t("Worlds open its scene, and pages its card. Who has finished some steps goes on there.")),
+    room: field(t("Whose"), ofRoom),
+    file: field(t("Scene file (YAML)"), file),
   };
   const place = element("div");
   const update = () => {
@@ -53,10 +54,10 @@ export function sceneChoice(state, { withLessons = false } = {}) {
     if (from === "lesson") return { lesson: ofLesson.value };
     if (from === "mission") return { mission: ofMission.value };
     if (from === "room") return { room: ofRoom.value };
-    if (!file.files[0]) throw new Error("Choose a scene file first.");
+    if (!file.files[0]) throw new Error(t("Choose a scene file first."));
     const yaml = await file.files[0].text();
     const most = state.max_scene_chars;
-    if (yaml.length > most) throw new Error(`This file has ${yaml.length} characters; a scene has at most ${most}.`);
+    if (yaml.length > most) throw new Error(t("This file has {length} characters; a scene has at most {most}.", { length: yaml.length, most }));
     return { yaml };
   }
   return { nodes: [source, ...Object.values(fields), place], value };
@@ -68,5 +69,5 @@ export function sceneChoice(state, { withLessons = false } = {}) {
  */
 export function seedField(hint) {
   const input = element("input", { type: "number", min: 0, max: 2 ** 32 - 1, step: 1 });
-  return { node: field("Seed (optional)", input, hint), value: () => (input.value === "" ? null : Number(input.value)) };
+  return { node: field(t("Seed (optional)"), input, hint), value: () => (input.value === "" ? null : Number(input.value)) };
 }

@@ -10,6 +10,7 @@ import { openClassSocket } from "../socket.js";
 import { ClassStrips } from "../strips.js";
 import { watchTabs } from "./tabs.js";
 import { find, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 import { showEnd } from "./end_dialog.js";
 import { JoinHeader } from "./join_header.js";
 import { Misconceptions } from "./misconceptions.js";
@@ -28,7 +29,7 @@ import { FILTERS } from "../wall/order.js";
 
 const BOTTOM_PX = 16;
 const MIN_WALL_PX = 240;
-const NOBODY = "Nobody is here yet. A card for each room appears as soon as somebody joins.";
+const NOBODY = t("Nobody is here yet. A card for each room appears as soon as somebody joins.");
 /** @type {ClassState | null} */
 let state = null;
 /** Sentence while the class can't be reached. */
@@ -101,7 +102,7 @@ function show(message) {
   sayProblem();
   header.show(state);
   strips.show(state);
-  setText(find("#attention"), isHeld(state.attention) ? "End attention" : "Attention…");
+  setText(find("#attention"), isHeld(state.attention) ? t("End attention") : t("Attention…"));
   for (const button of switches) {
     button.ariaPressed = String(state.switches[/** @type {keyof Switches} */ (button.dataset.switch)]);
   }
@@ -114,7 +115,7 @@ function show(message) {
   programs.show(state);
   tournament.show(state);
   const stopped = Object.values(state.runs ?? {}).filter((run) => run.state === "mistake").length;
-  setText(find("#stopped-count"), stopped ? `(${stopped} stopped)` : "");
+  setText(find("#stopped-count"), stopped ? tn("({n} stopped)", "({n} stopped)", stopped) : "");
   const mistakes = state.misconceptions?.length ?? 0;
   setText(find("#mistake-count"), mistakes ? `(${mistakes})` : "");
   find("#wall ul").removeAttribute("aria-busy");
@@ -127,7 +128,7 @@ function sayProblem() {
 
 /** Say why the wall is empty, if it is. */
 function sayNobody() {
-  const none = state.rooms.length ? `No room now: “${FILTERS[wall.filter].text}”.` : NOBODY;
+  const none = state.rooms.length ? t("No room now: “{filter}”.", { filter: FILTERS[wall.filter].text }) : NOBODY;
   find("#nobody").hidden = wall.count(wall.filter) > 0;
   setText(find("#nobody"), none);
 }

@@ -5,18 +5,24 @@
 
 import { commandOrTell } from "../teacher/command.js";
 import { element, tableHead } from "../../shared/dom.js";
-import { counted } from "../room_words.js";
+import { t, tn } from "../../shared/text.js";
 import { showBegin, showStart } from "./dialogs.js";
 import { contestLine, dot, standingsTable } from "./tables.js";
 
 const HOW =
-  "No tournament yet. Choose its scene; then students hand in networks that they have trained: with “Hand in” above their world, or with submit(…) in a notebook. Here you see who did, and start the games.";
+  t("No tournament yet. Choose its scene; then students hand in networks that they have trained: with “Hand in” above their world, or with submit(…) in a notebook. Here you see who did, and start the games.");
 const VERDICTS = {
-  open: { sign: "…", text: "is being checked" },
-  right: { sign: "✓", text: "can play" },
-  refused: { sign: "×", text: "refused" },
+  open: { sign: "…", text: t("is being checked") },
+  right: { sign: "✓", text: t("can play") },
+  refused: { sign: "×", text: t("refused") },
 };
-const PHASES = { open: "Students hand in networks.", running: "The games are played.", over: "All games were played.", cancelled: "It was cancelled.", failed: "It was interrupted." };
+const PHASES = {
+  open: t("Students hand in networks."),
+  running: t("The games are played."),
+  over: t("All games were played."),
+  cancelled: t("It was cancelled."),
+  failed: t("It was interrupted."),
+};
 
 export class TournamentBoard {
   #realNames;
@@ -79,18 +85,18 @@ export class TournamentBoard {
 
   #head() {
     const { tournament } = this.#state;
-    const begin = button(tournament ? "Another tournament…" : "Tournament…", () => showBegin(this.#state), !tournament);
+    const begin = button(tournament ? t("Another tournament…") : t("Tournament…"), () => showBegin(this.#state), !tournament);
     if (!tournament) return [element("p", { className: "ai4u-empty", textContent: HOW }), element("p", { className: "ai4u-begin" }, begin)];
     const { phase, title } = tournament;
     /** @type {Partial<Record<Tournament["phase"], HTMLElement[]>>} */
     const byPhase = {
-      open: [button("Start…", () => showStart(this.#state), true), begin, send("Close", "close tournament")],
-      running: [send("Cancel", "cancel tournament")],
+      open: [button(t("Start…"), () => showStart(this.#state), true), begin, send(t("Close"), "close tournament")],
+      running: [send(t("Cancel"), "cancel tournament")],
     };
-    const actions = byPhase[phase] ?? [button("Start again…", () => showStart(this.#state), phase !== "over"), begin, send("Close", "close tournament")];
-    const project = button("Show on the projector", () => commandOrTell({ do: "show", kind: "tournament" }));
-    const report = phase === "over" && element("a", { className: "ai4u-plain", href: "./teacher/tournament", target: "_blank", rel: "noopener", textContent: "Report" });
-    return [element("h2", { textContent: `Tournament: ${title}` }), element("div", { className: "ai4u-actions" }, ...actions, project, report)];
+    const actions = byPhase[phase] ?? [button(t("Start again…"), () => showStart(this.#state), phase !== "over"), begin, send(t("Close"), "close tournament")];
+    const project = button(t("Show on the projector"), () => commandOrTell({ do: "show", kind: "tournament" }));
+    const report = phase === "over" && element("a", { className: "ai4u-plain", href: "./teacher/tournament", target: "_blank", rel: "noopener", textContent: t("Report") });
+    return [element("h2", { textContent: t("Tournament: {scene}", { scene: title }) }), element("div", { className: "ai4u-actions" }, ...actions, project, report)];
   }
 
   #networks() {
@@ -99,18 +105,18 @@ export class TournamentBoard {
     if (!tournament) {
       const titles = new Map(scenes.map(({ name, title }) => [name, title]));
       const names = [...new Set(all.map(({ scene }) => scene))];
-      const words = names.map((name) => `${titles.get(name) ?? name}: ${counted(all.filter(({ scene }) => scene === name).length, "network")}`);
-      return words.length ? [element("p", { className: "ai4u-facts ai4u-begin", textContent: `Handed in already: ${words.join(", ")}.` })] : [];
+      const words = names.map((name) => `${titles.get(name) ?? name}: ${networksText(all.filter(({ scene }) => scene === name).length)}`);
+      return words.length ? [element("p", { className: "ai4u-facts ai4u-begin", textContent: t("Handed in already: {networks}.", { networks: words.join(", ") }) })] : [];
     }
     const own = all.filter(({ scene }) => scene === tournament.scene);
     const students = seats.filter((seat) => seat.state === "in");
     const rows = students.flatMap((seat) => own.filter((each) => each.seat === seat.number).map((network) => this.#row(seat, network)));
     const without = students.filter((seat) => !own.some((each) => each.seat === seat.number));
     const names = without.map((seat) => this.#nameOf(seat)).join(", ");
-    const rest = element("p", { className: "ai4u-facts", textContent: without.length ? `Nothing yet from ${counted(without.length, "student")}: ${names}` : "" });
+    const rest = element("p", { className: "ai4u-facts", textContent: without.length ? tn("Nothing yet from {n} student: {names}", "Nothing yet from {n} students: {names}", without.length, { names }) : "" });
     if (rows.length === 0) return [rest];
-    const caption = element("caption", { textContent: "Handed in" });
-    const head = tableHead("Student", "Network", "Check");
+    const caption = element("caption", { textContent: t("Handed in") });
+    const head = tableHead(t("Student"), t("Network"), t("Check"));
     return [element("table", { className: "ai4u-networks" }, caption, head, element("tbody", {}, ...rows)), rest];
   }
 
@@ -139,10 +145,10 @@ export class TournamentBoard {
     const best = results.best.map((game) => element("li", {}, game.who.map(({ name }) => name).join(" – "), " ", watch(game), project(game)));
     const refused = results.refused.map(({ name, reason }) => element("li", { textContent: `${name}: ${reason}` }));
     return [
-      scrolled("Standings", standingsTable(results, { nameOf })),
-      listed("Played last", latest),
-      listed("Best games to watch", best),
-      listed("Taken out: they could not play against themselves", refused),
+      scrolled(t("Standings"), standingsTable(results, { nameOf })),
+      listed(t("Played last"), latest),
+      listed(t("Best games to watch"), best),
+      listed(t("Taken out: they could not play against themselves"), refused),
     ].filter(Boolean);
   }
 
@@ -155,8 +161,13 @@ export class TournamentBoard {
 
 /** @param {Tournament} tournament */
 function courseOf({ phase, results, players }) {
-  const games = results ? ` ${results.games} of ${counted(results.total, "game")}.` : "";
-  return PHASES[phase] + (phase === "open" ? ` ${counted(players, "player")} can play.` : games);
+  const games = results && tn("{games} of {n} game.", "{games} of {n} games.", results.total, { games: results.games });
+  return [PHASES[phase], phase === "open" ? tn("{n} player can play.", "{n} players can play.", players) : games].filter(Boolean).join(" ");
+}
+
+/** @param {number} count */
+function networksText(count) {
+  return tn("{n} network", "{n} networks", count);
 }
 
 /**
@@ -174,7 +185,7 @@ function watched({ entries, games }, { is_race: isRace }) {
  */
 function watch({ number, who, points }) {
   if (!number) return "";
-  const text = `Watch game ${number}`;
+  const text = t("Watch game {number}", { number });
   const label = `${text}: ${who.map(({ name }, index) => `${name} ${points[index].toFixed(1).replace("-", "−")}`).join(", ")}`;
   return element("a", { className: "ai4u-watch", href: `./teacher/tournament/${number}`, target: "_blank", rel: "noopener", title: label, "aria-label": label, textContent: text });
 }
@@ -184,8 +195,8 @@ function watch({ number, who, points }) {
  * @param {Game} game
  */
 function project({ number }) {
-  const shown = button("To the projector", () => commandOrTell({ do: "show", kind: "game", game: number }));
-  shown.ariaLabel = `Game ${number} to the projector`;
+  const shown = button(t("To the projector"), () => commandOrTell({ do: "show", kind: "game", game: number }));
+  shown.ariaLabel = t("Game {number} to the projector", { number });
   return shown;
 }
 

@@ -5,12 +5,12 @@
 import { command } from "../teacher/command.js";
 import { element, setText } from "../../shared/dom.js";
 import { choice, choices, chosenIn, field, select, showForm } from "../../shared/form_dialog.js";
-import { counted } from "../room_words.js";
+import { t, tn } from "../../shared/text.js";
 import { scenePicture } from "../../scenes/picture.js";
 
 const SEEDS = [1, 2, 3, 5, 10];
 const DEFAULT_SEED = "2";
-const SYSTEMS = { "round-robin": "All play all", swiss: "Neighbours in the standings (Swiss system): fewer games" };
+const SYSTEMS = { "round-robin": t("All play all"), swiss: t("Neighbours in the standings (Swiss system): fewer games") };
 
 /**
  * Ask for the scene of a tournament.
@@ -18,8 +18,8 @@ const SYSTEMS = { "round-robin": "All play all", swiss: "Neighbours in the stand
  */
 export function showBegin(state) {
   const scenes = [...state.scenes].sort((a, b) => Number(b.is_duel) - Number(a.is_duel));
-  const scene = select(scenes.map(({ name, title, is_duel: isDuel }) => [name, `${title} (${isDuel ? "a duel" : "a race"})`]), "sumo");
-  const hint = "In a duel two networks play against each other. In a race each drives alone on the same starts.";
+  const scene = select(scenes.map(({ name, title, is_duel: isDuel }) => [name, isDuel ? t("{scene} (a duel)", { scene: title }) : t("{scene} (a race)", { scene: title })]), "sumo");
+  const hint = t("In a duel two networks play against each other. In a race each drives alone on the same starts.");
   const place = element("div");
   const update = () => {
     const shown = scenes.filter(({ name, picture }) => name === scene.value && picture);
@@ -27,8 +27,8 @@ export function showBegin(state) {
   };
   scene.addEventListener("change", update);
   update();
-  const text = "Students hand in networks for this scene: with “Hand in” above their world, or with submit(…) in a notebook. Then you start the games.";
-  return showForm({ title: "Tournament", text, content: [field("Scene", scene, hint), place], yes: "Collect networks" }, () =>
+  const text = t("Students hand in networks for this scene: with “Hand in” above their world, or with submit(…) in a notebook. Then you start the games.");
+  return showForm({ title: t("Tournament"), text, content: [field(t("Scene"), scene, hint), place], yes: t("Collect networks") }, () =>
     command({ do: "tournament", scene: scene.value }),
   );
 }
@@ -41,24 +41,25 @@ export function showStart(state) {
   const { players, scene } = state.tournament;
   const isDuel = state.scenes.find(({ name }) => name === scene)?.is_duel ?? true;
   const seeds = select(SEEDS.map((count) => [String(count), String(count)]), DEFAULT_SEED);
-  const system = choices("Who plays whom", "system", SYSTEMS, "round-robin");
+  const system = choices(t("Who plays whom"), "system", SYSTEMS, "round-robin");
   const own = element("input", { type: "checkbox", checked: players < 2 });
   const games = element("p", { role: "status" });
   const update = () => {
     const entries = players + Number(own.checked);
     const count = gameCount(entries, Number(seeds.value), isDuel ? chosenIn(system) : "race");
-    setText(games, `${counted(entries, "player")}: ${counted(count, "game")}.`);
+    const playing = tn("{n} player", "{n} players", entries);
+    setText(games, tn("{players}: {n} game.", "{players}: {n} games.", count, { players: playing }));
   };
   const content = [
     ...(isDuel ? [system] : []),
-    field(isDuel ? "Matches of each pair" : "Races", seeds, isDuel ? "A match is two games from the same start, in which they change sides." : "Each from another start."),
-    choice("The scene’s own player takes part, too", own),
+    field(isDuel ? t("Matches of each pair") : t("Races"), seeds, isDuel ? t("A match is two games from the same start, in which they change sides.") : t("Each from another start.")),
+    choice(t("The scene’s own player takes part, too"), own),
     games,
   ];
   for (const each of content) each.addEventListener("change", update);
   update();
-  const text = "Only networks that have passed their check take part. Games that were played before with the same networks are not played again.";
-  return showForm({ title: "Start the tournament", text, content, yes: "Start" }, () =>
+  const text = t("Only networks that have passed their check take part. Games that were played before with the same networks are not played again.");
+  return showForm({ title: t("Start the tournament"), text, content, yes: t("Start") }, () =>
     command({ do: "start tournament", seeds: Number(seeds.value), system: isDuel ? chosenIn(system) : "round-robin", own_player: own.checked }),
   );
 }

@@ -3,6 +3,7 @@
 /** @import { Contest, Results, Score, Standing } from "../../types/class.js" */
 
 import { element } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 
 /** Most entries of a cross table that can be read. */
 const MAX_CROSSED = 16;
@@ -20,7 +21,7 @@ const MAX_CONTESTANTS = 5;
 export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ name }) => name, isShort = false } = {}) {
   const isCrossed = !isRace && standings.length <= MAX_CROSSED;
   const numbers = isCrossed ? standings.map((_, index) => String(index + 1)) : [];
-  const heads = ["", "Name", ...numbers, "Won", "Drawn", "Lost", ...(isShort ? [] : [isRace ? "Reward" : "Points"]), "Rating"];
+  const heads = ["", t("Name"), ...numbers, t("Won"), t("Drawn"), t("Lost"), ...(isShort ? [] : [isRace ? t("Reward") : t("Points")]), t("Rating")];
   const rows = standings.map((row, index) =>
     element(
       "tr",
@@ -30,10 +31,10 @@ export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ nam
       ...(isCrossed ? row.against.map((counts, other) => crossing(row, standings, index, other, counts, nameOf)) : []),
       ...[row.won, row.drawn, row.lost].map(cell),
       !isShort && cell(number(row.points)),
-      element("td", { title: row.is_provisional ? "Not sure yet: it has played few games" : "" }, `${row.rating.toFixed(1)} ± ${row.range.toFixed(1)}${row.is_provisional ? "?" : ""}`),
+      element("td", { title: row.is_provisional ? t("Not sure yet: it has played few games") : "" }, `${row.rating.toFixed(1)} ± ${row.range.toFixed(1)}${row.is_provisional ? "?" : ""}`),
     ),
   );
-  const caption = isCrossed ? "Standings. Row against column: a point for each match won, ½ for a draw" : "Standings";
+  const caption = isCrossed ? t("Standings. Row against column: a point for each match won, ½ for a draw") : t("Standings");
   const head = element("tr", {}, ...heads.map((text) => (text ? element("th", { scope: "col", textContent: text, className: numbers.includes(text) ? "ai4u-crossing" : "" }) : element("td"))));
   return element("table", { className: "ai4u-standings" }, element("caption", { textContent: caption }), element("thead", {}, head), element("tbody", {}, ...rows));
 }
@@ -50,7 +51,8 @@ export function standingsTable({ standings, is_race: isRace }, { nameOf = ({ nam
 function crossing(row, standings, index, other, counts, nameOf) {
   if (other === index) return element("td", { className: "ai4u-crossing ai4u-own" });
   const [won, drawn, lost] = counts ?? [];
-  const title = counts ? `${nameOf(row)} against ${nameOf(standings[other])}: ${won} won, ${drawn} drawn, ${lost} lost` : "";
+  const values = { name: nameOf(row), other: nameOf(standings[other]), won, drawn, lost };
+  const title = counts ? t("{name} against {other}: {won} won, {drawn} drawn, {lost} lost", values) : "";
   return element("td", { className: "ai4u-crossing", title }, counts ? score(counts) : "");
 }
 
@@ -71,7 +73,7 @@ export function contestLine({ entries, has_failed: hasFailed }) {
       element("span", { className: "ai4u-points", textContent: number(entry.points) }),
     ),
   ]);
-  const end = hasFailed ? "a network failed" : isDrawn ? "a draw" : `${entries[0].name} wins`;
+  const end = hasFailed ? t("a network failed") : isDrawn ? t("a draw") : t("{name} wins", { name: entries[0].name });
   return element("span", { className: "ai4u-contest" }, ...parts, element("span", { className: "ai4u-end", textContent: end }));
 }
 

@@ -4,6 +4,7 @@
 
 import { element, setText } from "../../shared/dom.js";
 import { recall, remember } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 import { FILTERS } from "./order.js";
 
 const STORAGE_KEY = "wall";
@@ -38,7 +39,7 @@ export class WallControls {
     slider.value = String(size);
     const look = () => {
       const width = widthOf(slider.valueAsNumber);
-      slider.setAttribute("aria-valuetext", width ? `cards ${Math.round(width)} pixels wide` : "all cards fit");
+      slider.setAttribute("aria-valuetext", width ? t("cards {width} pixels wide", { width: Math.round(width) }) : t("all cards fit"));
       wall.look({ by: sort.value, width });
     };
     sort.addEventListener("change", look);

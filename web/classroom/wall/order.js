@@ -3,6 +3,7 @@
 /** @import { Room } from "../../types/class.js" */
 
 import { needsHelp } from "../room_words.js";
+import { t } from "../../shared/text.js";
 
 /** Needs of help that differ by less count as the same, so that cards don't change places all the time. */
 const HELP_STEP = 10;
@@ -11,11 +12,11 @@ const KEPT_SHARE = 0.6;
 
 /** @type {Record<string, {text: string, keeps: (room: Room) => boolean}>} */
 export const FILTERS = {
-  all: { text: "All", keeps: () => true },
-  help: { text: "Needs help", keeps: needsHelp },
-  driving: { text: "Driving", keeps: (room) => room.status === "driving" },
-  solved: { text: "Solved", keeps: (room) => room.is_solved },
-  asleep: { text: "Asleep", keeps: (room) => room.status === "asleep" || room.status === "away" },
+  all: { text: t("All"), keeps: () => true },
+  help: { text: t("Needs help"), keeps: needsHelp },
+  driving: { text: t("Driving"), keeps: (room) => room.status === "driving" },
+  solved: { text: t("Solved"), keeps: (room) => room.is_solved },
+  asleep: { text: t("Asleep"), keeps: (room) => room.status === "asleep" || room.status === "away" },
 };
 
 /**

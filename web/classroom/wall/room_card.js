@@ -4,6 +4,7 @@
 /** @import { Names } from "./wall.js" */
 
 import { element, setAttributes, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 import { needsHelp, placeText, roomName, seatsOf, statusOf } from "../room_words.js";
 
 const MAX_DOTS = 8;
@@ -68,9 +69,19 @@ export function updateCard(card, room, state, realNames) {
   setAttributes(box, { "data-status": room.status, "data-help": needsHelp(room), "data-solved": room.is_solved });
   if (box.localName !== "button") return;
   const solved = dots.filter((each) => each.state === "solved").length;
-  const progress = dots.length ? `${solved} of ${dots.length} exercises of lesson ${dots[0].lesson} solved` : "";
-  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && "solved before", why, mission, room.scene, room.learning, progress];
+  const progress = dots.length ? exercisesText(solved, dots.length, dots[0].lesson) : "";
+  const told = [name, real, status.text, room.is_solved && room.status !== "solved" && t("solved before"), why, mission, room.scene, room.learning, progress];
   setAttributes(box, { "aria-label": told.filter(Boolean).join(", ") });
+}
+
+/**
+ * @param {number} solved
+ * @param {number} count of the lesson
+ * @param {string} lesson
+ */
+function exercisesText(solved, count, lesson) {
+  const values = { solved, lesson };
+  return tn("{solved} of {n} exercise of lesson {lesson} solved", "{solved} of {n} exercises of lesson {lesson} solved", count, values);
 }
 
 /**
