@@ -199,9 +199,9 @@ film(vehicle(fear, heading_deg=-20), limit=120)
 # %% [markdown]
 # ## Wires that slow down
 #
-# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark, as with `1 - 2
-# * brightness`. (A brake of 2 is too weak: that vehicle runs into the lamp.) In living brains there are
-# both kinds of connections, too: those that *excite* and those that *inhibit*.
+# A wire can also **brake**: the brighter, the slower. Such a wheel turns fast in the dark, as with
+# `1 - 2 * brightness`. (A brake of 2 is too weak: that vehicle runs into the lamp.) In living brains there
+# are both kinds of connections, too: those that *excite* and those that *inhibit*.
 #
 # ### Exercise 05.3: love
 #

@@ -309,8 +309,8 @@ check("10.4", prediction, hacked)
 #
 # Choose the best answer to each question, and write its letter into the list.
 #
-# **1.** Two robots touch the box, which pays 100 and ends the episode. One takes 20 decisions, the other
-# 60. The discount is 0.98. Whose discounted return is larger?
+# **1.** Two robots touch the box, which pays 100 and ends the episode. One takes 20 decisions, the
+# other 60. The discount is 0.98. Whose discounted return is larger?
 #
 # - a: The slower one's: it has had more decisions that pay.
 # - b: The quicker one's.

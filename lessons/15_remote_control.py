@@ -187,9 +187,10 @@ def times_won(lag):
     return sum(each.won for each in drives(lambda: late(quick, lag), None, [1, 2, 3], limit=200))
 
 
-won = {f"{lag} decisions late": times_won(lag) for lag in range(5)}
-bars(won, ylabel="worlds won, of 3", title="the quick driver")
-compare("15.lag", won["3 decisions late"])
+won = [times_won(lag) for lag in range(5)]
+named = {f"{lag} decisions late": won[lag] for lag in range(5)}
+bars(named, ylabel="worlds won, of 3", title="the quick driver")
+compare("15.lag", won[3])
 
 # %%
 film(late(quick, lag=3), seed=1, limit=100)

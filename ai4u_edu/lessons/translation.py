@@ -1,7 +1,7 @@
 """The course in other languages: what of a notebook is translated, and how it is put back.
 
 A text is translated by paragraph, item of a list, or row of a table; code by comment, and by those
-strings that are meant to be read: they hold a space, or are printed.
+strings that are meant to be read: they hold a space, are printed, or name a plot or its axes.
 """
 
 import ast
@@ -23,6 +23,8 @@ LANGUAGE_CELL = "from ai4u_edu.locale import set_language\n\nset_language({code!
 _PREFIX = re.compile(r"(?P<prefix>\s*(?:[-*] |\d+\. |#+ |\| |> )?)(?P<words>.*)", re.DOTALL)
 _BEGINS = re.compile(r"\s*(?:[-*] |\d+\. |#+ |\||> )")
 _RULE = re.compile(r"\s*\|[-|: ]+\|\s*")
+_LABELS = ("title", "xlabel", "ylabel")
+"""Names of arguments whose strings are read, also if they are one word."""
 _FENCE = "```"
 _QUOTES = re.compile(r"""[a-zA-Z]*(?P<quote>\"{3}|'{3}|"|')""")
 
@@ -62,12 +64,10 @@ def translated_lesson(name: str, cells: list[Cell], language: str) -> list[Cell]
         return cells
     translate = Catalogue(language, f"{LESSONS}/{name}").message
     translated = [translated_cell(cell, translate) for cell in cells]
-    return [
-        replace(cell, source=f"{cell.source}\n\n{LANGUAGE_CELL.format(code=language)}")
-        if SETUP in cell.tags
-        else cell
-        for cell in translated
-    ]
+    setup = next(number for number, cell in enumerate(cells) if SETUP in cell.tags)
+    source = f"{translated[setup].source}\n\n{LANGUAGE_CELL.format(code=language)}"
+    translated[setup] = replace(translated[setup], source=source)
+    return translated
 
 
 def translated_code(exercise: str, code: str) -> str:
@@ -146,14 +146,14 @@ def _comments(source: str) -> Iterator[tuple[tuple[int, int], int, str]]:
 def _strings(source: str) -> Iterator[tuple[tuple[int, int], int, str]]:
     """Yield place, end and content of each string on one line that is meant to be read."""
     tree = ast.parse(source)
-    printed = {
-        id(argument)
-        for call in ast.walk(tree)
-        if isinstance(call, ast.Call)
-        and isinstance(call.func, ast.Name)
-        and call.func.id == "print"
-        for argument in call.args
-    }
+    labels, keys = set[int](), set[int]()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            printed = node.args if node.func.id == "print" else []
+            named = [each.value for each in node.keywords if each.arg in _LABELS]
+            labels |= {id(value) for value in (*printed, *named)}
+        elif isinstance(node, ast.Subscript):
+            keys.add(id(node.slice))
     inside = {
         id(part)
         for node in ast.walk(tree)
@@ -162,7 +162,7 @@ def _strings(source: str) -> Iterator[tuple[tuple[int, int], int, str]]:
     }
     lines = source.splitlines()
     for node in ast.walk(tree):
-        if id(node) in inside or not isinstance(node, ast.JoinedStr | ast.Constant):
+        if id(node) in inside | keys or not isinstance(node, ast.JoinedStr | ast.Constant):
             continue
         if node.end_lineno != node.lineno or node.end_col_offset is None:
             continue
@@ -171,7 +171,7 @@ def _strings(source: str) -> Iterator[tuple[tuple[int, int], int, str]]:
         words, quotes = _words(node), _QUOTES.match(code)
         if quotes is None or not re.search(r"[A-Za-z]{2}", words):
             continue
-        if " " in words.strip() or id(node) in printed:
+        if " " in words.strip() or id(node) in labels:
             begin = len(line[: node.col_offset].decode())
             first, last = begin + quotes.end(), begin + len(code) - len(quotes["quote"])
             yield (node.lineno - 1, first), last, code[quotes.end() : -len(quotes["quote"])]

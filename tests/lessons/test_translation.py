@@ -33,10 +33,11 @@ def test_code_is_cut_into_comments_and_strings_that_are_read() -> None:
         "# turn left\n"
         'action = {"move": [0, -1, 0, 0]}  # at once\n'
         'print("x:", f"at {x:.1f} m")\n'
-        'plot(curve, "distance (m)", kind="line")'
+        'plot(curve, "distance (m)", kind="line", ylabel="distance")\n'
+        'percept["to food"]'
     )
     texts = list(texts_of(Cell(source)))
-    assert sorted(texts) == ["at once", "at {x:.1f} m", "distance (m)", "turn left"]
+    assert sorted(texts) == ["at once", "at {x:.1f} m", "distance", "distance (m)", "turn left"]
 
 
 def test_a_translation_is_put_back_where_its_text_was() -> None:
@@ -55,12 +56,11 @@ def test_a_translation_is_put_back_where_its_text_was() -> None:
 def test_code_does_the_same_in_each_language(lesson: Lesson, language: str) -> None:
     cells = translated_lesson(lesson.name, lesson.cells, language)
     assert [cell.tags for cell in cells] == [cell.tags for cell in lesson.cells]
+    line = f"set_language({language!r})"
+    assert sum(line in cell.source for cell in cells) == (language != SOURCE)
     for cell, english in zip(cells, lesson.cells, strict=True):
         if not cell.is_text:
-            code = cell.source
-            if "setup" in cell.tags and language != SOURCE:
-                code, _, more = code.rpartition("\n\nfrom ai4u_edu.locale")
-                assert f"set_language('{language}')" in more
+            code = cell.source.partition("\n\nfrom ai4u_edu.locale import set_language")[0]
             assert _without_words(code) == _without_words(english.source)
 
 
