@@ -27,8 +27,10 @@ from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import is_ticket, lessons
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.lessons.translation import texts_of
-from ai4u_edu.locale import LANGUAGES, LESSONS, PAGE, PYTHON, SOURCE
+from ai4u_edu.locale import LANGUAGES, LESSONS, LIBRARY, PAGE, PYTHON, SOURCE
 from ai4u_edu.locale.catalogues import catalogue_file
+from ai4u_edu.missions.mission import library_missions
+from ai4u_edu.scenes import Scene
 
 ROOT = Path(__file__).parents[1]
 TRANSLATED = tuple(code for code in LANGUAGES if code != SOURCE)
@@ -72,7 +74,7 @@ def domains() -> list[Domain]:
     python.texts += _in_code("web", "pages/**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
     page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
-    return [python, page, *_lesson_domains()]
+    return [python, page, Domain(LIBRARY, [*_scene_texts(), *_mission_texts()]), *_lesson_domains()]
 
 
 def _in_code(
@@ -87,6 +89,20 @@ def _in_code(
     for file, _, text, *_ in sorted(extracted, key=lambda each: each[:2]):
         english = text if isinstance(text, str) else (text[0], text[1])
         yield english, f"{folder}/{file}"
+
+
+def _scene_texts() -> Iterator[tuple[English, str]]:
+    for name in Scene.names():
+        scene = Scene.load(name).description
+        for text in (scene.title, scene.goal, scene.controls, scene.rewards):
+            if text:
+                yield text, f"ai4u_edu/scenes/library/{name}.yaml"
+
+
+def _mission_texts() -> Iterator[tuple[English, str]]:
+    for name, mission in library_missions().by_name.items():
+        for text in mission.texts():
+            yield text, f"ai4u_edu/missions/library/{name}.yaml"
 
 
 def _lesson_domains() -> Iterator[Domain]:

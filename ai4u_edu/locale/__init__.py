@@ -8,7 +8,6 @@ as strings, until they reach a reader: a page's socket, a terminal, a notebook's
 from ai4u_edu.locale.catalogues import (
     LESSONS,
     PAGE,
-    PYTHON,
     Catalogue,
     catalogue,
     page_catalogue,
@@ -26,11 +25,21 @@ from ai4u_edu.locale.languages import (
     language_of_header,
     language_of_page,
 )
-from ai4u_edu.locale.text import Text, gettext, join, ngettext, sentence
+from ai4u_edu.locale.text import (
+    LIBRARY,
+    PYTHON,
+    Text,
+    gettext,
+    join,
+    library_text,
+    ngettext,
+    sentence,
+)
 
 __all__ = [
     "LANGUAGES",
     "LESSONS",
+    "LIBRARY",
     "PAGE",
     "PSEUDO",
     "PYTHON",
@@ -45,6 +54,7 @@ __all__ = [
     "language_of_environment",
     "language_of_header",
     "language_of_page",
+    "library_text",
     "ngettext",
     "page_catalogue",
     "reader",

@@ -20,12 +20,10 @@ from ai4u_edu.locale.languages import (
     known_language,
     language_of_environment,
 )
-from ai4u_edu.locale.text import Text, Value, sentence
+from ai4u_edu.locale.text import PYTHON, Text, Value, sentence
 
 FOLDER = Path(__file__).parent
 """Folder of the languages, in gettext's layout: ``pt_BR/LC_MESSAGES/DOMAIN.mo``."""
-PYTHON = "ai4u_edu"
-"""The domain of what the Python code says."""
 PAGE = "page"
 """The domain of the page's scripts and HTML."""
 LESSONS = "lessons"
@@ -59,7 +57,6 @@ class Catalogue:
 
     def __init__(self, language: str, domain: str = PYTHON) -> None:
         self.language, self.domain = language, domain
-        self._translations = _translations(language, domain)
 
     def translate(self, text: str) -> str:
         """Return a text in this language; a plain string, and what has no translation, as it is.
@@ -69,17 +66,19 @@ class Catalogue:
         """
         if not isinstance(text, Text) or self.language == SOURCE:
             return str(text)
+        translations = _translations(self.language, text.domain)
         if text.plural:
-            pattern = self._translations.ngettext(text.msgid, text.plural, text.number)
+            pattern = translations.ngettext(text.msgid, text.plural, text.number)
         else:
-            pattern = self.message(text.msgid)
+            pattern = translations.gettext(text.msgid) if text.msgid else ""
         if text.values:
             pattern = pattern.format_map({name: self._value(v) for name, v in text.values.items()})
         return sentence(pattern) if text.is_sentence else pattern
 
     def message(self, msgid: str) -> str:
         """Return the translation of a text that is its own key, such as the title of a scene."""
-        return self._translations.gettext(msgid) if msgid else ""  # "" is the key of the header
+        # the empty text is the key of a catalogue's header
+        return _translations(self.language, self.domain).gettext(msgid) if msgid else ""
 
     def _value(self, value: Value) -> Value:
         return self.translate(value) if isinstance(value, Text) else value

@@ -1,7 +1,12 @@
 """Sentences that can be shown in several languages; in code they are English."""
 
 from collections.abc import Mapping
-from typing import Self
+from typing import Any, Final, Self
+
+PYTHON: Final = "ai4u_edu"
+"""The domain of what the Python code says."""
+LIBRARY: Final = "library"
+"""The domain of the library's scenes and missions."""
 
 Value = str | int | float
 """A value in a sentence; a :class:`Text` is translated with the sentence."""
@@ -15,7 +20,7 @@ class Text(str):
     care gets a string.
     """
 
-    __slots__ = ("is_sentence", "msgid", "number", "plural", "values")
+    __slots__ = ("domain", "is_sentence", "msgid", "number", "plural", "values")
 
     msgid: str
     """The sentence with names in braces for its values: its key in the catalogues."""
@@ -27,6 +32,8 @@ class Text(str):
     """Values by their names in ``msgid``."""
     is_sentence: bool
     """True if it is shown with a capital letter and a full stop."""
+    domain: str
+    """The catalogue that has its translation."""
 
     def __new__(
         cls,
@@ -35,17 +42,27 @@ class Text(str):
         plural: str = "",
         number: int = 1,
         is_sentence: bool = False,
+        domain: str = PYTHON,
     ) -> Self:
         """Make a sentence."""
         pattern = plural if plural and number != 1 else msgid
         english = pattern.format_map(values) if values else pattern
         text = super().__new__(cls, sentence(english) if is_sentence else english)
         text.msgid, text.plural, text.number, text.values = msgid, plural, number, values
-        text.is_sentence = is_sentence
+        text.is_sentence, text.domain = is_sentence, domain
         return text
 
-    def __reduce__(self) -> tuple[type[Self], tuple[str, Mapping[str, Value], str, int, bool]]:
-        return type(self), (self.msgid, self.values, self.plural, self.number, self.is_sentence)
+    def __reduce__(self) -> tuple[type[Self], tuple[Any, ...]]:
+        made_of = self.msgid, self.values, self.plural, self.number, self.is_sentence, self.domain
+        return type(self), made_of
+
+
+def library_text(text: str) -> Text:
+    """Return a text of a scene or mission, which is translated if the library has it.
+
+    A text that somebody wrote is in no catalogue, and is shown as it is written.
+    """
+    return Text(text, domain=LIBRARY)
 
 
 def gettext(msgid: str, /, **values: Value) -> Text:
@@ -94,5 +111,6 @@ def sentence(text: str) -> str:
     "No body is called 'bxo'."
     """
     if isinstance(text, Text):
-        return Text(text.msgid, text.values, text.plural, text.number, is_sentence=True)
+        made_of = text.msgid, text.values, text.plural, text.number
+        return Text(*made_of, is_sentence=True, domain=text.domain)
     return text[:1].upper() + text[1:].rstrip(".") + "." if text else ""

@@ -20,6 +20,8 @@ from ai4u_edu.agent.driving_keys import active_brain, has_driving_keys
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Block, LinearRayCastingSensor, NeuralNetController, RemoteBrain
 from ai4u_edu.blocks.sensors.ray_sensor import spread
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import has_fallen
 from ai4u_edu.world.shapes import Description
@@ -511,7 +513,8 @@ class Chooses(Check):
             answer: PersonAnswer = yield words
             if answer.text == self.right:
                 return
-            words = f"Not “{answer.text[:80]}”. Try it in the world."
+            shown = library_text(answer.text[:80])
+            words = _("Not “{answer}”. Try it in the world.", answer=shown)
 
 
 class Solves(Check):

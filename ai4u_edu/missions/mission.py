@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -19,7 +19,7 @@ from pydantic import (
 
 from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest
 from ai4u_edu.base.parameters import ParameterProblem, explain
-from ai4u_edu.missions.checks import AnyCheck, Driver, Solves, Text
+from ai4u_edu.missions.checks import AnyCheck, Chooses, Driver, Reads, Solves, Text
 from ai4u_edu.page.editing.scene_pictures import template_names
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import YamlFile
@@ -111,6 +111,19 @@ class Mission(Description):
     """Name of the mission that follows; default: the one that follows on the map."""
     exercise: Annotated[str, StringConstraints(pattern=r"^(\d\d\.\d)?$")] = ""
     """Exercise of the course that the mission is, such as ``01.4``; empty if it is none."""
+
+    def texts(self) -> Iterator[str]:
+        """Yield all texts that a person reads."""
+        yield self.title
+        if self.idea:
+            yield self.idea
+        for step in self.steps:
+            yield from (step.say, step.done, *(hint.say for hint in step.hints))
+            if isinstance(step.check, Chooses | Reads):
+                yield step.check.question
+            if isinstance(step.check, Chooses):
+                yield from step.check.options
+        yield from (star.say for star in self.stars)
 
     @model_validator(mode="after")
     def _has_an_exercise(self) -> Self:

@@ -15,6 +15,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.built import BUILT, judge_built
 from ai4u_edu.lessons.calls import Judged, RemoteCalls, function_name, starting_text
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text, translate
 from ai4u_edu.missions.checks import (
     Chooses,
     Decision,
@@ -55,17 +57,17 @@ HINT_DECISIONS = 120
 """Decisions (10 s) in which a hint counts once, however often what it is about happens."""
 MOVING_M_PER_S = 0.1
 HAS_TO_DRIVE: Mapping[str, str] = {
-    "keys": "This step is for *you*: let go of the program, or choose keys again, and drive.",
-    "program": "This step is for *your program*: open *Code* and press *Run*.",
-    "network": "This step is for a *network*.",
-    "new network": "This step is for a *new* network: see *Learn* and *Practise*.",
-    "controller": "This step is for a driver that comes with the scene.",
+    "keys": _("This step is for *you*: let go of the program, or choose keys again, and drive."),
+    "program": _("This step is for *your program*: open *Code* and press *Run*."),
+    "network": _("This step is for a *network*."),
+    "new network": _("This step is for a *new* network: see *Learn* and *Practise*."),
+    "controller": _("This step is for a driver that comes with the scene."),
 }
 DOES_DRIVE: Mapping[Driver, str] = {
-    "keys": "You are driving with the keys.",
-    "program": "A program is driving.",
-    "network": "A network is driving.",
-    "controller": "Another driver is driving.",
+    "keys": _("You are driving with the keys."),
+    "program": _("A program is driving."),
+    "network": _("A network is driving."),
+    "controller": _("Another driver is driving."),
 }
 
 
@@ -431,8 +433,11 @@ class MissionOption:
         chosen = self._chosen(page.view)
         if chosen is None:
             raise SetupError("no mission is open in this page; open one on the map")
-        run = chosen.run
-        await page.result(self._runner.submit(lambda: run.see_answer(command.answer)))
+        run, check, answer = chosen.run, chosen.run.step.check, command.answer
+        if isinstance(check, Chooses):  # the page shows and sends its own language
+            shown = {translate(library_text(option)): option for option in check.options}
+            answer = shown.get(answer, answer)
+        await page.result(self._runner.submit(lambda: run.see_answer(answer)))
         return Answer()
 
     async def _judge(self, page: Page, command: JudgeFunction) -> Answer:
@@ -533,35 +538,36 @@ def mission_part(name: str, run: MissionRun, missions: Missions) -> MissionPart:
     following = missions.after(name) if name in missions.by_name else ""
     question = None
     if isinstance(check, Chooses):
-        question = MissionQuestion(check.question, list(check.options))
+        options = [library_text(option) for option in check.options]
+        question = MissionQuestion(library_text(check.question), [*options])
     elif isinstance(check, Reads):
-        question = MissionQuestion(check.question, [])
+        question = MissionQuestion(library_text(check.question), [])
     exercise = None
     if isinstance(check, Solves):
         exercise = _exercise(mission.exercise)
-    texts = ["Do the mission.", *(star.say for star in mission.stars)]
+    texts = [_("Do the mission."), *(library_text(star.say) for star in mission.stars)]
     return MissionPart(
         mission=name,
-        title=mission.title,
+        title=library_text(mission.title),
         island=mission.island,
         scene=mission.scene,
-        scene_title=_scene_title(mission.scene),
+        scene_title=library_text(_scene_title(mission.scene)),
         is_here=run.is_here,
         step=run.index,
         steps=len(mission.steps),
-        say=step.say,
+        say=library_text(step.say),
         light=tuple(step.light),
         is_done=run.is_step_done,
-        done=step.done if run.is_step_done else "",
+        done=library_text(step.done) if run.is_step_done else "",
         words=run.words,
-        hint=run.hint,
+        hint=library_text(run.hint),
         hints=run.hints,
         driver=run.driver,
         question=question,
         exercise=exercise,
         stars=tuple(map(MissionStar, texts, run.stars)),
         next=following,
-        next_title=missions.by_name[following].title if following else "",
+        next_title=library_text(missions.by_name[following].title) if following else "",
     )
 
 
@@ -578,12 +584,12 @@ def mission_map(folder: Path | None = None) -> Callable[[], MissionsView]:
         listed = [
             MissionView(
                 name=name,
-                title=mission.title,
+                title=translate(library_text(mission.title)),
                 island=mission.island,
                 minutes=mission.minutes,
                 steps=len(mission.steps),
                 stars=1 + len(mission.stars),
-                idea=mission.idea,
+                idea=translate(library_text(mission.idea)),
                 scene=mission.scene,
             )
             for name, mission in known.by_name.items()

@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu import Scene
+from ai4u_edu.locale import LIBRARY, PSEUDO, Catalogue
+from ai4u_edu.missions.checks import Chooses
+from ai4u_edu.missions.mission import library_missions
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.room import serve_world
@@ -189,3 +192,29 @@ def test_a_world_without_an_editor_has_no_missions() -> None:
         page.part("run")
         assert "no command is called" in page.failed("mission_open", mission="drive-1")["text"]
         assert "mission" not in page.parts
+
+
+def test_a_question_is_asked_and_answered_in_the_language_of_its_page() -> None:
+    name, mission, step, check = next(
+        (name, mission, number, each.check)
+        for name, mission in library_missions().by_name.items()
+        for number, each in enumerate(mission.steps)
+        if isinstance(each.check, Chooses) and mission.scene in Scene.names()
+    )
+    accented = Catalogue(PSEUDO, LIBRARY)
+    header = {"Accept-Language": "en-XA"}
+    with (
+        panel_room(mission.scene) as room,
+        PanelPage(room.url + "ws/panel", additional_headers=header) as page,
+    ):
+        page.done("mission_open", mission=name, step=step)
+        shown = page.part("mission", lambda part: part["mission"] == name)
+        assert shown["say"] == accented.message(mission.steps[step].say)
+        assert shown["question"]["options"] == [accented.message(each) for each in check.options]
+        wrong = next(each for each in check.options if each != check.right)
+        page.done("mission_answer", answer=accented.message(wrong))
+        told = page.part("mission", lambda part: part["words"])["words"]
+        assert accented.message(wrong) in told
+        assert "Try it" not in told
+        page.done("mission_answer", answer=accented.message(check.right))
+        page.part("mission", lambda part: part["is_done"])

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import httpx
 import pytest
 
-from ai4u_edu.locale import PSEUDO, VARIABLE, Catalogue, gettext
+from ai4u_edu.locale import LIBRARY, PSEUDO, VARIABLE, Catalogue, gettext, library_text
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
@@ -76,3 +76,23 @@ def test_two_pages_of_one_world_hear_two_languages() -> None:
     works = gettext("It works right away.")
     assert texts[0].endswith(works)
     assert texts[1].endswith(Catalogue(PSEUDO).translate(works))
+
+
+def test_texts_of_the_library_are_translated() -> None:
+    maze = Scene.load("maze").description
+    accented = Catalogue(PSEUDO, LIBRARY)
+    with (
+        panel_room("maze") as room,
+        PanelPage(room.url + "ws/panel", additional_headers={"Accept-Language": "en-XA"}) as page,
+    ):
+        part = page.part("scene")
+    assert (part["title"], part["goal"]) == (
+        accented.message(maze.title),
+        accented.message(maze.goal),
+    )
+
+
+def test_what_somebody_wrote_is_shown_as_it_is_written() -> None:
+    assert Catalogue("pt_BR").translate(library_text("Find my treasure")) == "Find my treasure"
+    # a word of the page, but no text of the library
+    assert Catalogue("pt_BR").translate(library_text("Open")) == "Open"

@@ -15,6 +15,7 @@ from ai4u_edu.blocks import (
     DiscreteArrowController,
     WASDRBMoveController,
 )
+from ai4u_edu.locale import library_text
 from ai4u_edu.page.messages import Message, MessageReader
 from ai4u_edu.page.server.api import finite
 from ai4u_edu.page.server.bindings import has_stick
@@ -234,8 +235,8 @@ def state_event(picture: Snapshot, agent_id: str, title: str = "") -> StateEvent
         terminated=agent.terminated,
         truncated=agent.truncated,
         fallen=body.fallen,
-        title=title,
-        goal=picture.static_scene.goal,
+        title=library_text(title),
+        goal=library_text(picture.static_scene.goal),
         outcome=end,
         # not before the end, since this event is sent whenever it changes
         seconds=round(picture.episode_time, 1) if end else None,

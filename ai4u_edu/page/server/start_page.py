@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 from starlette.responses import Response
 
+from ai4u_edu.locale import library_text, translate
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_cards import Card, stored_cards
 from ai4u_edu.page.editing.scene_pictures import library_scenes
@@ -106,7 +107,14 @@ class StartPage:
 
 def _library_views() -> list[LibrarySceneView]:
     return [
-        LibrarySceneView.model_validate(each._asdict() | {"picture": picture_address(each.name)})
+        LibrarySceneView.model_validate(
+            each._asdict()
+            | {
+                "title": translate(library_text(each.title)),
+                "goal": translate(library_text(each.goal)),
+                "picture": picture_address(each.name),
+            }
+        )
         for each in library_scenes()
     ]
 

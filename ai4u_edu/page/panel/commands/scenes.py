@@ -6,6 +6,8 @@ from functools import partial
 from typing import Any
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text
 from ai4u_edu.page.editing.scene_cards import Card, stored_cards
 from ai4u_edu.page.editing.scene_pictures import LibraryScene, library_scenes
 from ai4u_edu.page.messages import Name, Number, PageCommand
@@ -54,7 +56,7 @@ async def _open(page: Page, command: OpenScene) -> Answer:
         raise SetupError(f"no scene of the library is called {command.name!r}")
     scene = await page.in_thread(load)
     await page.result(editor.open(scene))
-    return Answer(f"Opened {editor.title}.")
+    return Answer(_("Opened {title}.", title=library_text(editor.title)))
 
 
 class SaveScene(PageCommand, tag="save_scene"):
@@ -105,7 +107,7 @@ async def _load(page: Page, command: LoadText) -> Answer:
     except UnicodeDecodeError:
         raise SetupError(f"{command.name}: expected a text file, YAML") from None
     await page.result(await page.in_thread(lambda: editor.load(text, command.name)))
-    return Answer(f"Opened {editor.title}.")
+    return Answer(_("Opened {title}.", title=library_text(editor.title)))
 
 
 class Restore(PageCommand, tag="restore"):
@@ -115,7 +117,7 @@ class Restore(PageCommand, tag="restore"):
 async def _restore(page: Page, _command: Restore) -> Answer:
     editor = page.context.required_editor()
     await page.result(await page.in_thread(editor.recovery.restore))
-    return Answer(f"Restored {editor.title}.")
+    return Answer(_("Restored {title}.", title=library_text(editor.title)))
 
 
 class Discard(PageCommand, tag="discard"):
@@ -136,8 +138,8 @@ def file_name(scene: Scene) -> str:
 def _card(card: Card | LibraryScene, picture: str, *, is_saved: bool = False) -> dict[str, Any]:
     return {
         "name": card.name,
-        "title": card.title,
-        "goal": card.goal,
+        "title": library_text(card.title),
+        "goal": library_text(card.goal),
         "level": card.level,
         "minutes": card.minutes,
         "stars": card.stars if isinstance(card, LibraryScene) else 0,

@@ -7,6 +7,7 @@ from msgspec import Struct
 from ai4u_edu.base.optional_deps import has
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
+from ai4u_edu.locale import library_text
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -166,7 +167,7 @@ def _episode(entry: ArchiveEntry, *, is_best: bool, is_here: bool) -> KeptEpisod
     episode = entry.episode
     return KeptEpisode(
         number=entry.number,
-        scene=episode.scene.title or episode.scene.name,
+        scene=library_text(episode.scene.title or episode.scene.name),
         is_here=is_here,
         picture=f"api/past/{entry.number}.png?v={episode.seed}-{episode.ticks}",
         driver=entry.source or driver_words(entry.first.driver),
@@ -210,7 +211,7 @@ def _playing(context: PanelContext) -> PlayedEpisode | None:
     scene = frame_cache.episode.scene
     return PlayedEpisode(
         number=player.number,
-        scene=scene.title or scene.name,
+        scene=library_text(scene.title or scene.name),
         is_here=scene.name == _scene_name(context),
         step=player.step,
         steps=max(frame_cache.last, 1),

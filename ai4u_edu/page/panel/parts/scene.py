@@ -7,6 +7,7 @@ from msgspec import UNSET, Struct, UnsetType
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.base.colors import hex_colour
+from ai4u_edu.locale import library_text
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -94,12 +95,12 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> ScenePart:
     undo, redo = (UNSET, UNSET) if editor is None else undo_labels(editor)
     return ScenePart(
         scene="" if description is None else description.name,
-        title="" if texts is None else texts.title or texts.name,
-        goal=static_scene.goal if texts is None else texts.goal,
+        title="" if texts is None else library_text(texts.title or texts.name),
+        goal=library_text(static_scene.goal if texts is None else texts.goal),
         key="" if editor is None else editor.state.task_key,
         can_edit_goal=editor is not None and other is None,
-        controls="" if description is None else description.controls,
-        rewards="" if description is None else description.rewards,
+        controls="" if description is None else library_text(description.controls),
+        rewards="" if description is None else library_text(description.rewards),
         stars=None if editor is None else _stars(editor.state.star_goals),
         legend=_legend(static_scene),
         agents=_agents(context, static_scene),
