@@ -5,6 +5,7 @@
 /** @import { SenseFields } from "./text.js" */
 
 import { ATOM, COMPARISON, PRODUCT, identifier } from "./words.js";
+import { t } from "../shared/text.js";
 
 /** @typedef {{code: string, order: number, functions: string[][]}} Value its code, how tightly it binds, and the functions that it needs */
 /** @typedef {{type: string, message: string, fields: Field[], output: string, python: (fields: SenseFields) => Value, tooltip: string}} Sense */
@@ -25,8 +26,8 @@ import { ATOM, COMPARISON, PRODUCT, identifier } from "./words.js";
 /** Rays that are "ahead": their largest angle to the heading (degrees). */
 const AHEAD_DEG = 20;
 /** @type {Record<string, string>} */
-const SECTORS = { around: "on any side", ahead: "ahead", left: "to the left", right: "to the right" };
-const STATISTICS = { min: "smallest", max: "largest", mean: "mean" };
+const SECTORS = { around: t("on any side"), ahead: t("ahead"), left: t("to the left"), right: t("to the right") };
+const STATISTICS = { min: t("smallest"), max: t("largest"), mean: t("mean") };
 const TOUCHES = new Set(["TouchSensor", "GroupTouchSensor"]);
 /** A sensor whose reading is the same in all decisions. */
 const LEFT_OUT = new Set(["DoneSensor"]);
@@ -91,7 +92,7 @@ function plainBlock({ key, kind, unit }, reading) {
  * @param {string} reading
  */
 function touchBlock({ key }, reading) {
-  return sense(`sense:${key}`, `${key} is touched`, [], "Boolean", () => value(`${reading} > 0`, COMPARISON));
+  return sense(`sense:${key}`, t("{key} is touched", { key }), [], "Boolean", () => value(`${reading} > 0`, COMPARISON));
 }
 
 /**
@@ -112,7 +113,7 @@ function slotBlock({ key, slots }, reading) {
  */
 function statisticBlock({ key, unit }, reading) {
   const options = Object.entries(STATISTICS).map(([name, words]) => [words, name]);
-  const message = `%1 of ${key}${unit && ` (${unit})`}`;
+  const message = t("%1 of {key}", { key: `${key}${unit && ` (${unit})`}` });
   return sense(`many:${key}`, message, [list("STAT", options)], "Number", ({ STAT }) => value(`${reading}.${STAT}()`));
 }
 
@@ -134,17 +135,17 @@ function rayBlocks({ key, rays }, reading) {
     const factor = rays.reach === rays.reach_m ? "" : `${number(rays.reach_m)} * `;
     const near = (/** @type {string} */ side) => `${factor}nearest(${part(side, width - 1)}, ${number(rays.reach)})`;
     const python = (/** @type {SenseFields} */ { SIDE }) => value(near(SIDE), factor ? PRODUCT : ATOM, FUNCTIONS.nearest);
-    made.push(sense(`near:${key}`, "distance %1 (m)", [sides], "Number", python, `How far it is to what is nearest, up to ${rays.reach_m} m.`));
+    made.push(sense(`near:${key}`, t("distance %1 (m)"), [sides], "Number", python, t("How far it is to what is nearest, up to {metres} m.", { metres: rays.reach_m })));
   }
   if (!rays.has_code || !rays.codes.length) return made;
   const sees = (/** @type {SenseFields} */ { GROUP, SIDE }) => value(`sees(${part(SIDE, 0)}, ${codeOf(GROUP)})`, ATOM, FUNCTIONS.sees);
-  made.push(sense(`sees:${key}`, "sees %1 %2", [groups, sides], "Boolean", sees, "True if a ray hits such a thing."));
+  made.push(sense(`sees:${key}`, t("sees %1 %2"), [groups, sides], "Boolean", sees, t("True if a ray hits such a thing.")));
   const rightward = `[${angles.map((angle) => number(-angle || 0)).join(", ")}]`;
   const where = (/** @type {SenseFields} */ { GROUP }) => {
     const [codes, code] = [part("around", 0), codeOf(GROUP)];
     return value(`direction(${codes}, ${code}, ${rightward})`, ATOM, FUNCTIONS.direction);
   };
-  made.push(sense(`angle:${key}`, "direction of %1 (°)", [groups], "Number", where, "Above 0 to the right, below 0 to the left; 0 if it is straight ahead, or not seen."));
+  made.push(sense(`angle:${key}`, t("direction of %1 (°)"), [groups], "Number", where, t("Above 0 to the right, below 0 to the left; 0 if it is straight ahead, or not seen.")));
   return made;
 }
 
@@ -235,7 +236,7 @@ function outputsOf(actuators) {
  */
 function actionBlock({ type, title, low, high, variable }) {
   // of all actuators, a turn above 0 goes to the right
-  const range = title.endsWith("turn") && low < 0 ? `${low} left, ${high} right` : `${low} to ${high}`;
+  const range = title.endsWith("turn") && low < 0 ? t("{low} left, {high} right", { low, high }) : t("{low} to {high}", { low, high });
   return {
     type,
     message: `${title} (${range}) %1`,
@@ -250,7 +251,7 @@ function actionBlock({ type, title, low, high, variable }) {
  * @param {number | null} high
  */
 function rangeWords(low, high) {
-  return low === null || high === null ? "" : `${low} to ${high}`;
+  return low === null || high === null ? "" : t("{low} to {high}", { low, high });
 }
 
 /** @param {number} value */

@@ -1,5 +1,7 @@
 /** The blocks that every agent has: events, control, logic, numbers and memory. */
 
+import { t } from "../shared/text.js";
+
 /**
  * @typedef {object} Field in the form of Blockly
  * @property {string} type
@@ -30,33 +32,33 @@ const variable = { type: "field_variable", name: "VAR", variable: "count" };
  * @type {BlockKind[]}
  */
 export const KINDS = [
-  hat("on_decision", "forever", [], "Again and again, at each decision, what stands below decides what the robot does next."),
-  hat("on_begin", "when an episode begins", [], "Once, before the first decision of each episode."),
-  hat("on_becomes", "as soon as %1", [value("IF", "Boolean")], "Once, at the decision at which the condition becomes true."),
-  statement("if", "control", "if %1 %2", [value("IF", "Boolean"), body("DO")]),
-  statement("if_else", "control", "if %1 %2 else %3", [value("IF", "Boolean"), body("DO"), body("ELSE")]),
-  statement("repeat", "control", "repeat %1 times %2", [{ type: "field_number", name: "TIMES", value: 3, min: 0, max: 1000, precision: 1 }, body("DO")], "All of it in one decision."),
+  hat("on_decision", t("forever"), [], t("Again and again, at each decision, what stands below decides what the robot does next.")),
+  hat("on_begin", t("when an episode begins"), [], t("Once, before the first decision of each episode.")),
+  hat("on_becomes", t("as soon as %1"), [value("IF", "Boolean")], t("Once, at the decision at which the condition becomes true.")),
+  statement("if", "control", t("if %1 %2"), [value("IF", "Boolean"), body("DO")]),
+  statement("if_else", "control", t("if %1 %2 else %3"), [value("IF", "Boolean"), body("DO"), body("ELSE")]),
+  statement("repeat", "control", t("repeat %1 times %2"), [{ type: "field_number", name: "TIMES", value: 3, min: 0, max: 1000, precision: 1 }, body("DO")], t("All of it in one decision.")),
   output("compare", "numbers", "%1 %2 %3", "Boolean", [
     value("A", "Number"),
     list("OP", [["<", "LT"], ["≤", "LTE"], [">", "GT"], ["≥", "GTE"], ["=", "EQ"], ["≠", "NEQ"]]),
     value("B", "Number"),
   ]),
-  output("and_or", "numbers", "%1 %2 %3", "Boolean", [value("A", "Boolean"), list("OP", [["and", "and"], ["or", "or"]]), value("B", "Boolean")]),
-  output("not", "numbers", "not %1", "Boolean", [value("A", "Boolean")]),
-  output("true_false", "numbers", "%1", "Boolean", [list("BOOL", [["true", "TRUE"], ["false", "FALSE"]])]),
+  output("and_or", "numbers", "%1 %2 %3", "Boolean", [value("A", "Boolean"), list("OP", [[t("and"), "and"], [t("or"), "or"]]), value("B", "Boolean")]),
+  output("not", "numbers", t("not %1"), "Boolean", [value("A", "Boolean")]),
+  output("true_false", "numbers", "%1", "Boolean", [list("BOOL", [[t("true"), "TRUE"], [t("false"), "FALSE"]])]),
   output("number", "numbers", "%1", "Number", [{ type: "field_number", name: "NUM", value: 0 }]),
   output("arithmetic", "numbers", "%1 %2 %3", "Number", [
     value("A", "Number"),
     list("OP", [["+", "ADD"], ["−", "MINUS"], ["×", "MULTIPLY"], ["÷", "DIVIDE"]]),
     value("B", "Number"),
   ]),
-  output("of_two", "numbers", "%1 of %2 and %3", "Number", [list("OP", [["smaller", "min"], ["larger", "max"]]), value("A", "Number"), value("B", "Number")]),
-  output("absolute", "numbers", "size of %1", "Number", [value("A", "Number")], "Without the sign: 3 for -3."),
-  output("random", "numbers", "any number from %1 to %2", "Number", [value("A", "Number"), value("B", "Number")]),
+  output("of_two", "numbers", t("%1 of %2 and %3"), "Number", [list("OP", [[t("smaller"), "min"], [t("larger"), "max"]]), value("A", "Number"), value("B", "Number")]),
+  output("absolute", "numbers", t("size of %1"), "Number", [value("A", "Number")], t("Without the sign: 3 for -3.")),
+  output("random", "numbers", t("any number from %1 to %2"), "Number", [value("A", "Number"), value("B", "Number")]),
   output("variables_get", "memory", "%1", null, [variable]),
-  statement("variables_set", "memory", "set %1 to %2", [variable, value("VALUE", null)], "It stays until the episode ends."),
-  statement("math_change", "memory", "change %1 by %2", [variable, value("DELTA", "Number")]),
-  statement("print", "memory", "show %1 %2", [{ type: "field_input", name: "TEXT", text: "value" }, value("VALUE", null)], "Writes it into Output, at each decision."),
+  statement("variables_set", "memory", t("set %1 to %2"), [variable, value("VALUE", null)], t("It stays until the episode ends.")),
+  statement("math_change", "memory", t("change %1 by %2"), [variable, value("DELTA", "Number")]),
+  statement("print", "memory", t("show %1 %2"), [{ type: "field_input", name: "TEXT", text: t("value") }, value("VALUE", null)], t("Writes it into Output, at each decision.")),
 ];
 
 const ORDINARY = new Set(KINDS.map(({ type }) => type));

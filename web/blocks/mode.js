@@ -11,12 +11,11 @@ import { joinProgram, splitProgram } from "./text.js";
 import { button, element, setText } from "../shared/dom.js";
 import { segments } from "../panel/widgets/parts.js";
 import { retried } from "../shared/retry.js";
+import { t } from "../shared/text.js";
 
-const FAILED = "The blocks could not be loaded. Is the world still running? Reload the page.";
-const DAMAGED = "The blocks of this program are damaged. This is the Python that came with them.";
-const HELP =
-  "T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. " +
-  "Shift+Alt+A turns on more words for a screen reader. Tab goes on.";
+const FAILED = t("The blocks could not be loaded. Is the world still running? Reload the page.");
+const DAMAGED = t("The blocks of this program are damaged. This is the Python that came with them.");
+const HELP = t("T opens the blocks to choose from; arrow keys go to a block, Enter takes or changes it, M moves it, and Delete removes it. Shift+Alt+A turns on more words for a screen reader. Tab goes on.");
 
 /** @typedef {typeof import("./agent.js") & typeof import("./python.js") & typeof import("./workspace.js")} Modules */
 
@@ -55,9 +54,9 @@ export class BlocksMode {
    * @type {string[]}
    */
   #blockOfLine = [];
-  #ways = segments("Write the program in", [
-    { value: "python", text: "Python", title: "The Python becomes yours to change; the blocks are kept" },
-    { value: "blocks", text: "Blocks", title: "Put the program together from blocks" },
+  #ways = segments(t("Write the program in"), [
+    { value: "python", text: "Python", title: t("The Python becomes yours to change; the blocks are kept") },
+    { value: "blocks", text: t("Blocks"), title: t("Put the program together from blocks") },
   ], (way) => (way === "blocks" ? this.open() : this.#toPython()));
   #words = element("p", { className: "ai4u-soft", role: "status" });
   #help = element("p", { className: "ai4u-soft ai4u-blocks-keys", id: freeId(), textContent: HELP });
@@ -164,7 +163,7 @@ export class BlocksMode {
     const blocks = this.#blocks ?? modules.FIRST_BLOCKS;
     const { text } = modules.pythonOf(blocks, this.#agent);
     this.#tab.replace(joinProgram(text, blocks, true));
-    this.#panel.notice("Your Python is kept under Earlier runs.");
+    this.#panel.notice(t("Your Python is kept under Earlier runs."));
     await this.#shown;
     this.#workspace?.focus();
   }
@@ -217,7 +216,7 @@ export class BlocksMode {
   /** @param {Modules} modules */
   #makeWorkspace(modules) {
     const made = new modules.BlocksWorkspace(this.#frame, {
-      label: "Program of blocks",
+      label: t("Program of blocks"),
       agent: this.#agent,
       ask: (question, start) => this.#ask(question, start),
     });
@@ -238,7 +237,7 @@ export class BlocksMode {
 
   async #load() {
     if (this.#loaded !== null) return this.#loaded;
-    this.#say("Loading the blocks …");
+    this.#say(t("Loading the blocks …"));
     try {
       const names = ["agent", "python", "workspace"];
       const modules = await retried(() => Promise.all(names.map((name) => import(`./${name}.js`))));
@@ -262,11 +261,11 @@ export class BlocksMode {
     return new Promise((resolve) => {
       const input = element("input", { type: "text", value: start, maxLength: 40, id: freeId() });
       const label = element("label", { htmlFor: input.id, textContent: question });
-      const form = element("form", { method: "dialog", className: "ai4u-blocks-name" }, label, input, button("OK", () => form.requestSubmit(), { kind: "main" }));
+      const form = element("form", { method: "dialog", className: "ai4u-blocks-name" }, label, input, button(t("OK"), () => form.requestSubmit(), { kind: "main" }));
       /** @type {string | null} */
       let answer = null;
       form.addEventListener("submit", () => (answer = input.value.trim() || null));
-      const { dialog } = this.#panel.dialog("Memory", form);
+      const { dialog } = this.#panel.dialog(t("Memory"), form);
       dialog.addEventListener("close", () => resolve(answer));
       input.select();
     });

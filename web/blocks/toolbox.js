@@ -4,6 +4,7 @@
 /** @import { BlockKind } from "./kinds.js" */
 
 import { KINDS } from "./kinds.js";
+import { t } from "../shared/text.js";
 
 /** @typedef {{getId: () => string, getName: () => string}} Variable of Blockly */
 /** @typedef {Record<string, {shadow: {type: string, fields: {NUM: number}}}>} Inputs */
@@ -44,7 +45,7 @@ export function definitions(agent) {
     nextStatement: null,
     inputsInline: true,
     style: "actions",
-    tooltip: "Counts for this decision only; without it, the robot rests.",
+    tooltip: t("Counts for this decision only; without it, the robot rests."),
   }));
   return [...KINDS, ...senses, ...actions, ...restOf(agent), ...touchOf(agent)];
 }
@@ -58,12 +59,12 @@ export function toolbox(agent) {
   const actions = agent.actions.map(({ type, start }) => block(type, { VALUE: shadow(start) }));
   const touches = touchOf(agent);
   const contents = [
-    category("Events", "events", [...touches.map(({ type }) => block(type)), block("on_becomes"), block("on_begin")]),
-    category("Actions", "actions", [...actions, ...rests.map(({ type }) => block(type))]),
-    category("Senses", "senses", agent.senses.map(({ type }) => block(type))),
-    category("Control", "control", ofStyle("control")),
-    category("Numbers", "numbers", ofStyle("numbers")),
-    { kind: "category", name: "Memory", categorystyle: "memory", custom: "AI4U_MEMORY" },
+    category(t("Events"), "events", [...touches.map(({ type }) => block(type)), block("on_becomes"), block("on_begin")]),
+    category(t("Actions"), "actions", [...actions, ...rests.map(({ type }) => block(type))]),
+    category(t("Senses"), "senses", agent.senses.map(({ type }) => block(type))),
+    category(t("Control"), "control", ofStyle("control")),
+    category(t("Numbers"), "numbers", ofStyle("numbers")),
+    { kind: "category", name: t("Memory"), categorystyle: "memory", custom: "AI4U_MEMORY" },
   ];
   return { kind: "categoryToolbox", contents };
 }
@@ -73,7 +74,7 @@ export function toolbox(agent) {
  * @param {{getVariableMap: () => {getAllVariables: () => Variable[]}}} workspace of Blockly
  */
 export function memoryBlocks(workspace) {
-  const button = { kind: "button", text: "New variable", callbackkey: "AI4U_NEW_VARIABLE" };
+  const button = { kind: "button", text: t("New variable"), callbackkey: "AI4U_NEW_VARIABLE" };
   const print = block("print", { VALUE: shadow(0) });
   const variables = workspace.getVariableMap().getAllVariables();
   if (!variables.length) return [button, print];
@@ -115,8 +116,8 @@ function block(type, inputs = {}) {
 function restOf({ outputs }) {
   const isAny = outputs.some(({ parts }) => parts.some(({ type, isChoice }) => type && !isChoice));
   if (!isAny) return [];
-  const tooltip = "Takes back what was set above it.";
-  return [{ type: "rest", message0: "stand still", previousStatement: null, nextStatement: null, style: "actions", tooltip }];
+  const tooltip = t("Takes back what was set above it.");
+  return [{ type: "rest", message0: t("stand still"), previousStatement: null, nextStatement: null, style: "actions", tooltip }];
 }
 
 /**
@@ -127,6 +128,6 @@ function touchOf({ touches }) {
   if (!touches.length) return [];
   const options = touches.map(({ key }) => [key, key]);
   const args0 = [{ type: "field_dropdown", name: "KEY", options }];
-  const tooltip = "Once, at the decision at which the touch begins.";
-  return [{ type: "on_touch", message0: "as soon as %1 is touched", args0, nextStatement: null, style: "events", tooltip }];
+  const tooltip = t("Once, at the decision at which the touch begins.");
+  return [{ type: "on_touch", message0: t("as soon as %1 is touched"), args0, nextStatement: null, style: "events", tooltip }];
 }

@@ -6,6 +6,7 @@
 import { blocksTheme } from "./theme.js";
 import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
 import { setAttributes } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { Blockly } from "../vendor/blockly.js?v=e631db10";
 
 /** Place of a block that nobody has moved (pixels of the workspace). */
@@ -219,7 +220,8 @@ function strangeBlock(type, blocks) {
   const inputs = isAction && type !== "rest" ? [{ type: "input_value", name: "VALUE" }] : [];
   /** @type {Record<string, null>} */
   const shape = isHat ? { nextStatement: null } : isAction ? { previousStatement: null, nextStatement: null } : { output: null };
-  const message0 = `(not of this robot) ${type.replace(/^\w+:/, "").replaceAll("%", "%%")}${marks}${inputs.length ? ` %${words.length + 1}` : ""}`;
+  const name = t("(not of this robot) {name}", { name: type.replace(/^\w+:/, "").replaceAll("%", "%%") });
+  const message0 = `${name}${marks}${inputs.length ? ` %${words.length + 1}` : ""}`;
   return { type, message0, args0: [...words, ...inputs], ...shape, style: isHat ? "events" : isAction ? "actions" : "senses" };
 }
 

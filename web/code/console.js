@@ -1,6 +1,7 @@
 /** Output of a program, with the number of the decision; the oldest lines go. */
 
 import { element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { section } from "../panel/widgets/parts.js";
 
 const MAX_LINES = 200;
@@ -11,11 +12,11 @@ const MAX_LINE_CHARS = 2000;
 export class CodeConsole {
   #lines = element("ol");
   /** A role of its own would take the list's, and with it the meaning of its items. */
-  #log = element("div", { className: "ai4u-code-output", role: "log", ariaLabel: "Output", tabIndex: 0 }, this.#lines);
-  #none = element("p", { className: "ai4u-hint-text", textContent: "What your program prints appears here." });
+  #log = element("div", { className: "ai4u-code-output", role: "log", ariaLabel: t("Output"), tabIndex: 0 }, this.#lines);
+  #none = element("p", { className: "ai4u-hint-text", textContent: t("What your program prints appears here.") });
   /** @type {Line[]} */
   #waiting = [];
-  element = section("code-output", "Output", {}, this.#none, this.#log);
+  element = section("code-output", t("Output"), {}, this.#none, this.#log);
 
   constructor() {
     this.clear();

@@ -3,15 +3,16 @@
 /** @import { Reading, Value } from "../types/remote.js" */
 
 import { limits } from "../shared/limits.js";
+import { t } from "../shared/text.js";
 
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
 const WASM = "../vendor/pyodide/pyodide.asm.wasm?v=cc36e3ca";
 const LIBRARY = "../vendor/pyodide/python_stdlib.zip?v=aabcb2cf";
 const PROGRAM = "../../program.zip";
-const ENDLESS = "The program did not come back from this line, so it was ended. Is something in it endless or huge?";
-const NOT_LOADED = "The program is not running. Press Run.";
-const UNAVAILABLE = "Python could not be loaded. Is the world still running? Reload the page.";
+const ENDLESS = t("The program did not come back from this line, so it was ended. Is something in it endless or huge?");
+const NOT_LOADED = t("The program is not running. Press Run.");
+const UNAVAILABLE = t("Python could not be loaded. Is the world still running? Reload the page.");
 
 /** Numbers that JSON does not have, as host.py reads them. */
 const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan"]]);

@@ -4,6 +4,7 @@
 /** @import { Block, Program } from "../blocks/text.js" */
 
 import { section, tile, tiles } from "../panel/widgets/parts.js";
+import { t } from "../shared/text.js";
 
 /**
  * @typedef {object} Example
@@ -25,8 +26,8 @@ const SIDE = { id: "ai4u-side", name: "side" };
 export const EXAMPLES = [
   {
     name: "square",
-    title: "Drive a square",
-    text: "It counts its decisions: some to drive, some to turn, and again.",
+    title: t("Drive a square"),
+    text: t("It counts its decisions: some to drive, some to turn, and again."),
     scene: "forage",
     sceneTitle: "Forage",
     way: "M30 48V14h34v34H38",
@@ -43,8 +44,8 @@ export const EXAMPLES = [
   },
   {
     name: "follow",
-    title: "Follow the line",
-    text: "If the line is on the left, the right wheel drives faster; on the right, the left one.",
+    title: t("Follow the line"),
+    text: t("If the line is on the left, the right wheel drives faster; on the right, the left one."),
     scene: "line_follow",
     sceneTitle: "Line follower",
     way: "M12 44c16 0 18-28 36-28",
@@ -62,8 +63,8 @@ export const EXAMPLES = [
   },
   {
     name: "avoid",
-    title: "Avoid walls",
-    text: "It drives while there is room ahead. At a wall, it turns.",
+    title: t("Avoid walls"),
+    text: t("It drives while there is room ahead. At a wall, it turns."),
     scene: "maze",
     sceneTitle: "Maze",
     way: "M16 46h40V18h22",
@@ -72,8 +73,8 @@ export const EXAMPLES = [
   },
   {
     name: "wall",
-    title: "Follow a wall",
-    text: "It keeps 0.8 m away from the wall on its right, like a hand on the wall.",
+    title: t("Follow a wall"),
+    text: t("It keeps 0.8 m away from the wall on its right, like a hand on the wall."),
     scene: "maze",
     sceneTitle: "Maze",
     way: "M14 16h46v30h24",
@@ -92,8 +93,8 @@ export const EXAMPLES = [
   },
   {
     name: "memory",
-    title: "Remember a side",
-    text: "At each wall it turns to the other side than the time before: it remembers the side in a variable.",
+    title: t("Remember a side"),
+    text: t("At each wall it turns to the other side than the time before: it remembers the side in a variable."),
     scene: "maze",
     sceneTitle: "Maze",
     way: "M12 48h22V30h22V12h26",
@@ -115,7 +116,7 @@ export const EXAMPLES = [
 /** The examples to choose from, with pictures. */
 export class ExampleList {
   #tiles = tiles();
-  element = section("code-examples", "Examples", {}, this.#tiles);
+  element = section("code-examples", t("Examples"), {}, this.#tiles);
   #onChoose;
   #shown = "";
 
@@ -142,8 +143,8 @@ export class ExampleList {
    */
   #tile(example, isHere, canOpen) {
     const { title, text, sceneTitle } = example;
-    const note = !isHere && canOpen ? `Opens ${sceneTitle}` : "";
-    const reason = !isHere && !canOpen ? `Only in the scene ${sceneTitle}` : "";
+    const note = !isHere && canOpen ? t("Opens {scene}", { scene: sceneTitle }) : "";
+    const reason = !isHere && !canOpen ? t("Only in the scene {scene}", { scene: sceneTitle }) : "";
     const made = tile({ title, text, note, reason }, () => this.#onChoose(example));
     made.prepend(picture(example));
     return made;

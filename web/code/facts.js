@@ -4,6 +4,7 @@
 
 import { element, keyed, setAttributes, setText } from "../shared/dom.js";
 import { number } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 import { section } from "../panel/widgets/parts.js";
 
 /** @typedef {{code: string, words: string}} Item */
@@ -21,11 +22,11 @@ export class NameList {
   #onChoose;
   element = section(
     "code-names",
-    "Senses and actions",
+    t("Senses and actions"),
     {},
-    element("h4", { textContent: "It senses" }),
+    element("h4", { textContent: t("It senses") }),
     this.#readings,
-    element("h4", { textContent: "It can do" }),
+    element("h4", { textContent: t("It can do") }),
     this.#outputs,
   );
 
@@ -46,7 +47,7 @@ export class NameList {
    */
   #fill(list, items) {
     const make = (/** @type {Item} */ { code }) => {
-      const insert = element("button", { type: "button", title: `Insert ${code}` }, element("code", { textContent: code }));
+      const insert = element("button", { type: "button", title: t("Insert {code}", { code }) }, element("code", { textContent: code }));
       insert.addEventListener("click", () => this.#onChoose(code));
       return element("li", {}, insert, element("span"));
     };
@@ -62,7 +63,7 @@ export class VariableList {
    * @type {Map<string, number[]>}
    */
   #numbers = new Map();
-  element = section("code-variables", "Variables", {}, this.#list);
+  element = section("code-variables", t("Variables"), {}, this.#list);
 
   constructor() {
     this.update({});
@@ -116,6 +117,7 @@ function drawCurve(curve, name, numbers) {
   const y = (/** @type {number} */ value) => (high === low ? CURVE_HEIGHT / 2 : (CURVE_HEIGHT * (high - value)) / (high - low));
   const points = numbers.map((value, index) => `${((CURVE_WIDTH * index) / (numbers.length - 1)).toFixed(1)},${y(value).toFixed(1)}`);
   setAttributes(curve.firstElementChild, { points: points.join(" ") });
-  const label = `${name}: from ${number(low)} to ${number(high)} in the latest ${numbers.length} decisions`;
+  const words = { name, low: number(low), high: number(high), count: numbers.length };
+  const label = t("{name}: from {low} to {high} in the latest {count} decisions", words);
   setAttributes(curve, { "aria-label": label });
 }

@@ -5,6 +5,7 @@
 /** @import { Told } from "./timeline.js" */
 
 import { button, element, setText } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 export class CodeMoment {
   #panel;
@@ -20,9 +21,9 @@ export class CodeMoment {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    this.#back = button("", () => this.#step(-1), { icon: "back", label: "Decision before" });
-    this.#forward = button("", () => this.#step(1), { icon: "forward", label: "Next decision" });
-    this.#live = button("Back to live", () => panel.send("back_to_live"), { icon: "live" });
+    this.#back = button("", () => this.#step(-1), { icon: "back", label: t("Decision before") });
+    this.#forward = button("", () => this.#step(1), { icon: "forward", label: t("Next decision") });
+    this.#live = button(t("Back to live"), () => panel.send("back_to_live"), { icon: "live" });
     const tools = element("div", { className: "ai4u-tools" }, this.#back, this.#forward, this.#live);
     this.element = element("div", { className: "ai4u-code-moment", hidden: true }, this.#text, this.#printed, tools);
   }
@@ -57,9 +58,9 @@ export class CodeMoment {
  * @param {boolean} isSame
  */
 function momentWords({ step, steps }, told, isSame) {
-  if (step >= steps) return `The end of the episode, after ${steps} decisions.`;
-  const where = `Decision ${step + 1} of ${steps}`;
-  if (told === null) return `${where}: your program did not make it, or it was too long ago.`;
-  if (!isSame) return `${where}. Your program has changed since, so its lines are not marked.`;
-  return `${where}: the lines that ran are marked.`;
+  if (step >= steps) return t("The end of the episode, after {steps} decisions.", { steps });
+  const where = { number: step + 1, all: steps };
+  if (told === null) return t("Decision {number} of {all}: your program did not make it, or it was too long ago.", where);
+  if (!isSame) return t("Decision {number} of {all}. Your program has changed since, so its lines are not marked.", where);
+  return t("Decision {number} of {all}: the lines that ran are marked.", where);
 }

@@ -10,6 +10,7 @@ import { downloadText, FIRST_NAME, KeptPrograms, MAX_NAME_CHARS, MAX_PROGRAMS } 
 import { ask } from "../shared/dialog.js";
 import { field, showForm } from "../shared/form_dialog.js";
 import { button, element, fileButton } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { section } from "../panel/widgets/parts.js";
 import { copyLink } from "../scenes/share.js";
 import { SharedOffer, sharedFor, sharedPrograms } from "../scenes/shared_program.js";
@@ -38,14 +39,14 @@ export class ProgramSection {
   #name = null;
   /** The program that a person begins with. */
   #first = "";
-  #names = element("select", { ariaLabel: "Program" });
+  #names = element("select", { ariaLabel: t("Program") });
   /** The names of the programs, and buttons to make, rename, copy and delete one. */
   bar = element("div", { className: "ai4u-code-programs" }, this.#names);
   #runs = element("select", { id: freeId() });
   /** A program that came with a link. */
   shared;
   /** Button that takes the teacher's program; hidden if there is none. */
-  offer = button("Take the program from your teacher", () => this.#takeRun("teacher"), { icon: "download" });
+  offer = button(t("Take the program from your teacher"), () => this.#takeRun("teacher"), { icon: "download" });
 
   /**
    * @param {Panel} panel
@@ -60,21 +61,21 @@ export class ProgramSection {
     this.#runs.addEventListener("change", () => this.#takeRun(this.#runs.value));
     this.#names.addEventListener("change", () => this.#choose(this.#names.value));
     this.bar.append(
-      button("", () => this.add(FIRST_NAME, null), { icon: "add", label: "New program", kind: "quiet" }),
-      button("", () => this.#rename(), { icon: "text", label: "Rename this program", kind: "quiet" }),
-      button("", () => this.add(this.#kept.name, this.#tab.text()), { icon: "copy", label: "Copy this program", kind: "quiet" }),
-      button("", () => this.#remove(), { icon: "trash", label: "Delete this program", kind: "quiet" }),
+      button("", () => this.add(FIRST_NAME, null), { icon: "add", label: t("New program"), kind: "quiet" }),
+      button("", () => this.#rename(), { icon: "text", label: t("Rename this program"), kind: "quiet" }),
+      button("", () => this.add(this.#kept.name, this.#tab.text()), { icon: "copy", label: t("Copy this program"), kind: "quiet" }),
+      button("", () => this.#remove(), { icon: "trash", label: t("Delete this program"), kind: "quiet" }),
     );
-    const label = element("label", { htmlFor: this.#runs.id, textContent: "Earlier runs" });
+    const label = element("label", { htmlFor: this.#runs.id, textContent: t("Earlier runs") });
     const tools = element(
       "div",
       { className: "ai4u-code-tools" },
       element("div", { className: "ai4u-inline ai4u-code-runs" }, label, this.#runs),
-      button("Download .py", () => downloadText(`${this.#fileName}.py`, tab.text()), { icon: "download" }),
-      button("Copy link", () => this.#copyLink(), { icon: "copy", title: "Copy a link to this scene with your program" }),
-      fileButton("Open .py", ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
+      button(t("Download .py"), () => downloadText(`${this.#fileName}.py`, tab.text()), { icon: "download" }),
+      button(t("Copy link"), () => this.#copyLink(), { icon: "copy", title: t("Copy a link to this scene with your program") }),
+      fileButton(t("Open .py"), ".py,text/x-python,text/plain", (file) => this.#openFile(file)),
     );
-    this.element = section("code-program", "Your program", {}, tools, this.#class.element);
+    this.element = section("code-program", t("Your program"), {}, tools, this.#class.element);
     this.shared = new SharedOffer((source) => this.replace(source));
     handouts.addEventListener("change", () => this.#onHandout());
     sharedPrograms.addEventListener("change", () => this.#draw());
@@ -112,7 +113,7 @@ export class ProgramSection {
    */
   add(name, source) {
     if (this.#kept.names.length >= MAX_PROGRAMS) {
-      this.#panel.notice(`This scene has ${MAX_PROGRAMS} programs already. Delete one first.`, "error");
+      this.#panel.notice(t("This scene has {count} programs already. Delete one first.", { count: MAX_PROGRAMS }), "error");
       return false;
     }
     this.#kept.add(this.#kept.freeName(name), source);
@@ -127,11 +128,11 @@ export class ProgramSection {
   }
 
   async #rename() {
-    const input = element("input", { type: "text", value: this.#kept.name, maxLength: MAX_NAME_CHARS, required: true });
-    const answer = showForm({ title: "Rename the program", content: [field("Name", input)], yes: "Rename" }, () => {
+    const input = element("input", { type: "text", value: shownName(this.#kept.name), maxLength: MAX_NAME_CHARS, required: true });
+    const answer = showForm({ title: t("Rename the program"), content: [field(t("Name"), input)], yes: t("Rename") }, () => {
       const name = input.value.trim();
-      if (!name) throw new Error("Expected a name, got nothing. Write one or two words, such as Wall follower.");
-      if (name === this.#kept.name) return;
+      if (!name) throw new Error(t("Expected a name, got nothing. Write one or two words, such as Wall follower."));
+      if (name === shownName(this.#kept.name)) return;
       this.#class.removed(this.#scene, this.#place);
       this.#kept.rename(this.#kept.freeName(name));
       this.#class.open(this.#scene, this.#place);
@@ -142,7 +143,7 @@ export class ProgramSection {
 
   async #remove() {
     const { name } = this.#kept;
-    if (!(await ask({ title: `Delete “${name}”?`, text: "Its text stays under Earlier runs.", yes: "Delete" }))) return;
+    if (!(await ask({ title: t("Delete “{name}”?", { name: shownName(name) }), text: t("Its text stays under Earlier runs."), yes: t("Delete") }))) return;
     this.#kept.addRun(this.#tab.text());
     this.#class.removed(this.#scene, this.#place);
     this.#kept.remove();
@@ -204,7 +205,7 @@ export class ProgramSection {
   /** @param {File} file */
   async #openFile(file) {
     if (file.size > MAX_PROGRAM_BYTES) {
-      this.#panel.notice(`${file.name}: expected a program (.py), got ${file.size} bytes.`, "error");
+      this.#panel.notice(t("{name}: expected a program (.py), got {bytes} bytes.", { name: file.name, bytes: file.size }), "error");
       return;
     }
     this.replace((await file.text()).replaceAll("\r\n", "\n"));
@@ -269,18 +270,18 @@ export class ProgramSection {
 
   #draw() {
     const { name: present, names } = this.#kept;
-    this.#names.replaceChildren(...names.map((name) => element("option", { value: name, textContent: name })));
+    this.#names.replaceChildren(...names.map((name) => element("option", { value: name, textContent: shownName(name) })));
     this.#names.value = present;
     const shared = sharedFor(this.#scene, this.#agent);
     this.shared.update(shared === this.#tab.text() ? null : shared);
     const runs = this.#kept.runs.map(({ at, source, name = FIRST_NAME }) => {
       const lines = splitProgram(source).python.trim().split("\n").length;
-      return element("option", { value: at, textContent: `${name} · ${when(at)} · ${lines} lines` });
+      return element("option", { value: at, textContent: t("{name} · {time} · {lines} lines", { name: shownName(name), time: when(at), lines }) });
     });
-    const now = element("option", { value: NOW, textContent: runs.length ? "Choose one" : "None yet" });
-    const first = element("option", { value: "start", textContent: "The first program" });
+    const now = element("option", { value: NOW, textContent: runs.length ? t("Choose one") : t("None yet") });
+    const first = element("option", { value: "start", textContent: t("The first program") });
     const handout = handoutFor(this.#scene);
-    const teachers = handout === null ? [] : [element("option", { value: "teacher", textContent: "From your teacher" })];
+    const teachers = handout === null ? [] : [element("option", { value: "teacher", textContent: t("From your teacher") })];
     this.#runs.replaceChildren(now, ...runs, ...teachers, first);
     this.#runs.value = NOW;
     const isKnown = this.#tab.text() === handout || this.#kept.runs.some(({ source }) => source === handout);
@@ -293,4 +294,13 @@ function when(at) {
   const date = new Date(at);
   const isToday = date.toDateString() === new Date().toDateString();
   return isToday ? date.toLocaleTimeString() : date.toLocaleString();
+}
+
+/**
+ * Return a program's name as it is shown: the ones that nobody chose are kept in English.
+ * @param {string} name
+ */
+function shownName(name) {
+  const number = /^Program (\d+)$/.exec(name)?.[1];
+  return number ? t("Program {number}", { number }) : name;
 }

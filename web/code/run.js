@@ -6,6 +6,8 @@
 /** @import { Answer, CodeEngine, Facts, TracedMoment } from "./engine.js" */
 /** @import { Told } from "./timeline.js" */
 
+import { t } from "../shared/text.js";
+
 /** @typedef {Told & {episode: number, number: number, source: string}} Decision */
 /** @typedef {Decision & {percept: Record<string, Value>, action: Record<string, number[]> | null}} RunDecision */
 /**
@@ -21,8 +23,7 @@
 
 /** Interval at which a world that waits between two steps is asked to wait longer (ms). */
 const WAIT_MS = 400;
-const NO_STEPS =
-  "Step would make the other robots of this world wait, too. Whoever runs the world may allow it (ai4u-edu play --lockstep); Run works anyway.";
+const NO_STEPS = t("Step would make the other robots of this world wait, too. Whoever runs the world may allow it (ai4u-edu play --lockstep); Run works anyway.");
 /** @type {(isStep: boolean) => void} */
 const NOBODY_WAITS = () => {};
 /** Thrown where a run goes on after it was stopped. */

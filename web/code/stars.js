@@ -8,22 +8,23 @@
 import { syncStars } from "../classroom/student/stars.js";
 import { averageDecisions, STARTS } from "./test.js";
 import { element, setAttributes, setText } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { section } from "../panel/widgets/parts.js";
 import { earn, starRow, stars, starsOf } from "../scenes/stars.js";
 
 const NOTICES = [
-  "A star: your program has reached the goal.",
-  `Two stars: your program reaches the goal from ${STARTS} of ${STARTS} new starts.`,
-  `Three stars: from ${STARTS} of ${STARTS} new starts, and in few decisions.`,
+  t("A star: your program has reached the goal."),
+  t("Two stars: your program reaches the goal from {starts} of {starts} new starts.", { starts: STARTS }),
+  t("Three stars: from {starts} of {starts} new starts, and in few decisions.", { starts: STARTS }),
 ];
-const CHANGED = "Stars count only in the original scene, for its first robot.";
+const CHANGED = t("Stars count only in the original scene, for its first robot.");
 
 export class CodeStars {
   /** The stars in a row, for the head of the tab. */
   row = starRow();
   #list = element("ol", { className: "ai4u-code-stars" });
   #hint = element("p", { className: "ai4u-hint-text", textContent: CHANGED });
-  element = section("code-stars", "Stars", {}, this.#list, this.#hint);
+  element = section("code-stars", t("Stars"), {}, this.#list, this.#hint);
   #panel;
   /** True if the person has driven in the program's place since the run began. */
   #isHelped = false;
@@ -71,7 +72,7 @@ export class CodeStars {
       const { firstElementChild: mark, lastElementChild: span } = this.#list.children[index];
       const isEarned = index < earned;
       setText(mark, isEarned ? "★" : "☆");
-      setAttributes(mark, { "aria-label": isEarned ? "earned" : "not yet", "data-earned": isEarned });
+      setAttributes(mark, { "aria-label": isEarned ? t("earned") : t("not yet"), "data-earned": isEarned });
       setText(span, text);
     });
   }
@@ -93,9 +94,9 @@ export class CodeStars {
  */
 export function goalWords({ count, few_decisions: few }) {
   const all = [
-    "Reach the goal once, with Run.",
-    `Press Test: reach the goal from ${STARTS} new starts.`,
-    `... and do it fast: ${few} decisions or fewer on average.`,
+    t("Reach the goal once, with Run."),
+    t("Press Test: reach the goal from {starts} new starts.", { starts: STARTS }),
+    t("... and do it fast: {few} decisions or fewer on average.", { few }),
   ];
   return all.slice(0, count);
 }

@@ -3,6 +3,7 @@
 /** @import { ActionRange, ProgramActuator, SensorReading } from "../generated/messages.js" */
 
 import { identifier } from "../blocks/words.js";
+import { t, tn } from "../shared/text.js";
 
 /**
  * @typedef {object} Names words in a line, values to begin with
@@ -60,8 +61,8 @@ export function startProgram({ outputs }) {
  * @param {boolean} isChoice
  */
 function componentWords({ name, low, high, has_effect: hasEffect }, isChoice) {
-  const words = name ? name.replaceAll("_", " ") : isChoice ? "choice" : "number";
-  return hasEffect ? `${words} ${low} to ${high}` : "always 0";
+  const words = name ? name.replaceAll("_", " ") : isChoice ? t("choice") : t("number");
+  return hasEffect ? t("{name} {low} to {high}", { name: words, low, high }) : t("always 0");
 }
 
 /**
@@ -79,8 +80,9 @@ function readingWords({ values, shape = [], stack = 1, text, help, title }) {
   if (isNamed) return values.map(({ name }) => name.replaceAll("_", " ")).join(", ");
   if (text !== undefined && shape.length === 0) return lowered(help || title);
   const size = shape.join(" x ") || "1";
-  const before = stack > 1 ? `, now and ${stack - 1} ${stack === 2 ? "time" : "times"} before` : "";
-  return `${lowered(title)}, ${size} ${size === "1" ? "number" : "numbers"}${before}`;
+  const numbers = size === "1" ? t("1 number") : t("{size} numbers", { size });
+  const what = `${lowered(title)}, ${numbers}`;
+  return stack > 1 ? tn("{what}, now and {n} time before", "{what}, now and {n} times before", stack - 1, { what }) : what;
 }
 
 /** @param {string} words */

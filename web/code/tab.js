@@ -27,9 +27,10 @@ import { TestTable, testWords } from "./test_table.js";
 import { runWords } from "./words.js";
 import { button, element, setAttributes, setText } from "../shared/dom.js";
 import { retried } from "../shared/retry.js";
+import { t } from "../shared/text.js";
 import { ProgramReports } from "../classroom/student/program_reports.js";
 
-const FROZEN = "The browser stopped this page in the background, and your program with it. Press Run to go on.";
+const FROZEN = t("The browser stopped this page in the background, and your program with it. Press Run to go on.");
 const COMMAND_KEY = /Mac|iP(hone|ad)/.test(navigator.platform) ? "Cmd" : "Ctrl";
 
 export class CodeTab {
@@ -90,19 +91,19 @@ export class CodeTab {
   /** True if the person drove at the latest event about it. */
   #wasPerson = false;
 
-  #start = button("Run", () => this.#go("run"), { icon: "play", kind: "main", title: `Run (${COMMAND_KEY}+Enter)` });
-  #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: "Go on from here" });
-  #goOn = button("Go on", () => this.#run.goOn(false), { icon: "play", kind: "main", title: `Go on to the next breakpoint (${COMMAND_KEY}+Enter)` });
-  #nextLine = button("Next line", () => this.#run.goOn(true), { icon: "forward", title: `Run this line, and wait again (${COMMAND_KEY}+Shift+Enter)` });
+  #start = button(t("Run"), () => this.#go("run"), { icon: "play", kind: "main", title: t("Run ({key}+Enter)", { key: COMMAND_KEY }) });
+  #here = button("", () => this.#go("run", { isHere: true }), { icon: "proceed", label: t("Go on from here") });
+  #goOn = button(t("Go on"), () => this.#run.goOn(false), { icon: "play", kind: "main", title: t("Go on to the next breakpoint ({key}+Enter)", { key: COMMAND_KEY }) });
+  #nextLine = button(t("Next line"), () => this.#run.goOn(true), { icon: "forward", title: t("Run this line, and wait again ({key}+Shift+Enter)", { key: COMMAND_KEY }) });
   #stopsText = element("p", { className: "ai4u-soft", role: "status" });
-  #stop = button("Stop", () => this.#stopAll(), { icon: "stop", title: "Stop, and give the robot back" });
-  #step = button("Step", () => this.#go("step"), { icon: "forward", title: `Make one decision, and wait (${COMMAND_KEY}+Shift+Enter)` });
-  #tryOut = button("Test", () => this.#runTest(), { icon: "check", title: "Drive 10 new starts, as fast as possible" });
+  #stop = button(t("Stop"), () => this.#stopAll(), { icon: "stop", title: t("Stop, and give the robot back") });
+  #step = button(t("Step"), () => this.#go("step"), { icon: "forward", title: t("Make one decision, and wait ({key}+Shift+Enter)", { key: COMMAND_KEY }) });
+  #tryOut = button(t("Test"), () => this.#runTest(), { icon: "check", title: t("Drive 10 new starts, as fast as possible") });
   #state = element("p", { role: "status" });
   #count = element("span", { className: "ai4u-code-count", ariaHidden: "true" });
   #stateRow = element("div", { className: "ai4u-code-state" }, element("i", { ariaHidden: "true" }), this.#state, this.#count);
   #mistakeText = element("p");
-  #goTo = button("Go to the line", () => this.#blocks.goTo(this.#end.line) || this.#editor.goTo(this.#end.line), {});
+  #goTo = button(t("Go to the line"), () => this.#blocks.goTo(this.#end.line) || this.#editor.goTo(this.#end.line), {});
   #mistake = element("div", { className: "ai4u-code-mistake", role: "alert" }, this.#mistakeText);
 
   /**
@@ -127,13 +128,13 @@ export class CodeTab {
     this.#active = this.#run;
     this.#moment = new CodeMoment(panel);
     const help = element("p", { className: "ai4u-soft", id: freeId() });
-    help.textContent = `${COMMAND_KEY}+Enter runs the program. A click on a line's number, or F9, lets it wait there. Tab indents; Escape, then Tab leaves the editor.`;
+    help.textContent = t("{key}+Enter runs the program. A click on a line's number, or F9, lets it wait there. Tab indents; Escape, then Tab leaves the editor.", { key: COMMAND_KEY });
     const frame = element("div", { className: "ai4u-code-editor" });
     const keys = [
       { key: "Ctrl-Enter", mac: "Cmd-Enter", run: () => this.#go("run") },
       { key: "Ctrl-Shift-Enter", mac: "Cmd-Shift-Enter", run: () => this.#go("step") },
     ];
-    this.#editor = new CodeEditor(frame, { label: "Program in Python", describedBy: help.id, keys });
+    this.#editor = new CodeEditor(frame, { label: t("Program in Python"), describedBy: help.id, keys });
     this.#editor.onChange = () => this.#onChange();
     this.#editor.onStops = (lines, added) => this.#setStops(lines, added);
     this.#blocks = new BlocksMode(panel, {
@@ -195,7 +196,7 @@ export class CodeTab {
     });
     this.#panel.addEventListener("driver", () => {
       if (this.#isPerson && !this.#wasPerson) {
-        this.#test.stop("You're driving, so the test was ended.");
+        this.#test.stop(t("You're driving, so the test was ended."));
         this.#reports.end();
       }
       this.#wasPerson = this.#isPerson;
@@ -283,13 +284,13 @@ export class CodeTab {
       return;
     }
     if (made === null) {
-      this.#panel.notice(`The example needs the robot of ${example.sceneTitle}, and this one has other senses. Open the scene again.`, "error");
+      this.#panel.notice(t("The example needs the robot of {scene}, and this one has other senses. Open the scene again.", { scene: example.sceneTitle }), "error");
       return;
     }
     const text = isOfBlocks ? joinProgram(made.python, made.blocks, true) : made.python;
     if (!this.#program.add(example.title, text)) return;
     this.#root.scrollIntoView(); // the examples stand below the editor
-    this.#panel.notice("This is a new program. Choose another one in the list above it.");
+    this.#panel.notice(t("This is a new program. Choose another one in the list above it."));
   }
 
   /** @param {string} text */
@@ -333,9 +334,9 @@ export class CodeTab {
    */
   #setStops(lines, added) {
     this.#run.stops = lines;
-    const words = added === null ? "" : `The program will wait at line ${added}. `;
-    const all = [...lines].sort((a, b) => a - b).join(", ");
-    setText(this.#stopsText, lines.length ? `${words}Breakpoints: line ${all}` : "");
+    const words = added === null ? "" : t("The program will wait at line {line}.", { line: added });
+    const all = t("Breakpoints: line {lines}", { lines: [...lines].sort((a, b) => a - b).join(", ") });
+    setText(this.#stopsText, lines.length ? [words, all].filter(Boolean).join(" ") : "");
   }
 
   /**
@@ -365,11 +366,11 @@ export class CodeTab {
    * @returns {Promise<import("./test.js").Start[]>}
    */
   async driveFrom(seeds) {
-    if (this.#agent === null) throw new Error("This robot has no program. Open the tab Code first.");
+    if (this.#agent === null) throw new Error(t("This robot has no program. Open the tab Code first."));
     this.#runTest(seeds);
     return new Promise((resolve, reject) => {
       const end = (/** @type {CustomEvent<RunEnd>} */ { detail: { reason, text } }) =>
-        reason === "tested" ? resolve(this.#test.rows) : reject(new Error(text || "stopped"));
+        reason === "tested" ? resolve(this.#test.rows) : reject(new Error(text || t("stopped")));
       this.#test.addEventListener("end", end, { once: true });
     });
   }
@@ -428,7 +429,7 @@ export class CodeTab {
   /** @param {RunEnd & {summary?: string}} end */
   #onEnd(end) {
     this.#end = end;
-    setText(this.#mistakeText, end.line === null ? end.text : `Line ${end.line}: ${end.text}`);
+    setText(this.#mistakeText, end.line === null ? end.text : t("Line {line}: {text}", { line: end.line, text: end.text }));
     if (end.line !== null) {
       this.#mistake.append(this.#goTo);
       this.#markMistake(end.line);

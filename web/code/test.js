@@ -7,16 +7,15 @@
 /** @import { Connecting, Decision, RunEnd } from "./run.js" */
 
 import { connect, isOver, ProgramMistake, programFacts, STOPPED, toldBy, valid } from "./run.js";
+import { t } from "../shared/text.js";
 
 export const STARTS = 10;
 /** Number of different seeds; trainings use none of them, see evaluating.py. */
 const SEEDS = 1_000_000;
 /** Longest episode, in the world's time, where the scene has no limit of its own (s). */
 const MAX_EPISODE_S = 60;
-const REFUSED =
-  "Test would begin new episodes for the other robots of this world, too, and make them wait. Whoever runs the world may " +
-  "allow it (ai4u-edu play --lockstep --seeded-resets); Run works anyway.";
-const INTERRUPTED = "Another episode began in the middle of a start, so the test was ended.";
+const REFUSED = t("Test would begin new episodes for the other robots of this world, too, and make them wait. Whoever runs the world may allow it (ai4u-edu play --lockstep --seeded-resets); Run works anyway.");
+const INTERRUPTED = t("Another episode began in the middle of a start, so the test was ended.");
 
 /**
  * @typedef {object} Start

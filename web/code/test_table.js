@@ -5,11 +5,12 @@
 import { averageDecisions, STARTS } from "./test.js";
 import { button, element, keyed, setAttributes, setText, tableHead } from "../shared/dom.js";
 import { seconds } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 import { section } from "../panel/widgets/parts.js";
 
-const HEADS = ["No.", "Seed", "End", "Decisions", "Time"];
+const HEADS = [t("No."), t("Seed"), t("End"), t("Decisions"), t("Time")];
 /** @type {Record<string, string>} */
-const WORDS = { goal: "goal", won: "goal", time: "time is up", fell: "fell", lost: "lost", mistake: "mistake" };
+const WORDS = { goal: t("goal"), won: t("goal"), time: t("time is up"), fell: t("fell"), lost: t("lost"), mistake: t("mistake") };
 
 /**
  * Return the sentence about a test.
@@ -18,18 +19,19 @@ const WORDS = { goal: "goal", won: "goal", time: "time is up", fell: "fell", los
 export function testWords({ rows, isOn }) {
   const ended = rows.filter(({ outcome }) => outcome);
   const goals = ended.filter(({ outcome }) => outcome === "goal").length;
-  if (isOn) return `${goals} of ${ended.length} reached the goal so far.`;
+  if (isOn) return t("{goals} of {ended} reached the goal so far.", { goals, ended: ended.length });
   if (goals === STARTS) {
-    return `${goals} of ${STARTS} reached the goal, in ${Math.round(averageDecisions(rows))} decisions on average.`;
+    return t("{goals} of {starts} reached the goal, in {decisions} decisions on average.", { goals, starts: STARTS, decisions: Math.round(averageDecisions(rows)) });
   }
-  const rest = ended.length < STARTS ? `; the test ended before all ${STARTS}.` : ".";
-  return `${goals} of ${ended.length} reached the goal${rest}`;
+  const numbers = { goals, ended: ended.length, starts: STARTS };
+  if (ended.length < STARTS) return t("{goals} of {ended} reached the goal; the test ended before all {starts}.", numbers);
+  return t("{goals} of {ended} reached the goal.", numbers);
 }
 
 export class TestTable {
   #sentence = element("caption");
   #body = element("tbody");
-  #hint = element("p", { className: "ai4u-hint-text", textContent: "Click a row to try that start." });
+  #hint = element("p", { className: "ai4u-hint-text", textContent: t("Click a row to try that start.") });
   #watch;
   element;
 
@@ -38,13 +40,13 @@ export class TestTable {
    * @param {() => void} onWatch called to show the first failure
    */
   constructor(onChoose, onWatch) {
-    this.#watch = button("Watch the first failure", onWatch, { icon: "play" });
+    this.#watch = button(t("Watch the first failure"), onWatch, { icon: "play" });
     const table = element("table", { className: "ai4u-code-test" }, this.#sentence, tableHead(...HEADS), this.#body);
     this.#body.addEventListener("click", ({ target }) => {
       const row = /** @type {Element} */ (target).closest("tr"); // the button in it is for the keyboard
       if (row !== null) onChoose(Number(row.dataset.key));
     });
-    this.element = section("code-test", "Test", {}, table, this.#watch, this.#hint);
+    this.element = section("code-test", t("Test"), {}, table, this.#watch, this.#hint);
     this.element.hidden = true;
   }
 
@@ -62,7 +64,7 @@ export class TestTable {
 
 /** @param {Start} start */
 function makeRow({ number, seed }) {
-  const again = element("button", { type: "button", textContent: seed, title: `Begin start ${number}, seed ${seed}` });
+  const again = element("button", { type: "button", textContent: seed, title: t("Begin start {number}, seed {seed}", { number, seed }) });
   return element(
     "tr",
     {},
@@ -81,7 +83,7 @@ function makeRow({ number, seed }) {
 function updateRow(row, { outcome, decisions, seconds: time, isNow, isBegun }) {
   const [, , end, count, duration] = row.children;
   setAttributes(row, { "data-outcome": outcome || null, "aria-current": isNow ? "step" : null });
-  setText(end, outcome ? (WORDS[outcome] ?? "over") : isNow ? "…" : "–");
+  setText(end, outcome ? (WORDS[outcome] ?? t("over")) : isNow ? "…" : "–");
   setText(count, isBegun ? String(decisions) : "–");
   setText(duration, isBegun ? seconds(time) : "–");
 }

@@ -1,6 +1,8 @@
 /** The line about a run of a program, in words. */
 
-const LOADING = "Getting Python ready (first time only) …";
+import { t, tn } from "../shared/text.js";
+
+const LOADING = t("Getting Python ready (first time only) …");
 
 /** @import { RunEnd } from "./run.js" */
 
@@ -20,22 +22,22 @@ const LOADING = "Getting Python ready (first time only) …";
  */
 export function runWords({ phase, waitsAt = null, decision, start, success, isPerson, isPaused, python, end }) {
   if (phase === "loading") return line("busy", LOADING);
-  if (phase === "joining") return line("busy", "The program gets the robot …");
-  if (phase === "testing" && isPaused) return line("busy", "The world is paused", startWords(start));
-  if (phase === "testing") return line("on", "Tests the program", startWords(start));
-  if (phase === "running" && isPerson) return line("busy", "You're driving. Press Let go to give the robot back to your program.");
-  if (phase === "running" && isPaused) return line("busy", "The world is paused", `decision ${decision}`);
-  if (phase === "running") return line("on", "Runs", `decision ${decision}`);
-  if (phase === "waiting") return line("on", `Waits at line ${waitsAt}`, `decision ${decision}`);
-  if (phase === "stepping") return line("on", "Waits for the next step", `decision ${decision}`);
+  if (phase === "joining") return line("busy", t("The program gets the robot …"));
+  if (phase === "testing" && isPaused) return line("busy", t("The world is paused"), startWords(start));
+  if (phase === "testing") return line("on", t("Tests the program"), startWords(start));
+  if (phase === "running" && isPerson) return line("busy", t("You're driving. Press Let go to give the robot back to your program."));
+  if (phase === "running" && isPaused) return line("busy", t("The world is paused"), t("decision {decision}", { decision }));
+  if (phase === "running") return line("on", t("Runs"), t("decision {decision}", { decision }));
+  if (phase === "waiting") return line("on", t("Waits at line {line}", { line: waitsAt }), t("decision {decision}", { decision }));
+  if (phase === "stepping") return line("on", t("Waits for the next step"), t("decision {decision}", { decision }));
   if (end !== null) return endWords(end, decision, success, isPaused);
   if (python === "loading") return line("off", LOADING);
-  return python === "ready" ? line("off", "Ready") : line("bad", python);
+  return python === "ready" ? line("off", t("Ready")) : line("bad", python);
 }
 
 /** @param {number} start */
 function startWords(start) {
-  return start ? `start ${start}` : "";
+  return start ? t("start {number}", { number: start }) : "";
 }
 
 /**
@@ -45,18 +47,18 @@ function startWords(start) {
  * @param {boolean} isPaused
  */
 function endWords({ reason, percept, line: number, summary, outcome }, decision, success, isPaused) {
-  const at = decision ? ` at decision ${decision}` : "";
   if (reason === "tested") return line("done", summary);
-  if (reason === "stopped") return line("off", `Stopped${at}; the robot is yours`);
+  if (reason === "stopped") return line("off", decision ? t("Stopped at decision {decision}; the robot is yours", { decision }) : t("Stopped; the robot is yours"));
   if (reason === "mistake") {
-    const place = number === null ? "your program" : `line ${number}`;
-    return line("bad", `Stopped: there's a mistake in ${place}.${isPaused ? " The world waits." : ""}`);
+    const where = number === null ? t("Stopped: there's a mistake in your program.") : t("Stopped: there's a mistake in line {number}.", { number });
+    return line("bad", [where, isPaused && t("The world waits.")].filter(Boolean).join(" "));
   }
-  if (reason === "lost") return line("bad", `The run ended${at}`);
+  if (reason === "lost") return line("bad", decision ? t("The run ended at decision {decision}", { decision }) : t("The run ended"));
   const isGoal = Boolean(success && percept.terms?.[success] > 0);
-  if (isGoal) return line("done", `Goal reached! Your program decided ${decision} ${decision === 1 ? "time" : "times"}.`);
-  const what = outcome === "fell" ? "The robot fell" : percept.truncated ? "Time is up" : "The episode ended";
-  return line("off", `${what}, after ${decision} ${decision === 1 ? "decision" : "decisions"}.`);
+  if (isGoal) return line("done", tn("Goal reached! Your program decided {n} time.", "Goal reached! Your program decided {n} times.", decision));
+  if (outcome === "fell") return line("off", tn("The robot fell, after {n} decision.", "The robot fell, after {n} decisions.", decision));
+  if (percept.truncated) return line("off", tn("Time is up, after {n} decision.", "Time is up, after {n} decisions.", decision));
+  return line("off", tn("The episode ended, after {n} decision.", "The episode ended, after {n} decisions.", decision));
 }
 
 /**
