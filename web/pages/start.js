@@ -5,6 +5,7 @@ import { syncStars } from "../classroom/student/stars.js";
 import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
 import { t } from "../shared/text.js";
+import { islandTitle } from "../missions/islands.js";
 import { assignedMission, progressOf, setOpenMission } from "../missions/progress.js";
 import { request, unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
@@ -161,7 +162,7 @@ async function showMissions() {
  */
 function islandOf(island, missions, next) {
   const done = missions.filter(({ name, steps }) => progressOf(name).steps >= steps).length;
-  const heading = element("h3", {}, island, element("span", { className: "ai4u-facts", textContent: t("{done} of {all}", { done, all: missions.length }) }));
+  const heading = element("h3", {}, islandTitle(island), element("span", { className: "ai4u-facts", textContent: t("{done} of {all}", { done, all: missions.length }) }));
   const list = element("ol", {}, ...missions.map((mission) => missionCard(mission, mission === next)));
   // there are too many missions to see all at once: the island of the next one is open
   const isOpen = next !== undefined && missions.includes(next);

@@ -4,6 +4,7 @@
 
 import { choices, chosenIn, field, select } from "../../shared/form_dialog.js";
 import { element } from "../../shared/dom.js";
+import { islandTitle } from "../../missions/islands.js";
 import { t } from "../../shared/text.js";
 import { roomName } from "../room_words.js";
 import { scenePicture } from "../../scenes/picture.js";
@@ -18,7 +19,7 @@ export function sceneChoice(state, { withLessons = false } = {}) {
   const scenes = state.scenes.map(({ name, title }) => [name, title]);
   const rooms = state.rooms.map((room) => [room.id, `${roomName(room, state)}: ${room.scene}`]);
   const lessons = withLessons ? state.lessons.map(({ number, title }) => [number, `${number} ${title}`]) : [];
-  const missions = withLessons ? (state.missions ?? []).map(({ name, title, island }) => [name, `${island}: ${title}`]) : [];
+  const missions = withLessons ? (state.missions ?? []).map(({ name, title, island }) => [name, `${islandTitle(island)}: ${title}`]) : [];
   const sources = { library: t("From the library"), lesson: t("A lesson"), mission: t("A mission"), room: t("A student’s present scene"), file: t("My own file") };
   if (!withLessons) delete sources.lesson;
   if (missions.length === 0) delete sources.mission;
