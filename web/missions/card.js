@@ -9,6 +9,7 @@ import { unsavedSentence, request } from "../scenes/api.js";
 import { ask, tell } from "../shared/dialog.js";
 import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
 import { freeId } from "../shared/ids.js";
+import { t } from "../shared/text.js";
 import { ExerciseForm } from "./exercise.js";
 import { Lights } from "./lights.js";
 import { missions, openMission, progressOf, reach, setOpenMission, storedKey, takeAssigned } from "./progress.js";
@@ -39,19 +40,19 @@ export class MissionCard {
   #news = element("div", { role: "status" }, this.#done, this.#problem);
   #stars = element("ul", { className: "ai4u-mission-stars" });
   #question = element("div", { className: "ai4u-mission-question" });
-  #elsewhere = button("Open", () => this.#openScene(), { kind: "main" });
-  #before = button("", () => this.#go(this.#part.step - 1), { icon: "back", label: "Step before", kind: "quiet" });
-  #next = button("Next", () => this.#goOn(), {});
-  #again = button("From the start", () => this.#go(0), {});
-  #map = element("a", { className: "ai4u-plain", href: MAP, textContent: "Map" });
-  #everything = button("Show everything", () => this.#hide(true), { kind: "quiet", title: "Put this card and its lights away" });
+  #elsewhere = button(t("Open"), () => this.#openScene(), { kind: "main" });
+  #before = button("", () => this.#go(this.#part.step - 1), { icon: "back", label: t("Step before"), kind: "quiet" });
+  #next = button(t("Next"), () => this.#goOn(), {});
+  #again = button(t("From the start"), () => this.#go(0), {});
+  #map = element("a", { className: "ai4u-plain", href: MAP, textContent: t("Map") });
+  #everything = button(t("Show everything"), () => this.#hide(true), { kind: "quiet", title: t("Put this card and its lights away") });
   #buttons = element("div", { className: "ai4u-mission-buttons" }, this.#before, this.#elsewhere, this.#next, this.#again, this.#map, this.#everything);
   #card;
   #pillText = element("span");
-  #pill = button("", () => this.#hide(false), { kind: "quiet", title: "Show the mission again" });
-  #row = element("div", { className: "ai4u-mission-row" }, this.#pill, button("", () => this.#leave(), { icon: "remove", label: "Leave the mission", kind: "quiet" }));
-  #invitation = element("a", { className: "ai4u-mission-invitation", href: MAP, textContent: "Missions: learn step by step" });
-  element = element("section", { className: "ai4u-mission", ariaLabel: "Mission", hidden: true });
+  #pill = button("", () => this.#hide(false), { kind: "quiet", title: t("Show the mission again") });
+  #row = element("div", { className: "ai4u-mission-row" }, this.#pill, button("", () => this.#leave(), { icon: "remove", label: t("Leave the mission"), kind: "quiet" }));
+  #invitation = element("a", { className: "ai4u-mission-invitation", href: MAP, textContent: t("Missions: learn step by step") });
+  element = element("section", { className: "ai4u-mission", ariaLabel: t("Mission"), hidden: true });
 
   /** @param {Panel} panel */
   constructor(panel) {
@@ -131,10 +132,10 @@ export class MissionCard {
       this.#exercise.show(null);
       return;
     }
-    const count = `${part.step + 1} of ${part.steps}`;
-    setText(this.#pillText, `Mission: ${part.title} (${count})`);
+    const place = { step: part.step + 1, steps: part.steps };
+    setText(this.#pillText, t("Mission: {title} ({step} of {steps})", { title: part.title, ...place }));
     setText(this.#title, part.title);
-    setText(this.#count, `Step ${count}`);
+    setText(this.#count, t("Step {step} of {steps}", place));
     const steps = Array.from({ length: part.steps }, (_, index) => index);
     keyed(this.#dots, steps, (step) => step, () => element("li"), (dot, step) => {
       setAttributes(dot, { "data-done": step < part.step || (step === part.step && part.is_done), "data-now": step === part.step });
@@ -143,8 +144,8 @@ export class MissionCard {
     const isLast = part.step === part.steps - 1;
     const isOver = isLast && part.is_done;
     this.#drawStars(part, isOver);
-    setText(this.#next.querySelector("span"), isLast && part.next ? `Next: ${part.next_title}` : "Next");
-    setAttributes(this.#next, { "data-kind": part.is_done && part.is_here ? "main" : null, title: part.is_done ? "" : "Leave this step out" });
+    setText(this.#next.querySelector("span"), isLast && part.next ? t("Next: {title}", { title: part.next_title }) : t("Next"));
+    setAttributes(this.#next, { "data-kind": part.is_done && part.is_here ? "main" : null, title: part.is_done ? "" : t("Leave this step out") });
     this.#before.hidden = part.step === 0 || isOver;
     this.#again.hidden = !isOver;
     this.#everything.hidden = isOver;
@@ -161,11 +162,11 @@ export class MissionCard {
       this.#askQuestion(part);
     }
     this.#elsewhere.hidden = isHere;
-    setText(this.#elsewhere.querySelector("span"), `Open ${part.scene_title}`);
+    setText(this.#elsewhere.querySelector("span"), t("Open {title}", { title: part.scene_title }));
     this.#exercise.show(isHere && !openMission()?.isHidden ? part.exercise : null);
     this.#question.hidden = part.question === null || isDone || !isHere;
-    const elsewhere = isHere ? "" : `This mission is in the scene “${part.scene_title}”. What you have here is kept.`;
-    const driver = this.#isWatching ? "Somebody else drives now, or another window of yours. This step goes on when you drive here." : part.driver;
+    const elsewhere = isHere ? "" : t("This mission is in the scene “{title}”. What you have here is kept.", { title: part.scene_title });
+    const driver = this.#isWatching ? t("Somebody else drives now, or another window of yours. This step goes on when you drive here.") : part.driver;
     setBold(this.#done, isDone ? `✓ ${part.done}` : "");
     setBold(this.#problem, isDone ? "" : elsewhere || driver || part.hint);
     setText(this.#words, isDone || !isHere || part.exercise !== null ? "" : part.words);
@@ -184,7 +185,7 @@ export class MissionCard {
     keyed(this.#stars, stars.map((star, index) => ({ ...star, index })), ({ index }) => index, () => element("li", {}, element("i", { role: "img" }), element("span")), (item, star) => {
       const isEarned = star.is_earned;
       setText(item.firstChild, isEarned ? "★" : "☆");
-      setAttributes(item.firstElementChild, { "aria-label": isEarned ? "earned" : "not yet", "data-earned": isEarned });
+      setAttributes(item.firstElementChild, { "aria-label": isEarned ? t("earned") : t("not yet"), "data-earned": isEarned });
       setText(item.lastChild, star.text);
     });
   }
@@ -201,7 +202,7 @@ export class MissionCard {
     }
     const input = element("input", { type: "text", inputMode: "decimal", autocomplete: "off", id: freeId() });
     const label = element("label", { htmlFor: input.id, textContent: question.text });
-    this.#question.append(label, input, button("Check", () => send(input.value), {}));
+    this.#question.append(label, input, button(t("Check"), () => send(input.value), {}));
     input.addEventListener("keydown", ({ key, isComposing }) => key === "Enter" && !isComposing && send(input.value));
   }
 
@@ -247,10 +248,10 @@ export class MissionCard {
   async #openScene() {
     try {
       const text = await unsavedSentence();
-      if (text && !(await ask({ title: `Open ${this.#part.scene_title}?`, text, yes: "Open" }))) return;
+      if (text && !(await ask({ title: t("Open {title}?", { title: this.#part.scene_title }), text, yes: t("Open") }))) return;
       await request("api/scene", { name: this.#part.scene });
     } catch (error) {
-      await tell("The scene can't be opened", error.message);
+      await tell(t("The scene can't be opened"), error.message);
     }
   }
 

@@ -10,10 +10,11 @@
 import { button, element, setText } from "../shared/dom.js";
 import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 
 /** Longest value that is sent to the room, which takes no longer one (characters). */
 const MAX_VALUE_CHARS = 20_000;
-const TOO_LARGE = '{"shown": "a very large value"}';
+const TOO_LARGE = JSON.stringify({ shown: t("a very large value") });
 
 export class ExerciseForm {
   #panel;
@@ -25,8 +26,8 @@ export class ExerciseForm {
   #engine = null;
   #isChecking = false;
   #code = element("div", { className: "ai4u-code-editor ai4u-mission-code" });
-  #check = button("Check", () => void this.#judge(), { icon: "play", kind: "main" });
-  #again = button("Begin again", () => this.#reset(), { kind: "quiet", title: "Put back the text that was here at first" });
+  #check = button(t("Check"), () => void this.#judge(), { icon: "play", kind: "main" });
+  #again = button(t("Begin again"), () => this.#reset(), { kind: "quiet", title: t("Put back the text that was here at first") });
   #said = element("p", { className: "ai4u-mission-problem", role: "status", hidden: true });
   #printed = element("pre", { className: "ai4u-mission-printed", hidden: true });
   element = element("div", { className: "ai4u-mission-exercise", hidden: true });
@@ -61,7 +62,7 @@ export class ExerciseForm {
     if (this.#exercise !== exercise) return;
     if (this.#editor === null) {
       this.#editor = new CodeEditor(this.#code, {
-        label: "Your function",
+        label: t("Your function"),
         keys: [{ key: "Mod-Enter", run: () => (void this.#judge(), true) }],
       });
       this.#editor.onChange = (text) => this.#exercise && remember(key(this.#exercise), text);
@@ -105,7 +106,7 @@ export class ExerciseForm {
     const loaded = await engine.loadFunctions(source);
     let printed = loaded.printed ?? "";
     if (!loaded.ok) {
-      this.#say(loaded.line ? `Line ${loaded.line}: ${loaded.text}` : loaded.text, printed, loaded.line);
+      this.#say(textOf(loaded), printed, loaded.line);
       return;
     }
     /** @type {AnswerTo<"mission_judge">} */
@@ -114,7 +115,7 @@ export class ExerciseForm {
       const called = await engine.call(exercise.function, answer.arguments);
       printed += called.printed ?? "";
       if (!called.ok) {
-        this.#say(called.line ? `Line ${called.line}: ${called.text}` : called.text, printed, called.line);
+        this.#say(textOf(called), printed, called.line);
         return;
       }
       const value = called.value.length > MAX_VALUE_CHARS ? TOO_LARGE : called.value;
@@ -149,6 +150,11 @@ export class ExerciseForm {
     if (text) this.#said.scrollIntoView({ block: "nearest" });
     this.#editor?.markMistake(line);
   }
+}
+
+/** @param {{line?: number, text?: string}} mistake */
+function textOf({ line, text = "" }) {
+  return line ? t("Line {line}: {text}", { line, text }) : text;
 }
 
 /** @param {MissionExercise} exercise */

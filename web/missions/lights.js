@@ -1,6 +1,7 @@
 /** Lights on the controls of the page that a mission means, found by the names that a person reads on them. */
 
 import { setAttributes } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 const CONTROLS = "button, [role=tab], [role=switch], summary, select, a[href]";
 /**
@@ -11,6 +12,46 @@ const PLACES = {
   Keys: ".ai4u-dpad:not(:empty), .ai4u-dock",
   Networks: ".ai4u-networks [aria-expanded=true], .ai4u-networks [aria-expanded]",
   Program: ".ai4u-code-editor, .ai4u-blocks-editor",
+};
+/**
+ * Names of the other controls in the page's language, by those that missions have.
+ * @type {Record<string, string>}
+ */
+const NAMES = {
+  "Add a reward": t("Add a reward"),
+  "Add a sensor": t("Add a sensor"),
+  "Add an actuator": t("Add an actuator"),
+  Arena: t("Arena"),
+  Ball: t("Ball"),
+  Blocks: t("Blocks"),
+  Box: t("Box"),
+  Build: t("Build"),
+  Code: t("Code"),
+  Compare: t("Compare"),
+  Details: t("Details"),
+  Drive: t("Drive"),
+  Follow: t("Follow"),
+  Learn: t("Learn"),
+  "Let it drive": t("Let it drive"),
+  "New start": t("New start"),
+  Past: t("Past"),
+  Pause: t("Pause"),
+  Practise: t("Practise"),
+  Python: t("Python"),
+  Rewards: t("Rewards"),
+  Run: t("Run"),
+  Sensors: t("Sensors"),
+  Simple: t("Simple"),
+  Step: t("Step"),
+  Stop: t("Stop"),
+  Target: t("Target"),
+  Teach: t("Teach"),
+  Test: t("Test"),
+  "Through its eyes": t("Through its eyes"),
+  Trail: t("Trail"),
+  "Try again": t("Try again"),
+  Wall: t("Wall"),
+  World: t("World"),
 };
 /** Attributes of controls that stay as they were chosen. */
 const CHOICES = ["aria-selected", "aria-pressed", "aria-checked", "aria-expanded"];
@@ -79,8 +120,9 @@ export class Lights {
       }
       return null;
     }
-    const all = [...document.querySelectorAll(CONTROLS)].filter((control) => nameOf(control).startsWith(name));
-    return all.find((control) => nameOf(control) === name && isThere(control)) ?? all.find((control) => nameOf(control).startsWith(`${name} `) && isThere(control)) ?? null;
+    const shown = NAMES[name] ?? name;
+    const all = [...document.querySelectorAll(CONTROLS)].filter((control) => nameOf(control).startsWith(shown));
+    return all.find((control) => nameOf(control) === shown && isThere(control)) ?? all.find((control) => nameOf(control).startsWith(`${shown} `) && isThere(control)) ?? null;
   }
 }
 

@@ -3,6 +3,7 @@
 /** @import { Commands, NetworkRace, StateEvent } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
 /** @import { Result } from "./results.js" */
+import { t } from "../shared/text.js";
 import { capitalized } from "./driver_status.js";
 import { openMission } from "../missions/progress.js";
 import { openNextScene } from "../scenes/next_scene.js";
@@ -11,32 +12,49 @@ import { raceText, slowedText, timeText } from "./results.js";
 /** Kinds of banners whose text is a whole sentence and is not printed bold. */
 const NOT_BOLD_KINDS = ["error", "task", "thought"];
 /**
- * Texts by the outcome that the server sends: said to the driver, and said of another agent by its name.
- * @type {Record<string, string[]>}
+ * Texts by the outcome that the server sends, said to the driver.
+ * @type {Record<string, string>}
  */
 const OUTCOME_TEXTS = {
-  goal: ["You did it!", "did it!"],
-  won: ["You won!", "won!"],
-  lost: ["You lost.", "lost."],
-  fell: ["You fell.", "fell."],
-  time: ["Time is up."],
-  over: ["The try is over."],
+  goal: t("You did it!"),
+  won: t("You won!"),
+  lost: t("You lost."),
+  fell: t("You fell."),
+  time: t("Time is up."),
+  over: t("The try is over."),
 };
 const WINS = ["goal", "won"];
 /**
- * Commands by the text of their button.
+ * Texts of the buttons.
+ * @type {Record<string, string>}
+ */
+const BUTTON_TEXTS = {
+  back_to_live: t("Back to live"),
+  beat: t("Beat it!"),
+  new_start: t("New start"),
+  next_scene: t("Next scene"),
+  play_again: t("Play again"),
+  reload: t("Reload"),
+  reset: t("Reset"),
+  resume: t("Resume"),
+  stop_watching: t("Stop watching"),
+  try_again: t("Try again"),
+  watch_again: t("Watch again"),
+};
+/**
+ * Commands by their button.
  * @type {Record<string, keyof Commands>}
  */
 const COMMANDS = {
-  "Play again": "try_again",
-  "Try again": "try_again",
-  "Watch again": "try_again",
-  "New start": "new_start",
-  Reset: "reset",
-  Resume: "resume",
-  "Back to live": "resume",
+  back_to_live: "resume",
+  new_start: "new_start",
+  play_again: "try_again",
+  reset: "reset",
+  resume: "resume",
+  try_again: "try_again",
+  watch_again: "try_again",
 };
-const LOST = "No connection to this world. The page reconnects by itself.";
+const LOST = t("No connection to this world. The page reconnects by itself.");
 /** Time that the error of a failed request stays (ms). */
 const REQUEST_ERROR_MS = 8000;
 /** Terms smaller than this round to 0.00 and are left out of the details. */
@@ -63,7 +81,7 @@ export class Banners {
   #statusRegion = element("div", { className: "ai4u-banners", role: "status" });
   #alertRegion = element("div", { className: "ai4u-banners", role: "alert" });
   /** Region of thoughts: no live one, as a screen reader would read out each of them. */
-  #quietRegion = element("section", { className: "ai4u-banners", ariaLabel: "What it thinks" });
+  #quietRegion = element("section", { className: "ai4u-banners", ariaLabel: t("What it thinks") });
   /** The banner that is shown, as JSON: an unchanged one is not read out again. */
   #shown = "";
   #connectionError = "";
@@ -77,7 +95,7 @@ export class Banners {
 
   /**
    * @param {(command: keyof Commands) => void} sendCommand
-   * @param {Record<string, () => void>} actions called by the texts of their buttons
+   * @param {Record<string, () => void>} actions called by their buttons: `beat`, `stop_watching`
    */
   constructor(sendCommand, actions = {}) {
     this.#sendCommand = sendCommand;
@@ -129,14 +147,14 @@ export class Banners {
    * @returns {Banner | null}
    */
   #banner(state, page) {
-    if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["Reload"] };
+    if (this.#connectionError) return { kind: "error", text: this.#connectionError, buttons: ["reload"] };
     if (page.isLost) return { kind: "error", text: LOST };
-    if (state?.error) return { kind: "error", text: state.error, buttons: ["Reset"] };
+    if (state?.error) return { kind: "error", text: state.error, buttons: ["reset"] };
     if (this.#requestError) return { kind: "error", text: this.#requestError };
     if (page.held) return { kind: "paused", text: page.held };
-    if (state?.past) return { kind: "paused", text: `Past: ${state.past}`, buttons: ["Back to live"] };
+    if (state?.past) return { kind: "paused", text: t("Past: {moment}", { moment: state.past }), buttons: ["back_to_live"] };
     if (state?.outcome) return outcomeBanner(state, page);
-    if (state?.paused) return { kind: "paused", text: "Paused", details: page.thought, buttons: ["Resume"] };
+    if (state?.paused) return { kind: "paused", text: t("Paused"), details: page.thought, buttons: ["resume"] };
     if (page.thought) return { kind: "thought", text: page.thought };
     if (state?.waiting === "key") return startBanner(state, page);
     if (state?.goal && page.isNew && !page.name) return { kind: "task", text: state.goal };
@@ -153,7 +171,7 @@ export class Banners {
     const made = element("div", { className: "ai4u-banner" }, words);
     made.dataset.kind = kind;
     for (const name of buttons) {
-      const button = element("button", { type: "button", className: "ai4u-button", textContent: name });
+      const button = element("button", { type: "button", className: "ai4u-button", textContent: BUTTON_TEXTS[name] });
       button.addEventListener("click", () => this.#carryOut(name));
       made.append(button);
     }
@@ -162,8 +180,8 @@ export class Banners {
 
   /** @param {string} name of a button */
   #carryOut(name) {
-    if (name === "Reload") location.reload();
-    else if (name === "Next scene") openNextScene();
+    if (name === "reload") location.reload();
+    else if (name === "next_scene") openNextScene();
     else if (name in this.#actions) this.#actions[name]();
     else this.#sendCommand(COMMANDS[name]);
   }
@@ -174,10 +192,29 @@ export class Banners {
  * @param {PageState} page
  */
 function outcomeText(state, { name, result, race }) {
-  const [mine, theirs] = OUTCOME_TEXTS[state.outcome];
-  const text = name && theirs ? `${name} ${theirs}` : mine;
+  const mine = OUTCOME_TEXTS[state.outcome];
+  const text = name ? (textOfOther(state.outcome, name) ?? mine) : mine;
   const timed = WINS.includes(state.outcome) && result ? text + timeText(result) : text;
   return race ? `${timed}${/[.!]$/.test(timed) ? "" : "."} ${raceText(race, state)}` : timed;
+}
+
+/**
+ * Return the text of an outcome, said of another agent; undefined if it is the same for everybody.
+ * @param {string} outcome
+ * @param {string} name of the agent
+ */
+function textOfOther(outcome, name) {
+  switch (outcome) {
+    case "goal":
+      return t("{name} did it!", { name });
+    case "won":
+      return t("{name} won!", { name });
+    case "lost":
+      return t("{name} lost.", { name });
+    case "fell":
+      return t("{name} fell.", { name });
+  }
+  return undefined;
 }
 
 /**
@@ -186,7 +223,7 @@ function outcomeText(state, { name, result, race }) {
  * @returns {Banner}
  */
 function startBanner({ goal }, { isNew, name, howToStart, race }) {
-  const start = howToStart ? `${capitalized(howToStart)} to start` : "Waits until a player presses a key";
+  const start = howToStart ? t("{what} to start", { what: capitalized(howToStart) }) : t("Waits until a player presses a key");
   if (race) return { kind: "start", text: start, details: slowedText(race) };
   const isGoalShown = isNew && goal && !name;
   return isGoalShown ? { kind: "task", text: goal, details: start } : { kind: "start", text: start };
@@ -201,14 +238,23 @@ function outcomeBanner(state, page) {
   const { outcome, reward, terms } = state;
   const isWin = WINS.includes(outcome);
   const parts = Object.entries(terms).filter(([, value]) => Math.abs(value) >= MIN_TERM);
+  const score = signed(reward);
   const sum = parts.map(([name, value]) => `${name} ${signed(value)}`).join(" · ");
   return {
     kind: isWin ? "goal" : "over",
     text: outcomeText(state, page),
-    hint: page.restart && !page.isWatching && ` Press ${page.restart} to ${isWin ? "play" : "try"} again.`,
-    score: [`Score ${signed(reward)}`, parts.length > 1 && sum].filter(Boolean).join(": "),
-    buttons: page.isWatching ? ["Beat it!", "Watch again", "Stop watching"] : isWin ? ["Play again", "New start", ...(openMission() ? [] : ["Next scene"])] : ["Try again", "New start"],
+    hint: page.restart && !page.isWatching && ` ${restartText(page.restart, isWin)}`,
+    score: parts.length > 1 ? t("Score {score}: {parts}", { score, parts: sum }) : t("Score {score}", { score }),
+    buttons: page.isWatching ? ["beat", "watch_again", "stop_watching"] : isWin ? ["play_again", "new_start", ...(openMission() ? [] : ["next_scene"])] : ["try_again", "new_start"],
   };
+}
+
+/**
+ * @param {string} key label of the restart key
+ * @param {boolean} isWin
+ */
+function restartText(key, isWin) {
+  return isWin ? t("Press {key} to play again.", { key }) : t("Press {key} to try again.", { key });
 }
 
 /** @param {number | null} value */

@@ -2,6 +2,7 @@
 
 /** @import { HelloEvent, SeatEvent } from "../generated/messages.js" */
 import { element, setText } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 /**
  * @typedef {object} DriverView who drives, and what a person has to know to drive
@@ -19,8 +20,8 @@ export class DriverStatus {
   #dot = element("span", { className: "ai4u-dot", ariaHidden: "true" });
   #text = element("span");
   #hint = element("span", { className: "ai4u-hint" });
-  #take = element("button", { type: "button", className: "ai4u-button", textContent: "Take over" });
-  #letGo = element("button", { type: "button", className: "ai4u-button", textContent: "Let go" });
+  #take = element("button", { type: "button", className: "ai4u-button", textContent: t("Take over") });
+  #letGo = element("button", { type: "button", className: "ai4u-button", textContent: t("Let go") });
 
   /**
    * @param {HTMLElement} row parent element
@@ -41,11 +42,11 @@ export class DriverStatus {
     // whoever drives, no key and no stick moves anything now
     const isStill = connected && isPaused && !isHeld;
     this.#dot.dataset.kind = kind;
-    setText(this.#text, isStill ? "Paused" : who);
-    setText(this.#hint, kind === "auto" && !isStill ? ` – ${howToDrive} to take over` : "");
+    setText(this.#text, isStill ? t("Paused") : who);
+    setText(this.#hint, kind === "auto" && !isStill ? ` – ${t("{what} to take over", { what: howToDrive })}` : "");
     this.#take.hidden = kind !== "other" && kind !== "auto";
     this.#letGo.hidden = kind !== "mine" || !(hello.instead || control.pages > 1);
-    this.#letGo.title = hello.instead && `${hello.instead} goes on then`;
+    this.#letGo.title = hello.instead && t("{driver} goes on then", { driver: hello.instead });
   }
 }
 
@@ -62,14 +63,14 @@ export function capitalized(text) {
  * @param {DriverView} view
  */
 function status({ connected, hello, control, howToDrive, isWaiting, isHeld, isReached }) {
-  if (!connected) return ["lost", "Connecting …"];
-  if (isHeld) return ["none", "The world stands still"];
-  if (Object.keys(hello.keys).length === 0) return ["none", `${hello.others || hello.brain} drives`];
+  if (!connected) return ["lost", t("Connecting …")];
+  if (isHeld) return ["none", t("The world stands still")];
+  if (Object.keys(hello.keys).length === 0) return ["none", t("{driver} drives", { driver: hello.others || hello.brain })];
   const isMine = control.driver === hello.you;
-  if (hello.others) return ["auto", `${hello.others} drives`];
-  if (!isReached && (isMine || control.driver === null)) return [isMine ? "mine" : "free", "Click the picture to drive"];
-  if (isWaiting && (isMine || control.driver === null)) return [isMine ? "mine" : "free", `${capitalized(howToDrive)} to start`];
-  if (control.driver === null) return ["free", `${capitalized(howToDrive)} to drive`];
-  if (!isMine) return ["other", `${control.name || "Another page"} drives`];
-  return ["mine", "You're driving"];
+  if (hello.others) return ["auto", t("{driver} drives", { driver: hello.others })];
+  if (!isReached && (isMine || control.driver === null)) return [isMine ? "mine" : "free", t("Click the picture to drive")];
+  if (isWaiting && (isMine || control.driver === null)) return [isMine ? "mine" : "free", t("{what} to start", { what: capitalized(howToDrive) })];
+  if (control.driver === null) return ["free", t("{what} to drive", { what: capitalized(howToDrive) })];
+  if (!isMine) return ["other", control.name ? t("{driver} drives", { driver: control.name }) : t("Another page drives")];
+  return ["mine", t("You're driving")];
 }

@@ -4,6 +4,7 @@
 import { element } from "../shared/dom.js";
 import { Sounds } from "../shared/sound.js";
 import { icon } from "../shared/icons.js";
+import { t } from "../shared/text.js";
 import { WINS } from "./results.js";
 
 const LESS_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
@@ -73,7 +74,7 @@ export class Effects {
     const { isOn, isForbidden } = this.#sounds;
     this.#button.hidden = isForbidden;
     this.#button.replaceChildren(icon(isOn ? "sound" : "mute", 18));
-    this.#button.ariaLabel = this.#button.title = isOn ? "Turn the sound off" : "Turn the sound on";
+    this.#button.ariaLabel = this.#button.title = isOn ? t("Turn the sound off") : t("Turn the sound on");
   }
 }
 

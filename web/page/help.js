@@ -1,22 +1,21 @@
 /** The help dialog ("?"): the scene's goal, the parts of the page, and the keys, which can be changed. */
 
 import { element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { isDrawnBySoftware } from "./graphics.js";
 import { isTextInput } from "./keys.js";
 import { label } from "./labels.js";
 import { copyLink } from "../scenes/share.js";
 
 const PAGE_PARTS = {
-  "The picture": "The world from above. Scroll or pinch to zoom; click Arena to see everything again.",
-  "The panel": "Time and speed, and what the agent senses, does and is rewarded for. On small screens it is folded at the bottom.",
-  "The line beside the keys":
-    "Shows who is driving. If a network or script drives, press a drive key to take over; Let go hands it back.",
+  [t("The picture")]: t("The world from above. Scroll or pinch to zoom; click Arena to see everything again."),
+  [t("The panel")]: t("Time and speed, and what the agent senses, does and is rewarded for. On small screens it is folded at the bottom."),
+  [t("The line beside the keys")]: t("Shows who is driving. If a network or script drives, press a drive key to take over; Let go hands it back."),
 };
-const GAMEPAD_TEXT = "A gamepad drives too: its left stick or its cross, A to jump, B to jump forward, Start to restart.";
+const GAMEPAD_TEXT = t("A gamepad drives too: its left stick or its cross, A to jump, B to jump forward, Start to restart.");
 
-const START_TEXT = "R tries the same start again. N gives a new start, unless N is a driving key.";
-const GRAPHICS_TEXT =
-  "Drawn without a graphics card, so the picture may be slow. If there is one, turn hardware acceleration on in the browser.";
+const START_TEXT = t("R tries the same start again. N gives a new start, unless N is a driving key.");
+const GRAPHICS_TEXT = t("Drawn without a graphics card, so the picture may be slow. If there is one, turn hardware acceleration on in the browser.");
 
 export class Help {
   #keys;
@@ -27,7 +26,7 @@ export class Help {
   #list = element("div", { className: "ai4u-bindings" });
   #status = element("p", { className: "ai4u-status", role: "status" });
   #graphics = element("p", { hidden: true, textContent: GRAPHICS_TEXT });
-  #reset = element("button", { type: "button", className: "ai4u-plain", textContent: "Reset keys" });
+  #reset = element("button", { type: "button", className: "ai4u-plain", textContent: t("Reset keys") });
   /**
    * The action whose new key is waited for; null if none is.
    * @type {string | null}
@@ -48,8 +47,8 @@ export class Help {
       type: "button",
       className: "ai4u-round-button",
       textContent: "?",
-      ariaLabel: "Help",
-      title: "Help (?)",
+      ariaLabel: t("Help"),
+      title: t("Help (?)"),
     });
     button.addEventListener("click", () => this.open());
     row.prepend(button); // the line beside it changes its length
@@ -80,19 +79,19 @@ export class Help {
   }
 
   #build() {
-    const title = element("h2", { id: "ai4u-help", textContent: "Help" });
+    const title = element("h2", { id: "ai4u-help", textContent: t("Help") });
     const close = element("button", {
       type: "button",
       className: "ai4u-round-button",
       textContent: "✕",
-      ariaLabel: "Close",
+      ariaLabel: t("Close"),
     });
     close.addEventListener("click", () => this.#dialog.close());
     this.#reset.addEventListener("click", () => {
       this.#keymap.reset();
-      this.#setStatus("Keys reset to the defaults.");
+      this.#setStatus(t("Keys reset to the defaults."));
     });
-    const share = element("button", { type: "button", className: "ai4u-plain", textContent: "Copy link" });
+    const share = element("button", { type: "button", className: "ai4u-plain", textContent: t("Copy link") });
     const shared = element("p", { className: "ai4u-shared", role: "status" });
     share.addEventListener("click", async () => (shared.textContent = await copyLink()));
     const descriptions = Object.entries(PAGE_PARTS).flatMap(([name, text]) => [
@@ -102,21 +101,21 @@ export class Help {
     this.#dialog.setAttribute("aria-labelledby", title.id);
     this.#dialog.append(
       element("header", {}, title, close),
-      element("h3", { textContent: "The goal" }),
+      element("h3", { textContent: t("The goal") }),
       this.#goal,
-      element("h3", { textContent: "Share this scene" }),
-      element("p", { textContent: "The link holds the whole scene and its seed. Nothing is uploaded." }),
+      element("h3", { textContent: t("Share this scene") }),
+      element("p", { textContent: t("The link holds the whole scene and its seed. Nothing is uploaded.") }),
       share,
-      element("a", { href: "./start", className: "ai4u-plain", textContent: "All scenes and lessons" }),
+      element("a", { href: "./start", className: "ai4u-plain", textContent: t("All scenes and lessons") }),
       shared,
-      element("h3", { textContent: "Keys" }),
-      element("p", { textContent: "To change one, click it and press another key." }),
+      element("h3", { textContent: t("Keys") }),
+      element("p", { textContent: t("To change one, click it and press another key.") }),
       this.#list,
       this.#status,
       this.#reset,
       element("p", { textContent: START_TEXT }),
       element("p", { textContent: GAMEPAD_TEXT }),
-      element("h3", { textContent: "On this page" }),
+      element("h3", { textContent: t("On this page") }),
       element("dl", {}, ...descriptions),
       this.#graphics,
     );
@@ -132,13 +131,13 @@ export class Help {
     const focused = /** @type {HTMLElement | null} */ (document.activeElement)?.dataset?.action;
     const rows = Object.entries(this.#keymap.keys).map(([action, codes]) => {
       const isRebinding = this.#actionToRebind === action;
-      const printed = codes.map(label).join(" or ") || "no key";
+      const printed = labelsOf(codes);
       const name = this.#keymap.name(action);
       const button = element("button", {
         type: "button",
         className: "ai4u-binding",
-        textContent: isRebinding ? "Press a key …" : printed,
-        ariaLabel: isRebinding ? `${name}: press a key` : `${name}: ${printed}. Change`,
+        textContent: isRebinding ? t("Press a key …") : printed,
+        ariaLabel: isRebinding ? t("{action}: press a key", { action: name }) : t("{action}: {key}. Change", { action: name, key: printed }),
         ariaPressed: String(isRebinding),
       });
       button.dataset.action = action;
@@ -188,4 +187,13 @@ export class Help {
     event.preventDefault();
     if (!this.#dialog.open) this.open();
   }
+}
+
+/**
+ * Return the labels of the keys that do the same.
+ * @param {string[]} codes
+ */
+function labelsOf(codes) {
+  if (codes.length === 0) return t("no key");
+  return codes.map(label).reduce((keys, key) => t("{keys} or {key}", { keys, key }));
 }

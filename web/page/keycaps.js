@@ -1,6 +1,7 @@
 /** The keys on the screen: lit while held, and usable with mouse, fingers and screen readers. */
 
 import { element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { label } from "./labels.js";
 import { dpadActions } from "./dpad.js";
 import { Stick } from "./stick.js";
@@ -84,7 +85,7 @@ export class Keycaps {
     const printed = key === undefined ? "" : label(key);
     const keycap = element(
       "button",
-      { type: "button", className: "ai4u-keycap", ariaLabel: `${name} (${printed || "no key"})` },
+      { type: "button", className: "ai4u-keycap", ariaLabel: `${name} (${printed || t("no key")})` },
       element("kbd", { textContent: printed }),
       element("span", { textContent: name }),
     );

@@ -1,6 +1,7 @@
 /** Key bindings: the scene's, with the person's own choices over them, kept in local storage. */
 
 import { forget, recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 import { dpadActions } from "./dpad.js";
 import { caption, label } from "./labels.js";
 
@@ -65,7 +66,9 @@ export class KeyMap {
    * @param {string} code of the key
    */
   change(action, code) {
-    if (RESERVED_CODE.test(code) || !CODE.test(code)) return `${label(code)} is needed elsewhere; press another key.`;
+    if (RESERVED_CODE.test(code) || !CODE.test(code)) {
+      return t("{key} is needed elsewhere; press another key.", { key: label(code) });
+    }
     const { keys } = this;
     const slot = this.#slots();
     const holder = Object.keys(keys).find((other) => other !== action && keys[other].includes(code));
@@ -75,8 +78,8 @@ export class KeyMap {
     if (holder !== undefined) {
       const others = keys[holder].filter((key) => key !== code);
       this.#chosen[slot(holder)] = others.length ? others : before;
-      const now = this.keys[holder].map(label).join(", ") || "no key";
-      message = `${label(code)} was “${this.name(holder)}”, which is ${now} now.`;
+      const now = this.keys[holder].map(label).join(", ") || t("no key");
+      message = t("{key} was “{action}”, which is {now} now.", { key: label(code), action: this.name(holder), now });
     }
     storeChoices(this.#chosen);
     return message;

@@ -1,5 +1,7 @@
 /** Labels of keys, and captions of actions. */
 
+import { t } from "../shared/text.js";
+
 /** @type {Record<string, string>} */
 const KEY_LABELS = {
   ArrowUp: "↑",
@@ -7,7 +9,7 @@ const KEY_LABELS = {
   ArrowLeft: "←",
   ArrowRight: "→",
   ShiftLeft: "Shift",
-  ShiftRight: "Right Shift",
+  ShiftRight: t("Right Shift"),
   Comma: ",",
   Period: ".",
   Slash: "/",
@@ -19,7 +21,20 @@ const KEY_LABELS = {
   Equal: "=",
 };
 /** @type {Record<string, string>} */
-const CAPTIONS = { backward: "back", jump_forward: "jump forward", turn_left: "left", turn_right: "right" };
+const CAPTIONS = {
+  accept: t("accept"),
+  backward: t("back"),
+  down: t("down"),
+  forward: t("forward"),
+  jump: t("jump"),
+  jump_forward: t("jump forward"),
+  left: t("left"),
+  restart: t("restart"),
+  right: t("right"),
+  turn_left: t("left"),
+  turn_right: t("right"),
+  up: t("up"),
+};
 
 /** @type {ReadonlyMap<string, string>} */
 let layout = new Map();

@@ -29,6 +29,7 @@ import { stars } from "../scenes/stars.js";
 import { PictureRate } from "./resolution.js";
 import { KEYS, NETWORK, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "../shared/socket.js";
+import { t } from "../shared/text.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -70,7 +71,7 @@ const keys = new HeldKeys(() => {
   draw();
 });
 const row = element("div", { className: "ai4u-row" });
-const dock = element("section", { className: "ai4u-dock", ariaLabel: "Drive" });
+const dock = element("section", { className: "ai4u-dock", ariaLabel: t("Drive") });
 document.body.append(dock);
 const keycaps = new Keycaps(dock, keys, keymap);
 dock.append(row);
@@ -97,8 +98,8 @@ const results = new Results();
 /** @param {keyof Commands} command one that needs no arguments */
 const send = (command) => socket.send({ type: "do", id: 0, command });
 const banners = new Banners(send, {
-  "Beat it!": () => void panel?.watch.beat(),
-  "Stop watching": () => void panel?.watch.stop(),
+  beat: () => void panel?.watch.beat(),
+  stop_watching: () => void panel?.watch.stop(),
 });
 /** The episode in which something else than a person has driven: its time is nobody's best. */
 let helpedEpisode = "";
@@ -190,7 +191,7 @@ function draw() {
   const status = { connected, hello: panel?.named(hello) ?? hello, control: named, howToDrive: howToDrive(), isPaused: Boolean(state?.paused), isWaiting, isHeld: isHeld(), isReached };
   driverStatus.draw(status);
   panel?.drawDriver(status);
-  help.setGoal(state?.goal || "This scene has none: look around.");
+  help.setGoal(state?.goal || t("This scene has none: look around."));
   const isDriven = Object.keys(hello.keys).length > 0 && !hello.others;
   if (hello.others && state && !state.waiting && !state.outcome) helpedEpisode = episodeName();
   const isWatching = Boolean(panel?.watch.isOn && hello.others);
@@ -202,7 +203,7 @@ function draw() {
   panel?.drawBest(driver ? results.best(task, driver) : null, driver);
   banners.draw(connected ? state : null, {
     restart: dock.hasAttribute("data-touch") ? "" : label(keymap.keys.restart?.[0] ?? ""),
-    name: isDriven ? "" : isWatching ? "The network" : hello.name,
+    name: isDriven ? "" : isWatching ? t("The network") : hello.name,
     isWatching,
     thought: isWatching ? panel.watch.thought : "",
     race: race && (race.ghost === "network") === !isWatching ? race : null,
@@ -210,7 +211,7 @@ function draw() {
     isLost,
     result,
     howToStart: canDrive() ? howToDrive() : "",
-    held: isHeld() ? (classBar?.heldText ?? "Your teacher has stopped this world") : "",
+    held: isHeld() ? (classBar?.heldText ?? t("Your teacher has stopped this world")) : "",
   });
 }
 
@@ -261,10 +262,10 @@ function canDrive() {
 
 /** Return what a person does to start driving, in words. */
 function howToDrive() {
-  if (dock.hasAttribute("data-touch")) return hello.stick ? "move the stick" : "tap a key";
-  if (!hello.others) return "press a key";
+  if (dock.hasAttribute("data-touch")) return hello.stick ? t("move the stick") : t("tap a key");
+  if (!hello.others) return t("press a key");
   const first = [...dpadActions(hello.keys).values(), ...Object.keys(hello.keys)][0];
-  return `press ${label(keymap.keys[first]?.[0] ?? "")}`;
+  return t("press {key}", { key: label(keymap.keys[first]?.[0] ?? "") });
 }
 
 // a notebook keeps its frame hidden until this message
@@ -274,7 +275,7 @@ stars.addEventListener("change", (event) => event instanceof CustomEvent && flyS
 draw();
 loadLayout().then(arrange);
 socket.open();
-setAttributes(document.getElementById("root"), { role: "main", "aria-label": "World" });
+setAttributes(document.getElementById("root"), { role: "main", "aria-label": t("World") });
 trackCanvasEdges();
 watchSharedScene();
 if (HAS_PANEL) {

@@ -3,17 +3,13 @@
 /** @import { NetworkRace, StateEvent } from "../generated/messages.js" */
 import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 
 export const WINS = ["goal", "won"];
 /** Drivers whose times are kept apart. */
 export const KEYS = "keys";
 export const PROGRAM = "program";
 export const NETWORK = "network";
-/**
- * Words for a best time by driver.
- * @type {Record<string, string>}
- */
-const WHOSE = { program: "your program's best" };
 /** Kinds of a time, compared with the best one before. */
 export const FIRST = "first";
 export const BEST = "best";
@@ -86,8 +82,10 @@ export function timesOf(task) {
  */
 export function timesText(task) {
   const times = timesOf(task);
-  const parts = [[KEYS, "you"], [PROGRAM, "your program"]].filter(([by]) => typeof times[by] === "number");
-  return parts.length ? `Best: ${parts.map(([by, who]) => `${who} ${format(times[by])} s`).join(" · ")}` : "";
+  const parts = [];
+  if (typeof times[KEYS] === "number") parts.push(t("you {time} s", { time: format(times[KEYS]) }));
+  if (typeof times[PROGRAM] === "number") parts.push(t("your program {time} s", { time: format(times[PROGRAM]) }));
+  return parts.length ? t("Best: {times}", { times: parts.join(" · ") }) : "";
 }
 
 /** Return true if a person has won by keys before, in any scene. */
@@ -100,10 +98,11 @@ export function hasWon() {
  * @param {Result} result
  */
 export function timeText({ seconds, best, kind, by }) {
-  const [time, whose] = [` ${format(seconds)} s`, WHOSE[by] ?? "your best"];
-  if (by === NETWORK) return time; // it is the same each time, from the same start
-  if (kind === BEST) return `${time} – ${whose}`;
-  return kind === SLOWER ? `${time} (${whose}: ${format(best)} s)` : time;
+  const values = { time: format(seconds), best: format(best) };
+  // a network's is the same each time, from the same start
+  if (by === NETWORK || (kind !== BEST && kind !== SLOWER)) return ` ${values.time} s`;
+  if (by === PROGRAM) return ` ${kind === BEST ? t("{time} s – your program's best", values) : t("{time} s (your program's best: {best} s)", values)}`;
+  return ` ${kind === BEST ? t("{time} s – your best", values) : t("{time} s (your best: {best} s)", values)}`;
 }
 
 /** Difference of two times (s) that counts as none. */
@@ -116,7 +115,7 @@ const SAME_S = 0.05;
  */
 export function raceText(race, state) {
   const text = endText(race, state);
-  return race.full_speed_s < race.seconds ? `${text} At full speed it needs ${format(race.full_speed_s)} s.` : text;
+  return race.full_speed_s < race.seconds ? `${text} ${t("At full speed it needs {time} s.", { time: format(race.full_speed_s) })}` : text;
 }
 
 /**
@@ -124,7 +123,8 @@ export function raceText(race, state) {
  * @param {NetworkRace} race
  */
 export function slowedText({ full_speed_s: full, seconds }) {
-  return full < seconds ? `So that keys can win, the network is slowed down: it takes ${format(seconds)} s in place of ${format(full)} s.` : "";
+  if (full >= seconds) return "";
+  return t("So that keys can win, the network is slowed down: it takes {slow} s in place of {fast} s.", { slow: format(seconds), fast: format(full) });
 }
 
 /**
@@ -135,15 +135,16 @@ function endText({ ghost, is_won: ghostHasWon, seconds, score }, state) {
   const isMine = ghost === "network";
   if (ghostHasWon === null) return scoreText(isMine, score, state.reward ?? 0);
   const hasWon = WINS.includes(state.outcome);
+  const time = format(seconds);
   if (hasWon && ghostHasWon) {
     const ahead = (isMine ? 1 : -1) * (seconds - state.seconds);
-    if (Math.abs(ahead) < SAME_S) return isMine ? "As fast as the network!" : "As fast as your drive!";
-    if (ahead > 0) return `You beat it by ${format(ahead)} s!`;
-    return isMine ? `The network was ${format(-ahead)} s faster.` : `It beat your drive by ${format(-ahead)} s.`;
+    if (Math.abs(ahead) < SAME_S) return isMine ? t("As fast as the network!") : t("As fast as your drive!");
+    if (ahead > 0) return t("You beat it by {time} s!", { time: format(ahead) });
+    return isMine ? t("The network was {time} s faster.", { time: format(-ahead) }) : t("It beat your drive by {time} s.", { time: format(-ahead) });
   }
-  if (hasWon) return isMine ? "You beat it: the network did not get there." : "It beat your drive, which did not get there.";
-  if (ghostHasWon) return isMine ? `The network got there in ${format(seconds)} s.` : `You beat it: you got there in ${format(seconds)} s!`;
-  return isMine ? "The network did not get there either." : "Your drive did not get there either.";
+  if (hasWon) return isMine ? t("You beat it: the network did not get there.") : t("It beat your drive, which did not get there.");
+  if (ghostHasWon) return isMine ? t("The network got there in {time} s.", { time }) : t("You beat it: you got there in {time} s!", { time });
+  return isMine ? t("The network did not get there either.") : t("Your drive did not get there either.");
 }
 
 /**
@@ -153,8 +154,8 @@ function endText({ ghost, is_won: ghostHasWon, seconds, score }, state) {
  */
 function scoreText(isMine, ghosts, drivers) {
   const [mine, its] = isMine ? [drivers, ghosts] : [ghosts, drivers];
-  const scores = `${format(mine)} points, the network ${format(its)}`;
-  return mine > its ? `You beat it: ${scores}.` : `You: ${scores}.`;
+  const scores = { mine: format(mine), its: format(its) };
+  return mine > its ? t("You beat it: {mine} points, the network {its}.", scores) : t("You: {mine} points, the network {its}.", scores);
 }
 
 /** Students of a class may use one device in turn. */

@@ -2,6 +2,7 @@
 
 /** @import { StickPosition } from "../generated/messages.js" */
 import { element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 /** Dead zone of each axis, as a share of its full deflection: a thumb is not exact. */
 const DEAD_ZONE = 0.15;
@@ -39,7 +40,7 @@ export class Stick {
   element = element("div", {
     className: "ai4u-stick",
     role: "img",
-    ariaLabel: "Stick: push it to drive and turn",
+    ariaLabel: t("Stick: push it to drive and turn"),
   });
 
   /** @param {import("./keys.js").HeldKeys} keys */
