@@ -6,6 +6,7 @@
  */
 import { button, element, keyed, setText } from "../shared/dom.js";
 import { percent, seconds } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 
 export class Drives {
   #panel;
@@ -14,7 +15,7 @@ export class Drives {
   #choices = /** @type {Map<number, boolean>} */ (new Map());
   /** @type {TaughtDrive[]} */
   #drives = [];
-  element = element("div", { className: "ai4u-teach-drives", role: "group", ariaLabel: "Drives to learn from" });
+  element = element("div", { className: "ai4u-teach-drives", role: "group", ariaLabel: t("Drives to learn from") });
 
   /**
    * @param {Panel} panel
@@ -51,7 +52,7 @@ export class Drives {
     });
     const remove = button("", () => this.#panel.send("teach_forget_drive", { drive: number }), {
       icon: "trash",
-      label: `Delete drive ${number}`,
+      label: t("Delete drive {number}", { number }),
       kind: "quiet",
     });
     const words = element("span", {}, element("strong"), " ", element("span"));
@@ -68,8 +69,8 @@ export class Drives {
     box.disabled = Boolean(drive.reason);
     if (box.checked !== this.#isChosen(drive)) box.checked = this.#isChosen(drive);
     row.toggleAttribute("data-off", Boolean(drive.reason));
-    setText(title, `Drive ${drive.number}`);
-    const facts = [outcome(drive), seconds(drive.seconds), drive.share < 1 && `you drove ${percent(drive.share)}`];
+    setText(title, t("Drive {number}", { number: drive.number }));
+    const facts = [outcome(drive), seconds(drive.seconds), drive.share < 1 && t("you drove {share}", { share: percent(drive.share) })];
     setText(about, drive.reason || facts.filter(Boolean).join(", "));
   }
 
@@ -82,5 +83,5 @@ export class Drives {
 
 /** @param {TaughtDrive} drive */
 function outcome({ result }) {
-  return result === null ? "" : result ? "goal reached" : "not there yet";
+  return result === null ? "" : result ? t("goal reached") : t("not there yet");
 }

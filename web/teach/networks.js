@@ -7,7 +7,8 @@
 import { ask } from "../shared/dialog.js";
 import { button, element, keyed, setText, tableHead } from "../shared/dom.js";
 import { field, showForm } from "../shared/form_dialog.js";
-import { percent, sizeProblem } from "../shared/numbers.js";
+import { percent, sizeProblem, whole } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 import { Card } from "../panel/widgets/card.js";
 import { choice } from "../panel/widgets/parts.js";
 
@@ -25,7 +26,7 @@ export class Networks {
   #part = null;
   #list = element("div", { className: "ai4u-card-list" });
   #file = element("input", { type: "file", accept: ".onnx", hidden: true });
-  #opener = button("Open a file", () => this.#file.click(), { icon: "open" });
+  #opener = button(t("Open a file"), () => this.#file.click(), { icon: "open" });
   #opening = element("p", { role: "status" });
   element = element("div", { className: "ai4u-networks" }, this.#list, element("div", { className: "ai4u-tools" }, this.#opener, this.#file), this.#opening);
 
@@ -66,12 +67,12 @@ export class Networks {
       element(
         "div",
         { className: "ai4u-tools" },
-        button("Let it drive", () => this.#panel.send("teach_drive", { network: number }), { icon: "play", kind: "main" }),
-        button("Why?", () => void this.#explain(number), { icon: "rays", title: "Let it drive, and see in Drive why it acts so" }),
-        button("Rename", () => void this.#rename(number), { icon: "text" }),
-        button("Download", () => void this.#download(number), { icon: "download" }),
-        button("Compare", () => void this.#compare(number), { icon: "race" }),
-        button("Delete", () => void this.#delete(number), { icon: "trash", kind: "danger" }),
+        button(t("Let it drive"), () => this.#panel.send("teach_drive", { network: number }), { icon: "play", kind: "main" }),
+        button(t("Why?"), () => void this.#explain(number), { icon: "rays", title: t("Let it drive, and see in Drive why it acts so") }),
+        button(t("Rename"), () => void this.#rename(number), { icon: "text" }),
+        button(t("Download"), () => void this.#download(number), { icon: "download" }),
+        button(t("Compare"), () => void this.#compare(number), { icon: "race" }),
+        button(t("Delete"), () => void this.#delete(number), { icon: "trash", kind: "danger" }),
       ),
     );
     const details = new Details(this.#panel, number);
@@ -85,7 +86,7 @@ export class Networks {
   #draw(network) {
     const { number, title, how, is_driving: isDriving } = network;
     this.#details.get(number)?.update(network);
-    const mark = isDriving ? "drives" : "";
+    const mark = isDriving ? t("drives") : "";
     this.#cards.get(number)?.update({ icon: "network", title, reads: how, mark, isOpen: this.#open === number });
   }
 
@@ -99,7 +100,7 @@ export class Networks {
   async #rename(number) {
     const { title } = this.#network(number);
     const input = element("input", { type: "text", maxLength: MAX_TITLE_CHARS, value: title, required: true });
-    await showForm({ title: "Rename the network", content: [field("Name", input)], yes: "Rename" }, async () => {
+    await showForm({ title: t("Rename the network"), content: [field(t("Name"), input)], yes: t("Rename") }, async () => {
       const answer = await this.#panel.send("teach_rename", { network: number, title: input.value }, { quiet: true });
       if (!answer.ok) throw new Error(answer.text);
     });
@@ -107,7 +108,7 @@ export class Networks {
 
   /** @param {File} file */
   async #openFile(file) {
-    const problem = sizeProblem(file, "a network (.onnx)", this.#panel.part("teach").max_network_bytes);
+    const problem = sizeProblem(file, t("a network (.onnx)"), this.#panel.part("teach").max_network_bytes);
     if (problem) {
       this.#panel.notice(problem, "error");
       return;
@@ -118,8 +119,8 @@ export class Networks {
   /** Ask before the driver of the robot is deleted. @param {number} number */
   async #delete(number) {
     const { title, is_driving: isDriving } = this.#network(number);
-    const text = "It drives the robot now. The scene's own driver takes its place.";
-    if (isDriving && !(await ask({ title: `Delete ${title}?`, text, yes: "Delete" }))) return;
+    const text = t("It drives the robot now. The scene's own driver takes its place.");
+    if (isDriving && !(await ask({ title: t("Delete {title}?", { title }), text, yes: t("Delete") }))) return;
     await this.#panel.send("teach_delete", { network: number, even_if_driving: isDriving });
   }
 
@@ -127,15 +128,15 @@ export class Networks {
   async #compare(number) {
     const others = this.#part.networks.filter((network) => network.number !== number);
     if (others.length === 0) {
-      this.#panel.notice("There is no other network of this scene to compare it with.", "error");
+      this.#panel.notice(t("There is no other network of this scene to compare it with."), "error");
       return;
     }
     const table = element("table", { className: "ai4u-table ai4u-compare" });
     const draw = (/** @type {string} */ other) => table.replaceChildren(...comparison(this.#network(number), this.#network(Number(other))));
-    const chosen = choice("With", draw);
+    const chosen = choice(t("With"), draw);
     chosen.set(others.map((other) => ({ value: String(other.number), text: other.title })), String(others[0].number));
     draw(String(others[0].number));
-    await showForm({ title: "Compare networks", content: [chosen.element, table], no: "Close" });
+    await showForm({ title: t("Compare networks"), content: [chosen.element, table], no: t("Close") });
   }
 
   /** @param {number} number */
@@ -162,11 +163,11 @@ export class Networks {
 function comparison(one, other) {
   /** @type {[string, (network: TaughtNetwork) => string][]} */
   const rows = [
-    ["Goal", ({ score }) => (score === null ? "not tried" : percent(score.successes / score.starts))],
-    ["From", ({ score }) => (score === null ? "" : score.has_all ? `all ${score.starts} starts` : `${score.starts} new starts`)],
-    ["95% between", ({ score }) => (score === null || score.has_all ? "" : `${percent(score.low)} and ${percent(score.high)}`)],
-    ["Learned", ({ how }) => how],
-    ["Made on", ({ made_at: madeAt }) => (madeAt ? new Date(1000 * madeAt).toLocaleString() : "")],
+    [t("Goal"), ({ score }) => (score === null ? t("not tried") : percent(score.successes / score.starts))],
+    [t("From"), ({ score }) => (score === null ? "" : score.has_all ? t("all {starts} starts", { starts: score.starts }) : t("{starts} new starts", { starts: score.starts }))],
+    [t("95% between"), ({ score }) => (score === null || score.has_all ? "" : t("{low} and {high}", { low: percent(score.low), high: percent(score.high) }))],
+    [t("Learned"), ({ how }) => how],
+    [t("Made on"), ({ made_at: madeAt }) => (madeAt ? new Date(1000 * madeAt).toLocaleString() : "")],
   ];
   const line = (/** @type {string} */ name, /** @type {(network: TaughtNetwork) => string} */ cell) =>
     element(
@@ -199,15 +200,15 @@ class Details {
     this.#number = number;
     this.#slider.addEventListener("input", () => this.#name());
     this.#slider.addEventListener("change", () => this.#replay());
-    const watch = button("Watch", () => this.#replay(), { icon: "play" });
-    const label = element("label", { className: "ai4u-teach-replays" }, element("span", { textContent: "How it got better" }), this.#slider, this.#shown);
+    const watch = button(t("Watch"), () => this.#replay(), { icon: "play" });
+    const label = element("label", { className: "ai4u-teach-replays" }, element("span", { textContent: t("How it got better") }), this.#slider, this.#shown);
     this.#practice = element("div", {}, label, watch);
     this.element = element("div", {}, this.#facts, this.#practice);
   }
 
   /** @param {TaughtNetwork} network */
   update({ made_at: madeAt, facts, replays }) {
-    const made = madeAt ? [`Made on ${new Date(1000 * madeAt).toLocaleString()}.`] : [];
+    const made = madeAt ? [t("Made on {date}.", { date: new Date(1000 * madeAt).toLocaleString() })] : [];
     keyed(
       this.#facts,
       [...made, ...facts],
@@ -222,7 +223,7 @@ class Details {
 
   #name() {
     const decisions = this.#replays[this.#slider.valueAsNumber] ?? 0;
-    const text = decisions === 0 ? "at the beginning" : `after ${decisions.toLocaleString("en")} decisions`;
+    const text = decisions === 0 ? t("at the beginning") : t("after {count} decisions", { count: whole(decisions) });
     setText(this.#shown, text);
     this.#slider.setAttribute("aria-valuetext", text);
   }

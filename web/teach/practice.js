@@ -5,41 +5,40 @@
  * @import { Panel } from "../panel/panel.js"
  */
 import { button, element, keyed, setText } from "../shared/dom.js";
-import { percent } from "../shared/numbers.js";
+import { percent, whole } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 import { Curve } from "../panel/widgets/curve.js";
 import { choice } from "../panel/widgets/parts.js";
 
 /** Lengths of a practice, with their decisions. */
 const LENGTHS = [
-  { value: "8192", text: "Short" },
-  { value: "32768", text: "Medium" },
-  { value: "131072", text: "Long" },
+  { value: "8192", text: t("Short") },
+  { value: "32768", text: t("Medium") },
+  { value: "131072", text: t("Long") },
 ];
 const NEW = "";
-const FIRST =
-  "The robot tries things out, and does more of what is paid. Each line is a reward of this scene: 0 switches it off, 2 makes it worth twice as much. " +
-  "Begin with a network that learned from your drives: it knows the way already.";
+const FIRST = t("The robot tries things out, and does more of what is paid. Each line is a reward of this scene: 0 switches it off, 2 makes it worth twice as much. Begin with a network that learned from your drives: it knows the way already.");
 /** Players of the other side, besides networks, by the name in the command. */
-const OPPONENTS = { player: "The scene's player", self: "Itself" };
+const OPPONENTS = { player: t("The scene's player"), self: t("Itself") };
 const NOBODY = "";
 
 export class PracticeView {
   #panel;
   #steps = LENGTHS[0].value;
   #beginWith = NEW;
-  #weights = element("div", { role: "group", ariaLabel: "Worth of each reward" });
-  #length = choice("Length", (value) => (this.#steps = value));
+  #weights = element("div", { role: "group", ariaLabel: t("Worth of each reward") });
+  #length = choice(t("Length"), (value) => (this.#steps = value));
   #opponent = NOBODY;
-  #against = choice("Against", (value) => (this.#opponent = value));
-  #begin = choice("Begin with", (value) => (this.#beginWith = value));
-  #start = button("Practise", () => void this.#practise(), { icon: "target", kind: "main" });
-  #put = button("Put into the scene", () => void this.#putIntoScene(), { icon: "scenes" });
-  #pause = button("Pause", () => this.#panel.send("teach_pause"), { icon: "pause", label: "Pause the practice" });
-  #goOn = button("Go on", () => this.#panel.send("teach_go_on"), { icon: "play", label: "Go on with the practice", kind: "main" });
-  #stop = button("Stop", () => this.#panel.send("teach_stop_practising"), { icon: "stop" });
+  #against = choice(t("Against"), (value) => (this.#opponent = value));
+  #begin = choice(t("Begin with"), (value) => (this.#beginWith = value));
+  #start = button(t("Practise"), () => void this.#practise(), { icon: "target", kind: "main" });
+  #put = button(t("Put into the scene"), () => void this.#putIntoScene(), { icon: "scenes" });
+  #pause = button(t("Pause"), () => this.#panel.send("teach_pause"), { icon: "pause", label: t("Pause the practice") });
+  #goOn = button(t("Go on"), () => this.#panel.send("teach_go_on"), { icon: "play", label: t("Go on with the practice"), kind: "main" });
+  #stop = button(t("Stop"), () => this.#panel.send("teach_stop_practising"), { icon: "stop" });
   #tools;
-  #bar = element("progress", { max: 1, ariaLabel: "Practice" });
-  #curve = new Curve("Mean reward of an episode at each check");
+  #bar = element("progress", { max: 1, ariaLabel: t("Practice") });
+  #curve = new Curve(t("Mean reward of an episode at each check"));
   #text = element("p", { role: "status" });
   #left = element("p", { className: "ai4u-soft" });
   #hint = element("p", { className: "ai4u-hint-text", role: "status" });
@@ -60,16 +59,16 @@ export class PracticeView {
    */
   update({ decisions_per_s: speed, networks, opponents, practice, rewards }, isLearning) {
     this.#length.set(
-      LENGTHS.map(({ value, text }) => ({ value, text: speed ? `${text}, about ${roughly(Number(value) / speed)}` : text })),
+      LENGTHS.map(({ value, text }) => ({ value, text: speed ? t("{length}, about {time}", { length: text, time: roughly(Number(value) / speed) }) : text })),
       this.#steps,
     );
     keyed(this.#weights, rewards, (name) => name, weightRow);
     const kept = networks.map(({ number, title }) => ({ value: String(number), text: title }));
     if (!kept.some(({ value }) => value === this.#beginWith)) this.#beginWith = NEW;
-    this.#begin.set([{ value: NEW, text: "A new network" }, ...kept], this.#beginWith);
+    this.#begin.set([{ value: NEW, text: t("A new network") }, ...kept], this.#beginWith);
     const others = opponents.flatMap((kind) => (kind === "file" ? kept : [{ value: kind, text: OPPONENTS[kind] }]));
     // a keyboard's player rests, and practice against nobody is better than none
-    if (!opponents.includes("player")) others.unshift({ value: NOBODY, text: "Nobody" });
+    if (!opponents.includes("player")) others.unshift({ value: NOBODY, text: t("Nobody") });
     if (!others.some(({ value }) => value === this.#opponent)) this.#opponent = others[0].value;
     this.#against.element.hidden = opponents.length === 0;
     this.#against.set(others, this.#opponent);
@@ -87,7 +86,7 @@ export class PracticeView {
     this.#bar.hidden = phase === "over";
     this.#bar.value = practice === null ? 0 : practice.decisions / practice.total;
     this.#left.hidden = phase !== "running" || practice.seconds_left === null || practice.waiting !== "";
-    setText(this.#left, this.#left.hidden ? "" : `At most ${roughly(practice.seconds_left)} left`);
+    setText(this.#left, this.#left.hidden ? "" : t("At most {time} left", { time: roughly(practice.seconds_left) }));
     this.#curve.update(practice?.rewards ?? []);
     setText(this.#text, practice === null ? "" : sentenceOf(practice));
     setText(this.#hint, practice?.hint ?? "");
@@ -117,7 +116,7 @@ export class PracticeView {
   #chosenWeights() {
     const inputs = [...this.#weights.querySelectorAll("input")];
     if (inputs.some((input) => Number.isNaN(input.valueAsNumber))) {
-      this.#panel.notice("Each reward needs a number: 1 as in the scene, 0 to switch it off.", "error");
+      this.#panel.notice(t("Each reward needs a number: 1 as in the scene, 0 to switch it off."), "error");
       return null;
     }
     return Object.fromEntries(inputs.map((input) => [input.name, input.valueAsNumber]));
@@ -136,17 +135,39 @@ function weightRow(name) {
 }
 
 /** @param {PracticeState} practice */
-function sentenceOf({ phase, problem, waiting, decisions, success, is_game: isGame, elsewhere, is_scene_changed: isSceneChanged, easy_starts: easy }) {
+function sentenceOf(practice) {
+  const { phase, problem, waiting, decisions, success, is_game: isGame, is_scene_changed: isSceneChanged, easy_starts: easy } = practice;
+  const sentences = [];
+  if (problem === "stopped") sentences.push(t("The practice was stopped."));
+  else if (problem) return t("It could not go on: {problem}.", { problem });
+  else if (phase !== "over" && waiting && decisions === 0) return waiting;
+  else sentences.push(progressOf(practice));
   const share = success === null ? "" : percent(success);
-  const reached = share && (isGame ? ` It wins ${share} of its games.` : ` It reaches the goal from ${share} of its starts.`);
-  if (problem === "stopped") return `The practice was stopped.${reached}`;
-  if (problem) return `It could not go on: ${problem}.`;
-  const count = decisions.toLocaleString("en");
-  const who = elsewhere ? `The ${elsewhere}` : "It";
-  if (phase === "over") return `${who} has practised for ${count} decisions, and drives now.${reached}`;
-  if (waiting && decisions === 0) return waiting;
-  const waits = phase === "paused" ? ", and waits for you" : "";
-  const scene = isSceneChanged ? " It practises in the scene as it was before your changes." : "";
-  const starts = easy === null ? "" : easy < 1 ? ` From easy to hard: its starts are ${percent(easy)} of the way.` : " It practises from all starts now.";
-  return `${who} has practised for ${count} decisions${waits}.${reached}${starts}${scene}${waiting && ` ${waiting}`}`;
+  if (share) sentences.push(isGame ? t("It wins {share} of its games.", { share }) : t("It reaches the goal from {share} of its starts.", { share }));
+  if (problem === "stopped" || phase === "over") return sentences.join(" ");
+  if (easy !== null) {
+    sentences.push(easy < 1 ? t("From easy to hard: its starts are {share} of the way.", { share: percent(easy) }) : t("It practises from all starts now."));
+  }
+  if (isSceneChanged) sentences.push(t("It practises in the scene as it was before your changes."));
+  return [...sentences, waiting].filter(Boolean).join(" ");
+}
+
+/**
+ * Return how long a robot has practised.
+ * @param {PracticeState} practice
+ */
+function progressOf({ phase, decisions, elsewhere }) {
+  const values = { name: elsewhere, count: whole(decisions) };
+  switch (phase) {
+    case "over":
+      return elsewhere
+        ? t("The {name} has practised for {count} decisions, and drives now.", values)
+        : t("It has practised for {count} decisions, and drives now.", values);
+    case "paused":
+      return elsewhere
+        ? t("The {name} has practised for {count} decisions, and waits for you.", values)
+        : t("It has practised for {count} decisions, and waits for you.", values);
+    default:
+      return elsewhere ? t("The {name} has practised for {count} decisions.", values) : t("It has practised for {count} decisions.", values);
+  }
 }

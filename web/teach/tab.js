@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel/panel.js"
  */
 import { button, element, setText } from "../shared/dom.js";
+import { t, tn } from "../shared/text.js";
 import { section } from "../panel/widgets/parts.js";
 import { Drives } from "../teach/drives.js";
 import { LearningView } from "../teach/learning.js";
@@ -12,7 +13,7 @@ import { Networks } from "../teach/networks.js";
 import { PracticeView } from "../teach/practice.js";
 import { TriesView } from "../teach/tries.js";
 
-const FIRST = "Drive to the goal a few times, from other starts each time. Every drive that ends is kept here, and the robot can learn from it.";
+const FIRST = t("Drive to the goal a few times, from other starts each time. Every drive that ends is kept here, and the robot can learn from it.");
 
 export class Tab {
   #panel;
@@ -23,8 +24,8 @@ export class Tab {
   #networks;
   #practice;
   #warning = element("p", { className: "ai4u-problem", role: "status" });
-  #learn = button("Learn", () => void this.#begin(), { icon: "network", kind: "main" });
-  #stop = button("Stop", () => this.#panel.send("teach_stop"), { icon: "stop" });
+  #learn = button(t("Learn"), () => void this.#begin(), { icon: "network", kind: "main" });
+  #stop = button(t("Stop"), () => this.#panel.send("teach_stop"), { icon: "stop" });
   #sections;
   /** @type {TeachPart | null} */
   #part = null;
@@ -41,11 +42,11 @@ export class Tab {
     const tools = element("div", { className: "ai4u-tools" }, this.#learn, this.#stop);
     const content = [this.#first, this.#warning, this.#drives.element, tools, this.#learning.element];
     this.#sections = {
-      drives: section("teach-drives", "From your drives", {}, ...content),
-      practice: section("teach-practice", "By rewards", {}, this.#practice.element),
-      networks: section("teach-networks", "Your networks", {}, this.#networks.element),
+      drives: section("teach-drives", t("From your drives"), {}, ...content),
+      practice: section("teach-practice", t("By rewards"), {}, this.#practice.element),
+      networks: section("teach-networks", t("Your networks"), {}, this.#networks.element),
     };
-    const tries = section("teach-tries", "Try many", { isOpen: false }, new TriesView(panel).element);
+    const tries = section("teach-tries", t("Try many"), { isOpen: false }, new TriesView(panel).element);
     root.append(this.#problem, this.#sections.drives, this.#sections.practice, this.#sections.networks, tries);
   }
 
@@ -69,7 +70,7 @@ export class Tab {
     const isLearning = learning !== null && !learning.is_over;
     const isPractising = practice?.phase === "running";
     const count = this.#drives.chosen.length;
-    setText(this.#learn.querySelector("span"), `Learn from ${count} drive${count === 1 ? "" : "s"}`);
+    setText(this.#learn.querySelector("span"), tn("Learn from {n} drive", "Learn from {n} drives", count));
     this.#learn.disabled = isLearning || isPractising || count === 0;
     this.#learn.hidden = drives.length === 0;
     this.#stop.hidden = !isLearning;

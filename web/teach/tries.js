@@ -6,10 +6,11 @@
  */
 import { button, element, keyed, setText, tableHead } from "../shared/dom.js";
 import { number, percent, seconds } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 import { choice } from "../panel/widgets/parts.js";
 import { IntervalPlot } from "./interval_plot.js";
 
-const FIRST = "Choose a number and some values. The robot's driver drives from the same starts with each of them, in a copy of the world.";
+const FIRST = t("Choose a number and some values. The robot's driver drives from the same starts with each of them, in a copy of the world.");
 const STOPPED = "stopped";
 /** Names of the drivers: that of the robot now, and this page's program. */
 const [DRIVER, PROGRAM] = ["driver", "program"];
@@ -23,26 +24,26 @@ export class TriesView {
   /** @type {VariableNumber[]} */
   #numbers = [];
   #driver = DRIVER;
-  #drivers = choice("Driver", (driver) => this.#choose(this.#owner, this.#name, driver));
+  #drivers = choice(t("Driver"), (driver) => this.#choose(this.#owner, this.#name, driver));
   /** Reason against the robot's driver. */
   #reason = "";
   #isUnderWay = false;
-  #owners = choice("Part", (owner) => this.#choose(owner, ""));
-  #names = choice("Number", (name) => this.#choose(this.#owner, name));
+  #owners = choice(t("Part"), (owner) => this.#choose(owner, ""));
+  #names = choice(t("Number"), (name) => this.#choose(this.#owner, name));
   #values = element("input", { type: "text", placeholder: "1, 2, 4, 8", inputMode: "text", required: true });
   #limits = element("p", { className: "ai4u-hint-text" });
   #starts = element("input", { type: "number", min: "1", step: "1", value: "20", required: true });
   #problem = element("p", { className: "ai4u-problem", role: "status" });
-  #start = button("Try", () => void this.#try(), { icon: "play", kind: "main" });
-  #stop = button("Stop", () => this.#panel.send("teach_stop_trying"), { icon: "stop" });
-  #bar = element("progress", { max: 1, ariaLabel: "Tries" });
+  #start = button(t("Try"), () => void this.#try(), { icon: "play", kind: "main" });
+  #stop = button(t("Stop"), () => this.#panel.send("teach_stop_trying"), { icon: "stop" });
+  #bar = element("progress", { max: 1, ariaLabel: t("Tries") });
   #text = element("p", { role: "status" });
   #plot = new IntervalPlot();
   #caption = element("caption");
   #body = element("tbody");
-  #head = tableHead("Value", "Goal", "95% between", "Reward", "Time");
+  #head = tableHead(t("Value"), t("Goal"), t("95% between"), t("Reward"), t("Time"));
   #table = element("table", { className: "ai4u-table ai4u-tries" }, this.#caption, this.#head, this.#body);
-  #save = button("CSV", () => void this.#download(), { icon: "download", label: "Save the table as CSV" });
+  #save = button("CSV", () => void this.#download(), { icon: "download", label: t("Save the table as CSV") });
   element = element("div", { className: "ai4u-teach-tries" });
 
   /** @param {Panel} panel */
@@ -54,9 +55,9 @@ export class TriesView {
       this.#drivers.element,
       this.#owners.element,
       this.#names.element,
-      labelled("Values", this.#values),
+      labelled(t("Values"), this.#values),
       this.#limits,
-      labelled("Starts", this.#starts),
+      labelled(t("Starts"), this.#starts),
       element("div", { className: "ai4u-tools" }, this.#start, this.#stop),
     );
     const hint = element("p", { className: "ai4u-hint-text", textContent: FIRST });
@@ -91,7 +92,7 @@ export class TriesView {
       successes === null || low === null || high === null ? [] : [{ value, middle: successes / episodes, low, high }],
     );
     for (const each of [this.#table, this.#save]) each.hidden = rows.length === 0;
-    this.#plot.update(shares, `Share of starts that reached the goal, by ${label}`);
+    this.#plot.update(shares, t("Share of starts that reached the goal, by {label}", { label }));
     setText(this.#caption, label);
     keyed(this.#body, rows, ({ value }) => value, makeRow, updateRow);
   }
@@ -104,7 +105,7 @@ export class TriesView {
    */
   #choose(owner, name, driver = this.#driver) {
     this.#driver = driver;
-    this.#drivers.set([{ value: DRIVER, text: "The robot's driver" }, { value: PROGRAM, text: "My program in the tab Code" }], driver);
+    this.#drivers.set([{ value: DRIVER, text: t("The robot's driver") }, { value: PROGRAM, text: t("My program in the tab Code") }], driver);
     const problem = driver === PROGRAM ? "" : this.#reason;
     setText(this.#problem, problem);
     this.#problem.hidden = !problem;
@@ -135,7 +136,7 @@ export class TriesView {
   async #tryProgram(wanted) {
     const code = this.#panel.code;
     if (code === null) {
-      this.#panel.notice("Open the tab Code first: your program is there.", "error");
+      this.#panel.notice(t("Open the tab Code first: your program is there."), "error");
       return;
     }
     const { ok, values } = await this.#panel.send("teach_try_program", wanted, { quiet: true });
@@ -186,16 +187,16 @@ function labelled(text, input) {
 
 /** @param {VariableNumber} number */
 function limitsOf({ value, limits }) {
-  const now = value === null ? "It has no value now." : `It is ${Number(value.toPrecision(6))} now.`;
-  return limits ? `${now} It can be ${limits}.` : now;
+  const now = value === null ? t("It has no value now.") : t("It is {value} now.", { value: Number(value.toPrecision(6)) });
+  return limits ? `${now} ${t("It can be {limits}.", { limits })}` : now;
 }
 
 /** @param {TriesState} tries */
 function sentenceOf({ is_over: isOver, problem, waiting, done, total }) {
   if (waiting) return waiting;
-  if (!isOver) return `${done} of ${total} episodes.`;
-  if (problem === "stopped") return `It was stopped after ${done} of ${total} episodes.`;
-  return problem ? `It could not go on: ${problem}.` : `${total} episodes, the same starts with each value.`;
+  if (!isOver) return t("{done} of {total} episodes.", { done, total });
+  if (problem === "stopped") return t("It was stopped after {done} of {total} episodes.", { done, total });
+  return problem ? t("It could not go on: {problem}.", { problem }) : t("{total} episodes, the same starts with each value.", { total });
 }
 
 /** @param {TriedValue} row */
@@ -210,8 +211,8 @@ function makeRow({ value }) {
  */
 function updateRow(row, { episodes, successes, low, high, reward, seconds: time }) {
   const [, goal, between, paid, duration] = row.children;
-  setText(goal, successes === null ? "–" : `${successes} of ${episodes}`);
-  setText(between, low === null || high === null ? "–" : `${percent(low)} and ${percent(high)}`);
+  setText(goal, successes === null ? "–" : t("{successes} of {episodes}", { successes, episodes }));
+  setText(between, low === null || high === null ? "–" : t("{low} and {high}", { low: percent(low), high: percent(high) }));
   setText(paid, number(reward));
   setText(duration, seconds(time));
 }
