@@ -43,7 +43,7 @@ export class DriverStatus {
     const isStill = connected && isPaused && !isHeld;
     this.#dot.dataset.kind = kind;
     setText(this.#text, isStill ? t("Paused") : who);
-    setText(this.#hint, kind === "auto" && !isStill ? ` – ${t("{what} to take over", { what: howToDrive })}` : "");
+    setText(this.#hint, kind === "auto" && !isStill ? " – " + t("{what} to take over", { what: howToDrive }) : "");
     this.#take.hidden = kind !== "other" && kind !== "auto";
     this.#letGo.hidden = kind !== "mine" || !(hello.instead || control.pages > 1);
     this.#letGo.title = hello.instead && t("{driver} goes on then", { driver: hello.instead });

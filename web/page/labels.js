@@ -20,6 +20,8 @@ const KEY_LABELS = {
   Minus: "-",
   Equal: "=",
 };
+/** The two directions in one text: each word alone means other things, too. */
+const [LEFT, RIGHT] = t("left | right").split(" | ");
 /** @type {Record<string, string>} */
 const CAPTIONS = {
   accept: t("accept"),
@@ -28,11 +30,11 @@ const CAPTIONS = {
   forward: t("forward"),
   jump: t("jump"),
   jump_forward: t("jump forward"),
-  left: t("left"),
+  left: LEFT,
   restart: t("restart"),
-  right: t("right"),
-  turn_left: t("left"),
-  turn_right: t("right"),
+  right: RIGHT,
+  turn_left: LEFT,
+  turn_right: RIGHT,
   up: t("up"),
 };
 

@@ -101,8 +101,8 @@ export function timeText({ seconds, best, kind, by }) {
   const values = { time: format(seconds), best: format(best) };
   // a network's is the same each time, from the same start
   if (by === NETWORK || (kind !== BEST && kind !== SLOWER)) return ` ${values.time} s`;
-  if (by === PROGRAM) return ` ${kind === BEST ? t("{time} s – your program's best", values) : t("{time} s (your program's best: {best} s)", values)}`;
-  return ` ${kind === BEST ? t("{time} s – your best", values) : t("{time} s (your best: {best} s)", values)}`;
+  if (kind === BEST) return " " + (by === PROGRAM ? t("{time} s – your program's best", values) : t("{time} s – your best", values));
+  return " " + (by === PROGRAM ? t("{time} s (your program's best: {best} s)", values) : t("{time} s (your best: {best} s)", values));
 }
 
 /** Difference of two times (s) that counts as none. */
@@ -115,7 +115,8 @@ const SAME_S = 0.05;
  */
 export function raceText(race, state) {
   const text = endText(race, state);
-  return race.full_speed_s < race.seconds ? `${text} ${t("At full speed it needs {time} s.", { time: format(race.full_speed_s) })}` : text;
+  if (race.full_speed_s >= race.seconds) return text;
+  return [text, t("At full speed it needs {time} s.", { time: format(race.full_speed_s) })].join(" ");
 }
 
 /**

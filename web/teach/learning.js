@@ -43,5 +43,5 @@ function sentenceOf({ is_over: isOver, problem, waiting, drives, alike, commones
     commonest: percent(commonest),
   });
   if (alike - commonest >= LITTLE_BETTER) return result;
-  return `${result} ${t("Show it more: drive again from other starts, and learn from all of these drives.")}`;
+  return [result, t("Show it more: drive again from other starts, and learn from all of these drives.")].join(" ");
 }

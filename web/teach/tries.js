@@ -188,7 +188,7 @@ function labelled(text, input) {
 /** @param {VariableNumber} number */
 function limitsOf({ value, limits }) {
   const now = value === null ? t("It has no value now.") : t("It is {value} now.", { value: Number(value.toPrecision(6)) });
-  return limits ? `${now} ${t("It can be {limits}.", { limits })}` : now;
+  return limits ? [now, t("It can be {limits}.", { limits })].join(" ") : now;
 }
 
 /** @param {TriesState} tries */
