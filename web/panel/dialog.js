@@ -2,6 +2,7 @@
 
 import { showDialog } from "../shared/dialog.js";
 import { button, element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 /**
  * Open a modal window. Closing it gives the focus back to where it was.
@@ -14,7 +15,7 @@ export function openDialog(title, ...children) {
   const body = element("div", { className: "ai4u-dialog-body" }, ...children);
   const dialog = element("dialog", { className: "ai4u-dialog" });
   const close = () => dialog.close();
-  const cross = button("", close, { icon: "remove", label: "Close", kind: "quiet" });
+  const cross = button("", close, { icon: "remove", label: t("Close"), kind: "quiet" });
   dialog.append(element("header", {}, heading, cross), body);
   showDialog(dialog, heading, { closesOutside: true });
   return { dialog, body, close };

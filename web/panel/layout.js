@@ -7,6 +7,7 @@
 
 import { element, setAttributes } from "../shared/dom.js";
 import { recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 
 const PHONE = matchMedia("(max-width: 576px)");
 /** A phone on its side: the panel stands beside the canvas, but folded at first. */
@@ -36,7 +37,7 @@ export class Layout {
   /** @param {(isFolded: boolean) => void} onFold called with true when the panel is folded, and with false when it is opened */
   constructor(onFold) {
     this.#onFold = onFold;
-    setAttributes(this.handle, { role: "separator", "aria-label": "Size of the panel" });
+    setAttributes(this.handle, { role: "separator", "aria-label": t("Size of the panel") });
     this.handle.addEventListener("pointerdown", (event) => this.#startDrag(event));
     this.handle.addEventListener("pointermove", (event) => this.#drag(event));
     this.handle.addEventListener("keydown", (event) => this.#onKey(event));

@@ -1,6 +1,7 @@
 /** Results and errors at the lower edge of the panel: a fixed place, so that they move no button. */
 
 import { button, element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 
 /** Time that a result is shown (ms); an error stays until somebody closes it or the next one comes. */
 const INFO_MS = 6000;
@@ -28,7 +29,7 @@ export class Notices {
     if (isError || text) this.#error.replaceChildren();
     if (!text) return;
     const region = isError ? this.#error : this.#info;
-    const close = button("", () => region.replaceChildren(), { icon: "remove", label: "Close", kind: "quiet" });
+    const close = button("", () => region.replaceChildren(), { icon: "remove", label: t("Close"), kind: "quiet" });
     const act = action && button(action.text, action.run, { icon: action.icon });
     region.replaceChildren(element("p", { textContent: text }), ...(act ? [act] : []), close);
     if (!isError) this.#timer = setTimeout(() => region.replaceChildren(), action ? ACTION_MS : INFO_MS);

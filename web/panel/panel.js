@@ -24,8 +24,9 @@ import { Tabs } from "./tabs.js";
 import { ViewControls } from "./view.js";
 import { retried } from "../shared/retry.js";
 import { recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 
-const TABS = [["drive", "Drive"], ["build", "Build"], ["world", "World"], ["code", "Code"], ["past", "Past"]];
+const TABS = [["drive", t("Drive")], ["build", t("Build")], ["world", t("World")], ["code", t("Code")], ["past", t("Past")]];
 const MAX_FILE_NAME_CHARS = 80;
 /**
  * Name of the part that a tab shows; that of an option's tab is the tab's own.
@@ -100,22 +101,22 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   #run;
   #notices = new Notices();
   #body = element("div", { className: "ai4u-panel-body" });
-  #fold = button("", () => this.layout.fold(!this.layout.isFolded), { label: "Fold the panel", kind: "quiet", icon: "down" });
-  #modes = segments("How much to show", [
-    { value: "simple", text: "Simple" },
-    { value: "details", text: "Details" },
+  #fold = button("", () => this.layout.fold(!this.layout.isFolded), { label: t("Fold the panel"), kind: "quiet", icon: "down" });
+  #modes = segments(t("How much to show"), [
+    { value: "simple", text: t("Simple") },
+    { value: "details", text: t("Details") },
   ], (mode) => this.#setDetails(mode === "details"));
-  #more = button("", () => this.#foldTop(!this.#isTopFolded), { icon: "down", label: "Goal, score and camera", kind: "quiet" });
+  #more = button("", () => this.#foldTop(!this.#isTopFolded), { icon: "down", label: t("Goal, score and camera"), kind: "quiet" });
   #top = element("div", { className: "ai4u-panel-top" });
   /** Headings for screen readers: the scene, and what can be done with it. */
   #heading = element("h1", { className: "ai4u-hidden-text" });
-  #undo = button("", () => this.send("undo"), { icon: "undo", label: "Undo", kind: "quiet" });
-  #redo = button("", () => this.send("redo"), { icon: "redo", label: "Redo", kind: "quiet" });
+  #undo = button("", () => this.send("undo"), { icon: "undo", label: t("Undo"), kind: "quiet" });
+  #redo = button("", () => this.send("redo"), { icon: "redo", label: t("Redo"), kind: "quiet" });
   #tabs = new Tabs(TABS, (name, root) => this.#openTab(name, root));
   /** @type {boolean} */
   details = recall("panel-details", false);
   layout = new Layout((isFolded) => this.#onFold(isFolded));
-  element = element("aside", { className: "ai4u-panel", ariaLabel: "Panel" });
+  element = element("aside", { className: "ai4u-panel", ariaLabel: t("Panel") });
 
   /**
    * @param {Driving} driving
@@ -136,7 +137,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
     this.#top.append(this.#run.element, new ViewControls(this, history).element, this.#more);
     this.#body.append(
       this.#top,
-      element("div", { className: "ai4u-panel-rest" }, element("h2", { className: "ai4u-hidden-text", textContent: "Tabs" }), ...this.#tabs.elements),
+      element("div", { className: "ai4u-panel-rest" }, element("h2", { className: "ai4u-hidden-text", textContent: t("Tabs") }), ...this.#tabs.elements),
     );
     const mission = new MissionCard(this);
     this.element.append(this.layout.handle, head, mission.element, this.#body, this.#notices.element);
@@ -257,7 +258,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
    * @param {DriverView["hello"]} hello
    */
   named(hello) {
-    const rename = (/** @type {string} */ driver) => (driver && this.hasProgram ? "Your program" : driver);
+    const rename = (/** @type {string} */ driver) => (driver && this.hasProgram ? t("Your program") : driver);
     return { ...hello, others: rename(hello.others), instead: rename(hello.instead) };
   }
 
@@ -291,7 +292,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
 
   /** @param {boolean} isFolded */
   #onFold(isFolded) {
-    const label = isFolded ? "Open the panel" : "Fold the panel";
+    const label = isFolded ? t("Open the panel") : t("Fold the panel");
     setAttributes(this.#fold, { "aria-expanded": isFolded ? "false" : "true", "aria-label": label, title: label });
     this.#body.inert = isFolded;
     this.#showPalette();
@@ -377,7 +378,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
         this.#opened.set(name, new Tab(root, this));
       } catch (error) {
         this.#opened.delete(name);
-        this.notice(`This tab could not be loaded: ${error.message}. Reload the page.`, "error");
+        this.notice(t("This tab could not be loaded: {reason}. Reload the page.", { reason: error.message }), "error");
         return;
       }
     }
@@ -408,13 +409,14 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   #showHistory() {
     const { open } = this.#tabs;
     const part = open === "build" ? this.part("blocks") : open === "world" ? this.part("world") : null;
-    for (const { control, name, label } of [
-      { control: this.#undo, name: "Undo", label: part?.undo?.label },
-      { control: this.#redo, name: "Redo", label: part?.redo?.label },
+    const [undo, redo] = [part?.undo?.label, part?.redo?.label];
+    for (const { control, words, label } of [
+      { control: this.#undo, label: undo, words: undo ? t("Undo {change}", { change: undo }) : t("Undo") },
+      { control: this.#redo, label: redo, words: redo ? t("Redo {change}", { change: redo }) : t("Redo") },
     ]) {
       control.hidden = part === null;
       control.disabled = !label;
-      setAttributes(control, { "aria-label": `${name} ${label || ""}`.trim(), title: `${name} ${label || ""}`.trim() });
+      setAttributes(control, { "aria-label": words, title: words });
     }
   }
 }

@@ -8,6 +8,7 @@ import { button, element, keyed, setAttributes, setText } from "../shared/dom.js
 import { freeId } from "../shared/ids.js";
 import { fact, toggle } from "./widgets/parts.js";
 import { number, seconds } from "../shared/numbers.js";
+import { t } from "../shared/text.js";
 import { Watch } from "./why/watch.js";
 
 /** Most characters of a goal, as a scene's file takes. */
@@ -16,7 +17,7 @@ const MAX_GOAL_CHARS = 2000;
  * Names of best times by the kind of driver.
  * @type {Record<string, string>}
  */
-const BEST = { program: "Best (code)", network: "Best (network)" };
+const BEST = { program: t("Best (code)"), network: t("Best (network)") };
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, "max"];
 
 export class RunControls {
@@ -24,18 +25,18 @@ export class RunControls {
   #isPaused = false;
   #goalText = element("span");
   #goal = element("p", { className: "ai4u-goal-text" }, this.#goalText);
-  #facts = { time: fact("Time"), score: fact("Score"), best: fact("Best") };
-  #stages = element("ol", { className: "ai4u-stages", ariaLabel: "Stages" });
+  #facts = { time: fact(t("Time")), score: fact(t("Score")), best: fact(t("Best")) };
+  #stages = element("ol", { className: "ai4u-stages", ariaLabel: t("Stages") });
   /** Result for screen readers: the banner over the picture shows it, and a visible line would move the buttons. */
   #result = element("p", { className: "ai4u-hidden-text", role: "status" });
   #problem = element("p", { className: "ai4u-run-problem", role: "alert" });
   #status = element("p", { className: "ai4u-soft ai4u-details-only ai4u-run-status" });
-  #change = button("", () => this.#changeGoal(), { icon: "text", label: "Change the goal", kind: "quiet" });
-  #pause = button("Pause", () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }));
+  #change = button("", () => this.#changeGoal(), { icon: "text", label: t("Change the goal"), kind: "quiet" });
+  #pause = button(t("Pause"), () => this.#panel.send(this.#isPaused ? "resume" : "pause", {}, { quiet: true }));
   #speed = element("select", { id: freeId() });
   watch;
   #seed = element("input", { type: "text", inputMode: "numeric", id: freeId(), autocomplete: "off" });
-  #lock = toggle("Lock", (on) => this.#panel.send("lock_seed", { on }), { title: "Begin each episode with this seed" });
+  #lock = toggle(t("Lock"), (on) => this.#panel.send("lock_seed", { on }), { title: t("Begin each episode with this seed") });
   element;
 
   /** @param {Panel} panel */
@@ -47,12 +48,12 @@ export class RunControls {
     this.drawBest(null, "");
     this.#facts.score.element.classList.add("ai4u-details-only");
     const quietly = (/** @type {"try_again" | "new_start"} */ command) => panel.send(command, {}, { quiet: true });
-    const again = button("Try again", () => quietly("try_again"), { title: "Start again from the same place", kind: "main" });
-    const fresh = button("New start", () => quietly("new_start"), { title: "Start again from another place" });
+    const again = button(t("Try again"), () => quietly("try_again"), { title: t("Start again from the same place"), kind: "main" });
+    const fresh = button(t("New start"), () => quietly("new_start"), { title: t("Start again from another place") });
     const facts = element("dl", { className: "ai4u-facts" }, ...Object.values(this.#facts).map(({ element: made }) => made));
     this.element = element(
       "section",
-      { className: "ai4u-run", ariaLabel: "Run" },
+      { className: "ai4u-run", ariaLabel: t("Run") },
       this.#goal,
       facts,
       element("div", { className: "ai4u-buttons" }, again, fresh, this.#pause),
@@ -69,25 +70,25 @@ export class RunControls {
 
   #details() {
     const panel = this.#panel;
-    const tick = button("One tick", () => panel.send("tick", {}, { quiet: true }), { title: "Pause, and run one tick of the physics" });
-    const decision = button("One decision", () => panel.send("decision", {}, { quiet: true }), { title: "Pause, and run to the agent's next decision" });
-    const options = SPEEDS.map((speed) => element("option", { value: speed, textContent: speed === "max" ? "maximum" : `${speed}x` }));
+    const tick = button(t("One tick"), () => panel.send("tick", {}, { quiet: true }), { title: t("Pause, and run one tick of the physics") });
+    const decision = button(t("One decision"), () => panel.send("decision", {}, { quiet: true }), { title: t("Pause, and run to the agent's next decision") });
+    const options = SPEEDS.map((speed) => element("option", { value: speed, textContent: speed === "max" ? t("maximum") : `${speed}x` }));
     this.#speed.append(...options);
     this.#speed.addEventListener("change", () => {
       panel.send("speed", { speed: this.#speed.value === "max" ? "max" : Number(this.#speed.value) }, { quiet: true });
     });
     this.#seed.addEventListener("change", () => this.#setSeed());
-    const copy = button("", () => this.#copySeed(), { icon: "copy", label: "Copy the seed", kind: "quiet" });
+    const copy = button("", () => this.#copySeed(), { icon: "copy", label: t("Copy the seed"), kind: "quiet" });
     return element(
       "div",
       { className: "ai4u-run-details ai4u-details-only" },
       tick,
       decision,
-      element("div", { className: "ai4u-inline" }, element("label", { htmlFor: this.#speed.id, textContent: "Speed" }), this.#speed),
+      element("div", { className: "ai4u-inline" }, element("label", { htmlFor: this.#speed.id, textContent: t("Speed") }), this.#speed),
       element(
         "div",
         { className: "ai4u-inline ai4u-seed" },
-        element("label", { htmlFor: this.#seed.id, textContent: "Seed" }),
+        element("label", { htmlFor: this.#seed.id, textContent: t("Seed") }),
         this.#seed,
         this.#lock.element,
         copy,
@@ -104,20 +105,20 @@ export class RunControls {
     const { best } = this.#facts;
     best.element.hidden = typeof time !== "number";
     if (best.element.hidden) return;
-    setText(best.element.firstChild, BEST[by] ?? "Best");
+    setText(best.element.firstChild, BEST[by] ?? t("Best"));
     best.set(seconds(time));
   }
 
   /** @param {RunPart} run */
   #draw(run) {
     this.#isPaused = run.is_paused;
-    setText(this.#pause.querySelector("span"), run.is_paused ? "Resume" : "Pause");
+    setText(this.#pause.querySelector("span"), run.is_paused ? t("Resume") : t("Pause"));
     this.#facts.time.set(seconds(run.time_s));
     this.#facts.score.set(number(run.score));
     setText(this.#result, run.result && run.result_text);
     setAttributes(this.#result, { "data-result": run.result || null });
     setText(this.#problem, run.error || "");
-    const place = `Episode ${run.episode}, decision ${run.decision}`;
+    const place = t("Episode {episode}, decision {decision}", { episode: run.episode, decision: run.decision });
     setText(this.#status, [place, run.status, run.slow, run.stall].filter(Boolean).join(" · "));
     this.#drawStages(run.stages);
     const speed = String(run.speed);
@@ -160,8 +161,8 @@ export class RunControls {
       if (answer.ok) return close();
       setText(problem, answer.problems.map((problem) => problem.text).join(" ") || answer.text);
     };
-    const label = element("label", { htmlFor: text.id, textContent: "The task, in a sentence" });
-    const { close } = this.#panel.dialog("Goal", label, text, problem, button("Save", save, { kind: "main" }));
+    const label = element("label", { htmlFor: text.id, textContent: t("The task, in a sentence") });
+    const { close } = this.#panel.dialog(t("Goal"), label, text, problem, button(t("Save"), save, { kind: "main" }));
     text.focus();
   }
 
@@ -169,14 +170,14 @@ export class RunControls {
     const seed = this.#seed.value.trim();
     if (seed === this.#panel.part("run")?.seed) return;
     if (!/^\d{1,40}$/.test(seed)) {
-      this.#panel.notice(`Seed: expected a whole number such as 42, got "${seed.slice(0, 40)}".`, "error");
+      this.#panel.notice(t("Seed: expected a whole number such as 42, got \"{seed}\".", { seed: seed.slice(0, 40) }), "error");
       return;
     }
     await this.#panel.send("seed", { seed });
   }
 
   async #copySeed() {
-    await copyText(this.#panel, this.#seed.value, "Seed copied.");
+    await copyText(this.#panel, this.#seed.value, t("Seed copied."));
   }
 }
 
@@ -191,6 +192,6 @@ export async function copyText(panel, text, done) {
     await navigator.clipboard.writeText(text);
     panel.notice(done);
   } catch {
-    panel.notice("The browser doesn't let this page copy. Select the text and press Ctrl+C.", "error");
+    panel.notice(t("The browser doesn't let this page copy. Select the text and press Ctrl+C."), "error");
   }
 }

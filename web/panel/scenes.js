@@ -10,13 +10,19 @@ import { icon } from "../shared/icons.js";
 import { freeId } from "../shared/ids.js";
 import { tile, tiles } from "./widgets/parts.js";
 import { ask } from "../shared/dialog.js";
+import { t } from "../shared/text.js";
 import { unsavedSentence } from "../scenes/api.js";
 import { scenePicture } from "../scenes/picture.js";
 import { starRow, starsOf } from "../scenes/stars.js";
 
-const [MINE, OTHERS] = ["My scenes", "More scenes"];
 /** Headings in their order: the scenes' levels, and those without one. */
-const GROUPS = [MINE, "Easy", "Medium", "Hard", OTHERS];
+const GROUPS = new Map([
+  ["mine", t("My scenes")],
+  ["easy", t("Easy")],
+  ["medium", t("Medium")],
+  ["hard", t("Hard")],
+  ["others", t("More scenes")],
+]);
 
 export class ScenePicker {
   #panel;
@@ -33,19 +39,19 @@ export class ScenePicker {
     panel.addEventListener("part:scene", ({ detail }) => {
       setText(this.#title, detail.title || document.title);
       this.element.disabled = !detail.can_edit;
-      setAttributes(this.element, { title: detail.can_edit ? `${detail.title}: choose another scene` : detail.title });
+      setAttributes(this.element, { title: detail.can_edit ? t("{title}: choose another scene", { title: detail.title }) : detail.title });
     });
   }
 
   /** Show all scenes as cards. */
   async open() {
-    const window_ = this.#panel.dialog("Choose a scene", element("p", { textContent: "Loading …" }));
+    const window_ = this.#panel.dialog(t("Choose a scene"), element("p", { textContent: t("Loading …") }));
     const [answer] = await Promise.all([this.#panel.send("scenes", {}, { quiet: true }), syncStars()]);
     if (!answer.ok) {
       window_.body.replaceChildren(element("p", { role: "alert", textContent: answer.text }));
       return;
     }
-    const groups = GROUPS.map((title) => ({ title, scenes: answer.items.filter((scene) => groupOf(scene) === title) }));
+    const groups = [...GROUPS].map(([group, title]) => ({ title, scenes: answer.items.filter((scene) => groupOf(scene) === group) }));
     const sections = groups.filter(({ scenes }) => scenes.length).map(({ title, scenes }) =>
       element(
         "section",
@@ -63,7 +69,7 @@ export class ScenePicker {
    */
   #tile(scene, close) {
     const { title, goal, minutes, picture } = scene;
-    const note = minutes ? `about ${minutes} min` : "";
+    const note = minutes ? t("about {minutes} min", { minutes }) : "";
     const made = tile({ title, text: goal, note }, async () => {
       close();
       await this.#load(scene);
@@ -80,13 +86,13 @@ export class ScenePicker {
   /** @param {SceneCard} scene */
   async #load({ name, title, is_saved: isSaved = false }) {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: `Open ${title}?`, text, yes: "Open" }))) return;
+    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return;
     await this.#panel.send("open_scene", { name, is_saved: isSaved });
   }
 }
 
 /** @param {SceneCard} scene */
 function groupOf({ level = "", is_saved: isSaved }) {
-  const title = level.slice(0, 1).toUpperCase() + level.slice(1);
-  return isSaved ? MINE : GROUPS.includes(title) ? title : OTHERS;
+  const group = level.toLowerCase();
+  return isSaved ? "mine" : GROUPS.has(group) ? group : "others";
 }

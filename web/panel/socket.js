@@ -5,10 +5,11 @@
  * @import { Answer, DoneMessage, FailedMessage, PanelMessage } from "../types/panel.js"
  */
 import { JsonSocket } from "../shared/socket.js";
+import { t } from "../shared/text.js";
 
 /** Size of the parts in which a file is sent. */
 const PART_BYTES = 2 ** 18;
-const NOT_CONNECTED = "Not connected to the world. The page reconnects by itself.";
+const NOT_CONNECTED = t("Not connected to the world. The page reconnects by itself.");
 
 export class PanelSocket {
   /**

@@ -2,6 +2,7 @@
 
 import { element, setAttributes } from "../shared/dom.js";
 import { recall, remember } from "../shared/storage.js";
+import { t } from "../shared/text.js";
 
 /** A phone, upright or on its side: what stands above the tabs fills the panel. */
 const SMALL = matchMedia("(max-width: 576px), (max-height: 500px)");
@@ -12,7 +13,7 @@ export class Tabs {
    * @type {Map<string, {tab: HTMLButtonElement, panel: HTMLElement}>}
    */
   #tabs = new Map();
-  #list = element("div", { className: "ai4u-tabs", role: "tablist", ariaLabel: "Panel" });
+  #list = element("div", { className: "ai4u-tabs", role: "tablist", ariaLabel: t("Panel") });
   #panels = element("div", { className: "ai4u-tabpanels" });
   #onOpen;
   /** @type {string | null} */

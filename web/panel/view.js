@@ -5,6 +5,7 @@
  * @import { Panel } from "./panel.js"
  */
 import { element } from "../shared/dom.js";
+import { t } from "../shared/text.js";
 import { segments, toggle } from "./widgets/parts.js";
 
 /**
@@ -12,11 +13,11 @@ import { segments, toggle } from "./widgets/parts.js";
  * @type {{value: ViewPart["camera"], text: string, name?: string, title: string}[]}
  */
 const CAMERAS = [
-  { value: "arena", text: "Arena", title: "See everything from above" },
-  { value: "tilted", text: "Tilted", title: "See everything at an angle, with depth" },
-  { value: "follow", text: "Follow", title: "Stay above the robot" },
-  { value: "turn", text: "Turn along", title: "Stay above the robot and turn with it" },
-  { value: "eyes", text: "Its eyes", name: "Through its eyes", title: "See what the robot would see" },
+  { value: "arena", text: t("Arena"), title: t("See everything from above") },
+  { value: "tilted", text: t("Tilted"), title: t("See everything at an angle, with depth") },
+  { value: "follow", text: t("Follow"), title: t("Stay above the robot") },
+  { value: "turn", text: t("Turn along"), title: t("Stay above the robot and turn with it") },
+  { value: "eyes", text: t("Its eyes"), name: t("Through its eyes"), title: t("See what the robot would see") },
 ];
 
 /** Longest time (ms) that the page waits for the end of its opening. */
@@ -32,16 +33,16 @@ export class ViewControls {
    * @param {HTMLElement} history the buttons to undo and redo
    */
   constructor(panel, history) {
-    const cameras = segments("Camera", CAMERAS, (mode) => panel.send("camera", { mode }, { quiet: true }));
+    const cameras = segments(t("Camera"), CAMERAS, (mode) => panel.send("camera", { mode }, { quiet: true }));
     cameras.element.classList.add("ai4u-cameras");
-    const trail = toggle("Trail", (on) => panel.send("trail", { on }, { quiet: true }), { title: "Draw the robot's way" });
+    const trail = toggle(t("Trail"), (on) => panel.send("trail", { on }, { quiet: true }), { title: t("Draw the robot's way") });
     trail.element.classList.add("ai4u-details-only");
     panel.addEventListener("part:view", ({ detail }) => {
       cameras.set(detail.camera);
       trail.set(detail.has_trail);
     });
     const root = document.documentElement;
-    const dark = toggle("Dark", (on) => {
+    const dark = toggle(t("Dark"), (on) => {
       dispatchEvent(new CustomEvent("ai4u-dark", { detail: on })); // page/dark.js keeps the choice
       panel.send("dark", { on }, { quiet: true });
     });
@@ -51,7 +52,7 @@ export class ViewControls {
     playOpening(panel);
     dark.set(root.dataset.ai4uScheme === "dark");
     const switches = element("div", { className: "ai4u-inline" }, trail.element, dark.element, history);
-    this.element = element("section", { className: "ai4u-view", ariaLabel: "Picture" }, cameras.element, switches);
+    this.element = element("section", { className: "ai4u-view", ariaLabel: t("Picture") }, cameras.element, switches);
   }
 }
 

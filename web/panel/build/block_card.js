@@ -6,6 +6,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, keyed, setText } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
 import { openGallery } from "./gallery.js";
@@ -78,7 +79,7 @@ export class BlockCard {
   #switch(isOn, title) {
     return {
       icon: "power",
-      label: `Turn ${isOn ? "off" : "on"} ${title}`,
+      label: isOn ? t("Turn off {title}", { title }) : t("Turn on {title}", { title }),
       onClick: () => {
         this.#panel.send("switch_block", { path: this.#block.path, on: !isOn });
       },
@@ -92,10 +93,10 @@ export class BlockCard {
   #showTools(isShown, title) {
     const { can_up: canUp = true, can_down: canDown = true } = this.#block;
     const tools = [
-      { icon: "up", label: `Move up ${title}`, isEnabled: canUp, run: () => this.#move(-1) },
-      { icon: "down", label: `Move down ${title}`, isEnabled: canDown, run: () => this.#move(1) },
-      { icon: "copy", label: `Duplicate ${title}`, isEnabled: true, run: () => this.#duplicate() },
-      { icon: "trash", label: `Delete ${title}`, isEnabled: true, kind: "danger", run: () => this.#remove() },
+      { icon: "up", label: t("Move up {title}", { title }), isEnabled: canUp, run: () => this.#move(-1) },
+      { icon: "down", label: t("Move down {title}", { title }), isEnabled: canDown, run: () => this.#move(1) },
+      { icon: "copy", label: t("Duplicate {title}", { title }), isEnabled: true, run: () => this.#duplicate() },
+      { icon: "trash", label: t("Delete {title}", { title }), isEnabled: true, kind: "danger", run: () => this.#remove() },
     ];
     this.#tools.ariaLabel = title;
     this.#tools.hidden = !isShown;
@@ -134,7 +135,7 @@ export class BlockCard {
       if (added.ok && added.path) this.#panel.show({ block: added.path });
       return;
     }
-    openGallery(this.#panel, { title: `Add a ${title.toLowerCase()}`, kind, parent });
+    openGallery(this.#panel, { title: t("Add a {block}", { block: title.toLowerCase() }), kind, parent });
   }
 
   /** @param {number} by -1 for up, 1 for down */

@@ -6,6 +6,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { element } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { tile, tiles } from "../widgets/parts.js";
 import { picture } from "./pictures.js";
 
@@ -18,7 +19,7 @@ import { picture } from "./pictures.js";
  * @param {(string | number)[]} [options.parent] path of the list that gets the block; default: the agent's own
  */
 export async function openGallery(panel, { title, kind, parent = [kind] }) {
-  const content = element("div", { className: "ai4u-gallery" }, element("p", { textContent: "Loading …" }));
+  const content = element("div", { className: "ai4u-gallery" }, element("p", { textContent: t("Loading …") }));
   const dialog = panel.dialog(title, content);
   const answer = await panel.send("gallery", { kind }, { quiet: true });
   if (!answer.ok) {
@@ -42,7 +43,7 @@ function groups(items, add) {
   const left = items.filter(({ reason }) => reason);
   const fitting = byQuestion(items.filter(({ reason }) => !reason), add);
   if (!left.length) return fitting;
-  const summary = element("summary", { textContent: `Not for this robot (${left.length})` });
+  const summary = element("summary", { textContent: t("Not for this robot ({n})", { n: left.length }) });
   return [...fitting, element("details", { open: !fitting.length }, summary, ...byQuestion(left, add))];
 }
 

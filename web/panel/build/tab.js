@@ -7,6 +7,7 @@
  * @import { CardList } from "./block_card.js"
  */
 import { button, element } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { updateCards } from "./block_card.js";
 import { Form } from "../widgets/form.js";
 import { openGallery } from "./gallery.js";
@@ -14,10 +15,10 @@ import { choice, section } from "../widgets/parts.js";
 
 /** @type {{kind: ListBlocks["kind"], title: string, one: string, add: string, none: string, detailsOnly?: boolean}[]} */
 const KINDS = [
-  { kind: "sensors", title: "Sensors", one: "Sensor", add: "Add a sensor", none: "No sensors yet." },
-  { kind: "actuators", title: "Actuators", one: "Actuator", add: "Add an actuator", none: "It can't do anything yet." },
-  { kind: "rewards", title: "Rewards", one: "Reward", add: "Add a reward", none: "No rewards yet." },
-  { kind: "brains", title: "Brains", one: "Brain", add: "Add a brain", none: "", detailsOnly: true },
+  { kind: "sensors", title: t("Sensors"), one: t("Sensor"), add: t("Add a sensor"), none: t("No sensors yet.") },
+  { kind: "actuators", title: t("Actuators"), one: t("Actuator"), add: t("Add an actuator"), none: t("It can't do anything yet.") },
+  { kind: "rewards", title: t("Rewards"), one: t("Reward"), add: t("Add a reward"), none: t("No rewards yet.") },
+  { kind: "brains", title: t("Brains"), one: t("Brain"), add: t("Add a brain"), none: "", detailsOnly: true },
 ];
 /** Delay after a change until the drivers are listed again (ms). */
 const DRIVERS_DELAY_MS = 300;
@@ -45,15 +46,15 @@ export class BuildTab {
    */
   constructor(root, panel) {
     this.#panel = panel;
-    this.#driver = choice("Driven by", (name) => this.#setDriver(name));
+    this.#driver = choice(t("Driven by"), (name) => this.#setDriver(name));
     const adding = KINDS.map(({ kind, one, add, detailsOnly }) => {
       const made = button(one, () => openGallery(panel, { title: add, kind }), { icon: "add", label: add });
       made.classList.toggle("ai4u-details-only", Boolean(detailsOnly));
       return made;
     });
     root.append(
-      element("h3", { textContent: "Add to the robot" }),
-      element("div", { className: "ai4u-add", role: "group", ariaLabel: "Add to the robot" }, ...adding),
+      element("h3", { textContent: t("Add to the robot") }),
+      element("div", { className: "ai4u-add", role: "group", ariaLabel: t("Add to the robot") }, ...adding),
       this.#driver.element,
     );
     for (const { kind, title, none: noneText, detailsOnly } of KINDS) {
@@ -65,7 +66,7 @@ export class BuildTab {
     this.#settings = new Form({
       onChange: (values) => panel.send("change_agent", { values }),
     });
-    root.append(section("build-settings", "Robot settings", { isOpen: false }, this.#settings.element));
+    root.append(section("build-settings", t("Robot settings"), { isOpen: false }, this.#settings.element));
     this.#scene = panel.part("scene")?.scene ?? "";
     panel.addEventListener("part:scene", ({ detail }) => this.#onScene(detail.scene));
   }
@@ -122,7 +123,7 @@ export class BuildTab {
   #showDrivers(driver) {
     const options = this.#drivers.map(({ name, title, reason = "" }) => ({ value: name, text: title, reason }));
     if (!this.#drivers.some(({ name }) => name === driver)) {
-      const text = this.#drivers.length ? "Somebody else" : "…";
+      const text = this.#drivers.length ? t("Somebody else") : "…";
       options.unshift({ value: driver ?? "", text, reason: "" });
     }
     this.#shownDriver = driver ?? "";

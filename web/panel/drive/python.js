@@ -2,6 +2,7 @@
 
 /** @import { Panel } from "../panel.js" */
 import { button, element, setText } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { copyText } from "../run.js";
 
 export class PythonLines {
@@ -10,7 +11,7 @@ export class PythonLines {
 
   /** @param {Panel} panel */
   constructor(panel) {
-    const copy = button("Copy", () => copyText(panel, this.#code.textContent, "Copied. Paste it into a notebook or a script."), {
+    const copy = button(t("Copy"), () => copyText(panel, this.#code.textContent, t("Copied. Paste it into a notebook or a script.")), {
       icon: "copy",
     });
     this.element = element("div", { className: "ai4u-python" }, element("pre", { tabIndex: 0 }, this.#code), copy);

@@ -4,17 +4,18 @@
 import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { Curve } from "../widgets/curve.js";
 import { number } from "../../shared/numbers.js";
+import { t } from "../../shared/text.js";
 
 export class RewardTable {
   #help = element("p", { className: "ai4u-soft" });
   #rows = element("tbody");
-  #total = element("tr", {}, element("th", { scope: "row", textContent: "Sum" }), element("td"), element("td"));
-  #latest = element("ol", { className: "ai4u-soft ai4u-details-only", ariaLabel: "Latest rewards" });
-  #curve = new Curve("The score during the episode");
+  #total = element("tr", {}, element("th", { scope: "row", textContent: t("Sum") }), element("td"), element("td"));
+  #latest = element("ol", { className: "ai4u-soft ai4u-details-only", ariaLabel: t("Latest rewards") });
+  #curve = new Curve(t("The score during the episode"));
   element;
 
   constructor() {
-    const head = tableHead("Reward", "Last decision", "Episode");
+    const head = tableHead(t("Reward"), t("Last decision"), t("Episode"));
     const table = element("table", { className: "ai4u-table" }, head, this.#rows, element("tfoot", {}, this.#total));
     this.#curve.element.classList.add("ai4u-details-only");
     this.element = element("div", {}, this.#help, table, this.#latest, this.#curve.element);
@@ -35,11 +36,11 @@ export class RewardTable {
       fill(row, term, decision, episode);
     });
     const sum = (/** @type {"decision" | "episode"} */ name) => terms.reduce((total, row) => total + (row[name] ?? 0), 0);
-    fill(this.#total, "Sum", sum("decision"), sum("episode"));
+    fill(this.#total, t("Sum"), sum("decision"), sum("episode"));
     this.#total.hidden = terms.length < 2;
     keyed(this.#latest, latest, ({ decision }) => decision, () => element("li"), (item, { decision, terms: its }) => {
       const amounts = its.map(({ term, amount }) => `${term} ${number(amount)}`);
-      setText(item, `Decision ${decision}: ${amounts.join(", ")}`);
+      setText(item, t("Decision {n}: {rewards}", { n: decision, rewards: amounts.join(", ") }));
     });
   }
 

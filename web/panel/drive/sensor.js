@@ -8,6 +8,7 @@
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { Bars } from "../widgets/bars.js";
 import { icon } from "../../shared/icons.js";
+import { t } from "../../shared/text.js";
 import { drawStrip, makeStrip } from "../widgets/strip.js";
 import { drawWeights } from "../why/why.js";
 
@@ -23,7 +24,7 @@ export class SensorView {
   #isShown = false;
   #heading = element("h4");
   #type = element("code", { className: "ai4u-details-only" });
-  #eye = button("", () => this.#toggle(), { icon: "eye", label: "Show in the picture", kind: "quiet" });
+  #eye = button("", () => this.#toggle(), { icon: "eye", label: t("Show in the picture"), kind: "quiet" });
   #bars = new Bars();
   #strips = element("div", { className: "ai4u-strips" });
   #weights = element("div", { className: "ai4u-why-weights", hidden: true, ariaHidden: "true" });
@@ -61,7 +62,7 @@ export class SensorView {
     setText(this.#help, help);
     setAttributes(this.#heading, { title: help || null });
     this.#eye.hidden = !sensor.is_drawable;
-    const label = `Show ${this.#title} in the picture`;
+    const label = t("Show {sensor} in the picture", { sensor: this.#title });
     setAttributes(this.#eye, { "aria-pressed": this.#isShown ? "true" : "false", "aria-label": label, title: label });
     this.#bars.element.hidden = values.length === 0;
     const hasBars = why !== null && why.slots.length === values.length;
@@ -106,9 +107,11 @@ function drawPicture(figure, { cells, caption, rows, columns }, title) {
   const [image, words] = /** @type {[HTMLImageElement, HTMLElement]} */ ([...figure.children]);
   if (image.src !== cells) image.src = cells;
   const isFlat = rows < MIN_ROWS;
-  setAttributes(image, { alt: `${title}${caption ? `: ${caption}` : ""}`, "data-flat": isFlat });
+  const isOlder = caption === "earlier";
+  const text = isOlder ? t("earlier") : caption;
+  setAttributes(image, { alt: text ? `${title}: ${text}` : title, "data-flat": isFlat });
   image.style.aspectRatio = isFlat ? "" : `${columns} / ${rows}`;
-  setText(words, caption);
+  setText(words, text);
   words.hidden = !caption;
-  setAttributes(figure, { "data-older": caption === "earlier" });
+  setAttributes(figure, { "data-older": isOlder });
 }

@@ -14,10 +14,11 @@ import { Bars, hasEffect } from "../widgets/bars.js";
 import { Elsewhere } from "../why/elsewhere.js";
 import { Maps } from "../why/maps.js";
 import { number } from "../../shared/numbers.js";
+import { t, tn } from "../../shared/text.js";
 import { choice, section } from "../widgets/parts.js";
 import { PythonLines } from "./python.js";
 import { RewardTable } from "./rewards.js";
-import { RobotTable, scriptWarning, scriptWords } from "./robots.js";
+import { clippedWords, RobotTable, scriptWarning, scriptWords } from "./robots.js";
 import { SensorView } from "./sensor.js";
 import { Training } from "./training.js";
 import { Why } from "../why/why.js";
@@ -32,10 +33,10 @@ export class DriveTab {
   #scriptWarning = element("p", { className: "ai4u-problem", role: "alert" });
   #robots = new RobotTable();
   #state = element("p", { className: "ai4u-agent-state" });
-  #driveThis = button("Drive this one", () => this.#driveShown());
+  #driveThis = button(t("Drive this one"), () => this.#driveShown());
   #needs = new Bars();
   #sensors = element("div", { className: "ai4u-sensors" });
-  #legend = element("ul", { className: "ai4u-legend", ariaLabel: "Colours" });
+  #legend = element("ul", { className: "ai4u-legend", ariaLabel: t("Colours") });
   #action = new Bars();
   #phases = element("p", { className: "ai4u-soft" });
   #rewards = new RewardTable();
@@ -49,7 +50,7 @@ export class DriveTab {
   #howTo = element("p", { className: "ai4u-hint-text" });
   #later = element("p", {
     className: "ai4u-hint-text ai4u-simple-only",
-    textContent: "After your first win, you see here what the robot senses.",
+    textContent: t("After your first win, you see here what the robot senses."),
   });
   #sections;
   #root;
@@ -65,22 +66,22 @@ export class DriveTab {
     this.#maps = new Maps(panel);
     this.#elsewhere = new Elsewhere(panel);
     this.#why = new Why(panel, () => this.#latest && this.#drawSensors(this.#latest));
-    this.#agents = choice("Robot", (agent) => panel.show({ agent }));
+    this.#agents = choice(t("Robot"), (agent) => panel.show({ agent }));
     this.#agents.element.hidden = true;
     this.#driver = new DriverStatus(this.#driverRow, () => panel.driving.take(), () => panel.driving.letGo());
     // the dock says the same to screen readers
     this.#driverRow.querySelector("[role=status]").removeAttribute("role");
     this.#sections = {
-      python: section("python", "Drive it from Python", { isOpen: false, detailsOnly: true }, this.#python.element),
-      training: section("training", "Training", {}, this.#training.element),
-      driver: section("driver", "Who drives", {}, this.#driverRow, this.#driveThis, this.#state, this.#scriptWarning, this.#brain, this.#script),
-      robots: section("robots", "All robots", { isOpen: false, detailsOnly: true }, this.#robots.element),
-      needs: section("needs", "Needs", {}, this.#needs.element),
-      sensors: section("sensors", "Sensors", {}, this.#sensors, this.#legend),
-      why: section("why", "Why?", {}, this.#why.element),
-      maps: section("maps", "What if it stood somewhere else?", {}, this.#maps.element, this.#elsewhere.element),
-      rewards: section("rewards", "Rewards", { detailsOnly: true }, this.#rewards.element),
-      action: section("action", "Action", { detailsOnly: true }, this.#phases, this.#action.element),
+      python: section("python", t("Drive it from Python"), { isOpen: false, detailsOnly: true }, this.#python.element),
+      training: section("training", t("Training"), {}, this.#training.element),
+      driver: section("driver", t("Who drives"), {}, this.#driverRow, this.#driveThis, this.#state, this.#scriptWarning, this.#brain, this.#script),
+      robots: section("robots", t("All robots"), { isOpen: false, detailsOnly: true }, this.#robots.element),
+      needs: section("needs", t("Needs"), {}, this.#needs.element),
+      sensors: section("sensors", t("Sensors"), {}, this.#sensors, this.#legend),
+      why: section("why", t("Why?"), {}, this.#why.element),
+      maps: section("maps", t("What if it stood somewhere else?"), {}, this.#maps.element, this.#elsewhere.element),
+      rewards: section("rewards", t("Rewards"), { detailsOnly: true }, this.#rewards.element),
+      action: section("action", t("Action"), { detailsOnly: true }, this.#phases, this.#action.element),
     };
     const { training, driver, robots, needs, why, maps, sensors, rewards, action, python } = this.#sections;
     root.append(this.#agents.element, this.#howTo, this.#later, training, driver, needs, why, maps, sensors, rewards, action, robots, python);
@@ -102,8 +103,8 @@ export class DriveTab {
 
   /** @param {AgentPart} agent */
   update(agent) {
-    setText(this.#brain, agent.brain ? `Brain: ${agent.brain}` : "");
-    const state = [agent.problem, agent.state, agent.clipped ? `${agent.clipped} numbers out of range, cut` : ""];
+    setText(this.#brain, agent.brain ? t("Brain: {brain}", { brain: agent.brain }) : "");
+    const state = [agent.problem, agent.state, agent.clipped ? clippedWords(agent.clipped) : ""];
     setText(this.#state, state.filter(Boolean).join(" · "));
     this.#drawSimple();
     this.#needs.update((agent.needs ?? []).map(needRow));
@@ -215,7 +216,9 @@ export class DriveTab {
  * @returns {Bar}
  */
 function needRow({ name, level, low, high, comfort, state }) {
-  const text = `${Math.round((100 * (level - low)) / (high - low || 1))} %${state ? ` – too ${state}` : ""}`;
+  const percent = Math.round((100 * (level - low)) / (high - low || 1));
+  const words = { low: t("{percent} % – too low", { percent }), high: t("{percent} % – too high", { percent }) };
+  const text = state ? words[state] : `${percent} %`;
   return { name, value: level, low, high, good: comfort, text };
 }
 
@@ -231,7 +234,16 @@ function actionRow({ actuator, title, name, value, low, high }) {
 function phaseWords(phases) {
   if (!phases) return "";
   const { all_ticks: ticks, tick, now, seconds } = phases;
-  const length = `A decision lasts ${ticks} ${ticks === 1 ? "tick" : "ticks"} (${number(seconds)} s)`;
-  const words = { sense: "it senses", act: `it acts, tick ${tick} of ${ticks}`, reward: "it gets its reward" };
-  return `${length}: sense, decide, act, reward.${now ? ` Now ${words[now] ?? now}.` : ""}`;
+  const length = tn(
+    "A decision lasts {n} tick ({seconds} s): sense, decide, act, reward.",
+    "A decision lasts {n} ticks ({seconds} s): sense, decide, act, reward.",
+    ticks,
+    { seconds: number(seconds) },
+  );
+  const words = {
+    sense: t("Now it senses."),
+    act: t("Now it acts, tick {tick} of {ticks}.", { tick: tick ?? 0, ticks }),
+    reward: t("Now it gets its reward."),
+  };
+  return now ? `${length} ${words[now]}` : length;
 }

@@ -4,11 +4,12 @@
 import { element, setText } from "../../shared/dom.js";
 import { Curve } from "../widgets/curve.js";
 import { number } from "../../shared/numbers.js";
+import { t } from "../../shared/text.js";
 
 export class Training {
   #text = element("p", { role: "status" });
-  #bar = element("progress", { max: 1, ariaLabel: "Training" });
-  #curve = new Curve("Mean reward of an episode during the training");
+  #bar = element("progress", { max: 1, ariaLabel: t("Training") });
+  #curve = new Curve(t("Mean reward of an episode during the training"));
   #last = element("p", { className: "ai4u-soft" });
   element = element("div", {}, this.#text, this.#bar, this.#curve.element, this.#last);
 
@@ -20,8 +21,8 @@ export class Training {
     this.#curve.update(points.map(([, reward]) => reward));
     const [, reward, success] = points.at(-1) ?? [0, null, null];
     const parts = [
-      reward === null ? "" : `Mean reward ${number(reward)}`,
-      success === null ? "" : `reaches the goal in ${Math.round(100 * success)}% of episodes`,
+      reward === null ? "" : t("Mean reward {reward}", { reward: number(reward) }),
+      success === null ? "" : t("reaches the goal in {percent}% of episodes", { percent: Math.round(100 * success) }),
     ];
     setText(this.#last, parts.filter(Boolean).join(", "));
   }

@@ -6,6 +6,7 @@
  */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
+import { t, tn } from "../../shared/text.js";
 import { Bars, changedRow, hasEffect } from "../widgets/bars.js";
 import { Curve } from "../widgets/curve.js";
 import { choice, section } from "../widgets/parts.js";
@@ -31,22 +32,26 @@ export class Comparison {
    */
   #names = { first: null, second: null };
   #choices = {
-    first: choice("First", (name) => this.#choose("first", name)),
-    second: choice("Second", (name) => this.#choose("second", name)),
+    first: choice(t("First"), (name) => this.#choose("first", name)),
+    second: choice(t("Second"), (name) => this.#choose("second", name)),
   };
   #checkpoint = element("input", { type: "range", id: freeId(), min: 0, step: 1 });
   #learned = element("output");
   #checkpoints = element(
     "div",
     { className: "ai4u-field", hidden: true },
-    element("label", { htmlFor: this.#checkpoint.id, textContent: "The second one, after learning from" }),
+    element("label", { htmlFor: this.#checkpoint.id, textContent: t("The second one, after learning from") }),
     element("div", { className: "ai4u-what-if-row" }, this.#checkpoint, this.#learned),
   );
-  #start = button("Compare", () => this.#compare(), { kind: "main" });
-  #none = element("p", { className: "ai4u-hint-text", hidden: true, textContent: "There is no network to compare with yet. Train one, or open a scene from the library." });
+  #start = button(t("Compare"), () => this.#compare(), { kind: "main" });
+  #none = element("p", {
+    className: "ai4u-hint-text",
+    hidden: true,
+    textContent: t("There is no network to compare with yet. Train one, or open a scene from the library."),
+  });
   #says = element("p", { role: "status" });
-  #distance = new Curve("Difference of the two actions over the steps");
-  #jump = button("Show step", () => this.#goTo(), { icon: "forward" });
+  #distance = new Curve(t("Difference of the two actions over the steps"));
+  #jump = button(t("Show step"), () => this.#goTo(), { icon: "forward" });
   #reasons = element("dl", { className: "ai4u-compare-reasons" });
   #action = new Bars();
   #result = element("div", { className: "ai4u-maps", hidden: true }, this.#says, this.#distance.element, this.#jump, this.#reasons, this.#action.element);
@@ -56,7 +61,7 @@ export class Comparison {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
-    this.element = section("compare", "Compare two drivers", { isOpen: false }, this.#body);
+    this.element = section("compare", t("Compare two drivers"), { isOpen: false }, this.#body);
     this.element.hidden = true;
     this.element.addEventListener("toggle", () => this.#list());
     this.#checkpoint.addEventListener("input", () => this.#slide());
@@ -98,7 +103,7 @@ export class Comparison {
     setAttributes(this.#checkpoint, { max: Math.max(checkpoints.length - 1, 1) });
     const place = checkpoints.findIndex(({ value }) => value === this.#names.second);
     if (place >= 0) this.#checkpoint.value = String(place);
-    const words = place >= 0 ? `${checkpoints[place].steps} decisions` : "–";
+    const words = place >= 0 ? tn("{n} decision", "{n} decisions", checkpoints[place].steps) : "–";
     setText(this.#learned, words);
     setAttributes(this.#checkpoint, { "aria-valuetext": words });
   }
@@ -144,13 +149,19 @@ export class Comparison {
     this.#step = step;
     this.#result.hidden = false;
     const differs = step !== null;
-    setText(this.#says, differs ? `They first disagree at step ${step + 1} of ${count}.` : `They agree in all ${count} steps; the largest difference is ${largest.toFixed(2)}.`);
+    const agreeing = { count, largest: largest.toFixed(2) };
+    setText(
+      this.#says,
+      differs
+        ? t("They first disagree at step {step} of {count}.", { step: step + 1, count })
+        : t("They agree in all {count} steps; the largest difference is {largest}.", agreeing),
+    );
     this.#distance.update(distance);
     this.#jump.hidden = this.#reasons.hidden = this.#action.element.hidden = !differs;
     if (!differs) return;
-    setText(this.#jump.querySelector("span"), `Show step ${step + 1}`);
+    setText(this.#jump.querySelector("span"), t("Show step {step}", { step: step + 1 }));
     this.#reasons.replaceChildren(
-      ...[["First", first], ["Second", second]].filter(([, text]) => text).flatMap(([name, text]) => [
+      ...[[t("First"), first], [t("Second"), second]].filter(([, text]) => text).flatMap(([name, text]) => [
         element("dt", { textContent: name }),
         element("dd", { textContent: text }),
       ]),

@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { Card } from "../widgets/card.js";
 import { scenePicture } from "../../scenes/picture.js";
 import { fact } from "../widgets/parts.js";
@@ -13,16 +14,21 @@ import { fact } from "../widgets/parts.js";
 const COPIED_MS = 1500;
 
 /** Ends of an episode in words, before its time. */
-const ENDS = { goal: "won in", fell: "fell after", time: "time was up after", over: "stopped after" };
+const ENDS = {
+  goal: (/** @type {string} */ seconds) => t("won in {seconds} s", { seconds }),
+  fell: (/** @type {string} */ seconds) => t("fell after {seconds} s", { seconds }),
+  time: (/** @type {string} */ seconds) => t("time was up after {seconds} s", { seconds }),
+  over: (/** @type {string} */ seconds) => t("stopped after {seconds} s", { seconds }),
+};
 
 export class EpisodeCard {
   #panel;
   /** @type {KeptEpisode} */
   #episode = null;
   #card;
-  #facts = { driver: fact("Driver"), score: fact("Score"), steps: fact("Steps"), seed: fact("Seed") };
-  #copy = button("Copy", () => this.#copySeed(), { icon: "copy", kind: "quiet", label: "Copy the seed" });
-  #downloads = element("div", { className: "ai4u-tools", role: "group", ariaLabel: "Download" });
+  #facts = { driver: fact(t("Driver")), score: fact(t("Score")), steps: fact(t("Steps")), seed: fact(t("Seed")) };
+  #copy = button(t("Copy"), () => this.#copySeed(), { icon: "copy", kind: "quiet", label: t("Copy the seed") });
+  #downloads = element("div", { className: "ai4u-tools", role: "group", ariaLabel: t("Download") });
 
   /** @param {Panel} panel */
   constructor(panel) {
@@ -49,13 +55,13 @@ export class EpisodeCard {
     const { number, scene, reward, decisions, seconds, is_pinned: isPinned, is_best: isBest } = episode;
     this.#card.update({
       icon: episode.is_person ? "person" : "network",
-      title: `Episode ${number} · ${scene}`,
-      reads: `${ENDS[episode.end]} ${seconds.toFixed(1)} s`,
+      title: t("Episode {number} · {scene}", { number, scene }),
+      reads: ENDS[episode.end](seconds.toFixed(1)),
       isOpen,
-      mark: isBest ? "★ best" : "",
+      mark: isBest ? t("★ best") : "",
     });
     setAttributes(this.#card.element, { "aria-current": isOpen ? "true" : null });
-    const label = `${isPinned ? "Unpin" : "Pin"} episode ${number}`;
+    const label = isPinned ? t("Unpin episode {number}", { number }) : t("Pin episode {number}", { number });
     this.#card.actions([{ icon: "pin", label, onClick: () => panelPin(this.#panel, number, !isPinned) }]);
     setAttributes(this.#card.element, { "data-pinned": Boolean(isPinned) });
     if (!isOpen) return;
@@ -90,8 +96,8 @@ export class EpisodeCard {
   async #copySeed() {
     try {
       await navigator.clipboard.writeText(String(this.#episode.seed));
-      setText(this.#copy.querySelector("span"), "Copied");
-      setTimeout(() => setText(this.#copy.querySelector("span"), "Copy"), COPIED_MS);
+      setText(this.#copy.querySelector("span"), t("Copied"));
+      setTimeout(() => setText(this.#copy.querySelector("span"), t("Copy")), COPIED_MS);
     } catch {
       // not allowed in this frame: the seed can be selected and copied by hand
       getSelection()?.selectAllChildren(this.#facts.seed.element.querySelector("dd"));

@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { Curve } from "../widgets/curve.js";
 import { section } from "../widgets/parts.js";
 
@@ -17,16 +18,16 @@ export class PaidTerms {
   #number = null;
   #asked = 0;
   #terms = element("div");
-  #hint = element("p", { className: "ai4u-soft", textContent: "Each line is the sum so far, from the first decision to the last one." });
-  #moments = element("ol", { className: "ai4u-paid-moments", ariaLabel: "Decisions that paid most" });
-  #none = element("p", { className: "ai4u-hint-text", textContent: "Nothing was paid in this episode." });
+  #hint = element("p", { className: "ai4u-soft", textContent: t("Each line is the sum so far, from the first decision to the last one.") });
+  #moments = element("ol", { className: "ai4u-paid-moments", ariaLabel: t("Decisions that paid most") });
+  #none = element("p", { className: "ai4u-hint-text", textContent: t("Nothing was paid in this episode.") });
   element;
 
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
     const body = element("div", { className: "ai4u-maps" }, this.#none, this.#terms, this.#hint, this.#moments);
-    this.element = section("paid", "Where the points came from", { isOpen: false }, body);
+    this.element = section("paid", t("Where the points came from"), { isOpen: false }, body);
     this.element.hidden = true;
     this.element.addEventListener("toggle", () => this.#ask());
   }
@@ -60,7 +61,7 @@ export class PaidTerms {
   /** @param {PaidMoment} moment */
   #momentButton({ step, terms }) {
     const amounts = terms.map(({ term, amount }) => `${term} ${paid(amount)}`).join(", ");
-    return button(`Step ${step + 1}: ${amounts}`, () => this.#panel.send("step", { step }, { quiet: true }), { icon: "forward" });
+    return button(t("Step {step}: {amounts}", { step: step + 1, amounts }), () => this.#panel.send("step", { step }, { quiet: true }), { icon: "forward" });
   }
 }
 
@@ -74,7 +75,7 @@ function paid(amount) {
 
 /** @param {PaidCurve} term */
 function termElement({ term, total, curve }) {
-  const line = new Curve(`The sum of ${term} during the episode`);
+  const line = new Curve(t("The sum of {term} during the episode", { term }));
   line.update(curve);
   const head = element("p", {}, element("b", { textContent: term }), ` ${paid(total)}`);
   return element("div", {}, head, line.element);

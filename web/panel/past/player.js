@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 import { segments } from "../widgets/parts.js";
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4];
@@ -16,7 +17,7 @@ export class Player {
   #isShowing = false;
   #title = element("strong");
   #moment = element("output", { className: "ai4u-moment" });
-  #slider = element("input", { type: "range", min: 0, step: 1, ariaLabel: "Step" });
+  #slider = element("input", { type: "range", min: 0, step: 1, ariaLabel: t("Step") });
   #play;
   #back;
   #forward;
@@ -37,21 +38,21 @@ export class Player {
     this.#slider.addEventListener("input", goToSlider);
     // a click where the slider stands already changes nothing, and yet the person wants to see it
     this.#slider.addEventListener("click", () => this.#isShowing || goToSlider());
-    this.#back = button("", () => this.#step(-1), { icon: "back", label: "Step back" });
-    this.#play = button("Play", () => send(this.#playing?.is_playing ? "stop" : "play"), { icon: "play", kind: "main" });
-    this.#forward = button("", () => this.#step(1), { icon: "forward", label: "Step forward" });
+    this.#back = button("", () => this.#step(-1), { icon: "back", label: t("Step back") });
+    this.#play = button(t("Play"), () => send(this.#playing?.is_playing ? "stop" : "play"), { icon: "play", kind: "main" });
+    this.#forward = button("", () => this.#step(1), { icon: "forward", label: t("Step forward") });
     this.#speeds = segments(
-      "Speed",
-      SPEEDS.map((speed) => ({ value: String(speed), text: `${speed}x`, title: `Speed ${speed}` })),
+      t("Speed"),
+      SPEEDS.map((speed) => ({ value: String(speed), text: `${speed}x`, title: t("Speed {speed}", { speed }) })),
       (speed) => send("play_speed", { speed: Number(speed) }),
     );
-    this.#live = button("Back to live", () => panel.send("back_to_live"), { icon: "live", kind: "main" });
-    this.#proceed = button("Continue here", () => panel.send("continue"), { icon: "proceed" });
-    this.#race = button("Race against it", () => panel.send("race"), { icon: "race" });
-    this.#noGhost = button("Remove ghost", () => panel.send("remove_ghost"), { icon: "remove" });
+    this.#live = button(t("Back to live"), () => panel.send("back_to_live"), { icon: "live", kind: "main" });
+    this.#proceed = button(t("Continue here"), () => panel.send("continue"), { icon: "proceed" });
+    this.#race = button(t("Race against it"), () => panel.send("race"), { icon: "race" });
+    this.#noGhost = button(t("Remove ghost"), () => panel.send("remove_ghost"), { icon: "remove" });
     this.element = element(
       "div",
-      { className: "ai4u-player", role: "group", ariaLabel: "Player" },
+      { className: "ai4u-player", role: "group", ariaLabel: t("Player") },
       element("div", { className: "ai4u-player-head" }, this.#title, this.#moment),
       this.#slider,
       element("div", { className: "ai4u-tools" }, this.#back, this.#play, this.#forward, this.#speeds.element),
@@ -78,14 +79,18 @@ export class Player {
   /** @param {PlayedEpisode} playing */
   #show({ number, scene, is_here: isHere, step, steps, is_playing: isPlaying, speed }) {
     // as in the banner over the picture: steps count from 1, and the end comes after the last one
-    const text = step < steps ? `Step ${step + 1} of ${steps}` : `The end, after ${steps} steps`;
-    setText(this.#title, number ? `Showing episode ${number}${isHere ? "" : ` · ${scene}`}` : "Current episode");
+    const text =
+      step < steps
+        ? t("Step {step} of {steps}", { step: step + 1, steps })
+        : tn("The end, after {n} step", "The end, after {n} steps", steps);
+    const shown = isHere ? t("Showing episode {number}", { number }) : t("Showing episode {number} · {scene}", { number, scene });
+    setText(this.#title, number ? shown : t("Current episode"));
     setText(this.#moment, text);
     setAttributes(this.#slider, { max: steps, "aria-valuetext": text });
     if (document.activeElement !== this.#slider || isPlaying) this.#slider.value = String(step);
     this.#back.disabled = step <= 0;
     this.#forward.disabled = step >= steps;
-    setText(this.#play.querySelector("span"), isPlaying ? "Stop" : "Play");
+    setText(this.#play.querySelector("span"), isPlaying ? t("Stop") : t("Play"));
     setAttributes(this.#play, { "data-playing": Boolean(isPlaying) });
     this.#speeds.set(String(speed));
     this.#race.hidden = !number;

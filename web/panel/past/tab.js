@@ -6,6 +6,7 @@
  */
 import { button, element, fileButton, keyed } from "../../shared/dom.js";
 import { sizeProblem } from "../../shared/numbers.js";
+import { t } from "../../shared/text.js";
 import { Comparison } from "./compare.js";
 import { EpisodeCard } from "./episode_card.js";
 import { PaidTerms } from "./paid.js";
@@ -28,7 +29,7 @@ export class PastTab {
   #groups;
   /** True until the running episode's frames are there, which are shown then. */
   #wantsRunning = false;
-  #none = element("p", { className: "ai4u-hint-text", textContent: "Finished episodes appear here." });
+  #none = element("p", { className: "ai4u-hint-text", textContent: t("Finished episodes appear here.") });
 
   /**
    * @param {HTMLElement} root
@@ -39,14 +40,14 @@ export class PastTab {
     this.#player = new Player(panel);
     this.#comparison = new Comparison(panel);
     this.#paid = new PaidTerms(panel);
-    const current = button("Current episode", () => this.#showRunning(), { icon: "clock" });
-    const open = fileButton("Open a recording", ".episode", (file) => this.#open(file));
+    const current = button(t("Current episode"), () => this.#showRunning(), { icon: "clock" });
+    const open = fileButton(t("Open a recording"), ".episode", (file) => this.#open(file));
     this.#groups = [
-      group("past-pinned", "Pinned", (episode) => episode.is_pinned),
-      group("past-person", "Your drives", (episode) => isRecordedHere(episode) && episode.is_person),
-      group("past-program", "Networks and programs", (episode) => isRecordedHere(episode) && !episode.is_person),
-      group("past-files", "Opened recordings", (episode) => !episode.is_pinned && Boolean(episode.source)),
-      group("past-others", "In other scenes", isOfOtherScene, { isOpen: false }),
+      group("past-pinned", t("Pinned"), (episode) => episode.is_pinned),
+      group("past-person", t("Your drives"), (episode) => isRecordedHere(episode) && episode.is_person),
+      group("past-program", t("Networks and programs"), (episode) => isRecordedHere(episode) && !episode.is_person),
+      group("past-files", t("Opened recordings"), (episode) => !episode.is_pinned && Boolean(episode.source)),
+      group("past-others", t("In other scenes"), isOfOtherScene, { isOpen: false }),
     ];
     const tools = element("div", { className: "ai4u-tools" }, current, open);
     root.append(this.#player.element, this.#paid.element, this.#comparison.element, tools, this.#none, ...this.#groups.map(({ element: details }) => details));
@@ -101,7 +102,7 @@ export class PastTab {
 
   /** @param {File} file */
   async #open(file) {
-    const problem = sizeProblem(file, "a recording (.episode)", this.#panel.part("past").max_recording_bytes);
+    const problem = sizeProblem(file, t("a recording (.episode)"), this.#panel.part("past").max_recording_bytes);
     if (problem) {
       this.#panel.notice(problem, "error");
       return;

@@ -7,6 +7,7 @@
  */
 import { button, element, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
+import { t } from "../../shared/text.js";
 import { Bars, changedRow, hasEffect } from "../widgets/bars.js";
 import { toggle } from "../widgets/parts.js";
 
@@ -16,7 +17,7 @@ const PAUSE_MS = 40;
 const FIELDS = [
   { name: "x", label: "x (m)", step: 0.1 },
   { name: "y", label: "y (m)", step: 0.1 },
-  { name: "heading_deg", label: "Heading (°)", step: 5 },
+  { name: "heading_deg", label: t("Heading (°)"), step: 5 },
 ];
 
 export class Elsewhere {
@@ -26,19 +27,19 @@ export class Elsewhere {
   #isShown = false;
   #timer = 0;
   #asked = 0;
-  #switch = toggle("Try another place", (isOn) => this.#turn(isOn));
-  #hint = element("p", { className: "ai4u-soft", textContent: "Press Pause, then drag the purple robot." });
+  #switch = toggle(t("Try another place"), (isOn) => this.#turn(isOn));
+  #hint = element("p", { className: "ai4u-soft", textContent: t("Press Pause, then drag the purple robot.") });
   #inputs = new Map(FIELDS.map(({ name, step }) => /** @type {const} */ ([name, this.#input(step)])));
   #says = element("p", { className: "ai4u-soft", role: "status" });
   #action = new Bars();
   #body = element(
     "div",
     { className: "ai4u-elsewhere", hidden: true },
-    element("p", { className: "ai4u-soft", textContent: "Drag the purple outline in the world, turn it by its knob, or enter numbers." }),
+    element("p", { className: "ai4u-soft", textContent: t("Drag the purple outline in the world, turn it by its knob, or enter numbers.") }),
     element("div", { className: "ai4u-elsewhere-pose" }, ...FIELDS.map(({ name, label }) => field(label, this.#inputs.get(name)))),
     this.#says,
     this.#action.element,
-    button("Where it stands", () => this.#ask({}), { icon: "undo", kind: "quiet" }),
+    button(t("Where it stands"), () => this.#ask({}), { icon: "undo", kind: "quiet" }),
   );
   element = element("div", {}, this.#switch.element, this.#hint, this.#body);
 
@@ -124,7 +125,7 @@ export class Elsewhere {
       if (!isBeingTyped) input.value = String(answer[name]);
     }
     this.#body.hidden = false;
-    setText(this.#says, answer.can_stand ? "There it would do:" : "It can't stand there: no floor, or something is in the way.");
+    setText(this.#says, answer.can_stand ? t("There it would do:") : t("It can't stand there: no floor, or something is in the way."));
     this.#action.element.hidden = !answer.can_stand;
     this.#action.update(answer.action.filter(hasEffect).map(changedRow));
   }

@@ -6,13 +6,14 @@
  */
 import { button, element, setText } from "../../shared/dom.js";
 import { number, seconds } from "../../shared/numbers.js";
+import { t } from "../../shared/text.js";
 import { choice, howComputed, toggle } from "../widgets/parts.js";
 
 const AS_NOW = "";
 const TURNS = [
-  { text: "turns left", kind: "left" },
-  { text: "goes straight", kind: "straight" },
-  { text: "turns right", kind: "right" },
+  { text: t("turns left"), kind: "left" },
+  { text: t("goes straight"), kind: "straight" },
+  { text: t("turns right"), kind: "right" },
 ];
 
 /** @typedef {"field" | "values"} MapKind */
@@ -22,19 +23,19 @@ export class Maps {
   #facing = AS_NOW;
   #isOn = { field: false, values: false };
   #switches = {
-    field: toggle("Arrows: where it would go", (isOn) => this.#turn("field", isOn)),
-    values: toggle("Colours: good and bad places", (isOn) => this.#turn("values", isOn)),
+    field: toggle(t("Arrows: where it would go"), (isOn) => this.#turn("field", isOn)),
+    values: toggle(t("Colours: good and bad places"), (isOn) => this.#turn("values", isOn)),
   };
-  #faced = choice("Facing", (name) => this.#face(name));
+  #faced = choice(t("Facing"), (name) => this.#face(name));
   #problem = element("p", { className: "ai4u-map-problem", hidden: true });
-  #field = new Progress("Arrows", () => this.#cancel("field"));
-  #values = new Progress("Values", () => this.#cancel("values"));
-  #turns = element("ul", { className: "ai4u-map-turns", ariaLabel: "Arrows" }, ...TURNS.map(turnItem));
+  #field = new Progress(t("Arrows"), () => this.#cancel("field"));
+  #values = new Progress(t("Values"), () => this.#cancel("values"));
+  #turns = element("ul", { className: "ai4u-map-turns", ariaLabel: t("Arrows") }, ...TURNS.map(turnItem));
   #low = element("span");
   #high = element("span");
   #ramp = element("i", { ariaHidden: "true" });
   #scale = element("p", { className: "ai4u-map-scale" }, this.#low, this.#ramp, this.#high);
-  #worth = element("p", { className: "ai4u-soft", textContent: "Yellow: starting here ends well. Blue: it ends badly." });
+  #worth = element("p", { className: "ai4u-soft", textContent: t("Yellow: starting here ends well. Blue: it ends badly.") });
   /** The source of the colours' numbers. */
   #source = element("p", { className: "ai4u-soft" });
   #how = howComputed(this.#source);
@@ -116,7 +117,7 @@ export class Maps {
     setText(this.#problem, part.problem);
     // what was chosen stays in the list, also where the next scene has no such thing
     const names = [...new Set([...part.faced, this.#facing])].filter((name) => name !== AS_NOW);
-    const options = [{ value: AS_NOW, text: "same as now" }, ...names.map((value) => ({ value, text: `the ${value}` }))];
+    const options = [{ value: AS_NOW, text: t("same as now") }, ...names.map((value) => ({ value, text: t("the {thing}", { thing: value }) }))];
     this.#faced.element.hidden = names.length === 0;
     this.#faced.set(options, this.#facing);
     this.#drawField(part.field);
@@ -158,7 +159,7 @@ class Progress {
    */
   constructor(name, onCancel) {
     this.#bar = element("progress", { ariaLabel: name });
-    const cancel = button("Cancel", onCancel, { kind: "quiet", label: `Cancel: ${name.toLowerCase()}` });
+    const cancel = button(t("Cancel"), onCancel, { kind: "quiet", label: t("Cancel: {map}", { map: name.toLowerCase() }) });
     this.element = element("div", { className: "ai4u-map-progress", hidden: true }, this.#bar, this.#words, cancel);
   }
 
@@ -173,7 +174,7 @@ class Progress {
       this.#bar.max = map.count;
       this.#bar.value = map.done;
     } else this.#bar.removeAttribute("value");
-    setText(this.#words, map ? `${map.done} of ${map.count} places` : "Starting …");
+    setText(this.#words, map ? t("{done} of {count} places", { done: map.done, count: map.count }) : t("Starting …"));
   }
 }
 
@@ -184,5 +185,5 @@ function turnItem({ text, kind }) {
 
 /** @param {number} time (s) */
 function momentWords(time) {
-  return `We put a resting robot on each spot and ask what it would do. Everything else stays as it is now (${seconds(time)}).`;
+  return t("We put a resting robot on each spot and ask what it would do. Everything else stays as it is now ({time}).", { time: seconds(time) });
 }

@@ -7,12 +7,13 @@
  */
 import { button, element, setText } from "../../shared/dom.js";
 import { roomOfPage } from "../../shared/room.js";
+import { t } from "../../shared/text.js";
 import { choice } from "../widgets/parts.js";
 
 /** A sentence that changes more often can't be read. */
 const SENTENCE_MS = 1200;
-const WATCH = "Watch it think";
-const STOP = "Stop watching";
+const WATCH = t("Watch it think");
+const STOP = t("Stop watching");
 
 export class Watch {
   #panel;
@@ -28,9 +29,9 @@ export class Watch {
   /** The sentence that waits until the one before it was read. */
   #next = "";
   #watch = button(WATCH, () => (this.isOn ? this.stop() : this.start()), { icon: "brain" });
-  #beat = button("Beat it!", () => this.beat(), { icon: "race", title: "Drive against the network's ghost, from the same start" });
-  #against = button("Let it race me", () => this.start(true), { title: "The network drives against the ghost of your best drive" });
-  #networks = choice("Network", (name) => (this.#network = name));
+  #beat = button(t("Beat it!"), () => this.beat(), { icon: "race", title: t("Drive against the network's ghost, from the same start") });
+  #against = button(t("Let it race me"), () => this.start(true), { title: t("The network drives against the ghost of your best drive") });
+  #networks = choice(t("Network"), (name) => (this.#network = name));
   element = element(
     "div",
     { className: "ai4u-watch", hidden: true },

@@ -9,6 +9,7 @@ import { button, element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
 import { Bars, changedRow, hasEffect } from "../widgets/bars.js";
 import { number } from "../../shared/numbers.js";
+import { t } from "../../shared/text.js";
 import { choice } from "../widgets/parts.js";
 
 /** Time without a change after which the action is asked for. */
@@ -28,11 +29,11 @@ export class WhatIf {
   #asked = 0;
   #isPaused = false;
   #isExplained = false;
-  #hint = element("p", { className: "ai4u-soft", textContent: "Press Pause, then try other numbers." });
-  #slot = choice("Try another number", (id) => this.#choose(id));
-  #slider = element("input", { type: "range", id: freeId(), ariaLabel: "Value" });
+  #hint = element("p", { className: "ai4u-soft", textContent: t("Press Pause, then try other numbers.") });
+  #slot = choice(t("Try another number"), (id) => this.#choose(id));
+  #slider = element("input", { type: "range", id: freeId(), ariaLabel: t("Value") });
   #value = element("output");
-  #none = button("As it is", () => this.#reset(), { icon: "undo", kind: "quiet" });
+  #none = button(t("As it is"), () => this.#reset(), { icon: "undo", kind: "quiet" });
   #action = new Bars();
   #body = element(
     "div",

@@ -5,6 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { howComputed, toggle } from "../widgets/parts.js";
 import { WhatIf } from "./what_if.js";
 
@@ -22,14 +23,14 @@ export class Why {
   #part = null;
   #saidAt = -SENTENCE_MS;
   #later = 0;
-  #switch = toggle("Show why", (isOn) => this.#toggle(isOn));
+  #switch = toggle(t("Show why"), (isOn) => this.#toggle(isOn));
   #sentence = element("p", { className: "ai4u-why-sentence" });
-  #list = element("ul", { className: "ai4u-why-list", ariaLabel: "Numbers that matter most" });
+  #list = element("ul", { className: "ai4u-why-list", ariaLabel: t("Numbers that matter most") });
   #also = element("p", { className: "ai4u-soft", hidden: true });
   #limits = element("p", { className: "ai4u-soft" });
   #method = element("p", {
     className: "ai4u-soft",
-    textContent: "We replace one sensor number at a time by its average and look how much the action changes.",
+    textContent: t("We replace one sensor number at a time by its average and look how much the action changes."),
   });
   #how = howComputed(this.#also, this.#limits);
   #result = element("div", { hidden: true }, this.#sentence, this.#list, this.#method, this.#how);
@@ -106,7 +107,7 @@ export class Why {
     this.#method.hidden = this.#how.hidden = Boolean(part.problem);
     setText(this.#also, part.also ?? "");
     this.#also.hidden = !part.also;
-    setText(this.#limits, [`Compared with ${part.baseline}.`, part.explained, part.limits].filter(Boolean).join(" "));
+    setText(this.#limits, [t("Compared with {baseline}.", { baseline: part.baseline }), part.explained, part.limits].filter(Boolean).join(" "));
     this.#onChange();
   }
 }
@@ -130,12 +131,17 @@ function makeSlot() {
 function drawSlot(item, { name, sees, share, shares }, components, scale) {
   const [label, bar, words] = item.children;
   const fill = /** @type {HTMLElement} */ (bar.firstChild);
-  const seen = !sees ? "" : ` – ${sees === "nothing" || sees === "something" ? sees : `the ${sees}`}`;
-  setText(label, `${name}${seen}`);
+  setText(label, sees ? `${name} – ${seenWords(sees)}` : name);
   fill.style.width = `${(100 * Math.min(1, share / scale)).toFixed(1)}%`;
   const largest = shares.findIndex((number) => Math.abs(number) === share);
-  setText(words, `${components[largest] ?? "action"} ${percent(shares[largest] ?? 0)}`);
+  setText(words, `${components[largest] ?? t("action")} ${percent(shares[largest] ?? 0)}`);
   setAttributes(item, { title: components.map((component, index) => `${component} ${percent(shares[index] ?? 0)}`).join(", ") });
+}
+
+/** @param {string} sees what a sensor's number shows: a thing, "something" or "nothing" */
+function seenWords(sees) {
+  if (sees === "nothing") return t("nothing");
+  return sees === "something" ? t("something") : t("the {thing}", { thing: sees });
 }
 
 /** @param {number} share */
@@ -160,7 +166,7 @@ export function drawWeights(parent, why, columns) {
     ({ index }) => index,
     () => element("i"),
     (cell, { name, share }) => {
-      setAttributes(cell, { title: `${name}: moves the action by ${Math.round(100 * share)} %` });
+      setAttributes(cell, { title: t("{name}: moves the action by {percent} %", { name, percent: Math.round(100 * share) }) });
       cell.style.setProperty("--why", (100 * Math.min(1, share / why.scale)).toFixed(0) + "%");
     },
   );

@@ -3,6 +3,7 @@
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
 import { icon } from "../../shared/icons.js";
 import { freeId } from "../../shared/ids.js";
+import { t } from "../../shared/text.js";
 
 export class Card {
   #onToggle;
@@ -55,7 +56,7 @@ export class Card {
     setText(this.#title, title);
     setText(this.#type, type);
     setText(this.#reads, reads);
-    setText(this.#mark, mark || (isOn ? "" : "off"));
+    setText(this.#mark, mark || (isOn ? "" : t("off")));
     setAttributes(this.element, { "data-off": !isOn, "data-open": isOpen });
     setAttributes(this.#head, { "aria-expanded": isOpen ? "true" : "false" });
     this.body.hidden = !isOpen;

@@ -3,6 +3,7 @@
 /** @import { FormField } from "../../generated/messages.js" */
 import { element, setAttributes, setText } from "../../shared/dom.js";
 import { freeId } from "../../shared/ids.js";
+import { t } from "../../shared/text.js";
 
 /** A text of more characters, or of several lines, gets a text area. */
 const MAX_LINE_CHARS = 40;
@@ -113,5 +114,5 @@ function setOptions(select, { choices }) {
   const key = JSON.stringify(choices);
   if (select.dataset.choices === key) return;
   select.dataset.choices = key;
-  select.replaceChildren(...choices.map((value) => element("option", { value, textContent: value || "none" })));
+  select.replaceChildren(...choices.map((value) => element("option", { value, textContent: value || t("none") })));
 }

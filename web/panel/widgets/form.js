@@ -5,6 +5,7 @@
 import { element, keyed, setText } from "../../shared/dom.js";
 import { FieldRow } from "./field.js";
 import { recall, remember } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 
 /** Number of fields before "More" if none are marked as the ones that matter most. */
 const FIRST_COUNT = 3;
@@ -28,7 +29,7 @@ export class Form {
   #more = element(
     "details",
     { className: "ai4u-form-more", open: recall("form-more", false) },
-    element("summary", { textContent: "More" }),
+    element("summary", { textContent: t("More") }),
     this.#rest,
   );
   #problem = element("p", { className: "ai4u-problem", role: "alert" });

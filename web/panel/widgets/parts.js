@@ -4,6 +4,7 @@ import { element, setAttributes, setText } from "../../shared/dom.js";
 import { icon } from "../../shared/icons.js";
 import { freeId } from "../../shared/ids.js";
 import { recall, remember } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 
 /**
  * Return a section that folds, and remembers it. Put more children into `.content`.
@@ -30,7 +31,7 @@ export function section(key, title, { isOpen = true, detailsOnly = false } = {},
  * @param {Node[]} children
  */
 export function howComputed(...children) {
-  return element("details", { className: "ai4u-how" }, element("summary", { textContent: "How is this computed?" }), ...children);
+  return element("details", { className: "ai4u-how" }, element("summary", { textContent: t("How is this computed?") }), ...children);
 }
 
 /**
@@ -79,7 +80,7 @@ export function choice(label, onChange) {
       shown = key;
       const left = options.filter(({ reason }) => reason).map(optionElement);
       select.replaceChildren(...options.filter(({ reason }) => !reason).map(optionElement));
-      if (left.length) select.append(element("optgroup", { label: "Not for this robot" }, ...left));
+      if (left.length) select.append(element("optgroup", { label: t("Not for this robot") }, ...left));
     }
     if (select.value !== value) select.value = value;
   };

@@ -5,12 +5,15 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element } from "../../shared/dom.js";
+import { t } from "../../shared/text.js";
 import { Card } from "../widgets/card.js";
 import { Form } from "../widgets/form.js";
 import { choose, duplicateSelected, removeSelected, selected } from "./selection.js";
 
 /** @type {Record<string, string>} */
 const KIND_ICONS = { area: "area", picture: "area", floor: "floor", lamp: "lamp", agent: "agent" };
+/** @type {Record<string, string>} */
+const KIND_WORDS = { area: t("area"), picture: t("picture"), floor: t("floor"), lamp: t("lamp"), agent: t("agent") };
 /** @type {Record<string, string>} */
 const SHAPE_ICONS = { circle: "ball", segment: "wall", capsule: "wall", ring: "target" };
 
@@ -27,8 +30,8 @@ export class BodyCard {
     this.#panel = panel;
     this.#card = new Card({ onToggle: (isOpen) => choose(panel, isOpen ? this.#name : null) });
     this.#form = new Form({ onChange: (values) => panel.send("change_body", { name: this.#name, values }) });
-    this.#copy = button("Duplicate", () => duplicateSelected(panel), { icon: "copy", kind: "quiet" });
-    this.#delete = button("Delete", () => removeSelected(panel), { icon: "trash", kind: "danger" });
+    this.#copy = button(t("Duplicate"), () => duplicateSelected(panel), { icon: "copy", kind: "quiet" });
+    this.#delete = button(t("Delete"), () => removeSelected(panel), { icon: "trash", kind: "danger" });
     const tools = element("div", { className: "ai4u-tools" }, this.#copy, this.#delete);
     this.#card.body.append(this.#form.element, tools);
   }
@@ -45,16 +48,16 @@ export class BodyCard {
     const { name, kind, shape, x, y, is_random: isRandom } = body;
     this.#name = name;
     const isOpen = this.#panel.shown.body === name;
-    const place = isRandom ? "random place" : `${metres(x)}, ${metres(y)}`;
-    const reads = kind === "body" ? place : `${kind}, ${place}`;
+    const place = isRandom ? t("random place") : `${metres(x)}, ${metres(y)}`;
+    const reads = kind in KIND_WORDS ? `${KIND_WORDS[kind]}, ${place}` : place;
     const icon = KIND_ICONS[kind] ?? SHAPE_ICONS[shape] ?? "box";
     this.#card.element.toggleAttribute("data-selected", selected(this.#panel).includes(name));
     this.#card.update({ icon, title: name, type: shape, reads, isOpen });
     const isMine = isOpen && form?.name === name;
     this.#form.element.hidden = !isMine;
     if (isMine) this.#form.update(form.fields);
-    this.#copy.title = `Duplicate ${name}`;
-    this.#delete.title = `Delete ${name}`;
+    this.#copy.title = t("Duplicate {title}", { title: name });
+    this.#delete.title = t("Delete {title}", { title: name });
   }
 }
 

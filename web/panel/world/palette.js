@@ -11,6 +11,7 @@
  */
 import { element, setAttributes, setText } from "../../shared/dom.js";
 import { recall } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 import { Ground, onGrid } from "./ground.js";
 import { chooseAdded, setMoveMode } from "./selection.js";
 import { DIRECTIONS, SelectionBar } from "./selection_bar.js";
@@ -34,14 +35,14 @@ const FINE_STEP_M = 0.05;
 
 export class Palette {
   #panel;
-  #entries = element("div", { className: "ai4u-palette-entries", role: "group", ariaLabel: "Things to add" });
+  #entries = element("div", { className: "ai4u-palette-entries", role: "group", ariaLabel: t("Things to add") });
   #says = element("p", { className: "ai4u-hidden-text", role: "status" });
-  #hint = element("p", { className: "ai4u-palette-hint", textContent: "Drag a thing into the world." });
+  #hint = element("p", { className: "ai4u-palette-hint", textContent: t("Drag a thing into the world.") });
   #layer = element("div", { className: "ai4u-layer", ariaHidden: "true" });
   #ghost = element("img", { className: "ai4u-ghost", alt: "", draggable: false });
   /** The bar for the selected things. */
   bar;
-  element = element("section", { className: "ai4u-palette", ariaLabel: "Add to the world", hidden: true });
+  element = element("section", { className: "ai4u-palette", ariaLabel: t("Add to the world"), hidden: true });
   /**
    * The thing that is held; null for none.
    * @type {PaletteThing | null}
@@ -100,7 +101,7 @@ export class Palette {
   commandOf(event) {
     const { key, code, altKey, ctrlKey, metaKey, repeat } = event;
     if (this.#held === null || ctrlKey || metaKey) return this.bar.commandOf(event);
-    if (key === "Escape") return () => this.#drop("Put away.");
+    if (key === "Escape") return () => this.#drop(t("Put away."));
     if (key === "Enter") return () => repeat || this.#put(); // the press that took it may still go on
     if (!(code in DIRECTIONS)) return this.bar.commandOf(event);
     const step = altKey ? FINE_STEP_M : this.#snap || STEP_M;
@@ -133,7 +134,7 @@ export class Palette {
   #entry(thing) {
     const made = element(
       "button",
-      { type: "button", className: "ai4u-palette-entry", title: `Drag it into the world, or click it and then a place`, value: thing.name },
+      { type: "button", className: "ai4u-palette-entry", title: t("Drag it into the world, or click it and then a place"), value: thing.name },
       element("img", { src: thing.url, alt: "", draggable: false }),
       element("span", { textContent: thing.title }),
     );
@@ -178,7 +179,7 @@ export class Palette {
     this.#press = null;
     if (!this.#isDrag) return; // the click that comes next holds it
     if (isWithin(event, this.#rect)) this.#putAt(event);
-    else this.#drop("Put away.");
+    else this.#drop(t("Put away."));
   }
 
   /**
@@ -187,7 +188,7 @@ export class Palette {
    */
   #onClick(thing, event) {
     if (this.#isDrag && event.detail > 0) return;
-    if (this.#held === thing) return this.#drop("Put away.");
+    if (this.#held === thing) return this.#drop(t("Put away."));
     this.#hold(thing, { isByKeys: event.detail === 0 });
   }
 
@@ -205,8 +206,11 @@ export class Palette {
     this.#ghost.src = thing.url;
     this.#ghost.hidden = true;
     document.body.append(this.#layer);
-    setText(this.#hint, isByKeys ? "Arrow keys move it, Enter puts it there, Esc puts it away." : "Now click a place in the world. Esc puts it away.");
-    this.say(`${thing.title}: the arrow keys move it, Enter puts it there, Escape puts it away.`);
+    const hint = isByKeys
+      ? t("Arrow keys move it, Enter puts it there, Esc puts it away.")
+      : t("Now click a place in the world. Esc puts it away.");
+    setText(this.#hint, hint);
+    this.say(t("{thing}: the arrow keys move it, Enter puts it there, Escape puts it away.", { thing: thing.title }));
     await this.#look();
     if (this.#held === thing && isByKeys && this.#place === null && this.#middle) this.#move(onGrid(this.#middle, this.#snap));
   }
@@ -217,7 +221,7 @@ export class Palette {
     this.#held = this.#place = this.#ground = this.#pointer = null;
     this.#layer.remove();
     for (const entry of this.#entries.children) setAttributes(entry, { "aria-pressed": "false" });
-    setText(this.#hint, "Drag a thing into the world.");
+    setText(this.#hint, t("Drag a thing into the world."));
     if (text) this.say(text);
   }
 
@@ -296,7 +300,9 @@ export class Palette {
 
 /** @param {Point} place (m) */
 function placeWords({ x, y }) {
-  return `${Math.abs(x)} m ${x < 0 ? "left" : "right"}, ${Math.abs(y)} m ${y < 0 ? "down" : "up"}`;
+  const amounts = { across: Math.abs(x), along: Math.abs(y) };
+  if (x < 0) return y < 0 ? t("{across} m left, {along} m down", amounts) : t("{across} m left, {along} m up", amounts);
+  return y < 0 ? t("{across} m right, {along} m down", amounts) : t("{across} m right, {along} m up", amounts);
 }
 
 /**

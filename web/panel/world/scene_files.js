@@ -7,18 +7,19 @@
 import { button, element, fileButton, setText } from "../../shared/dom.js";
 import { sizeProblem } from "../../shared/numbers.js";
 import { freeId } from "../../shared/ids.js";
+import { t } from "../../shared/text.js";
 import { section } from "../widgets/parts.js";
 import { copyLink, isThisComputer } from "../../scenes/share.js";
 
 export class SceneFiles {
   #panel;
   #when = element("p");
-  #save = button("Save", () => this.#openSaving(), { icon: "save" });
+  #save = button(t("Save"), () => this.#openSaving(), { icon: "save" });
   #unsaved;
   #kept = element("p");
   element = element("div");
   /** Sentences on what is kept after a restart. */
-  kept = section("world-kept", "What is kept after a restart?", { isOpen: false }, this.#kept);
+  kept = section("world-kept", t("What is kept after a restart?"), { isOpen: false }, this.#kept);
 
   /** @param {Panel} panel */
   constructor(panel) {
@@ -27,19 +28,19 @@ export class SceneFiles {
       "div",
       { className: "ai4u-offer", role: "status", hidden: true },
       this.#when,
-      button("Restore", () => panel.send("restore"), { kind: "main" }),
-      button("Discard", () => panel.send("discard"), {}),
+      button(t("Restore"), () => panel.send("restore"), { kind: "main" }),
+      button(t("Discard"), () => panel.send("discard"), {}),
     );
     const tools = element(
       "div",
       { className: "ai4u-tools" },
       this.#save,
-      button("Download", () => this.#download(), { icon: "download" }),
-      button("Copy link", () => this.#copyLink(), {
+      button(t("Download"), () => this.#download(), { icon: "download" }),
+      button(t("Copy link"), () => this.#copyLink(), {
         icon: "copy",
-        title: "Copy a link that holds this scene",
+        title: t("Copy a link that holds this scene"),
       }),
-      fileButton("Open a file", ".yaml,.yml,text/yaml", (file) => this.#load(file)),
+      fileButton(t("Open a file"), ".yaml,.yml,text/yaml", (file) => this.#load(file)),
     );
     this.element.append(this.#unsaved, tools);
   }
@@ -49,18 +50,18 @@ export class SceneFiles {
     setText(this.#kept, keptWords(canSave, isAutosaved));
     this.#save.hidden = !canSave;
     this.#unsaved.hidden = !unsaved;
-    if (unsaved) setText(this.#when, `You have an unsaved scene from ${unsaved.when}.`);
+    if (unsaved) setText(this.#when, t("You have an unsaved scene from {when}.", { when: unsaved.when }));
   }
 
   #openSaving() {
     const input = element("input", { type: "text", id: freeId(), autocomplete: "off", required: true });
     input.value = this.#panel.part("scene")?.title ?? "";
     const problem = element("p", { className: "ai4u-problem", role: "alert" });
-    const save = button("Save", () => {}, { kind: "main", type: "submit" });
-    const label = element("label", { htmlFor: input.id, textContent: "Name" });
+    const save = button(t("Save"), () => {}, { kind: "main", type: "submit" });
+    const label = element("label", { htmlFor: input.id, textContent: t("Name") });
     const field = element("div", { className: "ai4u-field" }, label, input);
     const form = element("form", { className: "ai4u-save", method: "dialog" }, field, problem, save);
-    const dialog = this.#panel.dialog("Save the scene", form);
+    const dialog = this.#panel.dialog(t("Save the scene"), form);
     let replaces = "";
     form.addEventListener("submit", async (event) => {
       event.preventDefault();
@@ -73,7 +74,7 @@ export class SceneFiles {
       }
       const isTaken = answer.code === "exists";
       replaces = isTaken ? name : "";
-      setText(save.querySelector("span"), isTaken ? "Replace it" : "Save");
+      setText(save.querySelector("span"), isTaken ? t("Replace it") : t("Save"));
       setText(problem, answer.text);
     });
     input.select();
@@ -82,7 +83,7 @@ export class SceneFiles {
 
   async #copyLink() {
     const text = await copyLink();
-    const offer = { text: "Download the file", icon: "download", run: () => this.#download() };
+    const offer = { text: t("Download the file"), icon: "download", run: () => this.#download() };
     this.#panel.notice(text, "info", isThisComputer() ? offer : null);
   }
 
@@ -93,7 +94,7 @@ export class SceneFiles {
 
   /** @param {File} file */
   async #load(file) {
-    const problem = sizeProblem(file, "a scene file (YAML)", this.#panel.part("world").max_scene_bytes);
+    const problem = sizeProblem(file, t("a scene file (YAML)"), this.#panel.part("world").max_scene_bytes);
     if (problem) {
       this.#panel.notice(problem, "error");
       return;
@@ -110,10 +111,10 @@ export class SceneFiles {
  */
 function keptWords(canSave, isAutosaved) {
   const scenes = [
-    canSave ? "Scenes that you save are under “Choose a scene”, in My scenes." : "Nothing can be saved here: download what you want to keep.",
-    isAutosaved ? "Changes that you did not save are offered to you at the top of this tab." : "Changes that you did not save are lost.",
-    "Your programs, stars and best times stay in this browser.",
-    "Episodes in Past and the steps of Undo are gone: download the episodes that you want to keep.",
+    canSave ? t("Scenes that you save are under “Choose a scene”, in My scenes.") : t("Nothing can be saved here: download what you want to keep."),
+    isAutosaved ? t("Changes that you did not save are offered to you at the top of this tab.") : t("Changes that you did not save are lost."),
+    t("Your programs, stars and best times stay in this browser."),
+    t("Episodes in Past and the steps of Undo are gone: download the episodes that you want to keep."),
   ];
   return scenes.join(" ");
 }

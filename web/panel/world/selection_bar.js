@@ -5,6 +5,7 @@
  * @import { Point } from "./ground.js"
  */
 import { button, element, setAttributes, setText } from "../../shared/dom.js";
+import { t, tn } from "../../shared/text.js";
 import { isTextInput } from "../../page/keys.js";
 import { Ground } from "./ground.js";
 import { alignSelected, choose, chooseMore, copySelected, duplicateSelected, paste, removeSelected, selected } from "./selection.js";
@@ -24,14 +25,14 @@ const MIN_FRAME_PX = 6;
 export class SelectionBar {
   #panel;
   #say;
-  #several = button("", () => this.#setMode(!this.#isMode), { icon: "area", label: "Select several" });
+  #several = button("", () => this.#setMode(!this.#isMode), { icon: "area", label: t("Select several") });
   #count = element("p", { className: "ai4u-selection-count", role: "status" });
   #one;
   #many;
   #paste;
   #layer = element("div", { className: "ai4u-layer ai4u-frame-layer", ariaHidden: "true" });
   #frame = element("div", { className: "ai4u-frame", hidden: true });
-  element = element("div", { className: "ai4u-selection", role: "toolbar", ariaLabel: "Selected things", hidden: true });
+  element = element("div", { className: "ai4u-selection", role: "toolbar", ariaLabel: t("Selected things"), hidden: true });
   /** True while taps and frames select several things. */
   #isMode = false;
   #hasCopy = false;
@@ -55,16 +56,16 @@ export class SelectionBar {
     this.#say = say;
     setAttributes(this.#several, { "aria-pressed": "false" });
     this.#one = [
-      button("", () => this.#copy(), { icon: "copy", label: "Copy (Ctrl+C)" }),
-      button("", () => duplicateSelected(panel), { icon: "duplicate", label: "Duplicate (Ctrl+D)" }),
-      button("", () => removeSelected(panel), { icon: "trash", label: "Delete" }),
+      button("", () => this.#copy(), { icon: "copy", label: t("Copy (Ctrl+C)") }),
+      button("", () => duplicateSelected(panel), { icon: "duplicate", label: t("Duplicate (Ctrl+D)") }),
+      button("", () => removeSelected(panel), { icon: "trash", label: t("Delete") }),
     ];
     this.#many = [
-      button("", () => alignSelected(panel, "row"), { icon: "align_row", label: "Put into a row" }),
-      button("", () => alignSelected(panel, "column"), { icon: "align_column", label: "Put into a column" }),
-      button("", () => alignSelected(panel, "spread"), { icon: "spread", label: "Space evenly" }),
+      button("", () => alignSelected(panel, "row"), { icon: "align_row", label: t("Put into a row") }),
+      button("", () => alignSelected(panel, "column"), { icon: "align_column", label: t("Put into a column") }),
+      button("", () => alignSelected(panel, "spread"), { icon: "spread", label: t("Space evenly") }),
     ];
-    this.#paste = button("", () => paste(panel, null), { icon: "paste", label: "Paste (Ctrl+V)" });
+    this.#paste = button("", () => paste(panel, null), { icon: "paste", label: t("Paste (Ctrl+V)") });
     this.element.append(this.#count, this.#several, ...this.#one, this.#paste, ...this.#many);
     this.#layer.append(this.#frame);
     this.#layer.addEventListener("pointerdown", (event) => this.#startFrame(event));
@@ -137,8 +138,8 @@ export class SelectionBar {
 
   #update() {
     const names = selected(this.#panel);
-    const words = names.length > 1 ? `${names.length} things selected` : "";
-    setText(this.#count, this.#isMode ? words || "Tap things, or pull a frame around them" : words);
+    const words = names.length > 1 ? tn("{n} thing selected", "{n} things selected", names.length) : "";
+    setText(this.#count, this.#isMode ? words || t("Tap things, or pull a frame around them") : words);
     for (const tool of this.#one) tool.hidden = names.length === 0;
     for (const tool of this.#many) tool.hidden = names.length < 2;
     this.#paste.hidden = !this.#hasCopy;

@@ -11,12 +11,13 @@ import { chooseAdded, chooseMore, setMoveMode } from "./selection.js";
 import { Form } from "../widgets/form.js";
 import { section, toggle } from "../widgets/parts.js";
 import { remember } from "../../shared/storage.js";
+import { t } from "../../shared/text.js";
 import { MOVES_KEY, SNAP_KEY, SNAP_M } from "./palette.js";
 import { SceneFiles } from "./scene_files.js";
 
-const HINT_OFF = "Turn on Move things, then drag anything in the picture.";
+const HINT_OFF = t("Turn on Move things, then drag anything in the picture.");
 const HINT_ON =
-  "Drag things to move them (Esc cancels). Click one to turn it or change its size. Shift and a click, or a frame, take several.";
+  t("Drag things to move them (Esc cancels). Click one to turn it or change its size. Shift and a click, or a frame, take several.");
 
 export class WorldTab {
   #panel;
@@ -33,7 +34,7 @@ export class WorldTab {
   #field;
   #newField;
   #files;
-  #lays = fileButton("Lay a picture on the ground", "image/png,image/jpeg", (file) => this.#lay(file));
+  #lays = fileButton(t("Lay a picture on the ground"), "image/png,image/jpeg", (file) => this.#lay(file));
 
   /**
    * @param {HTMLElement} root
@@ -42,20 +43,20 @@ export class WorldTab {
   constructor(root, panel) {
     this.#panel = panel;
     this.#files = new SceneFiles(panel);
-    this.#moves = toggle("Move things", (isOn) => this.#setMoving(isOn));
-    this.#snaps = toggle("Snap to grid", (isOn) => this.#setSnap(isOn ? SNAP_M : 0), {
-      title: "Hold Alt to move freely",
+    this.#moves = toggle(t("Move things"), (isOn) => this.#setMoving(isOn));
+    this.#snaps = toggle(t("Snap to grid"), (isOn) => this.#setSnap(isOn ? SNAP_M : 0), {
+      title: t("Hold Alt to move freely"),
     });
     this.#settings = new Form({ onChange: (values) => panel.send("change_settings", { values }) });
     this.#field = new Form({ onChange: (values) => panel.send("change_field", { values }) });
-    this.#newField = button("New field", () => panel.send("new_start"), {
-      title: "Begin again with another field of this kind",
+    this.#newField = button(t("New field"), () => panel.send("new_start"), {
+      title: t("Begin again with another field of this kind"),
     });
     root.append(
       this.#files.element,
       section(
         "world-things",
-        "Things",
+        t("Things"),
         {},
         element("div", { className: "ai4u-row-of-two" }, this.#moves.element, this.#snaps.element),
         this.#hint, // below the buttons, which its other texts would move
@@ -64,12 +65,12 @@ export class WorldTab {
       ),
       section(
         "world-field",
-        "Field by chance",
+        t("Field by chance"),
         { isOpen: false },
         element("div", { className: "ai4u-tools" }, this.#newField),
         this.#field.element,
       ),
-      section("world-settings", "Scene settings", { isOpen: false }, this.#settings.element),
+      section("world-settings", t("Scene settings"), { isOpen: false }, this.#settings.element),
       this.#files.kept,
     );
     this.#list.addEventListener("click", (event) => this.#chooseMore(event), { capture: true });
@@ -120,7 +121,7 @@ export class WorldTab {
    * @param {File} file
    */
   async #lay(file) {
-    const problem = sizeProblem(file, "a picture", this.#panel.part("world").max_picture_bytes, "save it with fewer pixels, or a photo as JPEG");
+    const problem = sizeProblem(file, t("a picture"), this.#panel.part("world").max_picture_bytes, t("save it with fewer pixels, or a photo as JPEG"));
     if (problem) {
       this.#panel.notice(problem, "error");
       return;
