@@ -120,9 +120,14 @@ export class Lights {
       }
       return null;
     }
-    const shown = NAMES[name] ?? name;
-    const all = [...document.querySelectorAll(CONTROLS)].filter((control) => nameOf(control).startsWith(shown));
-    return all.find((control) => nameOf(control) === shown && isThere(control)) ?? all.find((control) => nameOf(control).startsWith(`${shown} `) && isThere(control)) ?? null;
+    // what has no translation yet has its English name
+    for (const shown of new Set([NAMES[name] ?? name, name])) {
+      const all = [...document.querySelectorAll(CONTROLS)].filter((control) => nameOf(control).startsWith(shown));
+      const found =
+        all.find((control) => nameOf(control) === shown && isThere(control)) ?? all.find((control) => nameOf(control).startsWith(`${shown} `) && isThere(control));
+      if (found) return found;
+    }
+    return null;
   }
 }
 
