@@ -5,7 +5,6 @@ import threading
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Protocol, Self
 
-import msgspec
 from starlette.applications import Starlette
 
 from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, OptionTab, load_option
@@ -209,11 +208,11 @@ class _TabList(PanelOption):
 
     def __init__(self, tabs: Sequence[OptionTab]) -> None:
         shown = [{"name": tab.name, "title": tab.title} for tab in tabs]
-        self._json = msgspec.json.encode({"type": "part", "name": "tabs", "tabs": shown})
+        self._part = {"type": "part", "name": "tabs", "tabs": shown}
 
     def panel_parts(self, context: PanelContext, view: PageView) -> Parts:  # noqa: ARG002
         """Yield the part, which is the same for all pages."""
-        yield "tabs", self._json
+        yield "tabs", context.cache.by_key("tabs", lambda: self._part)
 
 
 def _load(

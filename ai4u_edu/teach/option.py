@@ -18,6 +18,7 @@ from typing import TypeVar
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.base.options import OptionTab
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.driver_options import OWN_BRAIN
 from ai4u_edu.page.editing.drivers import NETWORK
@@ -92,7 +93,7 @@ class TeachOption:
         folder = None if editor is None else editor.work_folder
         if editor is None or folder is None:
             return
-        self.tab = OptionTab("teach", "Teach", web_folder() / "teach" / "tab.js")
+        self.tab = OptionTab("teach", _("Teach"), web_folder() / "teach" / "tab.js")
         self.commands = {
             m.LearnFromDrives: self._learn,
             m.StopLearning: self._stop_learning,
