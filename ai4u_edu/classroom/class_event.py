@@ -1,6 +1,5 @@
 """The class as the teacher's page and the projector page get it."""
 
-import json
 import re
 import time
 from collections import defaultdict
@@ -15,7 +14,10 @@ from ai4u_edu.classroom.help_score import MISTAKE_HELP
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
+from ai4u_edu.locale import catalogue, join
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.episode_watch import PERSON
+from ai4u_edu.page.messages import to_json
 from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene import LIBRARY
@@ -28,7 +30,7 @@ Event = dict[str, Any]
 QrCode = Callable[[str], tuple[str, str]]
 MAX_AGE_S = 0.5
 MAX_CACHED = 8
-"""Addresses under which pages are open, for each of which an event is kept."""
+"""Addresses and languages of open pages, for each of which an event is kept."""
 
 
 class ClassEvents:
@@ -44,21 +46,21 @@ class ClassEvents:
 
     def __init__(self, live: LiveClass, join: QrCode, *, asks_for_code: bool = True) -> None:
         self._live, self._join, self._asks_for_code = live, join, asks_for_code
-        self._cached: dict[tuple[str, bool], tuple[int, float, str]] = {}
+        self._cached: dict[tuple[str, bool, str], tuple[int, float, str]] = {}
 
     def text(self, url: str, *, is_projected: bool) -> str:
-        """Return the present event as JSON.
+        """Return the present event as JSON, in the reader's language.
 
         Args:
             url: address of the page.
             is_projected: True for the page that everybody sees.
         """
-        key = url, is_projected
+        key = url, is_projected, catalogue().language
         version, built_at, text = self._cached.get(key, (-1, 0.0, ""))
         now = time.monotonic()
         # seconds that are left are in it, so it can't be kept for long
         if version != self._live.version or now - built_at > MAX_AGE_S:
-            text = json.dumps(self.event(url, is_projected=is_projected))
+            text = to_json(self.event(url, is_projected=is_projected)).decode()
             if len(self._cached) >= MAX_CACHED:
                 self._cached.clear()
             self._cached[key] = self._live.version, now, text
@@ -148,7 +150,8 @@ class ClassEvents:
             if each["status"] == "driving" and each["driver"] == PERSON:
                 continue  # whoever drives by hand is not stuck in the program
             if mistake and each["help"] < MISTAKE_HELP:
-                each |= {"help": MISTAKE_HELP, "why": f"program stopped: {mistake}"}
+                why = _("program stopped: {mistake}", mistake=mistake)
+                each |= {"help": MISTAKE_HELP, "why": why}
                 if each["status"] not in ("asleep", "away"):
                     each["status"] = "mistake"
         return found
@@ -193,8 +196,8 @@ class ClassEvents:
     def _learning(self, room: str) -> str:
         """Return how the networks of a room learn, or have learned; empty if it has none."""
         queues = self._live.practices, self._live.trainings, self._live.tasks
-        sentences = (queue.sentence(room) for queue in queues)
-        return "; ".join(filter(None, sentences))
+        sentences = [sentence for queue in queues if (sentence := queue.sentence(room))]
+        return join(sentences, "; ") if sentences else ""
 
     def _is_learning(self, room: str) -> bool:
         training = self._live.trainings.of_room(room)

@@ -7,6 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from ai4u_edu.classroom.errors import StoreError
+from ai4u_edu.locale import gettext as _
 
 GB = 10**9
 MAX_GB = 5.0
@@ -68,13 +69,13 @@ class FolderQuota:
             StoreError: the folder is full.
         """
         if self.is_full:
-            raise StoreError("The class's folder is full, and keeps nothing more.")
+            raise StoreError(_("The class's folder is full, and keeps nothing more."))
 
 
 def _size_of(folder: Path) -> int:
     """Return the bytes of all files in a folder, and in those below it."""
     total = 0
-    for place, _, names in os.walk(folder):
+    for place, _folders, names in os.walk(folder):
         for name in names:
             with suppress(OSError):  # it was deleted meanwhile
                 total += Path(place, name).lstat().st_size

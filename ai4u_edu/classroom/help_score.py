@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.wire.class_link import Status
 
 MANY_FALLS = 3
@@ -56,22 +58,31 @@ def help_score(signals: Signals) -> tuple[int, str]:
     """
     found: list[tuple[float, str]] = [(0, "")]
     if signals.error:
-        found.append((95, "its world has an error"))
+        found.append((95, _("its world has an error")))
     if signals.wrong >= MANY_WRONG:
         score = min(90, 40 + 10 * (signals.wrong - MANY_WRONG))
-        found.append((score, f"the same wrong answer {signals.wrong} times in {signals.exercise}"))
+        reason: str = ngettext(
+            "the same wrong answer {n} time in {exercise}",
+            "the same wrong answer {n} times in {exercise}",
+            signals.wrong,
+            exercise=signals.exercise,
+        )
+        found.append((score, reason))
     if signals.lost:
-        found.append((15, "not connected"))
+        found.append((15, _("not connected")))
     if not signals.is_solved:
         if signals.falls >= MANY_FALLS:
             score = min(80, 30 + 8 * (signals.falls - MANY_FALLS))
-            found.append((score, f"fell {signals.falls} times"))
+            found.append((score, ngettext("fell {n} time", "fell {n} times", signals.falls)))
         if signals.episodes >= MANY_EPISODES:
             score = min(70, 25 + 3 * (signals.episodes - MANY_EPISODES))
-            found.append((score, f"began {signals.episodes} times"))
+            reason = ngettext("began {n} time", "began {n} times", signals.episodes)
+            found.append((score, reason))
         if signals.status == "idle" and signals.idle_minutes >= LONG_IDLE_MINUTES:
             minutes = int(signals.idle_minutes)
-            reason = f"nobody has driven for {minutes} minute{'s' * (minutes != 1)}"
+            reason = ngettext(
+                "nobody has driven for {n} minute", "nobody has driven for {n} minutes", minutes
+            )
             found.append((min(60, 20 + 4 * minutes), reason))
     highest, why = max(found, key=lambda each: each[0])
     return int(highest), why

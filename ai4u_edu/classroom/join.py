@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import HTTPConnection, Request
 from starlette.responses import JSONResponse, RedirectResponse, Response
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.errors import (
     JoinError,
     NameTakenError,
@@ -21,6 +22,9 @@ from ai4u_edu.classroom.open_limits import sign_ins
 from ai4u_edu.classroom.room_process import path_of
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import SeatRow
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join as joined
+from ai4u_edu.locale import translate
 from ai4u_edu.member.joining import SEAT_COOKIE
 from ai4u_edu.page.server.limits.attempts import CodeLimit, client_address
 from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
@@ -36,7 +40,7 @@ NEW_SEATS_PER_S = 1.0
 MAX_NEW_SEAT_WAIT_S = 20.0
 """Longest wait for a new seat; a device that would wait longer is asked to try again."""
 NO_STORE = {"Cache-Control": "no-store"}
-TOO_MANY = "Too many devices join from your network. Try again in a moment."
+TOO_MANY = _("Too many devices join from your network. Try again in a moment.")
 
 
 class JoinRequest(BaseModel):
@@ -82,7 +86,7 @@ class Join:
         """
         seat = seat_of(self._seats, request)
         if seat is None:
-            return problem("You have no place in this class. Join with the code.", 403)
+            return problem(_("You have no place in this class. Join with the code."), 403)
         if request.method != "POST":
             is_open = self._seats.has_move_code(seat.number)
             return JSONResponse({"is_open": is_open}, headers=NO_STORE)
@@ -104,7 +108,7 @@ class Join:
     async def _join(self, request: Request, wanted: JoinRequest) -> Response:
         address = client_address(request.scope)
         if not await self._limit.wait_for_turn(address):
-            return problem("Too many wrong codes come from your network. Try again.", 429)
+            return problem(_("Too many wrong codes come from your network. Try again."), 429)
         given = wanted.code, wanted.name, wanted.request, seat_token(self._seats, request)
         try:
             try:
@@ -118,13 +122,13 @@ class Join:
                 seat, token = await asyncio.to_thread(self._seats.join, *given)
         except WrongCodeError as error:
             self._limit.add_wrong(address)
-            return problem(str(error), 403)
+            return problem(text_of(error), 403)
         except NameTakenError as error:
-            return problem(str(error), 409)
+            return problem(text_of(error), 409)
         except JoinError as error:
-            return problem(str(error), 403)
+            return problem(text_of(error), 403)
         except StoreError as error:
-            return problem(f"{error} Tell your teacher.", 503)
+            return storage_problem(error)
         self._on_change()
         found = {"room": f"{path_of(seat.room)}/", "name": seat.name, "colour": seat.colour}
         answer = JSONResponse(found, headers=NO_STORE)
@@ -152,5 +156,10 @@ def seat_token(seats: Seats, connection: HTTPConnection) -> str:
 
 
 def problem(text: str, status: int) -> Response:
-    """Return a refusal with a sentence to show."""
-    return JSONResponse({"problem": text}, status, NO_STORE)
+    """Return a refusal with a sentence to show, in the reader's language."""
+    return JSONResponse({"problem": translate(text)}, status, NO_STORE)
+
+
+def storage_problem(error: StoreError) -> Response:
+    """Return a refusal to a student, since nothing can be stored now."""
+    return problem(joined([text_of(error), _("Tell your teacher.")]), 503)

@@ -32,6 +32,7 @@ from ai4u_edu.classroom.task_queue import TaskQueue
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.trainings import Trainings
 from ai4u_edu.games.jobs.processes import core_count
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.room_state import read_counts
 from ai4u_edu.wire.class_link import (
     VERSION,
@@ -292,7 +293,8 @@ class LiveClass:
         """
         if name not in Switches.__struct_fields__:
             known = ", ".join(Switches.__struct_fields__)
-            raise CommandError(f"name: expected one of {known}, got {name!r}")
+            text = _("name: expected one of {known}, got {name!r}", known=known, name=name)
+            raise CommandError(text)
         switches = replace(self.switches, **{name: on})
         stored = _StoredSwitches(asdict(switches))
         self.store.set_setting(SWITCHES, stored.model_dump_json())

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.missions.mission import Mission, MissionFolder
 
 MAX_MISSIONS = 300
@@ -241,10 +243,20 @@ class ClassMissions:
             score = max(score, min(70, 35 + 5 * (minutes - LONG_MINUTES)))
         if not score:
             return 0, ""
-        long = f" for {int(minutes)} minutes" if minutes >= 2 else ""
-        where = f"step {place.step + 1} of “{mission.title}”{long}"
+        step, title = place.step + 1, mission.title
+        where: str = _("step {step} of “{mission}”", step=step, mission=title)
+        if minutes >= 2:
+            where = ngettext(
+                "step {step} of “{mission}” for {n} minute",
+                "step {step} of “{mission}” for {n} minutes",
+                int(minutes),
+                step=step,
+                mission=title,
+            )
         # a card shows the first words only, and the mission below them
-        return int(score), f"{place.diagnosis} ({where})" if place.hint else where
+        if not place.hint:
+            return int(score), where
+        return int(score), _("{problem} ({where})", problem=place.diagnosis, where=where)
 
     def _minutes(self, seat: int) -> float:
         return (self._clock() - self._since.get(seat, self._clock())) / 60

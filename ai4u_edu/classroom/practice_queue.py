@@ -20,6 +20,7 @@ from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.room_queue import QueueRow, RoomQueue
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.learn.training.run import Run
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.teach.learning import DIED, STOPPED
 from ai4u_edu.teach.practice import FOLDER as PRACTICES
@@ -102,14 +103,20 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
         if not rows or rows[-1].state.problem == STOPPED:
             return ""
         row = rows[-1]
-        goal = "" if row.success is None else f", goal {row.success:.0%}"
-        if row.success is not None and row.is_game:
-            goal = f", won {row.success:.0%}"
         if row.state.place:
-            return f"waits to practise, place {row.state.place}"
+            return _("waits to practise, place {place}", place=row.state.place)
         if not row.state.is_over:
-            return f"practises, {row.decisions / max(1, row.total):.0%} done{goal}"
-        return f"practised{goal}" if row.checks else "could not practise"
+            done = row.decisions / max(1, row.total)
+            how = _("practises, {done:.0%} done", done=done)
+        elif row.checks:
+            how = _("practised")
+        else:
+            return _("could not practise")
+        if row.success is None:
+            return how
+        if row.is_game:
+            return _("{practice}, won {share:.0%}", practice=how, share=row.success)
+        return _("{practice}, goal {share:.0%}", practice=how, share=row.success)
 
     async def add(self, room: str, request: Practise) -> None:
         """Take a room's request, which is on disk afterwards; one that is there is told again.

@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from ai4u_edu.classroom.errors import NewerProgramError, ProgramNotKeptError
 from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.star_goals import library_star_counts
 
 MAX_PROGRAM_CHARS = 100_000
@@ -87,14 +88,17 @@ class Programs:
                 [seat, scene, agent],
             ).fetchone()
             if stored is not None and stored[0] > base and stored[1] != device:
-                raise NewerProgramError("The class has a newer program, from another device.")
+                raise NewerProgramError(_("The class has a newer program, from another device."))
             (count,) = database.execute(
                 "select count(*) from programs where seat = ?", [seat]
             ).fetchone()
             if stored is None and count >= MAX_PROGRAMS:
                 raise ProgramNotKeptError(
-                    f"The class keeps at most {MAX_PROGRAMS} programs of each student, and you "
-                    "have that many. This one stays in this browser; download it."
+                    _(
+                        "The class keeps at most {number} programs of each student, and you have "
+                        "that many. This one stays in this browser; download it.",
+                        number=MAX_PROGRAMS,
+                    )
                 )
             version: int = database.execute(
                 "insert or replace into programs values (?, ?, ?, ?, "

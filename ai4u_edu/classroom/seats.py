@@ -29,6 +29,8 @@ from ai4u_edu.classroom.names import (
     normalized_code,
 )
 from ai4u_edu.classroom.store import ClassStore, RoomRow, SeatRow, TokenRow
+from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.joining import SEAT_COOKIE
 
 MAX_SEATS = 200
@@ -182,14 +184,14 @@ class Seats:
         with self._lock:
             moved, is_teachers = self._move_codes.use(wanted, request)
             if not moved and not secrets.compare_digest(wanted.encode(), self.code.encode()):
-                raise WrongCodeError("This code is not right. Look at the board again.")
+                raise WrongCodeError(_("This code is not right. Look at the board again."))
             replaced = [each for each in self._tokens.values() if _is_of(each, request, held)]
             own = [self._seats[each.seat] for each in replaced]
             if moved:
                 own = [self._seats[moved]]
             if not is_teachers:  # with the teacher's code, the teacher has decided
                 if any(each.state == SeatState.BANNED.value for each in own):
-                    raise JoinError("You may not join this class. Ask your teacher.")
+                    raise JoinError(_("You may not join this class. Ask your teacher."))
                 if any(each.state != SeatState.IN.value for each in own) or not own:
                     self._check_open()
             if own:
@@ -231,7 +233,7 @@ class Seats:
 
     def _check_open(self) -> None:
         if not self.is_open:
-            raise JoinError("Nobody else can join at present. Ask your teacher.")
+            raise JoinError(_("Nobody else can join at present. Ask your teacher."))
 
     def _new_seat(self, name: str, device: TokenRow) -> SeatRow:
         """Store a new seat with its device, whose number is set here, and return it."""
@@ -254,9 +256,9 @@ class Seats:
 
     def _check_name(self, name: str) -> None:
         if not is_name(name):
-            raise JoinError("Choose one of the names that are offered.")
+            raise JoinError(_("Choose one of the names that are offered."))
         if name in {each.name for each in self._seats.values()}:
-            raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
+            raise NameTakenError(_taken(name))
 
     def _make_room(self) -> None:
         """In a full class, take back the oldest seat that never opened its room.
@@ -275,7 +277,9 @@ class Seats:
             if not seat.is_opened and is_old and self._store.remove_unused_seat(seat):
                 self._forget_seat(seat)
                 return
-        raise JoinError(f"The class is full: it has {MAX_SEATS} seats. Ask your teacher.")
+        raise JoinError(
+            _("The class is full: it has {seats} seats. Ask your teacher.", seats=MAX_SEATS)
+        )
 
     def _forget_seat(self, seat: SeatRow) -> None:
         del self._seats[seat.number]
@@ -332,11 +336,11 @@ class Seats:
                 taken = {each.name for each in self._seats.values()}
                 names = free_names(taken, 1, self._language)
                 if not names:
-                    raise JoinError("The class has no name left. Ask your teacher.")
+                    raise JoinError(_("The class has no name left. Ask your teacher."))
                 return self._new_seat(names[0], TokenRow(identity, 0, identity.hex()))
             seat = self._seats[device.seat]
             if seat.state == SeatState.BANNED.value:
-                raise JoinError("You may not join this class. Ask your teacher.")
+                raise JoinError(_("You may not join this class. Ask your teacher."))
             if seat.state != SeatState.IN.value:
                 self._check_open()
                 seat = replace(seat, state=SeatState.IN.value)
@@ -385,9 +389,9 @@ class Seats:
         with self._lock:
             seat = self._known(number)
             if not is_name(name):
-                raise JoinError(f"expected a name of the lists, got {name[:40]!r}")
+                raise JoinError(_("expected a name of the lists, got {name!r}", name=name[:40]))
             if name in {each.name for each in self._seats.values() if each.number != number}:
-                raise NameTakenError(f"Somebody else is {name} already. Choose another name.")
+                raise NameTakenError(_taken(name))
             seat = replace(seat, name=name)
             self._store.update_seat(seat)
             self._seats[number] = seat
@@ -437,8 +441,12 @@ class Seats:
 
     def _known(self, number: int) -> SeatRow:
         if number not in self._seats:
-            raise JoinError(f"there is no seat {number}")
+            raise JoinError(_("there is no seat {number}", number=number))
         return self._seats[number]
+
+
+def _taken(name: str) -> Text:
+    return _("Somebody else is {name} already. Choose another name.", name=name)
 
 
 def _is_of(device: TokenRow, request: str, held: str) -> bool:

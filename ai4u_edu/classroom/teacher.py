@@ -16,7 +16,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from ai4u_edu.base.atomic_write import reason
-from ai4u_edu.base.errors import SceneError, SetupError, shorten
+from ai4u_edu.base.errors import SceneError, SetupError, shorten, text_of
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.classroom.assignments import AssignedScene
 from ai4u_edu.classroom.attention import MAX_SECONDS
@@ -36,6 +36,7 @@ from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.runner import System
 from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.server.limits.json_body import read_json
@@ -286,7 +287,7 @@ class Teacher:
         """Return the networks that learned in a room."""
         room = request.query_params.get("room", "")
         if room not in self._seats.scenes():
-            return problem("room: there is no such room on this machine", 404)
+            return problem(_("room: there is no such room on this machine"), 404)
         networks = await asyncio.to_thread(_networks_of, self._live, room)
         return JSONResponse({"networks": networks}, headers=NO_STORE)
 
@@ -304,7 +305,7 @@ class Teacher:
             status = 400 if error.status_code == 422 else error.status_code
             return problem(error.detail, status)
         except (JoinError, CommandError, StoreError) as error:
-            return problem(str(error), 400)
+            return problem(text_of(error), 400)
         self._live.tell_people()
         return JSONResponse({}, headers=NO_STORE)
 
@@ -349,7 +350,7 @@ class Teacher:
                 queues = live.trainings, live.practices, live.tasks
                 stopped = [await queue.stop(room, problem=STOPPED_BY_TEACHER) for queue in queues]
                 if not any(stopped):
-                    raise CommandError("nothing learns in this room any more")
+                    raise CommandError(_("nothing learns in this room any more"))
             case _HandOut(room=room, scene=name, network=number):
                 self._check_local(room)
                 others = [other for other in self._seats.scenes() if other != room]
@@ -409,11 +410,12 @@ class Teacher:
 
     def _check_local(self, room: str) -> None:
         if room not in self._seats.scenes():
-            raise CommandError(f"room: there is no room {room[:40]!r} on this machine")
+            text = _("room: there is no room {room!r} on this machine", room=room[:40])
+            raise CommandError(text)
 
     def _check_room(self, room: str) -> None:
         if room not in self._live.rooms and room not in self._seats.scenes():
-            raise CommandError(f"room: there is no room {room[:40]!r}")
+            raise CommandError(_("room: there is no room {room!r}", room=room[:40]))
 
 
 def _find_scene(live: LiveClass, source: _LessonOrScene) -> AssignedScene:
@@ -429,18 +431,22 @@ def _find_scene(live: LiveClass, source: _LessonOrScene) -> AssignedScene:
     if isinstance(source, SceneOfMission):
         mission = live.missions.known.get(source.mission)
         if mission is None:
-            raise CommandError(f"mission: there is no mission {source.mission[:40]!r}")
+            name = source.mission[:40]
+            raise CommandError(_("mission: there is no mission {name!r}", name=name))
         return AssignedScene(mission.title, mission.scene, mission=source.mission)
     if isinstance(source, str):
         if source not in Scene.names():
-            raise CommandError(f"scene: expected a scene of the library, got {source[:40]!r}")
+            raise CommandError(
+                _("scene: expected a scene of the library, got {scene!r}", scene=source[:40])
+            )
         return AssignedScene(Scene.load(source).description.title or source, source)
     text = source.yaml if isinstance(source, SceneText) else _text_of_room(live, source.room)
     try:
         scene = Scene.loads(text)
         Permissions(()).check(scene.description.agents)
     except (SceneError, ChangeError) as error:
-        raise CommandError(f"scene: {shorten(str(error), 400)}") from None
+        why = shorten(text_of(error), 400)
+        raise CommandError(_("scene: {problem}", problem=why)) from None
     title = scene.description.title or scene.description.name
     # a text without a line break would be taken for a name
     return AssignedScene(title, text if "\n" in text else f"{text}\n")
@@ -451,7 +457,9 @@ def _scene_of_lesson(number: str) -> AssignedScene:
         if each.number == number:
             return AssignedScene(each.title, each.scene, f"{number} {each.title}")
     last = course_lessons()[-1].number
-    raise CommandError(f"lesson: expected a number from 00 to {last}, got {number!r}")
+    raise CommandError(
+        _("lesson: expected a number from 00 to {last}, got {number!r}", last=last, number=number)
+    )
 
 
 def _text_of_room(live: LiveClass, room: str) -> str:
@@ -461,14 +469,15 @@ def _text_of_room(live: LiveClass, room: str) -> str:
         CommandError: there is no such room, or nothing is known of its scene.
     """
     if room not in live.rooms and room not in live.seats.scenes():
-        raise CommandError(f"room: there is no room {room[:40]!r}")
+        raise CommandError(_("room: there is no room {room!r}", room=room[:40]))
     state = live.rooms.get(room)
     if state is not None and state.work is not None:
         return state.work.scene
     try:
         return (live.store.folder / "rooms" / room / SCENE_FILE).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
-        raise CommandError("room: its scene is not known yet; it was not changed") from None
+        text = _("room: its scene is not known yet; it was not changed")
+        raise CommandError(text) from None
 
 
 def _taught(live: LiveClass, room: str, folder: str) -> NetworkFolder:
@@ -502,9 +511,11 @@ def _hand_out(live: LiveClass, room: str, scene: str, number: int, others: list[
         for other in others:
             _taught(live, other, HANDED_OUT).add(scene, network, about)
     except (SetupError, ValueError):
-        raise CommandError("network: it is not there any more; choose another one") from None
+        text = _("network: it is not there any more; choose another one")
+        raise CommandError(text) from None
     except OSError as error:
-        raise CommandError(f"network: it can't be handed out: {reason(error)}") from None
+        text = _("network: it can't be handed out: {reason}", reason=reason(error))
+        raise CommandError(text) from None
 
 
 async def _forget(live: LiveClass, proxy: RoomProxy) -> None:

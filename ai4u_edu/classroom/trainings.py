@@ -18,6 +18,8 @@ from ai4u_edu.base.atomic_write import reason, write_atomically
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.learning import DIED, LEARNED, STOPPED, Learning
 from ai4u_edu.teach.network_score import NetworkScore
@@ -96,13 +98,12 @@ class Trainings:
         if training is None or training.problem == STOPPED:
             return ""
         if training.is_done:
-            return f"learned: {training.alike:.0%} alike"
+            return _("learned: {alike:.0%} alike", alike=training.alike)
         if training.problem:
-            return "could not learn"
-        drives = f"{training.drives} drive{'s' if training.drives != 1 else ''}"
-        return (
-            f"waits to learn, place {training.place}" if training.place else f"learns from {drives}"
-        )
+            return _("could not learn")
+        if training.place:
+            return _("waits to learn, place {place}", place=training.place)
+        return ngettext("learns from {n} drive", "learns from {n} drives", training.drives)
 
     async def add(self, room: str, request: Learn) -> None:
         """Take a room's request, which is on disk afterwards; one that came before is ignored.

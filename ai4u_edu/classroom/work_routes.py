@@ -13,13 +13,14 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.errors import (
     NetworkError,
     NewerProgramError,
     ProgramNotKeptError,
     StoreError,
 )
-from ai4u_edu.classroom.join import NO_STORE, problem, seat_of
+from ai4u_edu.classroom.join import NO_STORE, problem, seat_of, storage_problem
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.missions import (
     MAX_COUNT,
@@ -43,6 +44,7 @@ from ai4u_edu.classroom.tournament.event import network_facts
 from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import TOO_LARGE, check_network
 from ai4u_edu.classroom.work_zip import seat_zip, zip_response
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.limits.rate_limit import RateLimits
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
@@ -50,6 +52,9 @@ from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 REQUESTS_PER_S = 1.0
 """Rate of a seat's requests for each kind of work, of which some may come at once."""
 MAX_REQUESTS_AT_ONCE = 30
+TOO_MANY = _("Too many requests at once. Try again in some seconds.")
+TOO_MANY_PROGRAMS = _("Too many programs at once. Try again in some seconds.")
+TOO_MANY_RUNS = _("Too many runs at once. Try again in some seconds.")
 _MAX_PROGRAM_BYTES = 6 * MAX_PROGRAM_CHARS + 4000  # JSON takes at most six bytes for a character
 _MAX_MISSIONS_BYTES = MAX_MISSIONS * (6 * MAX_NAME_CHARS + 60) + 6 * MAX_HINT_CHARS
 _MAX_GLANCE_CHARS = 3000  # of each program in the view of all
@@ -139,11 +144,11 @@ class WorkRoutes:
     def routes(self) -> list[Route]:
         """Return the routes of a seat, whose cookie they ask for."""
         return [
-            self._route("/api/program", self._program, "programs"),
+            self._route("/api/program", self._program, TOO_MANY_PROGRAMS),
             self._route("/api/stars", self._stars),
             self._route("/api/mission-progress", self._missions),
             self._route("/api/network", self._network),
-            self._route("/api/program/run", self._run, "runs", has_get=False),
+            self._route("/api/program/run", self._run, TOO_MANY_RUNS, has_get=False),
             Route("/api/my-work", self._my_work),
         ]
 
@@ -155,18 +160,18 @@ class WorkRoutes:
         """
         room = request.query_params.get("room", "")
         if room and room not in self._live.rooms and room not in self._live.seats.scenes():
-            return problem("room: there is no such room", 404)
+            return problem(_("room: there is no such room"), 404)
         try:
             programs = await (self._of_room(room) if room else self._of_all())
         except StoreError as error:
-            return problem(str(error), 503)
+            return problem(text_of(error), 503)
         return JSONResponse({"programs": programs}, headers=NO_STORE)
 
     def _route(
         self,
         path: str,
         serve: Callable[[int, Request], Awaitable[Response]],
-        what: str = "requests",
+        too_many: str = TOO_MANY,
         *,
         has_get: bool = True,
     ) -> Route:
@@ -175,7 +180,7 @@ class WorkRoutes:
         Args:
             path: of the route.
             serve: answers a request of a seat with this number.
-            what: plural of what the rate counts.
+            too_many: sentence for a seat that sends more than its rate.
             has_get: True if the work can be fetched; then it is kept as long as the class's folder
                 is not full.
         """
@@ -183,23 +188,23 @@ class WorkRoutes:
 
         async def answer(request: Request) -> Response:
             if has_get and request.method == "PUT" and self._live.store.quota.is_full:
-                text = "The class's folder is full, and keeps nothing more. Tell your teacher."
+                text = _("The class's folder is full, and keeps nothing more. Tell your teacher.")
                 return problem(text, 507)
             seat = seat_of(self._live.seats, request)
             if seat is None:
-                return problem("This browser has no place in the class.", 403)
+                return problem(_("This browser has no place in the class."), 403)
             if rate.take_within(seat.number) is None:
-                return problem(f"Too many {what} at once. Try again in some seconds.", 429)
+                return problem(too_many, 429)
             try:
                 return await serve(seat.number, request)
             except HTTPException as error:
                 return problem(error.detail, error.status_code)
             except NewerProgramError as error:
-                return problem(str(error), 409)
+                return problem(text_of(error), 409)
             except (ProgramNotKeptError, NetworkError) as error:
-                return problem(str(error), 400)
+                return problem(text_of(error), 400)
             except StoreError as error:
-                return problem(f"{error} Tell your teacher.", 503)
+                return storage_problem(error)
 
         return Route(path, answer, methods=["GET", "PUT"] if has_get else ["PUT"])
 

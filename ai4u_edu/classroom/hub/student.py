@@ -8,11 +8,12 @@ import secrets
 from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.errors import JoinError, StoreError
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.hub.sign_in import SIGN_IN, SignIn, is_teacher
-from ai4u_edu.classroom.join import NO_STORE, problem
+from ai4u_edu.classroom.join import NO_STORE, problem, storage_problem
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
 from ai4u_edu.classroom.seats import Seats
@@ -108,9 +109,9 @@ class HubStudent:
             user = await self._sign_in.user_of(request)
             return await self._seat(user)
         except HubUnreachableError as error:
-            return problem(str(error), 503)
+            return problem(text_of(error), 503)
         except NoAccessError as error:
-            return problem(str(error), 403)
+            return problem(text_of(error), 403)
 
     async def seat(self, request: Request) -> Response:
         """Return the seat of a program that has a token of the hub."""
@@ -120,9 +121,9 @@ class HubStudent:
             user = await self._api.user_of(found[1], address) if found else None
             return await self._seat(user)
         except HubUnreachableError as error:
-            return problem(str(error), 503)
+            return problem(text_of(error), 503)
         except NoAccessError as error:
-            return problem(str(error), 403)
+            return problem(text_of(error), 403)
 
     async def room_of(self, token: str, address: str) -> LiveRoom | None:
         """Return the room of a link with a token of the hub; None if its user has no seat.
@@ -147,9 +148,9 @@ class HubStudent:
         try:
             seat = await asyncio.to_thread(self._seats.admit, user)
         except JoinError as error:
-            return problem(str(error), 403)
+            return problem(text_of(error), 403)
         except StoreError as error:
-            return problem(f"{error} Tell your teacher.", 503)
+            return storage_problem(error)
         self._live.tell_people()
         return JSONResponse(self._told(seat), headers=NO_STORE)
 

@@ -18,6 +18,7 @@ from ai4u_edu.base.atomic_write import reason, write_atomically
 from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.tournament.network_scene import ALL, network_scenes
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 FOLDER = "networks"
@@ -195,7 +196,8 @@ class Networks:
             path.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(path, data)
         except OSError as error:
-            raise StoreError(f"The class can't save a network: {reason(error)}.") from None
+            text = _("The class can't save a network: {reason}.", reason=reason(error))
+            raise StoreError(text) from None
 
     def _insert(self, row: NetworkRow, gone: list[NetworkRow]) -> bool:
         values = (row.key, *row.place, row.file, row.size, row.verdict, row.reason, row.request)
@@ -235,25 +237,40 @@ def check_network(scene: str, part: str, file: str, size: int) -> None:
     known = network_scenes().get(scene)
     if known is None:
         raise NetworkError(
-            f"scene: expected one of {', '.join(network_scenes())}, got {scene[:60]!r}."
+            _(
+                "scene: expected one of {names}, got {scene!r}.",
+                names=", ".join(network_scenes()),
+                scene=scene[:60],
+            )
         )
     if part != ALL and part not in known.parts:
-        parts = ", ".join(known.parts) or "none"
-        raise NetworkError(f"part: {known.title} has these parts: {parts}; got {part[:60]!r}.")
+        raise NetworkError(
+            _(
+                "part: {scene} has these parts: {parts}; got {part!r}.",
+                scene=known.title,
+                parts=", ".join(known.parts) or _("none"),
+                part=part[:60],
+            )
+        )
     if not file.lower().endswith(".onnx"):
         raise NetworkError(
-            f"Expected a network as an .onnx file, got {file[-60:]!r}. A training writes one; so "
-            "does: ai4u-edu export MODEL --out policy.onnx"
+            _(
+                "Expected a network as an .onnx file, got {file!r}. A training writes one; so "
+                "does: ai4u-edu export MODEL --out policy.onnx",
+                file=file[-60:],
+            )
         )
     if size == 0:
-        raise NetworkError("This file is empty. Choose the .onnx file that your training wrote.")
+        text = _("This file is empty. Choose the .onnx file that your training wrote.")
+        raise NetworkError(text)
     if size > MAX_NETWORK_BYTES:
         raise NetworkError(TOO_LARGE)
 
 
-TOO_LARGE = (
-    f"This file is too large: a network may have at most {MAX_NETWORK_BYTES // 2**20} MB. Train "
-    "one with fewer or smaller layers."
+TOO_LARGE = _(
+    "This file is too large: a network may have at most {size} MB. Train one with fewer or smaller "
+    "layers.",
+    size=MAX_NETWORK_BYTES // 2**20,
 )
 
 

@@ -24,6 +24,7 @@ from ai4u_edu.classroom.tournament.networks import Networks
 from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
 from ai4u_edu.games.tournament.entry import Driver
 from ai4u_edu.games.tournament.plan import TournamentPlan
+from ai4u_edu.locale import gettext as _
 
 VIEW = "view.json"
 """File with a tournament as it was at its end."""
@@ -118,7 +119,8 @@ class TournamentRunner:
         async with self._lock:
             self._refuse_while_running()
             if known is None:
-                raise CommandError(f"scene: expected one of the library, got {scene[:40]!r}")
+                text = _("scene: expected one of the library, got {scene!r}", scene=scene[:40])
+                raise CommandError(text)
             self.tournaments.begin(known.name, known.title)
             self._ended_view, self.seats = None, {}
 
@@ -136,7 +138,7 @@ class TournamentRunner:
         async with self._lock:
             row = self._refuse_while_running()
             if row is None:
-                raise CommandError("There is no tournament: choose its scene first.")
+                raise CommandError(_("There is no tournament: choose its scene first."))
             if missing := missing_extras():
                 raise CommandError(missing)
             folder, work = self.tournaments.folder_of(row), self.tournaments.work_of(row)
@@ -194,7 +196,8 @@ class TournamentRunner:
     def _refuse_while_running(self) -> TournamentRow | None:
         row = self.tournaments.now
         if row is not None and row.phase == "running":
-            raise CommandError("A tournament is played now. Wait for its end, or cancel it first.")
+            text = _("A tournament is played now. Wait for its end, or cancel it first.")
+            raise CommandError(text)
         return row
 
     # -- tasks -------------------------------------------------------------------------------------
@@ -345,9 +348,11 @@ def _write_plan(
         work.mkdir(exist_ok=True)
         write_atomically(work / _SEATS, json.dumps(numbers))
     except OSError as error:
-        raise StoreError(f"The tournament can't be saved: {reason(error)}.") from None
+        text = _("The tournament can't be saved: {reason}.", reason=reason(error))
+        raise StoreError(text) from None
     except SetupError as error:
-        raise StoreError(f"The tournament can't be saved: {error}.") from None
+        text = _("The tournament can't be saved: {reason}.", reason=str(error))
+        raise StoreError(text) from None
 
 
 def _plan(
