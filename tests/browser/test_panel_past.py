@@ -52,6 +52,7 @@ PART: dict[str, Any] = {
     "ghost": "",
     "problem": "",
     "downloads": [],
+    "max_recording_bytes": MAX_RECORDING_BYTES,
 }
 DOWNLOADS = [
     {"format": "gif", "title": "GIF", "url": "api/past/3.gif"},
