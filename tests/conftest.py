@@ -29,6 +29,11 @@ COMPILE_RAYS = ROOT / ".ci" / "compile_rays.py"
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
+# Tests read English, whatever the language of this machine is.
+for name in ("AI4U_LANG", "LANGUAGE", "LC_ALL", "LC_MESSAGES"):
+    os.environ.pop(name, None)
+os.environ["LANG"] = "C.UTF-8"
+
 # A busy machine makes an example slow, and no test asserts a time.
 too_slow = [HealthCheck.too_slow]
 settings.register_profile("project", deadline=None, suppress_health_check=too_slow)
