@@ -12,24 +12,26 @@ from ai4u_edu.lessons.class_membership import class_trouble, report_event
 from ai4u_edu.lessons.course import is_ticket, lesson, lessons
 from ai4u_edu.lessons.diagnoses import COMMON, UNKNOWN, diagnosis_id
 from ai4u_edu.lessons.exercise import Done, Exercise, NotYet, find, unfinished
-from ai4u_edu.lessons.notebook_output import card, cells_so_far, put
+from ai4u_edu.lessons.notebook_output import cells_so_far, tell
 from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 from ai4u_edu.lessons.student_errors import Mistake, line_of, mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
 from ai4u_edu.lessons.translation import translated_code
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, translate
 
 YES, NO = "\u2714", "\u2013"
-NONE_GIVEN = (
+NONE_GIVEN = _(
     "What you handed in is None: nothing. Give the function's name without brackets after it. If "
     "it is what a function returned, that function lacks a `return`."
 )
-READ_AGAIN = (
+READ_AGAIN = _(
     "The lesson's text answers all three questions: read the part again that the question is about."
 )
-NO_SOLUTION = (
+NO_SOLUTION = _(
     "An exit ticket has no solution to print, since it is there to find out what you know."
 )
-UNFINISHED = "There is still `...` where your answer should be: run its cell once you wrote it."
+UNFINISHED = _("There is still `...` where your answer should be: run its cell once you wrote it.")
 
 
 @dataclass(frozen=True)
@@ -86,27 +88,30 @@ def check_as(exercise_id: str, *things: Any, code: str | None = None) -> None:
         verdict = judge(exercise, *things)
     except KeyboardInterrupt as stopped:
         line = line_of(stopped)
-        words = [f"You stopped the check{f' ({line})' if line else ''}. Nothing was saved."]
-        put(card("grey", "Stopped.", words), _words("Stopped.", words))
+        words = _("You stopped the check. Nothing was saved.")
+        if line:
+            words = _("You stopped the check ({line}). Nothing was saved.", line=line)
+        tell("grey", _("Stopped."), [words])
         return
     progress = ProgressFile()
     diagnosis = diagnosis_id(exercise_id, verdict.hint, exercise.hints) if verdict.hint else ""
     progress.note(
         exercise_id,
         passed=verdict.passed,
-        text=verdict.text,
+        text=str(verdict.text),
         diagnosis=diagnosis,
         picture=verdict.picture,
         code=_written(exercise_id) if code is None else code,
     )
     report_event(exercise_id, "right" if verdict.passed else "wrong", diagnosis)
     if verdict.passed:
-        colour, sign, more = "green", f"{YES} Right.", []
+        colour, sign, more = "green", _("{sign} Right.", sign=YES), []
     else:
-        colour, sign = "vermillion", "Not yet."
-        more = [] if is_ticket(exercise_id) else [f'Stuck? Run `hint("{exercise_id}")`.']
+        colour, sign = "vermillion", _("Not yet.")
+        stuck = _('Stuck? Run `hint("{exercise}")`.', exercise=exercise_id)
+        more = [] if is_ticket(exercise_id) else [stuck]
     lines = [verdict.text, *more, *filter(None, [progress.trouble, class_trouble()])]
-    put(card(colour, sign, lines, verdict.picture), _words(sign, lines))
+    tell(colour, sign, lines, verdict.picture)
 
 
 def hint(exercise_id: str) -> None:
@@ -124,9 +129,8 @@ def hint(exercise_id: str) -> None:
     _asked[exercise_id, pointed] = asked + 1
     text = names[asked % len(names)]
     rest = len(names) - 1
-    more = [f'{rest} more: run `hint("{exercise_id}")` again.'] if rest and not asked else []
-    lines = [text, *more]
-    put(card("blue", "Hint.", lines), _words("Hint.", lines))
+    again = _('{n} more: run `hint("{exercise}")` again.', n=rest, exercise=exercise_id)
+    tell("blue", _("Hint."), [text, *([again] if rest and not asked else [])])
 
 
 def _hints_in_order(exercise: Exercise, pointed: str) -> list[str]:
@@ -153,7 +157,7 @@ def solution(exercise_id: str) -> None:
         SetupError: there is no such exercise.
     """
     if is_ticket(find(exercise_id).id):
-        print(f"{NO_SOLUTION} {READ_AGAIN}")  # noqa: T201 - as below
+        print(translate(join([NO_SOLUTION, READ_AGAIN])))  # noqa: T201 - as below
         return
     code = answers_to(exercise_id).solution
     print(translated_code(exercise_id, code))  # noqa: T201 - to be copied from
@@ -163,16 +167,17 @@ def progress() -> None:
     """Show which exercises are solved."""
     progress = ProgressFile()
     entries = progress.entries()
-    rows, words, passed, total = [], [], 0, 0
+    rows: list[str] = []
+    passed = total = 0
     for each in lessons():
         marks = [entries.get(name, ExerciseProgress()).passed for name in each.exercises]
         passed, total = passed + sum(marks), total + len(marks)
         named = list(zip(each.exercises, marks, strict=True))
         signs = "   ".join(f"{name} {YES if mark else NO}" for name, mark in named)
         rows.append(f"{each.title}: {signs}")
-    lines = [f"{passed} of {total} exercises are solved.", *rows]
-    words = [*lines, *([progress.trouble] if progress.trouble else [])]
-    put(card("blue", "Progress.", words), _words("Progress.", words))
+    line = _("{passed} of {total} exercises are solved.", passed=passed, total=total)
+    trouble = [progress.trouble] if progress.trouble else []
+    tell("blue", _("Progress."), [line, *rows, *trouble])
 
 
 def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -> CheckResult:
@@ -180,9 +185,12 @@ def _failed(exercise: Exercise, things: tuple[Any, ...], error: BaseException) -
     mistake = mistake_in(error)
     if mistake is None:
         shown = reprlib.repr(things[0]) if len(things) == 1 else reprlib.repr(things)
-        text = (
-            f"The check itself has a fault: it could not try out {shown} ({type(error).__name__}: "
-            f"{error}). Please tell your teacher."
+        text = _(
+            "The check itself has a fault: it could not try out {shown} ({kind}: {error}). Please "
+            "tell your teacher.",
+            shown=shown,
+            kind=type(error).__name__,
+            error=str(error),
         )
         return CheckResult(False, text, UNKNOWN)
     if mistake.function:
@@ -194,8 +202,12 @@ def _parameters_of(exercise: Exercise, mistake: Mistake) -> str:
     """Return a sentence on a function whose parameters are not those of the exercise."""
     name = mistake.function.rpartition(".")[2]
     line = _definition_line(exercise.id, name)
-    wanted = f" Its first line has to be `{line}`." if line else ""
-    return f"`{name}` is called with other parameters than it has: {mistake.text}.{wanted}"
+    text = _(
+        "`{name}` is called with other parameters than it has: {text}.",
+        name=name,
+        text=mistake.text,
+    )
+    return join([text, _("Its first line has to be `{line}`.", line=line)]) if line else text
 
 
 def _written(exercise: str) -> str:
@@ -243,7 +255,3 @@ def _definition_line(exercise: str, name: str) -> str:
             found = (line.strip() for line in cell.source.splitlines())
             return next((line for line in found if line.startswith(f"def {name}(")), "")
     return ""
-
-
-def _words(sign: str, lines: list[str]) -> str:
-    return "\n".join([f"{sign} {lines[0]}", *lines[1:]])

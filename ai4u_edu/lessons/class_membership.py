@@ -8,9 +8,11 @@ from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Literal
 
-from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons.notebook_output import card, put
+from ai4u_edu.base.errors import SetupError, text_of
+from ai4u_edu.lessons.notebook_output import card, put, tell
 from ai4u_edu.lessons.progress_file import FOLDER
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 if TYPE_CHECKING:
     from ai4u_edu.lessons.live import Live
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
 
 CHECK_TIMEOUT_S = 60.0
 """Time for which the class's check is waited for; it goes on afterwards."""
-NO_CLASS = (
+NO_CLASS = _(
     'You are in no class. Join it first: `join_class("http://ADDRESS", "CODE")` with the address '
     "and the code on the board, on a JupyterHub `join_class()`. Then run this cell again. Without "
     "a class, networks play each other with: ai4u-edu tournament SCENE ONE.onnx OTHER.onnx"
@@ -52,25 +54,29 @@ def join_class(
     try:
         connection = join_notebook(url, code, name_choice, service, Path.cwd() / FOLDER)
     except NotJoinedError as error:
-        text = f"{error} Then run this cell again. Your checks work without a class, too."
-        _tell("vermillion", "Not joined.", text)
+        text = _(
+            "{error} Then run this cell again. Your checks work without a class, too.",
+            error=text_of(error),
+        )
+        _tell("vermillion", _("Not joined."), text)
         return
     _connect(connection)
-    text = (
-        f"You are {connection.seat.name}. Your teacher sees the results of your checks, and the "
-        "world that you show. `leave_class()` ends that."
+    text = _(
+        "You are {name}. Your teacher sees the results of your checks, and the world that you "
+        "show. `leave_class()` ends that.",
+        name=connection.seat.name,
     )
-    _tell("blue", "Joined.", text)
+    _tell("blue", _("Joined."), text)
 
 
 def leave_class() -> None:
     """Leave the class: nothing more is sent. Your seat is kept for the next ``join_class``."""
     is_member = _connection is not None
     _connect(None)
-    text = "You have left the class. Nothing is sent any more."
+    text = _("You have left the class. Nothing is sent any more.")
     if not is_member:
-        text = "You are in no class."
-    put(card("grey", "Class.", [text]), text)
+        text = _("You are in no class.")
+    put(card("grey", _("Class."), [text]), translate(text))
 
 
 def submit(scene: str, network: str | Path, *, part: str = "") -> None:
@@ -87,27 +93,35 @@ def submit(scene: str, network: str | Path, *, part: str = "") -> None:
     """
     connection = _connection
     if connection is None:
-        _tell("grey", "Not handed in.", NO_CLASS)
+        _tell("grey", _("Not handed in."), NO_CLASS)
         return
     from ai4u_edu.member.notebook import network_in
 
     try:
         message = network_in(Path(network), scene, part)
     except SetupError as error:
-        _tell("vermillion", "Not handed in.", str(error))
+        _tell("vermillion", _("Not handed in."), text_of(error))
         return
     answer = connection.hand_in(message, CHECK_TIMEOUT_S)
-    title = f"{message.file} for {scene}" + (f" ({part})" if part else "")
+    title = _("{file} for {scene}", file=message.file, scene=scene)
+    if part:
+        title = _("{file} for {scene} ({part})", file=message.file, scene=scene, part=part)
     if answer.refusal:
-        _tell("vermillion", "Not taken.", f"{title}: {answer.refusal}")
+        text = _("{title}: {refusal}", title=title, refusal=answer.refusal)
+        _tell("vermillion", _("Not taken."), text)
     elif answer.is_checked:
-        _tell("green", "Handed in.", f"{title} can play in the tournament. The latest one counts.")
+        text = _("{title} can play in the tournament. The latest one counts.", title=title)
+        _tell("green", _("Handed in."), text)
     elif answer.is_stored:
-        _tell(
-            "blue", "Handed in.", f"{title} waits for its check. Run this cell again to hear more."
-        )
+        text = _("{title} waits for its check. Run this cell again to hear more.", title=title)
+        _tell("blue", _("Handed in."), text)
     else:
-        _tell("blue", "Kept.", f"{connection.client.problem} {title} is sent as soon as it can be.")
+        text = _(
+            "{problem} {title} is sent as soon as it can be.",
+            problem=connection.client.problem,
+            title=title,
+        )
+        _tell("blue", _("Kept."), text)
 
 
 def report_event(
@@ -146,7 +160,7 @@ def set_world(world: "Live | None") -> None:
 
 
 def _tell(colour: str, sign: str, text: str) -> None:
-    put(card(colour, sign, [text]), f"{sign} {text}")
+    tell(colour, sign, [text])
 
 
 def _connect(connection: "ClassConnection | None") -> None:

@@ -10,21 +10,23 @@ from ai4u_edu.base.optional_deps import has
 from ai4u_edu.lessons.checking import check_as
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.filming import film, film_check
-from ai4u_edu.lessons.notebook_output import card, in_notebook, put
+from ai4u_edu.lessons.notebook_output import card, in_notebook, put, tell
 from ai4u_edu.lessons.student_errors import mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, translate
 from ai4u_edu.scenes import Scene
 
 STEPS = 40
 """Steps of a slider from end to end."""
-MISSING = (
+MISSING = _(
     "The sliders need ipywidgets, which is not installed: "
     '`pip install "ai4u-edu[lessons]"`. You can solve the exercise with code as well.'
 )
-SLIDERS_LEAD = "Move the sliders, then press Try or Check."
-CARDS_LEAD = "Tick some boxes, move their sliders, then press Try or Check."
-RUN_AGAIN = "If nothing happens, run this cell again."
-NOTHING_TO_FILM = "This exercise has nothing to film. Press Check."
+SLIDERS_LEAD = _("Move the sliders, then press Try or Check.")
+CARDS_LEAD = _("Tick some boxes, move their sliders, then press Try or Check.")
+RUN_AGAIN = _("If nothing happens, run this cell again.")
+NOTHING_TO_FILM = _("This exercise has nothing to film. Press Check.")
 
 Range = tuple[float, float]
 Make = Callable[..., Any]
@@ -77,16 +79,24 @@ def _show(
     for name, (low, high) in ranges.items():
         if not low < high:
             raise SetupError(f"{name}: expected (lowest, highest), got {(low, high)}")
-    words = f"{exercise_id}: {', '.join(ranges)} can be set in JupyterLab."
+    words = translate(
+        _(
+            "{exercise}: {names} can be set in JupyterLab.",
+            exercise=exercise_id,
+            names=", ".join(ranges),
+        )
+    )
     if not has("ipywidgets"):
-        put(card("grey", "No sliders.", [MISSING]), f"No sliders. {MISSING}")
+        tell("grey", _("No sliders."), [MISSING])
     elif not in_notebook():
         put("", words)
     else:
         from IPython import display
 
         lead = CARDS_LEAD if has_switches else SLIDERS_LEAD
-        put(f"<p>{lead} {RUN_AGAIN}</p>", words)  # stays in a saved notebook; widgets don't
+        put(
+            f"<p>{translate(join([lead, RUN_AGAIN]))}</p>", words
+        )  # stays in a saved notebook; widgets don't
         show: Any = display.display
         show(Controls(exercise_id, make, preview, ranges, has_switches=has_switches).panel)
 
@@ -120,9 +130,13 @@ class Controls:
         if has_switches:
             rows = [self._switched(name, slider) for name, slider in self._sliders.items()]
         self._buttons = [
-            widgets.Button(description="Try", tooltip="Show what these numbers do"),
             widgets.Button(
-                description="Check", tooltip="Check the exercise", button_style="primary"
+                description=translate(_("Try")), tooltip=translate(_("Show what these numbers do"))
+            ),
+            widgets.Button(
+                description=translate(_("Check")),
+                tooltip=translate(_("Check the exercise")),
+                button_style="primary",
             ),
         ]
         for button, answer in zip(self._buttons, (self._try, self._check), strict=True):
@@ -181,7 +195,8 @@ class Controls:
     def _try(self, made: Any) -> None:
         if self._preview is None:
             if not film_check(self._exercise, made):
-                put(card("grey", "Nothing to film.", [NOTHING_TO_FILM]), NOTHING_TO_FILM)
+                page = card("grey", _("Nothing to film."), [NOTHING_TO_FILM])
+                put(page, translate(NOTHING_TO_FILM))
             return
         world = self._preview(made)
         if isinstance(world, ControlRequestor | Scene):
@@ -211,4 +226,4 @@ def _slider(name: str, low: float, high: float) -> Any:
 
 
 def _stopped(text: str) -> None:
-    put(card("vermillion", "Stopped.", [text]), f"Stopped. {text}")
+    tell("vermillion", _("Stopped."), [text])

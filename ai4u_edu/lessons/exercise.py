@@ -19,6 +19,7 @@ from typing import Any, TypeVar, cast
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.time_limit import CALL_LIMIT_S, TOTAL_LIMIT_S
+from ai4u_edu.locale import gettext as _
 
 T = TypeVar("T")
 
@@ -140,7 +141,7 @@ def a_function(thing: Any) -> Callable[..., Any]:
     """
     if isinstance(thing, type) or not callable(thing):
         raise NotYet(
-            f"Expected a function, got {named(thing)}. Give its name, without brackets.",
+            _("Expected a function, got {got}. Give its name, without brackets.", got=named(thing)),
             hint="not-a-function",
         )
     return cast("Callable[..., Any]", thing)
@@ -149,7 +150,7 @@ def a_function(thing: Any) -> Callable[..., Any]:
 def named(thing: Any) -> str:
     """Return a student's thing in few words, for a sentence."""
     if isinstance(thing, type):
-        return f"the class `{thing.__name__}`"
+        return _("the class `{name}`", name=thing.__name__)
     return f"`{reprlib.repr(thing)}`"
 
 
@@ -164,9 +165,13 @@ def a_list_of(kind: type[T], given: Any) -> list[T]:
         raise NotYet(NOTHING_RETURNED, hint="no-return")
     if isinstance(given, kind):
         raise NotYet(
-            f"Expected a list, got one {name} alone. Put it into a list: `return [...]`.",
+            _(
+                "Expected a list, got one {name} alone. Put it into a list: `return [...]`.",
+                name=name,
+            ),
             hint="list",
         )
     if not isinstance(given, list | tuple) or not all(isinstance(each, kind) for each in given):
-        raise NotYet(f"Expected a list with {name} blocks, got {named(given)}.", hint="list")
+        text = _("Expected a list with {name} blocks, got {got}.", name=name, got=named(given))
+        raise NotYet(text, hint="list")
     return list(given)

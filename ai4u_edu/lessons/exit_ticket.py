@@ -20,10 +20,12 @@ from typing import Any
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import TICKET, is_ticket
 from ai4u_edu.lessons.exercise import EXERCISES, Exercise, NotYet, named
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 QUESTIONS = 3
-TITLE = "Exit ticket"
-BEGIN = (
+TITLE = _("Exit ticket")
+BEGIN = _(
     'Write one letter for each of the three questions into the list: `answers = ["a", "a", "a"]` '
     "has the right form."
 )
@@ -73,7 +75,7 @@ def exit_ticket(exercise_id: str, *questions: Question) -> None:
                 f"exit_ticket {exercise_id}: expected the choices a, b, c ..., each once, got "
                 f"{', '.join(letters)}"
             )
-    hints = {"begin": BEGIN}
+    hints: dict[str, str] = {"begin": BEGIN}
     for number, question in enumerate(questions, 1):
         hints |= {f"{number}{letter}": text for letter, text in sorted(question.wrong.items())}
     TICKETS[exercise_id] = questions
@@ -91,19 +93,22 @@ def _judge(questions: tuple[Question, ...], given: Any) -> str:
     pairs = list(zip(questions, _letters(questions, given), strict=True))
     right = [number for number, (each, got) in enumerate(pairs, 1) if got == each.right]
     if len(right) == len(questions):
-        return "All three answers are right."
+        return _("All three answers are right.")
     number = next(each for each in range(1, len(questions) + 1) if each not in right)
     question, got = pairs[number - 1]
-    text = f"{_right_ones(right)} Question {number}, {got}: {question.wrong[got]}"
-    raise NotYet(text, hint=f"{number}{got}")
+    wrong = _(
+        "Question {number}, {letter}: {text}", number=number, letter=got, text=question.wrong[got]
+    )
+    raise NotYet(join([_right_ones(right), wrong]), hint=f"{number}{got}")
 
 
 def _right_ones(right: list[int]) -> str:
     if not right:
-        return "No answer is right yet."
+        return _("No answer is right yet.")
     if len(right) == 1:
-        return f"Question {right[0]} is right."
-    return f"Questions {' and '.join(map(str, right))} are right."
+        return _("Question {number} is right.", number=right[0])
+    first, second = right
+    return _("Questions {first} and {second} are right.", first=first, second=second)
 
 
 def _letters(questions: tuple[Question, ...], given: Any) -> list[str]:
@@ -113,15 +118,19 @@ def _letters(questions: tuple[Question, ...], given: Any) -> list[str]:
         NotYet: they are something else.
     """
     if not isinstance(given, list | tuple | str):
-        raise NotYet(f"Expected a list of three letters, got {named(given)}.", hint="begin")
+        text = _("Expected a list of three letters, got {got}.", got=named(given))
+        raise NotYet(text, hint="begin")
     if not any(isinstance(each, str) and each.strip() for each in given):
-        raise NotYet(f"Nothing is answered yet. {BEGIN}", hint="begin")
+        raise NotYet(join([_("Nothing is answered yet."), BEGIN]), hint="begin")
     # a student who wrote "bac" or "b, a, c" has answered as well
     letters = [each for each in given if each.isalnum()] if isinstance(given, str) else list(given)
     if len(letters) != len(questions):
         raise NotYet(
-            f"Expected one letter for each of the three questions, got {len(letters)}: "
-            f"{named(given)}.",
+            _(
+                "Expected one letter for each of the three questions, got {count}: {got}.",
+                count=len(letters),
+                got=named(given),
+            ),
             hint="begin",
         )
     return [
@@ -133,10 +142,14 @@ def _letters(questions: tuple[Question, ...], given: Any) -> list[str]:
 def _letter(number: int, question: Question, given: Any) -> str:
     letter = given.strip().lower() if isinstance(given, str) else ""
     if letter not in question.letters:
-        got = named(given) if letter or not isinstance(given, str) else "nothing"
+        got = named(given) if letter or not isinstance(given, str) else _("nothing")
         raise NotYet(
-            f"Question {number}: expected one of the letters {', '.join(question.letters)}, got "
-            f"{got}.",
+            _(
+                "Question {number}: expected one of the letters {letters}, got {got}.",
+                number=number,
+                letters=", ".join(question.letters),
+                got=got,
+            ),
             hint="begin",
         )
     return letter

@@ -6,11 +6,13 @@ from typing import Any
 
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.lessons.exercise import Exercise, NotYet
-from ai4u_edu.lessons.notebook_output import card, image, put
+from ai4u_edu.lessons.notebook_output import image, put, tell
 from ai4u_edu.lessons.pictures import FRAMES_PER_S, MAX_ANIMATION_S, animation, moving
 from ai4u_edu.lessons.rollouts import DEFAULT_MAX_DECISIONS, Drive, drives, observed
 from ai4u_edu.lessons.student_errors import mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
@@ -32,7 +34,8 @@ def film(
         limit: decisions after which it is truncated.
     """
     if isinstance(world, Episode):
-        put(image(animation(world), "the episode"), f"An episode of {world.seconds:.1f} s.")
+        words = _("An episode of {seconds:.1f} s.", seconds=world.seconds)
+        put(image(animation(world), _("the episode")), translate(words))
         return
     frames = _Frames()
     source = (lambda: world) if isinstance(world, ControlRequestor) else world
@@ -42,7 +45,7 @@ def film(
         except (TimeLimitError, SystemExit) as error:
             mistake = mistake_in(error)
             text = mistake.text if mistake and not time_limit.text else time_limit.text
-            put(card("vermillion", "Stopped.", [text]), f"Stopped. {text}")
+            tell("vermillion", _("Stopped."), [text])
             return
     _put_film(drive, frames)
 
@@ -101,15 +104,18 @@ class _Frames:
 
 def _end_of(drive: Drive) -> str:
     ends = (
-        (drive.won, "the robot reached its goal"),
-        (drive.fell, "the robot fell"),
-        (drive.agent.done, "the episode was over"),
-        (True, "the film stops"),
+        (drive.won, _("the robot reached its goal")),
+        (drive.fell, _("the robot fell")),
+        (drive.agent.done, _("the episode was over")),
+        (True, _("the film stops")),
     )
     return next(words for happened, words in ends if happened)
 
 
 def _put_film(drive: Drive, frames: _Frames) -> None:
     how = frames.end or _end_of(drive)
-    words = f"Seed {drive.seed}: after {drive.steps} decisions {how}."
-    put(f"<p>{words}</p>{image(moving(frames.shown), 'the episode')}", words)
+    text = _(
+        "Seed {seed}: after {steps} decisions {how}.", seed=drive.seed, steps=drive.steps, how=how
+    )
+    words = translate(text)
+    put(f"<p>{words}</p>{image(moving(frames.shown), _('the episode'))}", words)

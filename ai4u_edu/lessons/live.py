@@ -18,6 +18,8 @@ from ai4u_edu.lessons.notebook_output import card, image, in_notebook, replace
 from ai4u_edu.lessons.pictures import PICTURE_SIZE_PX, animation, picture
 from ai4u_edu.lessons.student_errors import is_students, line_of, mistake_in
 from ai4u_edu.lessons.time_limit import CALL_LIMIT_S, TimeLimitError, endless_call, raise_in
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
@@ -159,10 +161,11 @@ class Live:
         last = self.episodes[-1:] if in_notebook() else []
         self.close()
         moments = _animated(last[0]) if last else b""
-        words = f"{self.title}: this world has ended; run its cell again for a new one."
+        ended = translate(_("this world has ended; run its cell again for a new one."))
         replace("", "", self.film)
-        page = card("grey", self.title, [words.partition(": ")[2]])
-        replace(page + image(moments or self._still(), "the last episode"), words, self.handle)
+        page = card("grey", self.title, [ended])
+        still = image(moments or self._still(), _("the last episode"))
+        replace(page + still, f"{self.title}: {ended}", self.handle)
 
     def keep(self) -> None:
         """Put the last finished episode beneath, for readers of the notebook without a server.
@@ -175,8 +178,8 @@ class Live:
         self._kept = finished[-1]
         moments = _animated(finished[-1])
         if moments:
-            text = f'<div id="{self.film}">{image(moments, "the last episode")}</div>'
-            replace(text, "the last episode", self.film)
+            text = f'<div id="{self.film}">{image(moments, _("the last episode"))}</div>'
+            replace(text, translate(_("the last episode")), self.film)
 
     @property
     def film(self) -> str:
@@ -197,7 +200,7 @@ class Live:
             id=self.handle,
             url=self.url,
             title=self.title,
-            still=image(self._still(), "the world as it begins"),
+            still=image(self._still(), _("the world as it begins")),
             spec=spec,
         )
 
@@ -316,7 +319,7 @@ class StallWatch:
             text = mistake.text
         else:
             text = sentence_of(error, agents)
-        return text.replace("`", '"')  # the page shows no code in a sentence
+        return translate(text).replace("`", '"')  # the page shows no code in a sentence
 
     def _watch(self) -> None:
         seen = None

@@ -2,10 +2,12 @@
 
 import base64
 import html
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ai4u_edu.base.colors import PALETTE
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 
 def in_notebook() -> bool:
@@ -40,14 +42,21 @@ def put(page: str, words: str, handle: str = "") -> None:
     _publish(page, words, transient={"display_id": handle} if handle else None)
 
 
+def tell(colour: str, sign: str, lines: Sequence[str], picture: bytes = b"") -> None:
+    """Show a framed note under the cell, in the reader's language; see :func:`card`."""
+    first, *more = map(translate, lines)
+    words = "\n".join([f"{translate(sign)} {first}", *more])
+    put(card(colour, sign, lines, picture), words)
+
+
 def replace(page: str, words: str, handle: str) -> None:
     """Replace HTML that was shown before."""
     if in_notebook():
         _publish(page, words, transient={"display_id": handle}, update=True)
 
 
-def card(colour: str, sign: str, lines: Iterable[str], picture: bytes = b"") -> str:
-    """Return a framed note: a coloured edge, a sign in words, lines, a picture.
+def card(colour: str, sign: str, lines: Sequence[str], picture: bytes = b"") -> str:
+    """Return a framed note in the reader's language: an edge, a sign in words, lines, a picture.
 
     Args:
         colour: a colour's name.
@@ -55,9 +64,9 @@ def card(colour: str, sign: str, lines: Iterable[str], picture: bytes = b"") -> 
         lines: plain text; text between backquotes is code.
         picture: PNG or GIF.
     """
-    first = f'<b style="color:{PALETTE[colour]}">{html.escape(sign)}</b> '
+    first = f'<b style="color:{PALETTE[colour]}">{html.escape(translate(sign))}</b> '
     paragraphs = "".join(
-        f'<p style="margin:.3em 0">{first if not number else ""}{marked(line)}</p>'
+        f'<p style="margin:.3em 0">{first if not number else ""}{marked(translate(line))}</p>'
         for number, line in enumerate(lines)
     )
     return (
@@ -66,11 +75,13 @@ def card(colour: str, sign: str, lines: Iterable[str], picture: bytes = b"") -> 
     )
 
 
-def image(picture: bytes, alt: str = "what happened") -> str:
+def image(picture: bytes, alt: str = _("what happened")) -> str:
     """Return an <img> element with the picture inside; empty for none."""
     if not picture:
         return ""
-    return f'<img alt="{html.escape(alt)}" style="max-width:100%" src="{address(picture)}">'
+    return (
+        f'<img alt="{html.escape(translate(alt))}" style="max-width:100%" src="{address(picture)}">'
+    )
 
 
 def address(picture: bytes) -> str:

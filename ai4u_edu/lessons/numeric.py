@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from ai4u_edu.lessons.exercise import NotYet, named
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
 
 
 @dataclass(frozen=True)
@@ -42,21 +43,31 @@ def finite_number(given: Any, *, hint: str = "") -> float:
     if given is None:
         raise NotYet(NOTHING_RETURNED, hint="no-return")
     if given is ...:
-        raise NotYet("Your function returns `...`: put your answer there.", hint="unfinished")
+        text = _("Your function returns `...`: put your answer there.")
+        raise NotYet(text, hint="unfinished")
     if isinstance(given, list | tuple | dict | set):
         kind = "table" if isinstance(given, dict) else "list"
-        raise NotYet(f"Expected a number, got {_kind(given)}.", hint=f"{kind}-for-number")
+        text = _("Expected a number, got {got}.", got=_kind(given))
+        raise NotYet(text, hint=f"{kind}-for-number")
     one = given.item() if isinstance(given, np.ndarray) and given.size == 1 else given
     if isinstance(one, bool | np.bool_) or not isinstance(one, Real):
-        raise NotYet(f"Expected a number, got {named(given)}.", hint=hint or "not-a-number")
+        text = _("Expected a number, got {got}.", got=named(given))
+        raise NotYet(text, hint=hint or "not-a-number")
     try:
         found = float(one)
     except OverflowError:
         found = math.inf
     if not math.isfinite(found):
-        why = "is no number: perhaps 0 was divided by 0" if math.isnan(found) else "has no end"
-        shown = repr(given) if len(repr(given)) < 60 else "a number too large to compute with"
-        raise NotYet(f"Expected a number, got `{shown}`, which {why}.", hint="not-finite")
+        shown = repr(given)
+        if len(shown) >= 60:
+            shown = _("a number too large to compute with")
+        text = _("Expected a number, got `{shown}`, which has no end.", shown=shown)
+        if math.isnan(found):
+            text = _(
+                "Expected a number, got `{shown}`, which is no number: perhaps 0 was divided by 0.",
+                shown=shown,
+            )
+        raise NotYet(text, hint="not-finite")
     return found
 
 
@@ -80,7 +91,10 @@ def finite_numbers(given: Any, count: int, *, expected: str = "", hint: str = ""
         if given is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         single = isinstance(given, int | float) and "number-for-list"
-        text = f"{expected or f'Expected {count} numbers'}, got {named(given)}."
+        got = named(given)
+        text = _("Expected {count} numbers, got {got}.", count=count, got=got)
+        if expected:
+            text = _("{expected}, got {got}.", expected=expected, got=got)
         raise NotYet(text, hint=hint or single or "")
     return [finite_number(each, hint=hint) for each in found]
 
@@ -98,13 +112,15 @@ def difference(got: float, slips: Mapping[str, tuple[str, float]], tolerance: fl
     """
     for name, (words, number) in slips.items():
         if is_close(got, number, tolerance):
-            return Slip(name, f": that is {words}")
+            return Slip(name, _(": that is {words}", words=words))
     return Slip("", "")
 
 
 def _kind(given: Any) -> str:
-    one = " with one number" if len(given) == 1 else ""
-    return f"a {type(given).__name__}{one}: {named(given)}"
+    kind, got = type(given).__name__, named(given)
+    if len(given) == 1:
+        return _("a {kind} with one number: {got}", kind=kind, got=got)
+    return _("a {kind}: {got}", kind=kind, got=got)
 
 
 def is_close(got: Any, wanted: Any, tolerance: float) -> bool:

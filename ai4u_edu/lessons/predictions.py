@@ -8,13 +8,15 @@ from itertools import zip_longest
 from typing import Any
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons.notebook_output import card, put
+from ai4u_edu.lessons.notebook_output import put, tell
 from ai4u_edu.lessons.prediction_values import Value, saved_value, shown
 from ai4u_edu.lessons.progress_file import ProgressFile
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 _ID = re.compile(r"\d\d\.\w+")
-GUESS_FIRST = "Write your guess first: it costs nothing to be wrong."
-NO_GUESS = (
+GUESS_FIRST = _("Write your guess first: it costs nothing to be wrong.")
+NO_GUESS = _(
     "You wrote no guess this time. Guess first at the next one: it helps even if it is wrong."
 )
 
@@ -31,13 +33,13 @@ def predict(prediction_id: str, guess: Any) -> None:
     """
     _check_id(prediction_id)
     if _is_empty(guess):
-        put(card("grey", "No guess yet.", [GUESS_FIRST]), f"No guess yet. {GUESS_FIRST}")
+        tell("grey", _("No guess yet."), [GUESS_FIRST])
         return
     value = saved_value(guess)
     progress = ProgressFile()
     progress.note_prediction(prediction_id, guess=value)
     lines = [f"{shown(value)}.", *([progress.trouble] if progress.trouble else [])]
-    put(card("blue", "You said", lines), "\n".join([f"You said {lines[0]}", *lines[1:]]))
+    tell("blue", _("You said"), lines)
 
 
 def compare(prediction_id: str, actual: Any) -> None:
@@ -54,15 +56,10 @@ def compare(prediction_id: str, actual: Any) -> None:
     value = saved_value(actual)
     prediction = ProgressFile().note_prediction(prediction_id, actual=value)
     if prediction is None:
-        lines = [f"{shown(value)}.", NO_GUESS]
-        put(card("blue", "It is", lines), f"It is {lines[0]}\n{NO_GUESS}")
+        tell("blue", _("It is"), [f"{shown(value)}.", NO_GUESS])
         return
     rows = _rows(prediction.guess, value)
-    words = [
-        f"You said {said}. It is {got}." + (f" Difference: {gap}." if gap else "")
-        for said, got, gap in rows
-    ]
-    put(_table(rows), "\n".join(words))
+    put(_table(rows), "\n".join(translate(_in_words(*row)) for row in rows))
 
 
 def _check_id(prediction_id: Any) -> None:
@@ -91,21 +88,30 @@ def _rows(guess: Value, actual: Value) -> list[tuple[str, str, str]]:
     ]
 
 
+def _in_words(said: str, got: str, gap: str) -> str:
+    if not gap:
+        return _("You said {said}. It is {got}.", said=said, got=got)
+    return _("You said {said}. It is {got}. Difference: {gap}.", said=said, got=got, gap=gap)
+
+
 def _difference(said: str | float, got: str | float) -> str:
     if isinstance(said, str) and isinstance(got, float):
         with suppress(ValueError, OverflowError):
             said = said if "n" in said.lower() else float(said)  # not "nan" and "inf"
     if isinstance(said, str) or isinstance(got, str):
-        return "none" if str(said).lower() == str(got).lower() else ""
+        return _("none") if str(said).lower() == str(got).lower() else ""
     gap = said - got
     if abs(gap) < 1e-9 * max(1.0, abs(got)):
-        return "none"
-    return f"{shown(abs(gap))} too {'high' if gap > 0 else 'low'}"
+        return _("none")
+    size = shown(abs(gap))
+    return _("{size} too high", size=size) if gap > 0 else _("{size} too low", size=size)
 
 
 def _table(rows: list[tuple[str, str, str]]) -> str:
-    head = "".join(f"<th>{each}</th>" for each in ("you said", "it is", "difference"))
+    heads = (_("you said"), _("it is"), _("difference"))
+    head = "".join(f"<th>{html.escape(translate(each))}</th>" for each in heads)
     body = "".join(
-        f"<tr>{''.join(f'<td>{html.escape(each)}</td>' for each in row)}</tr>" for row in rows
+        f"<tr>{''.join(f'<td>{html.escape(translate(each))}</td>' for each in row)}</tr>"
+        for row in rows
     )
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

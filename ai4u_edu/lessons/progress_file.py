@@ -12,6 +12,7 @@ from typing import Any
 from ai4u_edu.base.atomic_write import partial_file, write_atomically
 from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.lessons.prediction_values import Prediction, Value, read_predictions
+from ai4u_edu.locale import gettext as _
 
 FILE = "progress.json"
 FOLDER = ".ai4u-edu"
@@ -160,12 +161,17 @@ class ProgressFile:
 
     def _set_aside(self, why: str) -> None:
         aside = self.path.with_name("progress.damaged.json")
-        self.trouble = f"{FILE} could not be read ({why})"
+        self.trouble = _("{file} could not be read ({why})", file=FILE, why=why)
         try:
             self.path.replace(aside)
         except OSError:
             return
-        self.trouble += f"; it was put aside as {aside.name}, and a new one is begun"
+        self.trouble = _(
+            "{file} could not be read ({why}); it was put aside as {aside}, and a new one is begun",
+            file=FILE,
+            why=why,
+            aside=aside.name,
+        )
 
 
 def read_entries(text: str) -> dict[str, ExerciseProgress]:

@@ -4,27 +4,39 @@ import platform
 from importlib.util import find_spec
 
 from ai4u_edu.base.version import __version__
-from ai4u_edu.lessons.notebook_output import card, put
+from ai4u_edu.lessons.notebook_output import tell
 from ai4u_edu.lessons.rollouts import drives
+from ai4u_edu.locale import gettext as _
 
 NEEDED = {
     "lessons": ("matplotlib", "ipykernel"),
     "train": ("torch", "stable_baselines3", "onnx"),
 }
-FOR = {"lessons": "plots", "train": "the lessons about learning, 09 to 11"}
+FOR = {"lessons": _("plots"), "train": _("the lessons about learning, 09 to 11")}
 
 
 def ready() -> None:
     """Let a robot drive for a second, and say what is installed and what is missing."""
     (drive,) = drives("box_chase", lambda _: {"move": [0, 1, 0, 0]}, [0], limit=12)
-    what = f"AI4U Edu {__version__} on Python {platform.python_version()}"
-    lines = [f"{what}: a robot drove for {drive.sim.world.time:g} s of its time."]
+    lines = [
+        _(
+            "AI4U Edu {version} on Python {python}: a robot drove for {seconds:g} s of its time.",
+            version=__version__,
+            python=platform.python_version(),
+            seconds=drive.sim.world.time,
+        )
+    ]
     for extra, modules in NEEDED.items():
         missing = [each for each in modules if find_spec(each) is None]
         if missing:
             lines.append(
-                f"For {FOR[extra]}, {' and '.join(missing)} must be installed too: "
-                f'`pip install "ai4u-edu[{extra}]"`.'
+                _(
+                    "For {what}, {modules} must be installed too: "
+                    '`pip install "ai4u-edu[{extra}]"`.',
+                    what=FOR[extra],
+                    modules=", ".join(missing),
+                    extra=extra,
+                )
             )
-    lines += ["Everything else is there."] if lines[1:] else ["Everything is there."]
-    put(card("green", "Ready.", lines), "\n".join(["Ready. " + lines[0], *lines[1:]]))
+    lines += [_("Everything else is there.")] if lines[1:] else [_("Everything is there.")]
+    tell("green", _("Ready."), lines)

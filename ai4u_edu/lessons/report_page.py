@@ -13,8 +13,10 @@ from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook import EXERCISE
 from ai4u_edu.lessons.notebook_output import address, card, put
-from ai4u_edu.lessons.prediction_values import shown
-from ai4u_edu.lessons.progress_file import ProgressFile
+from ai4u_edu.lessons.prediction_values import Prediction, shown
+from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext, translate
 
 MAX_PICTURE_BYTES = 3_000_000
 """Limit of a picture that is included."""
@@ -30,8 +32,8 @@ def report(name: str = "", file: str | Path = "report.html") -> None:
     progress = ProgressFile()
     path = progress.folder / file
     write_atomically(path, page(progress, name))
-    line = f"The report is in `{path.name}`, beside your notebooks."
-    put(card("green", "Written.", [line]), line)
+    line = _("The report is in `{file}`, beside your notebooks.", file=path.name)
+    put(card("green", _("Written."), [line]), translate(line))
 
 
 def page(progress: ProgressFile, name: str = "") -> str:
@@ -50,13 +52,48 @@ def page(progress: ProgressFile, name: str = "") -> str:
             work.append((lesson.title, exercises, guessed))
     return render_html(
         "lessons/report_page.html",
-        student=name,
-        passed=sum(entry.passed for _, exercises, _ in work for _, entry, _, _ in exercises),
-        total=sum(len(lesson.exercises) for lesson in course),
-        date=f"{datetime.now():%Y-%m-%d %H:%M}",
+        title=translate(_title(name)),
+        summary=translate(
+            _(
+                "{passed} of {total} exercises solved; {date}.",
+                passed=sum(entry.passed for _l, rows, _g in work for _e, entry, *_more in rows),
+                total=sum(len(lesson.exercises) for lesson in course),
+                date=datetime.now().strftime("%Y-%m-%d %H:%M"),
+            )
+        ),
+        no_code=translate(_("(the code was not found)")),
+        seen=translate(_("what the check saw")),
+        predictions_head=translate(_("Predictions")),
         work=work,
         colours=PALETTE,
-        shown=shown,
+        translate=translate,
+        state=_state,
+        checks=_checks,
+        guessed=_guessed,
+    )
+
+
+def _title(name: str) -> str:
+    if name:
+        return _("{name}: AI4U Edu lessons", name=name)
+    return _("AI4U Edu lessons")
+
+
+def _state(entry: ExerciseProgress) -> str:
+    words = _("solved {when}", when=entry.when) if entry.passed else _("not yet")
+    return translate(words)
+
+
+def _checks(entry: ExerciseProgress) -> str:
+    return translate(ngettext("{n} check", "{n} checks", entry.tries))
+
+
+def _guessed(prediction: Prediction) -> str:
+    guess = shown(prediction.guess)
+    if prediction.actual is None:
+        return translate(_("said {guess}", guess=guess))
+    return translate(
+        _("said {guess}; it was {actual}", guess=guess, actual=shown(prediction.actual))
     )
 
 

@@ -12,6 +12,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, Controller, LocalBrain
 from ai4u_edu.lessons.exercise import NotYet, named
 from ai4u_edu.lessons.pictures import picture
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import Snapshot, capture_agent, capture_snapshot
 
@@ -53,7 +54,7 @@ class Drive:
     @property
     def where(self) -> str:
         """Seed and step, for a sentence."""
-        return f"seed {self.seed}, step {self.steps}"
+        return _("seed {seed}, step {step}", seed=self.seed, step=self.steps)
 
     def picture(self) -> bytes:
         """Return the world as it is now, with the agent's trail; PNG."""
@@ -64,10 +65,12 @@ class Drive:
         """Return the reason why an exercise is not solved, with this rollout's picture.
 
         Args:
-            text: a text in which ``{where}`` stands for the seed and the step.
+            text: a text; in a plain string ``{where}`` stands for the seed and the step.
             hint: the name of the hint.
         """
-        return NotYet(text.replace("{where}", self.where), hint=hint, picture=self.picture())
+        if "{where}" in text:
+            text = text.replace("{where}", self.where)
+        return NotYet(text, hint=hint, picture=self.picture())
 
 
 def seeds_of(exercise_id: str, count: int = 20) -> list[int]:
@@ -99,15 +102,21 @@ def as_brain(thing: Any) -> Brain:
     cls = thing if isinstance(thing, type) else type(thing)
     if hasattr(cls, "get_action") and not issubclass(cls, Controller):
         raise NotYet(
-            f"`{cls.__name__}` has a `get_action`, and is no Controller yet: begin with "
-            f"`class {cls.__name__}(Controller):`.",
+            _(
+                "`{name}` has a `get_action`, and is no Controller yet: begin with "
+                "`class {name}(Controller):`.",
+                name=cls.__name__,
+            ),
             hint="no-base",
         )
     if isinstance(thing, Controller) or (callable(thing) and not isinstance(thing, type)):
         return LocalBrain(controller=thing)
     raise NotYet(
-        f"Expected a function that gets a percept and returns an action, got {named(thing)}. Give "
-        "the function's name, without brackets.",
+        _(
+            "Expected a function that gets a percept and returns an action, got {got}. Give the "
+            "function's name, without brackets.",
+            got=named(thing),
+        ),
         hint="not-a-function",
     )
 

@@ -12,6 +12,8 @@ from ai4u_edu.lessons.class_membership import set_world
 from ai4u_edu.lessons.live import Live
 from ai4u_edu.lessons.notebook_output import after_each_cell, in_notebook, put
 from ai4u_edu.lessons.rollouts import brain_for
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.recording import Recorder
 from ai4u_edu.scenes import Scene
 from ai4u_edu.world import World
@@ -52,7 +54,8 @@ def show(
     _current = live = Live(sim, recorder, title, seed, scene)
     set_world(live)
     live.end_without_page(_end)
-    put(live.page(height), f"{title} runs at {live.url}", live.handle)
+    words = translate(_("{title} runs at {address}", title=title, address=live.url))
+    put(live.page(height), words, live.handle)
     if in_notebook():
         put("", "", live.film)
         after_each_cell(_keep)
@@ -90,9 +93,9 @@ def _close() -> None:
 
 def _sim_of(world: Any) -> tuple[ControlRequestor, Scene | None, str]:
     if isinstance(world, ControlRequestor):
-        return world, None, "Your world"
+        return world, None, translate(_("Your world"))
     if isinstance(world, World):
-        return _looked_at(world), None, "Your world"
+        return _looked_at(world), None, translate(_("Your world"))
     scene = world if isinstance(world, Scene) else Scene.load(world)
     return scene.build(), scene, scene.description.title or scene.description.name
 

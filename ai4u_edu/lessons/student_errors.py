@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ai4u_edu.agent.block_frames import line_at
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
+from ai4u_edu.locale import gettext as _
 
 _OURS = str(Path(__file__).resolve().parent.parent)
 _LIBRARIES = tuple({*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix})
 
-NOTHING_RETURNED = "Your function returned nothing (None). Is `return` missing?"
+NOTHING_RETURNED = _("Your function returned nothing (None). Is `return` missing?")
 _PARAMETERS = re.compile(
     r"(?P<name>[\w.<>]+)\(\) (?:takes (?:from )?\d+(?: to \d+)? positional arguments?"
     r" but \d+ (?:was|were) given|missing \d+ required positional argument|got an unexpected)"
@@ -45,11 +46,19 @@ def mistake_in(error: BaseException) -> Mistake | None:
     """
     line = line_of(error)
     if isinstance(error, SystemExit):
-        where = f" ({line})" if line else ""
-        return Mistake(f"Your code called `exit`, which ends the program{where}.", "exit")
+        words = _("Your code called `exit`, which ends the program.")
+        if line:
+            words = _("Your code called `exit`, which ends the program ({line}).", line=line)
+        return Mistake(words, "exit")
     if line:  # it says more than the notes about which block was asked
         name = "called" if str(error).startswith("connect: ") else "error"
-        return Mistake(f"Your code stopped with {type(error).__name__}: {error} ({line}).", name)
+        words = _(
+            "Your code stopped with {kind}: {error} ({line}).",
+            kind=type(error).__name__,
+            error=text_of(error) if isinstance(error, AI4UError) else str(error),
+            line=line,
+        )
+        return Mistake(words, name)
     text = str(error)
     parameters = _PARAMETERS.search(text)
     if parameters and isinstance(error, TypeError):
@@ -61,9 +70,13 @@ def mistake_in(error: BaseException) -> Mistake | None:
     notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
     if isinstance(error, AI4UError):
         name = "action" if _ACTION.search(text) else "set-up"
-        return Mistake(f"It could not be put together or run: {_plain(text)}{notes}", name)
+        plain = _plain(text)
+        plain = text_of(error) if plain == text else plain
+        words = _("It could not be put together or run: {text}{notes}", text=plain, notes=notes)
+        return Mistake(words, name)
     if _NO_NUMBER.search(text):
-        return Mistake(f"Expected a number from your code: {text}{notes}.", "not-a-number")
+        words = _("Expected a number from your code: {text}{notes}.", text=text, notes=notes)
+        return Mistake(words, "not-a-number")
     return None
 
 
@@ -86,7 +99,9 @@ def line_of(error: BaseException) -> str:
 def line_words(file: str, number: int) -> str:
     """Return a line of a student's cell, in words."""
     text = linecache.getline(file, number).strip()
-    return f"line {number} of its cell" + (f": {text}" if text else "")
+    if text:
+        return _("line {number} of its cell: {text}", number=number, text=text)
+    return _("line {number} of its cell", number=number)
 
 
 def is_students(file: str) -> bool:

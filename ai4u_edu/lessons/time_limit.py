@@ -14,6 +14,7 @@ from typing import Any, Self
 from ai4u_edu.agent.block_frames import line_at
 from ai4u_edu.base.syntax import parsed
 from ai4u_edu.lessons.student_errors import is_students, line_words
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.program.endless import loop_around, suspicion, why_endless
 
 CALL_LIMIT_S = 5.0
@@ -117,9 +118,11 @@ class TimeLimit:
             self.text = endless_call(calls, self.call_s)
             self.diagnosis = "endless" if _is_decision(calls[-1]) else "endless-loop"
         else:
-            self.text = (
-                f"All calls of your code took more than {total_s:g} s together. Each of them "
-                f"is slow ({_place_of(calls[0])})."
+            self.text = _(
+                "All calls of your code took more than {seconds:g} s together. Each of them is "
+                "slow ({place}).",
+                seconds=total_s,
+                place=_place_of(calls[0]),
             )
             self.diagnosis = "slow"
         return True
@@ -145,7 +148,12 @@ def endless_call(calls: Sequence[FrameType], seconds: float) -> str:
     frame, loop = max(loops, key=lambda each: suspicion(each[1]), default=(calls[0], None))
     place = line_words(frame.f_code.co_filename, loop.lineno) if loop else _place_of(frame)
     why = why_endless(loop, is_in_decision=_is_decision(calls[-1]))
-    return f"Your code did not answer for {seconds:g} s ({place}). {why}"
+    return _(
+        "Your code did not answer for {seconds:g} s ({place}). {why}",
+        seconds=seconds,
+        place=place,
+        why=why,
+    )
 
 
 def raise_in(thread: int, error: type[BaseException]) -> None:

@@ -6,6 +6,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Brain, LocalBrain
 from ai4u_edu.lessons.exercise import NotYet
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
 ANYWHERE = Variation(x=(-3.5, 3.5), y=(-3.5, 3.5), heading_deg=(-180, 180), clearance=1.0)
@@ -40,7 +41,9 @@ def put_in(agent: Any, world: World, brain: Brain | None = None) -> ControlReque
         NotYet: it is no agent, or has nobody to drive it.
     """
     if not isinstance(agent, BasicAgent):
-        raise NotYet(f"Expected an agent, made with `BasicAgent(...)`, got `{agent!r}`.")
+        raise NotYet(
+            _("Expected an agent, made with `BasicAgent(...)`, got `{got}`.", got=repr(agent))
+        )
     if brain is not None:
         agent = agent.changed(brains=[brain])
     return ControlRequestor(world, [agent])

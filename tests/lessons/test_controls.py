@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons import cards, checking, controls, filming, sliders
+from ai4u_edu.lessons import cards, controls, filming, notebook_output, sliders
 from ai4u_edu.lessons.controls import Controls
 from ai4u_edu.lessons.progress_file import ProgressFile
 from ai4u_edu.lessons.time_limit import TimeLimit
@@ -23,7 +23,7 @@ def said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]
     """Words that are shown under the cell; progress goes to a folder of its own."""
     monkeypatch.chdir(tmp_path)
     texts: list[str] = []
-    for module in (checking, controls, filming):
+    for module in (notebook_output, controls, filming):
         monkeypatch.setattr(module, "put", lambda page, words: texts.append(words))
     yield texts
     widgets.Widget.close_all()

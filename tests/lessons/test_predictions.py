@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.lessons import compare, predict
+from ai4u_edu.lessons import compare, notebook_output, predict
 from ai4u_edu.lessons import predictions as module
 from ai4u_edu.lessons.collecting import collect
 from ai4u_edu.lessons.prediction_values import Prediction
@@ -119,7 +119,8 @@ def test_the_report_shows_them_escaped_and_the_class_table_does_not(folder: Path
 
 def test_in_a_notebook_they_are_a_table(monkeypatch: pytest.MonkeyPatch) -> None:
     pages: list[str] = []
-    monkeypatch.setattr(module, "put", lambda page, words: pages.append(page))
+    for each in (module, notebook_output):
+        monkeypatch.setattr(each, "put", lambda page, words: pages.append(page))
     predict("09.1", "<b>")
     compare("09.1", 5)
     assert "&lt;b&gt;" in pages[0]
