@@ -8,13 +8,16 @@ import numpy as np
 from ai4u_edu.lessons.exercise import Done, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
+from ai4u_edu.locale import gettext as _
 
 STEPS = 8
 SCENE = "box_chase"
 
 STILL = {
-    "still": 'An action is `{"move": [forward, turn, 0, 0]}`. The first number drives: 1 is full '
-    "speed forward, -1 is full speed backward, and 0 is standing still.",
+    "still": _(
+        'An action is `{"move": [forward, turn, 0, 0]}`. The first number drives: 1 is '
+        "full speed forward, -1 is full speed backward, and 0 is standing still."
+    ),
 }
 
 
@@ -32,12 +35,13 @@ def _turned_somewhere(drive: Drive) -> float:
 
 @exercise(
     "00.1",
-    "Make it go",
+    _("Make it go"),
     hints=STILL
     | {
-        "backward": "Your robot drove backward. What happens if you take the minus sign away?",
-        "circle": "It drives, and turns at the same time. The second number turns: here it has to "
-        "be 0.",
+        "backward": _("Your robot drove backward. What happens if you take the minus sign away?"),
+        "circle": _(
+            "It drives, and turns at the same time. The second number turns: here it has to be 0."
+        ),
     },
 )
 def goes(drive_it: Any) -> Done:
@@ -52,24 +56,30 @@ def goes(drive_it: Any) -> Done:
         (x, y), (u, v) = drive.trail[0], drive.trail[-1]
         forward = (u - x) * math.cos(headings[-1]) + (v - y) * math.sin(headings[-1])
         if forward < -0.1:
-            raise drive.not_yet("Your robot drove backward ({where}).", "backward")
+            raise drive.not_yet(
+                _("Your robot drove backward ({where}).", where=drive.where), "backward"
+            )
         if drive.moved < 0.1:
-            raise drive.not_yet("Your robot hardly moved ({where}).", "still")
+            raise drive.not_yet(_("Your robot hardly moved ({where}).", where=drive.where), "still")
         if abs(_turned(drive, headings[-1])) > 20:
-            raise drive.not_yet("Your robot turned away from its course ({where}).", "circle")
+            raise drive.not_yet(
+                _("Your robot turned away from its course ({where}).", where=drive.where), "circle"
+            )
         if forward < 0.25:
-            raise drive.not_yet("Your robot hardly moved ({where}).", "still")
-    return Done("Your robot drives forward. It did so in 12 worlds.", drive.picture())
+            raise drive.not_yet(_("Your robot hardly moved ({where}).", where=drive.where), "still")
+    return Done(_("Your robot drives forward. It did so in 12 worlds."), drive.picture())
 
 
 @exercise(
     "00.2",
-    "Make it turn left",
+    _("Make it turn left"),
     hints={
-        "still": "The second number of the action turns. Keep the first one at 0, so that the "
-        "robot stays where it is.",
-        "right": "Your robot turned right. Left is the other sign: try a negative number.",
-        "moved": "Your robot drove away. The first number drives: it has to be 0 here.",
+        "still": _(
+            "The second number of the action turns. Keep the first one at 0, so that the "
+            "robot stays where it is."
+        ),
+        "right": _("Your robot turned right. Left is the other sign: try a negative number."),
+        "moved": _("Your robot drove away. The first number drives: it has to be 0 here."),
     },
 )
 def turns_left(drive_it: Any) -> Done:
@@ -83,23 +93,34 @@ def turns_left(drive_it: Any) -> Done:
     for drive in drives(SCENE, drive_it, seeds_of("00.2", 12), limit=3, watch=watch):
         turned = _turned(drive, headings[-1])
         if drive.moved > 0.2:
-            raise drive.not_yet("Your robot left its place ({where}).", "moved")
+            raise drive.not_yet(
+                _("Your robot left its place ({where}).", where=drive.where), "moved"
+            )
         if turned < -1:
             raise drive.not_yet(
-                f"Your robot turned {-turned:.0f} degrees to the right ({{where}}).", "right"
+                _(
+                    "Your robot turned {turned:.0f} degrees to the right ({where}).",
+                    turned=-turned,
+                    where=drive.where,
+                ),
+                "right",
             )
         if turned < 1:
-            raise drive.not_yet("Your robot hardly turned ({where}).", "still")
-    return Done("Your robot turns left and stays on its spot.", drive.picture())
+            raise drive.not_yet(
+                _("Your robot hardly turned ({where}).", where=drive.where), "still"
+            )
+    return Done(_("Your robot turns left and stays on its spot."), drive.picture())
 
 
 @exercise(
     "00.3",
-    "Fix it",
+    _("Fix it"),
     hints={
-        "backward": "It runs now, and goes backward. The first number has to be above 0.",
-        "curve": "It runs now, well done. But the robot has to drive a curve to the right: both "
-        "the first and the second number have to be above 0.",
+        "backward": _("It runs now, and goes backward. The first number has to be above 0."),
+        "curve": _(
+            "It runs now, well done. But the robot has to drive a curve to the right: both "
+            "the first and the second number have to be above 0."
+        ),
     },
 )
 def is_fixed(drive_it: Any) -> Done:
@@ -114,10 +135,14 @@ def is_fixed(drive_it: Any) -> Done:
         (x, y), (u, v) = drive.trail[0], drive.trail[-1]
         forward = (u - x) * math.cos(headings[-1]) + (v - y) * math.sin(headings[-1])
         if forward < -0.1:
-            raise drive.not_yet("Your robot drove backward ({where}).", "backward")
+            raise drive.not_yet(
+                _("Your robot drove backward ({where}).", where=drive.where), "backward"
+            )
         if forward < 0.15 or _turned(drive, headings[-1]) > -1:
-            raise drive.not_yet("No curve to the right yet ({where}).", "curve")
-    return Done("Fixed: your robot drives a curve to the right.", drive.picture())
+            raise drive.not_yet(
+                _("No curve to the right yet ({where}).", where=drive.where), "curve"
+            )
+    return Done(_("Fixed: your robot drives a curve to the right."), drive.picture())
 
 
 exit_ticket(
@@ -125,24 +150,32 @@ exit_ticket(
     Question(
         "a",
         {
-            "b": "Below 0 the second number turns left, and above 0 the first one drives forward.",
-            "c": "The numbers do not come one after another. All four act at the same time, for "
-            "one decision.",
+            "b": _(
+                "Below 0 the second number turns left, and above 0 the first one drives forward."
+            ),
+            "c": _(
+                "The numbers do not come one after another. All four act at the same time, "
+                "for one decision."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "Python knows only what was run. The text of a cell counts when the cell runs.",
-            "b": "There is a function called `go`: the one from the last time that its cell ran.",
+            "a": _("Python knows only what was run. The text of a cell counts when the cell runs."),
+            "b": _(
+                "There is a function called `go`: the one from the last time that its cell ran."
+            ),
         },
     ),
     Question(
         "b",
         {
-            "a": "Python knows nothing about robots here. It says that a *name* is not known.",
-            "c": "Running it again does not help: the same line fails again. Look for the name in "
-            "it.",
+            "a": _("Python knows nothing about robots here. It says that a *name* is not known."),
+            "c": _(
+                "Running it again does not help: the same line fails again. Look for the "
+                "name in it."
+            ),
         },
     ),
 )

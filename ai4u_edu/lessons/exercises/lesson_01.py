@@ -25,6 +25,7 @@ from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
@@ -171,17 +172,23 @@ MAX_WORDS = 40
 
 @function_exercise(
     "01.1",
-    "How fast?",
+    _("How fast?"),
     hints={
-        "begin": "6 metres in 3 seconds: that is 2 metres in each second. What did you do with "
-        "the two numbers?",
-        "same": "Your answer does not change with the numbers. Use the names in the brackets, "
-        "`distance` and `seconds`: they stand for other numbers in each call.",
-        "inverted": "It is upside down. The longer the way, the faster the robot has to be: the "
-        "distance comes first in the division.",
-        "times": "More time means a lower speed: divide by the seconds, don't multiply.",
-        "whole": "`//` throws away everything after the point. `/` keeps it.",
-        "distance": "That is the distance. How much of it has to be done in each second?",
+        "begin": _(
+            "6 metres in 3 seconds: that is 2 metres in each second. What did you do with "
+            "the two numbers?"
+        ),
+        "same": _(
+            "Your answer does not change with the numbers. Use the names in the brackets, "
+            "`distance` and `seconds`: they stand for other numbers in each call."
+        ),
+        "inverted": _(
+            "It is upside down. The longer the way, the faster the robot has to be: the "
+            "distance comes first in the division."
+        ),
+        "times": _("More time means a lower speed: divide by the seconds, don't multiply."),
+        "whole": _("`//` throws away everything after the point. `/` keeps it."),
+        "distance": _("That is the distance. How much of it has to be done in each second?"),
     },
 )
 def is_in_time(chance: np.random.Generator) -> Calls:
@@ -189,42 +196,56 @@ def is_in_time(chance: np.random.Generator) -> Calls:
     fixed = finite_number((yield 6, 3))
     if fixed == finite_number((yield 6, 2)) == finite_number((yield 3, 3)):
         raise NotYet(
-            f"For 6 m in 3 s your function says {fixed:g} m/s, for 6 m in 2 s and for 3 m in 3 s "
-            "too.",
+            _(
+                "For 6 m in 3 s your function says {fixed:g} m/s, for 6 m in 2 s and for 3 m "
+                "in 3 s too.",
+                fixed=fixed,
+            ),
             hint="same" if fixed else "begin",
         )
-    for _ in range(8):
+    for _number in range(8):
         distance = round(float(chance.uniform(2.5, 6.5)), 1)
         seconds = int(chance.integers(2, 5))
         exact, found = distance / seconds, finite_number((yield distance, seconds))
         done = race(found, distance, seconds)
         if not is_close(found * seconds, distance, 0.05):
             slips = {
-                "inverted": ("upside down", seconds / distance),
-                "times": ("the product of the two", distance * seconds),
-                "whole": ("without what comes after the point", distance // seconds),
-                "distance": ("the distance itself", distance),
+                "inverted": (_("upside down"), seconds / distance),
+                "times": (_("the product of the two"), distance * seconds),
+                "whole": (_("without what comes after the point"), distance // seconds),
+                "distance": (_("the distance itself"), distance),
             }
             slip = difference(found, slips, 0.001)
             raise done.not_yet(
-                f"{distance:g} m in {seconds} s: expected {exact:.2f} m/s, got {found:.2f}"
-                f"{slip.words}. In the picture the robot drove {seconds} s at your speed; the "
-                "dark line is where it should be.",
+                _(
+                    "{distance:g} m in {seconds} s: expected {exact:.2f} m/s, got "
+                    "{found:.2f}{words}. In the picture the robot drove {seconds} s at your "
+                    "speed; the dark line is where it should be.",
+                    distance=distance,
+                    seconds=seconds,
+                    exact=exact,
+                    found=found,
+                    words=slip.words,
+                ),
                 slip.name or "begin",
             )
-    return Done("Eight times the robot reached the line just in time.", done.picture())
+    return Done(_("Eight times the robot reached the line just in time."), done.picture())
 
 
 @exercise(
     "01.2",
-    "Left, right, ahead",
+    _("Left, right, ahead"),
     hints={
-        "begin": 'Three cases: `if side == "left":`, then `elif side == "right":`, then `else:`. '
-        "Each of them returns another number.",
-        "mirrored": "Left and right are swapped. Turning left is -1, turning right is 1.",
-        "spins": "It turns although the box is ahead. For every other word the answer is 0.",
-        "one-side": "One of the sides is not right yet. Does each of the two words have its own "
-        "case, spelled as in the task, with its own number?",
+        "begin": _(
+            'Three cases: `if side == "left":`, then `elif side == "right":`, then `else:`. '
+            "Each of them returns another number."
+        ),
+        "mirrored": _("Left and right are swapped. Turning left is -1, turning right is 1."),
+        "spins": _("It turns although the box is ahead. For every other word the answer is 0."),
+        "one-side": _(
+            "One of the sides is not right yet. Does each of the two words have its own "
+            "case, spelled as in the task, with its own number?"
+        ),
     },
 )
 def turns_to_the_side(turn_for: Any) -> Done:
@@ -246,16 +267,26 @@ def turns_to_the_side(turn_for: Any) -> Done:
         if not _has_arrived(done):
             shown = ", ".join(f'"{side}": {turn:g}' for side, turn in said.items())
             raise done.not_yet(
-                f"The robot did not get to the box ({{where}}). Your function said: {shown}.",
+                _(
+                    "The robot did not get to the box ({where}). Your function said: {shown}.",
+                    where=done.where,
+                    shown=shown,
+                ),
                 _turning_mistake(said),
             )
         for side, turn in said.items():
             if not is_close(turn, TURNS[side], 0.01):
                 raise done.not_yet(
-                    f'For "{side}" expected {TURNS[side]}, got {turn:g} ({{where}}).',
+                    _(
+                        'For "{side}" expected {turns}, got {turn:g} ({where}).',
+                        side=side,
+                        turns=TURNS[side],
+                        turn=turn,
+                        where=done.where,
+                    ),
                     "spins" if side == "ahead" else "one-side",
                 )
-    return Done("In 12 worlds your three answers took the robot to the box.", done.picture())
+    return Done(_("In 12 worlds your three answers took the robot to the box."), done.picture())
 
 
 def _turning_mistake(said: dict[str, float]) -> str:
@@ -270,18 +301,26 @@ def _turning_mistake(said: dict[str, float]) -> str:
 
 @exercise(
     "01.3",
-    "The moth",
+    _("The moth"),
     hints={
-        "begin": "Begin with the brightest case: `if brightness > 0.7:`, then `elif brightness > "
-        "0.2:`, then `else:`. Each returns an action with another first number.",
-        "order": "Close to the lamp a brightness of 0.8 is above 0.2, too. The first question that "
-        "fits decides: ask for the bright light first.",
-        "overwritten": "In the dark it is slow. Two `if` are two questions: the second one is "
-        "asked as well, and changes the speed again. `elif` is asked only if the one before did "
-        "not fit.",
-        "reversed": "It is fast in the light and slow in the dark: turn the comparisons round.",
-        "number": "The cases are right, one of the numbers is not. Compare them with the table: "
-        "the speeds, and the brightness at which one case ends and the next one begins.",
+        "begin": _(
+            "Begin with the brightest case: `if brightness > 0.7:`, then `elif brightness > "
+            "0.2:`, then `else:`. Each returns an action with another first number."
+        ),
+        "order": _(
+            "Close to the lamp a brightness of 0.8 is above 0.2, too. The first question "
+            "that fits decides: ask for the bright light first."
+        ),
+        "overwritten": _(
+            "In the dark it is slow. Two `if` are two questions: the second one is asked as "
+            "well, and changes the speed again. `elif` is asked only if the one before did "
+            "not fit."
+        ),
+        "reversed": _("It is fast in the light and slow in the dark: turn the comparisons round."),
+        "number": _(
+            "The cases are right, one of the numbers is not. Compare them with the table: "
+            "the speeds, and the brightness at which one case ends and the next one begins."
+        ),
     },
 )
 def flies_like_a_moth(moth: Any) -> Done:
@@ -306,8 +345,15 @@ def flies_like_a_moth(moth: Any) -> Done:
                 speeds.setdefault(case, set()).add(speed)
                 if reason is None and not is_close([speed, turn], [MOTH[case], 0], 0.01):
                     reason = done.not_yet(
-                        f"At a brightness of {light[-1]:.2f} expected the numbers {MOTH[case]:g} "
-                        f"and 0, got {speed:g} and {turn:g} ({{where}})."
+                        _(
+                            "At a brightness of {light:.2f} expected the numbers {moth:g} "
+                            "and 0, got {speed:g} and {turn:g} ({where}).",
+                            light=light[-1],
+                            moth=MOTH[case],
+                            speed=speed,
+                            turn=turn,
+                            where=done.where,
+                        )
                     )
             light.append(float(done.agent.percept["light"][0]))
 
@@ -316,7 +362,7 @@ def flies_like_a_moth(moth: Any) -> Done:
         reason.hint = _moth_mistake(speeds, moth)
         raise reason
     return Done(
-        "In 8 worlds: fast in the dark, slow in dim light, at rest close to the lamp.",
+        _("In 8 worlds: fast in the dark, slow in dim light, at rest close to the lamp."),
         done.picture(),
     )
 
@@ -351,14 +397,20 @@ def _moth_mistake(speeds: dict[str, set[float]], moth: Any) -> str:
 
 @exercise(
     "01.6",
-    "To the lamp",
+    _("To the lamp"),
     hints={
-        "last": "There is no error any more, but the robot does not get to the lamp. Look at the "
-        'last line: an action is `{"move": [forward, turn, 0, 0]}`, in this order.',
-        "away": "It turns away from the lamp. Where `left` is larger the lamp is on the left, and "
-        "-0.5 turns to the left.",
-        "one-side": "It can't turn to both sides. Look at the numbers in `turns`: which one "
-        "belongs to the left, and which to the right?",
+        "last": _(
+            "There is no error any more, but the robot does not get to the lamp. Look at the "
+            'last line: an action is `{"move": [forward, turn, 0, 0]}`, in this order.'
+        ),
+        "away": _(
+            "It turns away from the lamp. Where `left` is larger the lamp is on the left, "
+            "and -0.5 turns to the left."
+        ),
+        "one-side": _(
+            "It can't turn to both sides. Look at the numbers in `turns`: which one belongs "
+            "to the left, and which to the right?"
+        ),
     },
 )
 def is_without_errors(to_the_lamp: Any) -> Done:
@@ -383,11 +435,12 @@ def is_without_errors(to_the_lamp: Any) -> Done:
 
         done = drive(sim, sim.agents[0], seed, 15 * _DECISIONS_A_SECOND, watch)
         if not _has_arrived(done):
-            how = "fell off the plate" if done.fell else "did not get to the lamp"
+            how = _("fell off the plate") if done.fell else _("did not get to the lamp")
             raise done.not_yet(
-                f"The robot {how} ({{where}}).", _lamp_mistake(actions, sum(towards[:-1]))
+                _("The robot {how} ({where}).", how=how, where=done.where),
+                _lamp_mistake(actions, sum(towards[:-1])),
             )
-    return Done("No error any more: in 10 worlds the robot got to the lamp.", done.picture())
+    return Done(_("No error any more: in 10 worlds the robot got to the lamp."), done.picture())
 
 
 def _lamp_mistake(actions: list[tuple[float, float]], towards: float) -> str:
@@ -400,18 +453,24 @@ def _lamp_mistake(actions: list[tuple[float, float]], towards: float) -> str:
 
 @function_exercise(
     "01.4",
-    "How many are near?",
+    _("How many are near?"),
     hints={
-        "begin": "Three steps: before the loop `count = 0`; in the loop, if the distance is below "
-        "2, `count = count + 1`; after the loop `return count`.",
-        "early": "Your loop ends at the first distance: a `return` ends the whole function. Move "
-        "it to the left, below the `for`, so that it comes after the loop.",
-        "reset": "The count starts again for each distance. `count = 0` has to stand before the "
-        "`for`, not in it.",
-        "all": "That is the number of all posts. Count only if the distance is below 2.",
-        "limit": "A post at exactly 2 m is not nearer than 2 m: compare with `<`.",
-        "far": "You counted the posts that are far away: turn the comparison round.",
-        "sum": "You added up distances. Here each near post counts as 1, whatever its distance.",
+        "begin": _(
+            "Three steps: before the loop `count = 0`; in the loop, if the distance is below "
+            "2, `count = count + 1`; after the loop `return count`."
+        ),
+        "early": _(
+            "Your loop ends at the first distance: a `return` ends the whole function. Move "
+            "it to the left, below the `for`, so that it comes after the loop."
+        ),
+        "reset": _(
+            "The count starts again for each distance. `count = 0` has to stand before the "
+            "`for`, not in it."
+        ),
+        "all": _("That is the number of all posts. Count only if the distance is below 2."),
+        "limit": _("A post at exactly 2 m is not nearer than 2 m: compare with `<`."),
+        "far": _("You counted the posts that are far away: turn the comparison round."),
+        "sum": _("You added up distances. Here each near post counts as 1, whatever its distance."),
     },
 )
 def counts_the_near_ones(chance: np.random.Generator) -> Calls:
@@ -428,11 +487,16 @@ def counts_the_near_ones(chance: np.random.Generator) -> Calls:
         exact = sum(each < _NEAR_M for each in distances)
         if not is_close(found, exact, 1e-6):
             raise NotYet(
-                f"For {distances} expected {exact}, got {found:g}.",
+                _(
+                    "For {distances} expected {exact}, got {found:g}.",
+                    distances=str(distances),
+                    exact=exact,
+                    found=found,
+                ),
                 hint=_counting_mistake(asked),
                 picture=_posts_around(distances),
             )
-    return Done("Eight places, and every count was right.", _posts_around(asked[-1][0]))
+    return Done(_("Eight places, and every count was right."), _posts_around(asked[-1][0]))
 
 
 def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
@@ -454,21 +518,29 @@ def _counting_mistake(asked: list[tuple[list[float], float]]) -> str:
 
 @function_exercise(
     "01.5",
-    "A plan",
+    _("A plan"),
     hints={
-        "begin": "Begin with an empty list: `steps = []`. Then `for _ in range(ahead):`, and in "
-        'the loop `steps.append("forward")`. Then one "left", then a second loop.',
-        "early": "Your loop ends after its first step: a `return` ends the whole function. Move it "
-        "to the left, so that it comes after the loops.",
-        "reset": "The list starts again in the loop. `steps = []` has to stand before it.",
-        "turn": "It drives straight on. Between the two loops the robot has to turn: once.",
-        "turns": "It turns at each step. The turn has to stand after the first loop, not in it: "
-        "further to the left.",
-        "mirrored": "It turns to the wrong side.",
-        "swapped": "The two numbers are swapped: first `ahead` metres, then `left` metres.",
-        "count": "It stops beside the flag. Count the steps in the picture: `range(3)` gives three "
-        "numbers: 0, 1, 2.",
-        "words": 'A plan is a list of the words "forward", "left" and "right".',
+        "begin": _(
+            "Begin with an empty list: `steps = []`. Then `for _ in range(ahead):`, and in "
+            'the loop `steps.append("forward")`. Then one "left", then a second loop.'
+        ),
+        "early": _(
+            "Your loop ends after its first step: a `return` ends the whole function. Move "
+            "it to the left, so that it comes after the loops."
+        ),
+        "reset": _("The list starts again in the loop. `steps = []` has to stand before it."),
+        "turn": _("It drives straight on. Between the two loops the robot has to turn: once."),
+        "turns": _(
+            "It turns at each step. The turn has to stand after the first loop, not in it: "
+            "further to the left."
+        ),
+        "mirrored": _("It turns to the wrong side."),
+        "swapped": _("The two numbers are swapped: first `ahead` metres, then `left` metres."),
+        "count": _(
+            "It stops beside the flag. Count the steps in the picture: `range(3)` gives "
+            "three numbers: 0, 1, 2."
+        ),
+        "words": _('A plan is a list of the words "forward", "left" and "right".'),
     },
 )
 def plans_the_way(chance: np.random.Generator) -> Calls:
@@ -481,11 +553,21 @@ def plans_the_way(chance: np.random.Generator) -> Calls:
         if not math.hypot(x - ahead, y - left) < 0.3:
             shown = ", ".join(words[:8]) + (" ..." if len(words) > 8 else "")
             raise done.not_yet(
-                f"The flag is {ahead} m ahead and {left} m to the left; the robot ends {x:.0f} m "
-                f"ahead and {y:.0f} m to the left. Your plan: {shown or 'nothing'}.",
+                _(
+                    "The flag is {ahead} m ahead and {left} m to the left; the robot ends "
+                    "{x:.0f} m ahead and {y:.0f} m to the left. Your plan: {plan}.",
+                    ahead=ahead,
+                    left=left,
+                    x=x,
+                    y=y,
+                    plan=shown or _("nothing"),
+                ),
                 _planning_mistake(words, ahead, left),
             )
-    return Done(f"{3 + len(drawn)} flags, and each of your plans led to its flag.", done.picture())
+    return Done(
+        _("{count} flags, and each of your plans led to its flag.", count=3 + len(drawn)),
+        done.picture(),
+    )
 
 
 def _words_of(given: Any) -> list[str]:
@@ -497,12 +579,26 @@ def _words_of(given: Any) -> list[str]:
     if given is None:
         raise NotYet(NOTHING_RETURNED, hint="no-return")
     if isinstance(given, str) or not isinstance(given, list | tuple):
-        raise NotYet(f"Expected a list of words, got {named(given)}.", hint="list")
+        raise NotYet(_("Expected a list of words, got {got}.", got=named(given)), hint="list")
     if len(given) > MAX_WORDS:
-        raise NotYet(f"Your plan has {len(given)} words; {MAX_WORDS} are enough.", hint="count")
+        raise NotYet(
+            _(
+                "Your plan has {count} words; {max_words} are enough.",
+                count=len(given),
+                max_words=MAX_WORDS,
+            ),
+            hint="count",
+        )
     for each in given:
         if not isinstance(each, str) or each not in _WORDS:
-            raise NotYet(f"The robot knows {', '.join(_WORDS)}; got {named(each)}.", hint="words")
+            raise NotYet(
+                _(
+                    "The robot knows {listed}; got {got}.",
+                    listed=", ".join(_WORDS),
+                    got=named(each),
+                ),
+                hint="words",
+            )
     return list(given)
 
 
@@ -536,26 +632,34 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "You can read the speed on the page, but the robot can't. Only `return` gives a "
-            "value back to the program.",
-            "c": "`print` writes a text on the page; it gives nothing back to the program, not "
-            "even a text.",
+            "a": _(
+                "You can read the speed on the page, but the robot can't. Only `return` "
+                "gives a value back to the program."
+            ),
+            "c": _(
+                "`print` writes a text on the page; it gives nothing back to the program, "
+                "not even a text."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "90 is above 80, but that question is never asked: the first one that fits, "
-            "`points > 30`, decides.",
-            "b": "A function returns once. The first `return` ends it.",
+            "a": _(
+                "90 is above 80, but that question is never asked: the first one that fits, "
+                "`points > 30`, decides."
+            ),
+            "b": _("A function returns once. The first `return` ends it."),
         },
     ),
     Question(
         "a",
         {
-            "b": "That is the sum of the numbers above 2. But `n = n + 1` adds 1, whatever the "
-            "number is.",
-            "c": "That is the length of the list. The `if` lets only some of the numbers count.",
+            "b": _(
+                "That is the sum of the numbers above 2. But `n = n + 1` adds 1, whatever "
+                "the number is."
+            ),
+            "c": _("That is the length of the list. The `if` lets only some of the numbers count."),
         },
     ),
 )

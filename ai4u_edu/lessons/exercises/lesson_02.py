@@ -15,6 +15,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Variation
 
 DECISIONS_A_SECOND = 12
@@ -32,7 +33,13 @@ def _count(*given: float) -> Generator[tuple[float, ...], Any, float]:
     shown = ", ".join(f"{each:g}" for each in given)
     count = finite_number((yield given))
     if count < 0:
-        raise NotYet(f"With ({shown}) your function says {count:g}: that is below 0.")
+        raise NotYet(
+            _(
+                "With ({shown}) your function says {count:g}: that is below 0.",
+                shown=shown,
+                count=count,
+            )
+        )
     return count
 
 
@@ -66,17 +73,22 @@ def _repeated(count: int, action: list[float], *, move: float, turn: float, size
 
 @function_exercise(
     "02.1",
-    "How far?",
+    _("How far?"),
     hints={
-        "time": "A decision lasts 1/12 of a second. At 3 m/s the robot covers 3/12 of a metre in "
-        "one decision. How often does that fit into the distance?",
-        "speed": "Your answer does not change with the speed. A faster robot needs fewer "
-        "decisions.",
-        "seconds": "That is how many seconds it takes. There are 12 decisions in a second.",
-        "ticks": "That is how many ticks of the world's clock it takes: 60 a second. A decision "
-        "lasts 5 of them.",
-        "inverted": "A faster robot needs fewer decisions: divide by the speed.",
-        "one-more": "It is one decision too many.",
+        "time": _(
+            "A decision lasts 1/12 of a second. At 3 m/s the robot covers 3/12 of a metre in "
+            "one decision. How often does that fit into the distance?"
+        ),
+        "speed": _(
+            "Your answer does not change with the speed. A faster robot needs fewer decisions."
+        ),
+        "seconds": _("That is how many seconds it takes. There are 12 decisions in a second."),
+        "ticks": _(
+            "That is how many ticks of the world's clock it takes: 60 a second. A decision "
+            "lasts 5 of them."
+        ),
+        "inverted": _("A faster robot needs fewer decisions: divide by the speed."),
+        "one-more": _("It is one decision too many."),
     },
 )
 def drives_so_far(chance: np.random.Generator) -> Calls:
@@ -84,45 +96,58 @@ def drives_so_far(chance: np.random.Generator) -> Calls:
     found = yield from _count(6, 2)
     if found == (yield from _count(6, 4)):
         raise NotYet(
-            f"For 6 m your function says {found:g} decisions, at 2 m/s as at 4 m/s.",
+            _("For 6 m your function says {found:g} decisions, at 2 m/s as at 4 m/s.", found=found),
             hint="speed" if found else "time",
         )
-    for _ in range(8):
+    for _number in range(8):
         distance = round(float(chance.uniform(2, 6.9)), 2)
         speed = round(float(chance.uniform(1, 4.5)), 2)
         exact = DECISIONS_A_SECOND * distance / speed
         found = yield from _count(distance, speed)
         if not _is_count(found, exact):
             slips = {
-                "seconds": ("the time in seconds", distance / speed),
-                "ticks": ("the number of ticks", 5 * exact),
-                "inverted": ("right for a division by the speed", distance * speed * 12),
-                "one-more": ("one too many", exact + 1),
+                "seconds": (_("the time in seconds"), distance / speed),
+                "ticks": (_("the number of ticks"), 5 * exact),
+                "inverted": (_("right for a division by the speed"), distance * speed * 12),
+                "one-more": (_("one too many"), exact + 1),
             }
             slip = difference(found, slips, 0.05)
             raise NotYet(
-                f"For {distance:g} m at {speed:g} m/s expected {exact:.1f} decisions, got "
-                f"{found:.1f}{slip.words}.",
+                _(
+                    "For {distance:g} m at {speed:g} m/s expected {exact:.1f} decisions, got "
+                    "{found:.1f}{words}.",
+                    distance=distance,
+                    speed=speed,
+                    exact=exact,
+                    found=found,
+                    words=slip.words,
+                ),
                 hint=slip.name or "time",
             )
         done = _repeated(round(found), [1, 0, 0, 0], move=speed, turn=1, size=16)
     return Done(
-        "Eight speeds, eight distances, and the robot stopped where it should.", done.picture()
+        _("Eight speeds, eight distances, and the robot stopped where it should."), done.picture()
     )
 
 
 @function_exercise(
     "02.2",
-    "A quarter turn",
+    _("A quarter turn"),
     hints={
-        "time": "A decision lasts 1/12 of a second. A robot that turns 120 degrees a second turns "
-        "120/12 = 10 degrees in one decision. How many are 90 degrees?",
-        "other-speed": "It is right for one turning speed, but not for another. Compute with the "
-        "number that your function gets.",
-        "seconds": "That is how many seconds it takes. There are 12 decisions in a second.",
-        "ticks": "That is how many ticks of the world's clock it takes: 60 a second. A decision "
-        "lasts 5 of them.",
-        "inverted": "It is upside down: a robot that turns faster needs fewer decisions.",
+        "time": _(
+            "A decision lasts 1/12 of a second. A robot that turns 120 degrees a second "
+            "turns 120/12 = 10 degrees in one decision. How many are 90 degrees?"
+        ),
+        "other-speed": _(
+            "It is right for one turning speed, but not for another. Compute with the number "
+            "that your function gets."
+        ),
+        "seconds": _("That is how many seconds it takes. There are 12 decisions in a second."),
+        "ticks": _(
+            "That is how many ticks of the world's clock it takes: 60 a second. A decision "
+            "lasts 5 of them."
+        ),
+        "inverted": _("It is upside down: a robot that turns faster needs fewer decisions."),
     },
 )
 def turns_a_quarter(chance: np.random.Generator) -> Calls:
@@ -130,49 +155,73 @@ def turns_a_quarter(chance: np.random.Generator) -> Calls:
     found = yield from _count(60)
     if found == (yield from _count(120)):
         raise NotYet(
-            f"Your function says {found:g} decisions, at 60 degrees a second as at 120.",
+            _(
+                "Your function says {found:g} decisions, at 60 degrees a second as at 120.",
+                found=found,
+            ),
             hint="other-speed" if found else "time",
         )
-    for _ in range(8):
+    for _number in range(8):
         speed = round(float(chance.uniform(30, 200)), 1)
         exact = 90 / speed * DECISIONS_A_SECOND
         found = yield from _count(speed)
         if not _is_count(found, exact):
             slips = {
-                "seconds": ("the time in seconds", 90 / speed),
-                "ticks": ("the number of ticks", 5 * exact),
-                "inverted": ("upside down", speed / 90 * 12),
+                "seconds": (_("the time in seconds"), 90 / speed),
+                "ticks": (_("the number of ticks"), 5 * exact),
+                "inverted": (_("upside down"), speed / 90 * 12),
             }
             slip = difference(found, slips, 0.02)
             raise NotYet(
-                f"At {speed:g} degrees a second a quarter turn takes {exact:.1f} decisions; your "
-                f"function says {found:.1f}{slip.words}.",
+                _(
+                    "At {speed:g} degrees a second a quarter turn takes {exact:.1f} "
+                    "decisions; your function says {found:.1f}{words}.",
+                    speed=speed,
+                    exact=exact,
+                    found=found,
+                    words=slip.words,
+                ),
                 hint=slip.name or "time",
             )
         turning = _repeated(round(found), [0, -1, 0, 0], move=1, turn=math.radians(speed), size=8)
-    return Done("A quarter turn at eight turning speeds.", turning.picture())
+    return Done(_("A quarter turn at eight turning speeds."), turning.picture())
 
 
 @exercise(
     "02.3",
-    "Stop in time",
+    _("Stop in time"),
     hints={
-        "look": 'The distance is `percept["orientation"][1]`, in metres. Write an `if`: if it '
-        "is above 2, drive; otherwise stand still.",
-        "blind": "Your robot does the same whatever it senses. The box is at a different distance "
-        "in each world: the robot has to look.",
-        "late": "It stopped too late. The number that you compare with is the distance to the "
-        "middle of the box.",
-        "early": "It stands still, but too far away: drive on while the distance is above 2.",
-        "never": "It never stands still. A distance is hardly ever exactly 2: compare with `>` or "
-        "`<`, and return an action with 0 where it has to stop.",
-        "spins": "It is near enough, but turns on the spot. To stand still, both numbers have to "
-        "be 0.",
-        "empty": "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
-        "An action of zeros brakes.",
-        "once": "It looked once, and kept what it saw. Read the distance in the function, at every "
-        "decision: it is called again each time.",
-        "reversed": "It drives away from the box. Drive where the distance is above 2, not below.",
+        "look": _(
+            'The distance is `percept["orientation"][1]`, in metres. Write an `if`: if it is '
+            "above 2, drive; otherwise stand still."
+        ),
+        "blind": _(
+            "Your robot does the same whatever it senses. The box is at a different distance "
+            "in each world: the robot has to look."
+        ),
+        "late": _(
+            "It stopped too late. The number that you compare with is the distance to the "
+            "middle of the box."
+        ),
+        "early": _("It stands still, but too far away: drive on while the distance is above 2."),
+        "never": _(
+            "It never stands still. A distance is hardly ever exactly 2: compare with `>` or "
+            "`<`, and return an action with 0 where it has to stop."
+        ),
+        "spins": _(
+            "It is near enough, but turns on the spot. To stand still, both numbers have to be 0."
+        ),
+        "empty": _(
+            "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
+            "An action of zeros brakes."
+        ),
+        "once": _(
+            "It looked once, and kept what it saw. Read the distance in the function, at "
+            "every decision: it is called again each time."
+        ),
+        "reversed": _(
+            "It drives away from the box. Drive where the distance is above 2, not below."
+        ),
     },
 )
 def stops_in_time(drive_it: Any) -> Done:
@@ -200,7 +249,7 @@ def stops_in_time(drive_it: Any) -> Done:
         elif reason.hint == "look" and max(moved) > 0:
             reason.hint = "once"
         raise reason
-    return Done("In 8 worlds the robot stopped about 2 m before the box.", last.picture())
+    return Done(_("In 8 worlds the robot stopped about 2 m before the box."), last.picture())
 
 
 def _not_stopped(last: Drive, spins: bool) -> NotYet | None:
@@ -210,16 +259,22 @@ def _not_stopped(last: Drive, spins: bool) -> NotYet | None:
     if not last.fell and rests and is_close(away, 2, 0.5):
         if not spins:
             return None
-        return last.not_yet("The robot turns on the spot, and does not rest ({where}).", "spins")
+        return last.not_yet(
+            _("The robot turns on the spot, and does not rest ({where}).", where=last.where),
+            "spins",
+        )
     if last.fell:
-        how = "The robot fell"
+        how = _("The robot fell")
     elif away < 1.5:
-        how = f"The robot came as near as {away:.1f} m to the box"
+        how = _("The robot came as near as {away:.1f} m to the box", away=away)
     elif not rests:
-        how = f"The robot was still moving after {SECONDS_TO_STOP} seconds"
+        how = _(
+            "The robot was still moving after {seconds_to_stop} seconds",
+            seconds_to_stop=SECONDS_TO_STOP,
+        )
     else:
-        how = f"At the end the box was {away:.1f} m away, not 2"
-    return last.not_yet(f"{how} ({{where}}).", _why(last, away, rests))
+        how = _("At the end the box was {away:.1f} m away, not 2", away=away)
+    return last.not_yet(_("{how} ({where}).", how=how, where=last.where), _why(last, away, rests))
 
 
 def _why(last: Drive, away: float, rests: bool) -> str:
@@ -241,25 +296,31 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "The heading grows when the robot turns left. A turn above 0 is a turn to the "
-            "right.",
-            "c": "The first number drives. The second one turns, and that changes the heading.",
+            "a": _(
+                "The heading grows when the robot turns left. A turn above 0 is a turn to "
+                "the right."
+            ),
+            "c": _("The first number drives. The second one turns, and that changes the heading."),
         },
     ),
     Question(
         "a",
         {
-            "b": "24 decisions are not 24 seconds: each lasts a twelfth of a second.",
-            "c": "6 is a quarter of 24, but decisions are not seconds. What is a quarter of 4 m/s, "
-            "and how many seconds are 24 decisions?",
+            "b": _("24 decisions are not 24 seconds: each lasts a twelfth of a second."),
+            "c": _(
+                "6 is a quarter of 24, but decisions are not seconds. What is a quarter of 4 "
+                "m/s, and how many seconds are 24 decisions?"
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "The one that counts drives as far as before. It has no way to notice that the "
-            "box has moved.",
-            "b": "One of them senses the new distance at each decision.",
+            "a": _(
+                "The one that counts drives as far as before. It has no way to notice that "
+                "the box has moved."
+            ),
+            "b": _("One of them senses the new distance at each decision."),
         },
     ),
 )

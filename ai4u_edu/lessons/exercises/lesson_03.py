@@ -13,6 +13,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import forward, plate, put_in
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Variation
 
 ASIDE = Variation(x=(-4, 4), y=(3, 4))
@@ -28,40 +29,54 @@ STATUS = ("done", "id")
 
 @exercise(
     "03.1",
-    "Legs",
+    _("Legs"),
     hints={
-        "actuator": "An actuator is missing: put `RBMoveActuator(...)` into the list "
-        "`actuators=[]`.",
-        "speed": "The parameter `move_amount` is the speed, in metres a second, that the number 1 "
-        "stands for.",
-        "turn": "The parameter `turn_amount` is the turning speed, in radians a second, that the "
-        "number 1 stands for.",
+        "actuator": _(
+            "An actuator is missing: put `RBMoveActuator(...)` into the list `actuators=[]`."
+        ),
+        "speed": _(
+            "The parameter `move_amount` is the speed, in metres a second, that the number 1 "
+            "stands for."
+        ),
+        "turn": _(
+            "The parameter `turn_amount` is the turning speed, in radians a second, that the "
+            "number 1 stands for."
+        ),
     },
 )
 def has_legs(agent: Any) -> Done:
     """Check that it drives at 2 m/s, and turns at 3 rad/s."""
     if not put_in(agent, plate(None, ASIDE), IDLE).agents[0].actuators:
-        raise NotYet("Your agent has no actuator yet: it can't do anything.", hint="actuator")
+        raise NotYet(_("Your agent has no actuator yet: it can't do anything."), hint="actuator")
     straight = _driven(agent, 1, 0, decisions=12)
     if not is_close(straight.moved, 2, 0.05):
         raise straight.not_yet(
-            f"In one second the robot drove {straight.moved:.2f} m, not 2 ({{where}}).", "speed"
+            _(
+                "In one second the robot drove {moved:.2f} m, not 2 ({where}).",
+                moved=straight.moved,
+                where=straight.where,
+            ),
+            "speed",
         )
     turning = _driven(agent, 0, 1, decisions=6)
     turned = -turning.agent.body.heading
     if not is_close(turned, 1.5, 0.05):
         raise turning.not_yet(
-            f"In half a second the robot turned {turned:.2f} rad to the right, not 1.5 "
-            "({where}).",
+            _(
+                "In half a second the robot turned {turned:.2f} rad to the right, not 1.5 "
+                "({where}).",
+                turned=turned,
+                where=turning.where,
+            ),
             "turn",
         )
-    return Done("Two metres and three radians a second: it has its legs.", straight.picture())
+    return Done(_("Two metres and three radians a second: it has its legs."), straight.picture())
 
 
 def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
     names = [each.action_name for each in agent.actuators if isinstance(each, RBMoveActuator)]
     if not names:
-        raise NotYet("Your agent has no RBMoveActuator.", hint="actuator")
+        raise NotYet(_("Your agent has no RBMoveActuator."), hint="actuator")
     brain = LocalBrain(controller=lambda _: {names[0]: [move, turn, 0, 0]})
     sim = put_in(agent, plate(None, ASIDE), brain)
     return drive(sim, sim.agents[0], seed=3, limit=decisions)
@@ -69,34 +84,45 @@ def _driven(agent: Any, move: float, turn: float, decisions: int) -> Drive:
 
 @exercise(
     "03.2",
-    "Eyes and a bumper",
+    _("Eyes and a bumper"),
     hints={
-        "sensors": "Put two sensors into the list `sensors=[]`: one tells the direction of the "
-        "box, the other one whether it is touched. `ai4u-edu blocks` lists all sensors.",
-        "bearing": "One reading has to tell left from right. That takes two numbers, the sine and "
-        "the cosine of the angle to the box: `BearingSensor`.",
-        "touch": "One reading has to be 1 while the robot touches the box, and -1 otherwise: "
-        "`TouchSensor`.",
+        "sensors": _(
+            "Put two sensors into the list `sensors=[]`: one tells the direction of the box, "
+            "the other one whether it is touched. `ai4u-edu blocks` lists all sensors."
+        ),
+        "bearing": _(
+            "One reading has to tell left from right. That takes two numbers, the sine and "
+            "the cosine of the angle to the box: `BearingSensor`."
+        ),
+        "touch": _(
+            "One reading has to be 1 while the robot touches the box, and -1 otherwise: "
+            "`TouchSensor`."
+        ),
     },
 )
 def has_senses(agent: Any) -> Done:
     """Check that one reading is the box's bearing, and another one tells of its touch."""
     sim = put_in(agent, plate(), IDLE)
     if not sim.agents[0].sensors:
-        raise NotYet("Your agent has no sensor yet: it knows nothing of the world.", hint="sensors")
+        raise NotYet(
+            _("Your agent has no sensor yet: it knows nothing of the world."), hint="sensors"
+        )
     for seed in seeds_of("03.2", 10):
         seen = drive(sim, sim.agents[0], seed, limit=1)
         if not _sees(seen):
-            raise seen.not_yet("No reading tells where the box is ({where}).", "bearing")
+            raise seen.not_yet(
+                _("No reading tells where the box is ({where}).", where=seen.where), "bearing"
+            )
     legs = RBMoveActuator(move_amount=2, turn_amount=3)  # whether or not it has legs of its own
     sim = put_in(agent.changed(actuators=[legs]), plate(None, None), forward())
     felt: list[dict[str, float]] = []
     bumped = drive(sim, sim.agents[0], 5, 30, watch=lambda done: felt.append(_single(done)))
     if not any(first == -1 and felt[-1].get(key) == 1 for key, first in felt[0].items()):
         raise bumped.not_yet(
-            "The robot touches the box, and no reading says so ({where}).", "touch"
+            _("The robot touches the box, and no reading says so ({where}).", where=bumped.where),
+            "touch",
         )
-    return Done("It sees where the box is, and feels when it touches it.", bumped.picture())
+    return Done(_("It sees where the box is, and feels when it touches it."), bumped.picture())
 
 
 def _sees(done: Drive) -> bool:
@@ -122,35 +148,49 @@ def _single(done: Drive) -> dict[str, float]:
 
 @exercise(
     "03.3",
-    "Praise and blame",
+    _("Praise and blame"),
     hints={
-        "rewards": "Put two reward functions into the list `rewards=[]`: a `TouchRewardFunc` for "
-        "the box, and a `FallReward`.",
-        "amount": "The parameter `reward` says how much the touch pays.",
-        "end": "The episode goes on after the touch. Every reward function has a parameter "
-        "`cause_episode_to_end`, which is False unless you say so.",
-        "fall": "A fall should cost 1. That is what `FallReward()` pays.",
+        "rewards": _(
+            "Put two reward functions into the list `rewards=[]`: a `TouchRewardFunc` for "
+            "the box, and a `FallReward`."
+        ),
+        "amount": _("The parameter `reward` says how much the touch pays."),
+        "end": _(
+            "The episode goes on after the touch. Every reward function has a parameter "
+            "`cause_episode_to_end`, which is False unless you say so."
+        ),
+        "fall": _("A fall should cost 1. That is what `FallReward()` pays."),
     },
 )
 def is_paid(agent: Any) -> Done:
     """Check for +10 for a touch, which ends the episode, and -1 for a fall."""
     sim = put_in(agent, plate(None, None), forward())
     if not sim.agents[0].rewards:
-        raise NotYet("Your agent has no reward function yet.", hint="rewards")
+        raise NotYet(_("Your agent has no reward function yet."), hint="rewards")
     touched = drive(sim, sim.agents[0], seed=5, limit=24)
     paid = _paid(touched)
     if not is_close(paid, 10, 1e-6):
         raise touched.not_yet(
-            f"The robot touched the box and got {paid:g}, not 10 ({{where}}).", "amount"
+            _(
+                "The robot touched the box and got {paid:g}, not 10 ({where}).",
+                paid=paid,
+                where=touched.where,
+            ),
+            "amount",
         )
     if not touched.agent.terminated:
-        raise touched.not_yet("The robot touched the box, and it went on ({where}).", "end")
+        raise touched.not_yet(
+            _("The robot touched the box, and it went on ({where}).", where=touched.where), "end"
+        )
     sim = put_in(agent, plate(None, ASIDE), forward())
     fallen = drive(sim, sim.agents[0], seed=5, limit=120)
     paid = _paid(fallen)
     if not is_close(paid, -1, 1e-6):
-        raise fallen.not_yet(f"The robot fell and got {paid:g}, not -1 ({{where}}).", "fall")
-    return Done("A touch pays 10 and ends the episode, a fall costs 1.", touched.picture())
+        raise fallen.not_yet(
+            _("The robot fell and got {paid:g}, not -1 ({where}).", paid=paid, where=fallen.where),
+            "fall",
+        )
+    return Done(_("A touch pays 10 and ends the episode, a fall costs 1."), touched.picture())
 
 
 def _paid(done: Drive) -> float:
@@ -159,18 +199,28 @@ def _paid(done: Drive) -> float:
 
 @exercise(
     "03.4",
-    "To the box, from anywhere",
+    _("To the box, from anywhere"),
     hints={
-        "look": 'The first number of `percept["bearing"]` is above 0 where the box is to the '
-        "left. Turn by it: the second number of the action has to follow from it.",
-        "mirrored": "Your robot turns away from the box. Above 0 the bearing means left, but in "
-        "the action above 0 means right: a minus sign is missing.",
-        "stays": "It turns and never drives: the first number of the action is always 0. Drive "
-        "where the box is ahead.",
-        "sideways": "It turns by the cosine. That is the same for a box on the left and on the "
-        "right: the side is in the sine, the first of the two numbers.",
-        "behind": "Straight behind the robot the sine is 0 too. Look at the cosine: where it is "
-        "below 0, turn on the spot, without driving.",
+        "look": _(
+            'The first number of `percept["bearing"]` is above 0 where the box is to the '
+            "left. Turn by it: the second number of the action has to follow from it."
+        ),
+        "mirrored": _(
+            "Your robot turns away from the box. Above 0 the bearing means left, but in the "
+            "action above 0 means right: a minus sign is missing."
+        ),
+        "stays": _(
+            "It turns and never drives: the first number of the action is always 0. Drive "
+            "where the box is ahead."
+        ),
+        "sideways": _(
+            "It turns by the cosine. That is the same for a box on the left and on the "
+            "right: the side is in the sine, the first of the two numbers."
+        ),
+        "behind": _(
+            "Straight behind the robot the sine is 0 too. Look at the cosine: where it is "
+            "below 0, turn on the spot, without driving."
+        ),
     },
 )
 def reaches_the_box(agent: Any) -> Done:
@@ -184,12 +234,17 @@ def reaches_the_box(agent: Any) -> Done:
         turns: list[Turn] = []
         done = drive(sim, sim.agents[0], seed, 240, lambda done: turns.append(_turn(done)))  # noqa: B023
         if not is_close(_paid(done), 1, 1e-6):
-            how = "fell off the plate" if done.fell else "did not get to the box"
+            how = _("fell off the plate") if done.fell else _("did not get to the box")
             raise done.not_yet(
-                f"The robot {how} ({{where}}). In {count} worlds before that it got there.",
+                _(
+                    "The robot {how} ({where}). In {count} worlds before that it got there.",
+                    how=how,
+                    where=done.where,
+                    count=count,
+                ),
                 "behind" if seed == seeds[-1] else _why(turns),
             )
-    return Done(f"In {len(seeds)} worlds the robot got to the box.", done.picture())
+    return Done(_("In {count} worlds the robot got to the box.", count=len(seeds)), done.picture())
 
 
 def _turn(done: Drive) -> Turn:
@@ -216,15 +271,21 @@ def _why(turns: list[Turn]) -> str:
 
 @exercise(
     "03.5",
-    "Gold: the fewest decisions",
+    _("Gold: the fewest decisions"),
     hints={
-        "begin": "Begin with your `steer` of 03.4: first it has to get there in every world.",
-        "turns": "It gets there in every world. But where the box is behind, it turns round before "
-        "it comes nearer. Does a robot have to face a box to touch it?",
-        "mirrored": "When it drives backward, its back has to point to the box. The box is behind "
-        "it on the left: to which side does the robot have to turn?",
-        "gentle": "It drives both ways now. It still turns too gently: take a larger number times "
-        "the sine.",
+        "begin": _("Begin with your `steer` of 03.4: first it has to get there in every world."),
+        "turns": _(
+            "It gets there in every world. But where the box is behind, it turns round "
+            "before it comes nearer. Does a robot have to face a box to touch it?"
+        ),
+        "mirrored": _(
+            "When it drives backward, its back has to point to the box. The box is behind it "
+            "on the left: to which side does the robot have to turn?"
+        ),
+        "gentle": _(
+            "It drives both ways now. It still turns too gently: take a larger number times "
+            "the sine."
+        ),
     },
 )
 def is_quick_enough(quick_steer: Any) -> Done:
@@ -244,19 +305,29 @@ def is_quick_enough(quick_steer: Any) -> Done:
         done = drive(sim, agent, seed, 240, lambda done: turns.append(_turn(done)))
         if not is_close(_paid(done), 1, 1e-6):
             raise done.not_yet(
-                f"The robot did not get to the box ({{where}}). In {len(steps)} worlds before that "
-                "it got there.",
+                _(
+                    "The robot did not get to the box ({where}). In {count} worlds before "
+                    "that it got there.",
+                    where=done.where,
+                    count=len(steps),
+                ),
                 "mirrored" if _backward(turns) < 0 else "begin",
             )
         steps.append(done.steps)
     mean = sum(steps) / len(steps)
     if mean > GOLD_DECISIONS:
         raise done.not_yet(
-            f"On average it takes {mean:.1f} decisions, in 30 worlds; gold is "
-            f"{GOLD_DECISIONS} or fewer.",
+            _(
+                "On average it takes {mean:.1f} decisions, in 30 worlds; gold is "
+                "{gold_decisions} or fewer.",
+                mean=mean,
+                gold_decisions=GOLD_DECISIONS,
+            ),
             _slow_way(_backward(turns)),
         )
-    return Done(f"Gold: {mean:.1f} decisions on average, in 30 worlds.", done.picture())
+    return Done(
+        _("Gold: {mean:.1f} decisions on average, in 30 worlds.", mean=mean), done.picture()
+    )
 
 
 def _backward(turns: list[Turn]) -> float:
@@ -276,22 +347,24 @@ exit_ticket(
     Question(
         "a",
         {
-            "b": "A reward is a number about what happened. It moves nothing.",
-            "c": "Chance decides nothing here. With an empty action no actuator gets a number.",
+            "b": _("A reward is a number about what happened. It moves nothing."),
+            "c": _("Chance decides nothing here. With an empty action no actuator gets a number."),
         },
     ),
     Question(
         "c",
         {
-            "a": "The first number is the sine: below 0 means on the right.",
-            "b": "Look at both signs again: the second number is above 0 if the box is ahead.",
+            "a": _("The first number is the sine: below 0 means on the right."),
+            "b": _("Look at both signs again: the second number is above 0 if the box is ahead."),
         },
     ),
     Question(
         "b",
         {
-            "a": "The reward is paid anyway. This parameter only says whether the episode ends.",
-            "c": "It is the other way round: by default the parameter is False, and nothing ends.",
+            "a": _("The reward is paid anyway. This parameter only says whether the episode ends."),
+            "c": _(
+                "It is the other way round: by default the parameter is False, and nothing ends."
+            ),
         },
     ),
 )

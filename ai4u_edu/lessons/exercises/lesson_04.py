@@ -24,6 +24,7 @@ from ai4u_edu.lessons.numeric import chance_for, finite_number, finite_numbers, 
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
@@ -69,13 +70,17 @@ def _same_of(sensor: Sensor, one: Percept, other: Percept) -> bool:
 
 @exercise(
     "04.1",
-    "The twin",
+    _("The twin"),
     hints={
-        "other": "You gave the same place. There is a second one: think of a mirror "
-        "along the line in which the robot faces.",
-        "behind": "The cosine is not the same there. Ahead must stay ahead: only left and right "
-        "change places.",
-        "far": "The distance is not the same there. The twin is as far away as the box.",
+        "other": _(
+            "You gave the same place. There is a second one: think of a mirror along the "
+            "line in which the robot faces."
+        ),
+        "behind": _(
+            "The cosine is not the same there. Ahead must stay ahead: only left and right "
+            "change places."
+        ),
+        "far": _("The distance is not the same there. The twin is as far away as the box."),
     },
 )
 def finds_the_twin(twin: Any) -> Done:
@@ -83,37 +88,59 @@ def finds_the_twin(twin: Any) -> Done:
     a_function(twin)
     for x, y in _places(twin):
         given = twin(x, y)
-        u, v = finite_numbers(given, 2, expected=f"For ({x:g}, {y:g}) expected two numbers")
+        u, v = finite_numbers(
+            given, 2, expected=_("For ({x:g}, {y:g}) expected two numbers", x=x, y=y)
+        )
         if math.hypot(u - x, v - y) < 0.1:
-            raise NotYet(f"For ({x:g}, {y:g}) your function gives the same place.", hint="other")
+            raise NotYet(
+                _("For ({x:g}, {y:g}) your function gives the same place.", x=x, y=y), hint="other"
+            )
         if not 1.5 < math.hypot(u, v) < 11:
-            raise NotYet(f"({u:g}, {v:g}) is inside the robot, or far off the plate.", hint="far")
+            raise NotYet(
+                _("({u:g}, {v:g}) is inside the robot, or far off the plate.", u=u, v=v), hint="far"
+            )
         one = _look([OrientationSensor(target="box", normalized=False)], (x, y))
         (cosine, distance) = one.agents[0].percept["orientation"]
         other = _look([OrientationSensor(target="box", normalized=False)], (u, v))
         (twins_cosine, twins_distance) = other.agents[0].percept["orientation"]
         if not is_close(twins_distance, distance, 0.01):
             raise NotYet(
-                f"At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
-                f"({u:g}, {v:g}) {twins_distance:.2f}.",
+                _(
+                    "At ({x:g}, {y:g}) the robot reads a distance of {distance:.2f}, at "
+                    "({u:g}, {v:g}) {twins_distance:.2f}.",
+                    x=x,
+                    y=y,
+                    distance=distance,
+                    u=u,
+                    v=v,
+                    twins_distance=twins_distance,
+                ),
                 hint="far",
                 picture=picture(capture_snapshot(other)),
             )
         if not is_close(twins_cosine, cosine, 0.01):
             raise NotYet(
-                f"At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, {v:g}) "
-                f"{twins_cosine:.2f}.",
+                _(
+                    "At ({x:g}, {y:g}) the robot reads a cosine of {cosine:.2f}, at ({u:g}, "
+                    "{v:g}) {twins_cosine:.2f}.",
+                    x=x,
+                    y=y,
+                    cosine=cosine,
+                    u=u,
+                    v=v,
+                    twins_cosine=twins_cosine,
+                ),
                 hint="behind",
                 picture=picture(capture_snapshot(other)),
             )
-    return Done("In eight worlds the robot can't tell the box from its twin.")
+    return Done(_("In eight worlds the robot can't tell the box from its twin."))
 
 
 def _places(twin: Any) -> list[tuple[float, float]]:
     """Return places all around the robot, none straight ahead or behind."""
     chance = chance_for("04.1", twin)
     found = [(3.0, 1.0), (-3.0, 2.5)]
-    for _ in range(6):
+    for _number in range(6):
         angle, away = chance.uniform(0.3, math.pi - 0.3), chance.uniform(2, 5)
         side = chance.choice([-1.0, 1.0])
         found.append(
@@ -124,17 +151,25 @@ def _places(twin: Any) -> list[tuple[float, float]]:
 
 @exercise(
     "04.2",
-    "Search",
+    _("Search"),
     hints={
-        "turn": "Two cases: if the cosine is large, drive; otherwise turn on the spot, always in "
-        "the same direction.",
-        "narrow": "The robot turns past the box again and again. In one decision it turns by up to "
-        "14 degrees: accept a smaller cosine, or turn more slowly.",
-        "blind": "It does the same whatever it senses. Ask for the cosine: `if cosine > ...:`.",
-        "stays": "It turns and never drives. Where the cosine is large, the box is ahead: drive.",
-        "away": "It drives away from the box. When it faces the box, the cosine is large.",
-        "wide": "The robot drives although it does not face the box. A cosine of 0 means that the "
-        "box is beside it: ask for more.",
+        "turn": _(
+            "Two cases: if the cosine is large, drive; otherwise turn on the spot, always in "
+            "the same direction."
+        ),
+        "narrow": _(
+            "The robot turns past the box again and again. In one decision it turns by up to "
+            "14 degrees: accept a smaller cosine, or turn more slowly."
+        ),
+        "blind": _("It does the same whatever it senses. Ask for the cosine: `if cosine > ...:`."),
+        "stays": _(
+            "It turns and never drives. Where the cosine is large, the box is ahead: drive."
+        ),
+        "away": _("It drives away from the box. When it faces the box, the cosine is large."),
+        "wide": _(
+            "The robot drives although it does not face the box. A cosine of 0 means that "
+            "the box is beside it: ask for more."
+        ),
     },
 )
 def finds_by_turning(search: Any) -> Done:
@@ -168,12 +203,20 @@ def finds_by_turning(search: Any) -> Done:
 
         done = drive(sim, agent, seed, 360, watch)
         if not is_close(agent.ledger.episode_total, 1, 1e-6):
-            how = "fell off the plate" if done.fell else "did not get to the box"
+            how = _("fell off the plate") if done.fell else _("did not get to the box")
             why = _search_mistake(turned, driven, towards)
             raise done.not_yet(
-                f"The robot {how} ({{where}}). In {count} worlds before that it got there.", why
+                _(
+                    "The robot {how} ({where}). In {count} worlds before that it got there.",
+                    how=how,
+                    where=done.where,
+                    count=count,
+                ),
+                why,
             )
-    return Done(f"With one number it found the box in {len(seeds)} worlds.", done.picture())
+    return Done(
+        _("With one number it found the box in {count} worlds.", count=len(seeds)), done.picture()
+    )
 
 
 def _search_mistake(turned: list[float], driven: list[float], towards: list[float]) -> str:
@@ -191,16 +234,20 @@ def _search_mistake(turned: list[float], driven: list[float], towards: list[floa
 
 @function_exercise(
     "04.3",
-    "The angle",
+    _("The angle"),
     hints={
-        "begin": "`math.degrees(math.atan2(sine, cosine))`: the sine comes first.",
-        "degrees": "That is the angle in radians: `math.degrees` turns it into degrees.",
-        "mirrored": "Left and right are swapped: above 0 is to the left.",
-        "swapped": "`math.atan2` takes the sine first, then the cosine.",
-        "side": "The size is right, the side is not. A function of the cosine alone can't tell "
-        "left from right.",
-        "behind": "Ahead it is right, behind it is not. A function of the sine alone can't tell "
-        "ahead from behind: `math.atan2` takes both.",
+        "begin": _("`math.degrees(math.atan2(sine, cosine))`: the sine comes first."),
+        "degrees": _("That is the angle in radians: `math.degrees` turns it into degrees."),
+        "mirrored": _("Left and right are swapped: above 0 is to the left."),
+        "swapped": _("`math.atan2` takes the sine first, then the cosine."),
+        "side": _(
+            "The size is right, the side is not. A function of the cosine alone can't tell "
+            "left from right."
+        ),
+        "behind": _(
+            "Ahead it is right, behind it is not. A function of the sine alone can't tell "
+            "ahead from behind: `math.atan2` takes both."
+        ),
     },
 )
 def computes_the_angle(chance: np.random.Generator) -> Calls:
@@ -219,10 +266,14 @@ def computes_the_angle(chance: np.random.Generator) -> Calls:
     if wrong:
         true, given = wrong[0]
         raise NotYet(
-            f"The box is at {true:g} degrees, your function says {given:.1f}.",
+            _(
+                "The box is at {true:g} degrees, your function says {given:.1f}.",
+                true=true,
+                given=given,
+            ),
             hint=_why(found),
         )
-    return Done("Eight directions all around the robot, and every angle was right.")
+    return Done(_("Eight directions all around the robot, and every angle was right."))
 
 
 def _why(found: list[tuple[float, float]]) -> str:
@@ -246,14 +297,16 @@ def _why(found: list[tuple[float, float]]) -> str:
 
 @exercise(
     "04.4",
-    "Tell them apart",
+    _("Tell them apart"),
     hints={
-        "mirror": "The mirrored worlds look the same. Which sensor tells left from right?",
-        "distance": "Near and far look the same: one of the sensors has to tell a distance.",
-        "wall": "The wall is not seen. Which sensor can't look through a wall?",
-        "narrow": "The rays look ahead only. `field_of_view` is the angle that they cover, and "
-        "between few rays there are gaps: `number_of_rays`.",
-        "many": "It works, and with fewer sensors too: two are enough.",
+        "mirror": _("The mirrored worlds look the same. Which sensor tells left from right?"),
+        "distance": _("Near and far look the same: one of the sensors has to tell a distance."),
+        "wall": _("The wall is not seen. Which sensor can't look through a wall?"),
+        "narrow": _(
+            "The rays look ahead only. `field_of_view` is the angle that they cover, and "
+            "between few rays there are gaps: `number_of_rays`."
+        ),
+        "many": _("It works, and with fewer sensors too: two are enough."),
     },
 )
 def tells_apart(sensors: Any) -> Done:
@@ -261,23 +314,33 @@ def tells_apart(sensors: Any) -> Done:
     sensors = a_list_of(Sensor, sensors)
     _check_pairs(sensors)
     if len(sensors) > 2:
-        raise NotYet(f"You tell all pairs apart, with {len(sensors)} sensors.", hint="many")
-    return Done(f"Three pairs of worlds, told apart by {len(sensors)} sensor(s).")
+        raise NotYet(
+            _("You tell all pairs apart, with {count} sensors.", count=len(sensors)), hint="many"
+        )
+    return Done(_("Three pairs of worlds, told apart by {count} sensor(s).", count=len(sensors)))
 
 
 @exercise(
     "04.5",
-    "Gold: as few numbers as possible",
+    _("Gold: as few numbers as possible"),
     hints={
-        "mirror": "The mirrored worlds look the same. One number is enough for the side: which "
-        "sensor has it?",
-        "distance": "Near and far look the same. One number is enough for a distance.",
-        "wall": "The wall is not seen. Not only rays are stopped by a wall: look at the parameter "
-        "`visibility_test` of the OrientationSensor.",
-        "narrow": "No ray hits the box. It takes many rays to be sure of hitting it, and each "
-        "gives a number or two: look for sensors without rays.",
-        "many": "It works, and with fewer numbers too. `info` lets an OrientationSensor read only "
-        "one of its two numbers.",
+        "mirror": _(
+            "The mirrored worlds look the same. One number is enough for the side: which "
+            "sensor has it?"
+        ),
+        "distance": _("Near and far look the same. One number is enough for a distance."),
+        "wall": _(
+            "The wall is not seen. Not only rays are stopped by a wall: look at the "
+            "parameter `visibility_test` of the OrientationSensor."
+        ),
+        "narrow": _(
+            "No ray hits the box. It takes many rays to be sure of hitting it, and each "
+            "gives a number or two: look for sensors without rays."
+        ),
+        "many": _(
+            "It works, and with fewer numbers too. `info` lets an OrientationSensor read "
+            "only one of its two numbers."
+        ),
     },
 )
 def tells_apart_with_few_numbers(sensors: Any) -> Done:
@@ -288,10 +351,14 @@ def tells_apart_with_few_numbers(sensors: Any) -> Done:
     count = sum(reading.size for reading in _readings(percept).values())
     if count > GOLD_NUMBERS:
         raise NotYet(
-            f"You tell all pairs apart, with {count} numbers; {GOLD_NUMBERS} are enough.",
+            _(
+                "You tell all pairs apart, with {count} numbers; {gold_numbers} are enough.",
+                count=count,
+                gold_numbers=GOLD_NUMBERS,
+            ),
             hint="many",
         )
-    return Done(f"Gold: three pairs of worlds, told apart by {count} numbers.")
+    return Done(_("Gold: three pairs of worlds, told apart by {count} numbers.", count=count))
 
 
 def _check_pairs(sensors: Sequence[Sensor]) -> None:
@@ -304,15 +371,19 @@ def _check_pairs(sensors: Sequence[Sensor]) -> None:
         turned = math.radians(angle)
         ahead, side = math.cos(turned), math.sin(turned)
         left = _look(sensors, (4 * ahead, 4 * side)).agents[0].percept
-        shown = f"the box at {angle:g} degrees"
+        shown = _("the box at {angle:g} degrees", angle=angle)
         if _same(left, _look(sensors, (4 * ahead, -4 * side)).agents[0].percept):
             raise NotYet(
-                f"With {shown} on the left, or as much on the right, the percept is the same.",
+                _(
+                    "With {shown} on the left, or as much on the right, the percept is the same.",
+                    shown=shown,
+                ),
                 hint="mirror",
             )
         if _same(left, _look(sensors, (7 * ahead, 7 * side)).agents[0].percept):
             raise NotYet(
-                f"With {shown}, 4 or 7 metres away, the percept is the same.", hint="distance"
+                _("With {shown}, 4 or 7 metres away, the percept is the same.", shown=shown),
+                hint="distance",
             )
         hidden = _look(sensors, (4 * ahead, 4 * side), wall=True)
         if _same(left, hidden.agents[0].percept):
@@ -321,7 +392,11 @@ def _check_pairs(sensors: Sequence[Sensor]) -> None:
             misses = rays and all(_same_of(each, left, nowhere) for each in rays)
             why = " No ray hits the box there: give them a wider field of view." if misses else ""
             raise NotYet(
-                f"With {shown}, in sight or behind a wall, the percept is the same.{why}",
+                _(
+                    "With {shown}, in sight or behind a wall, the percept is the same.{why}",
+                    shown=shown,
+                    why=why,
+                ),
                 hint="narrow" if misses else "wall",
                 picture=picture(capture_snapshot(hidden)),
             )
@@ -332,25 +407,31 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "Straight ahead the cosine is 1.",
-            "c": "On the right it is 0 as well. Left and right are in the sine.",
+            "a": _("Straight ahead the cosine is 1."),
+            "c": _("On the right it is 0 as well. Left and right are in the sine."),
         },
     ),
     Question(
         "a",
         {
-            "b": "The controller sees the percept only. How should it notice that the worlds are "
-            "different?",
-            "c": "The same numbers in give the same action out. That may be any action.",
+            "b": _(
+                "The controller sees the percept only. How should it notice that the worlds "
+                "are different?"
+            ),
+            "c": _("The same numbers in give the same action out. That may be any action."),
         },
     ),
     Question(
         "c",
         {
-            "a": "That only divides the distance by a fixed number. It still says nothing about "
-            "before.",
-            "b": "It would read the same number at the same moment. What is needed is the number "
-            "of the moment before.",
+            "a": _(
+                "That only divides the distance by a fixed number. It still says nothing "
+                "about before."
+            ),
+            "b": _(
+                "It would read the same number at the same moment. What is needed is the "
+                "number of the moment before."
+            ),
         },
     ),
 )

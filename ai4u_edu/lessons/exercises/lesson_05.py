@@ -12,6 +12,7 @@ from ai4u_edu.blocks import DifferentialDriveActuator, LightSensor
 from ai4u_edu.lessons.exercise import Done, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 FARTHEST = 3.6
@@ -68,15 +69,21 @@ def _aside(done: Drive) -> float:
 
 @exercise(
     "05.1",
-    "Attack",
+    _("Attack"),
     hints={
-        "begin": "Each wheel gets the number of one eye. There are only two ways to do that: try "
-        "both, and watch.",
-        "reverse": "It backs away. A number above 0 turns a wheel forward: no minus is needed.",
-        "sides": "It turns away from the lamp. The wheel on the lamp's side is faster: connect "
-        "each eye with the other wheel.",
-        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
-        "another eye.",
+        "begin": _(
+            "Each wheel gets the number of one eye. There are only two ways to do that: try "
+            "both, and watch."
+        ),
+        "reverse": _("It backs away. A number above 0 turns a wheel forward: no minus is needed."),
+        "sides": _(
+            "It turns away from the lamp. The wheel on the lamp's side is faster: connect "
+            "each eye with the other wheel."
+        ),
+        "straight": _(
+            "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
+            "another eye."
+        ),
     },
 )
 def attacks(wires: Any) -> Done:
@@ -90,17 +97,22 @@ def attacks(wires: Any) -> Done:
 
     for done, away in _drives(wires, "05.1", 150, watch):
         if done.moved < 0.2:
-            raise done.not_yet("The vehicle stands still ({where}).", "begin")
+            raise done.not_yet(_("The vehicle stands still ({where}).", where=done.where), "begin")
         if min(away) > TOUCH and sum(speeds) < 0:
-            raise done.not_yet("The vehicle runs backward ({where}).", "reverse")
+            raise done.not_yet(
+                _("The vehicle runs backward ({where}).", where=done.where), "reverse"
+            )
         if min(away) > TOUCH:
             hint = "sides" if _aside(done) > 100 else ""
             raise done.not_yet(
-                f"The vehicle did not hit the lamp: it came as near as {min(away):.1f} m "
-                "({where}).",
+                _(
+                    "The vehicle did not hit the lamp: it came as near as {away:.1f} m ({where}).",
+                    away=min(away),
+                    where=done.where,
+                ),
                 hint if _turned(done) else "straight",
             )
-    return Done("In 12 worlds the vehicle hit the lamp.", done.picture())
+    return Done(_("In 12 worlds the vehicle hit the lamp."), done.picture())
 
 
 def _turned(done: Drive) -> bool:
@@ -115,20 +127,32 @@ def _vehicle_heading(done: Drive) -> float:
 
 @exercise(
     "05.2",
-    "Fear",
+    _("Fear"),
     hints={
-        "begin": "There are two ways to connect two eyes with two wheels. You have used one of "
-        "them.",
-        "sides": "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
-        "faster one.",
-        "backward": "It backs away, with its eyes on the lamp. It should turn round: both wheels "
-        "turn forward, the one on the lamp's side faster.",
-        "straight": "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
-        "another eye.",
-        "blind": "It turned to the lamp's side, and all the way round. Wherever the lamp is, the "
-        "wheel on its side has to be the faster one: the wheels have to get what the eyes see.",
-        "rest": "It runs on and on, and falls off the plate in the end. Without light its wheels "
-        "have to stand still: nothing may be added.",
+        "begin": _(
+            "There are two ways to connect two eyes with two wheels. You have used one of them."
+        ),
+        "sides": _(
+            "It turns towards the lamp. This time the wheel on the lamp's side has to be the "
+            "faster one."
+        ),
+        "backward": _(
+            "It backs away, with its eyes on the lamp. It should turn round: both wheels "
+            "turn forward, the one on the lamp's side faster."
+        ),
+        "straight": _(
+            "Both wheels turn equally fast, so the vehicle can't turn. Each wheel needs "
+            "another eye."
+        ),
+        "blind": _(
+            "It turned to the lamp's side, and all the way round. Wherever the lamp is, the "
+            "wheel on its side has to be the faster one: the wheels have to get what the "
+            "eyes see."
+        ),
+        "rest": _(
+            "It runs on and on, and falls off the plate in the end. Without light its wheels "
+            "have to stand still: nothing may be added."
+        ),
     },
 )
 def is_afraid(wires: Any) -> Done:
@@ -150,45 +174,69 @@ def is_afraid(wires: Any) -> Done:
 
     for done, away in _drives(wires, "05.2", 300, watch):
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
-            raise done.not_yet("The vehicle stands still ({where}).", "begin")
+            raise done.not_yet(_("The vehicle stands still ({where}).", where=done.where), "begin")
         if sum(speeds) < 0:
-            raise done.not_yet("The vehicle runs backward ({where}).", "backward")
+            raise done.not_yet(
+                _("The vehicle runs backward ({where}).", where=done.where), "backward"
+            )
         if done.fell or away[-1] > 11:
             hint = "rest" if _turned(done) else "straight"
-            raise done.not_yet("The vehicle runs on, off the plate ({where}).", hint)
+            raise done.not_yet(
+                _("The vehicle runs on, off the plate ({where}).", where=done.where), hint
+            )
         if _aside(done) < 90 or min(away) < 1.5:
             raise done.not_yet(
-                f"At the end the lamp is {away[-1]:.1f} m away, {_aside(done):.0f} degrees from "
-                "where the vehicle looks ({where}). It should have turned away.",
+                _(
+                    "At the end the lamp is {away:.1f} m away, {aside:.0f} degrees from "
+                    "where the vehicle looks ({where}). It should have turned away.",
+                    away=away[-1],
+                    aside=_aside(done),
+                    where=done.where,
+                ),
                 "sides" if _turned(done) else "straight",
             )
         pace = math.dist(done.trail[-1], done.trail[-2])
         if pace > 0.05:
-            raise done.not_yet("The vehicle does not come to rest ({where}).", "rest")
+            raise done.not_yet(
+                _("The vehicle does not come to rest ({where}).", where=done.where), "rest"
+            )
         if not _turned(done):
             raise done.not_yet(
-                "The vehicle drove straight on, past the lamp ({where}).", "straight"
+                _("The vehicle drove straight on, past the lamp ({where}).", where=done.where),
+                "straight",
             )
         if sum(flights) <= 0:
             raise done.not_yet(
-                "It turned its back on the lamp by going round past it ({where}).", "blind"
+                _(
+                    "It turned its back on the lamp by going round past it ({where}).",
+                    where=done.where,
+                ),
+                "blind",
             )
-    return Done("In 12 worlds it turned its back on the lamp, and came to rest.", done.picture())
+    return Done(_("In 12 worlds it turned its back on the lamp, and came to rest."), done.picture())
 
 
 @exercise(
     "05.3",
-    "Love",
+    _("Love"),
     hints={
-        "begin": "In the dark the wheels have to turn: begin with 1, and take something away for "
-        "the light that an eye sees.",
-        "reverse": "It backs away. A number above 0 turns a wheel forward: no minus is needed.",
-        "sides": "It turns away from the lamp. The wheel on the bright side has to be the slower "
-        "one: each eye brakes the wheel on its own side.",
-        "weak": "It runs into the lamp: the brakes are too weak. Take a larger number times the "
-        "brightness.",
-        "strong": "It stops too far away, or never comes: the brakes are too strong. Take a "
-        "smaller number times the brightness.",
+        "begin": _(
+            "In the dark the wheels have to turn: begin with 1, and take something away for "
+            "the light that an eye sees."
+        ),
+        "reverse": _("It backs away. A number above 0 turns a wheel forward: no minus is needed."),
+        "sides": _(
+            "It turns away from the lamp. The wheel on the bright side has to be the slower "
+            "one: each eye brakes the wheel on its own side."
+        ),
+        "weak": _(
+            "It runs into the lamp: the brakes are too weak. Take a larger number times the "
+            "brightness."
+        ),
+        "strong": _(
+            "It stops too far away, or never comes: the brakes are too strong. Take a "
+            "smaller number times the brightness."
+        ),
     },
 )
 def loves(wires: Any) -> Done:
@@ -197,22 +245,37 @@ def loves(wires: Any) -> Done:
         if len(done.trail) > 1 and max(math.dist(done.trail[0], each) for each in done.trail) < 0.2:
             idle = not any(done.agent.last_action["wheels"])
             hint = "begin" if idle else "strong"
-            raise done.not_yet("The vehicle stands still ({where}).", hint)
-        seen = f"At the end the lamp is {away[-1]:.1f} m away"
+            raise done.not_yet(_("The vehicle stands still ({where}).", where=done.where), hint)
+        seen = _("At the end the lamp is {away:.1f} m away", away=away[-1])
         if min(away) < TOUCH:
-            raise done.not_yet("The vehicle runs into the lamp ({where}).", "weak")
+            raise done.not_yet(
+                _("The vehicle runs into the lamp ({where}).", where=done.where), "weak"
+            )
         if done.fell or away[-1] > 8:
-            raise done.not_yet(f"{seen} ({{where}}). The vehicle has left it.", "sides")
+            raise done.not_yet(
+                _("{seen} ({where}). The vehicle has left it.", seen=seen, where=done.where),
+                "sides",
+            )
         if not 1 <= away[-1] <= FARTHEST:
-            raise done.not_yet(f"{seen}, not 1 to 3.5 ({{where}}).", "strong")
+            raise done.not_yet(
+                _("{seen}, not 1 to 3.5 ({where}).", seen=seen, where=done.where), "strong"
+            )
         if _aside(done) > 45:
             raise done.not_yet(
-                f"{seen}, but {_aside(done):.0f} degrees from where the vehicle looks ({{where}}).",
+                _(
+                    "{seen}, but {aside:.0f} degrees from where the vehicle looks ({where}).",
+                    seen=seen,
+                    aside=_aside(done),
+                    where=done.where,
+                ),
                 "sides",
             )
         if math.dist(done.trail[-1], done.trail[-2]) > 0.05:
-            raise done.not_yet(f"{seen}, but the vehicle does not rest ({{where}}).", "strong")
-    return Done("In 12 worlds it came to the lamp, and stayed.", done.picture())
+            raise done.not_yet(
+                _("{seen}, but the vehicle does not rest ({where}).", seen=seen, where=done.where),
+                "strong",
+            )
+    return Done(_("In 12 worlds it came to the lamp, and stayed."), done.picture())
 
 
 exit_ticket(
@@ -220,24 +283,30 @@ exit_ticket(
     Question(
         "a",
         {
-            "b": "The left eye sees more light, so the *left* wheel turns faster. To which side "
-            "does that push the vehicle?",
-            "c": "The two eyes do not get the same light, so the wheels do not turn equally fast.",
+            "b": _(
+                "The left eye sees more light, so the *left* wheel turns faster. To which "
+                "side does that push the vehicle?"
+            ),
+            "c": _(
+                "The two eyes do not get the same light, so the wheels do not turn equally fast."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "You have seen all of the code: two lines that compute two numbers.",
-            "b": "Nothing in it names a lamp. The eyes give numbers, and the wires carry them to "
-            "the wheels.",
+            "a": _("You have seen all of the code: two lines that compute two numbers."),
+            "b": _(
+                "Nothing in it names a lamp. The eyes give numbers, and the wires carry them "
+                "to the wheels."
+            ),
         },
     ),
     Question(
         "a",
         {
-            "b": "That is an actuator such as the wheels, which takes any number in a range.",
-            "c": "3 is the line that was chosen. The table may have more lines.",
+            "b": _("That is an actuator such as the wheels, which takes any number in a range."),
+            "c": _("3 is the line that was chosen. The table may have more lines."),
         },
     ),
 )

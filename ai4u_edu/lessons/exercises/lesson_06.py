@@ -23,6 +23,7 @@ from ai4u_edu.lessons.exercise import Done, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import ANYWHERE
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
 POSTS = ("red", "blue")
@@ -85,19 +86,27 @@ def _length(done: Drive) -> float:
 
 @exercise(
     "06.1",
-    "Stay on the plate",
+    _("Stay on the plate"),
     hints={
-        "begin": "Where `ahead` is 0 there is no floor in front: then turn on the spot, without "
-        "driving.",
-        "brake": "It sees the edge and turns, but drives on while it turns. In a corner that is "
-        "one step too far: turn on the spot.",
-        "spin": "It stays in one place. If all three feelers read 1, drive.",
-        "dither": "In a corner it turns left, right, left: first one feeler is over the edge, then "
-        "the other one. Always turn the same way, until all feelers read 1.",
-        "blind": "It drives in a circle without looking. Read the feelers: go straight on while "
-        "all of them read 1.",
-        "towards": "It looks to one side only. The edge may be on the left, ahead, or on the "
-        "right.",
+        "begin": _(
+            "Where `ahead` is 0 there is no floor in front: then turn on the spot, without driving."
+        ),
+        "brake": _(
+            "It sees the edge and turns, but drives on while it turns. In a corner that is "
+            "one step too far: turn on the spot."
+        ),
+        "spin": _("It stays in one place. If all three feelers read 1, drive."),
+        "dither": _(
+            "In a corner it turns left, right, left: first one feeler is over the edge, then "
+            "the other one. Always turn the same way, until all feelers read 1."
+        ),
+        "blind": _(
+            "It drives in a circle without looking. Read the feelers: go straight on while "
+            "all of them read 1."
+        ),
+        "towards": _(
+            "It looks to one side only. The edge may be on the left, ahead, or on the right."
+        ),
     },
 )
 def stays_on_the_plate(stroll: Any) -> Done:
@@ -105,25 +114,35 @@ def stays_on_the_plate(stroll: Any) -> Done:
     for done, turns in _strolls(stroll, "06.1"):
         if _length(done) < 15:
             raise done.not_yet(
-                f"In 30 seconds the robot covered {_length(done):.1f} m, not 15 ({{where}}).",
+                _(
+                    "In 30 seconds the robot covered {length:.1f} m, not 15 ({where}).",
+                    length=_length(done),
+                    where=done.where,
+                ),
                 "dither" if len(turns) > 1 else "spin",
             )
-    return Done("30 seconds in each of 10 worlds, and no fall.", done.picture())
+    return Done(_("30 seconds in each of 10 worlds, and no fall."), done.picture())
 
 
 @exercise(
     "06.4",
-    "Gold: a fast stroll",
+    _("Gold: a fast stroll"),
     hints={
-        "begin": "Begin with your `stroll` of 06.1: it has to stay on the plate, and to get on.",
-        "brake": "It falls. Where there is no floor *ahead*, it must not drive at all.",
-        "towards": "It turns towards the edge. Where the left feeler reads 0, turn to the right, "
-        "and the other way round.",
-        "dithers": "It stays on the plate, but in a corner it turns left, right, left. Always turn "
-        "the same way, until all feelers read 1.",
-        "stops": "It stays on the plate. But it loses metres each time that it stops in order to "
-        "turn. When the edge is only beside the robot, it can drive and turn.",
-        "blind": "It drives in a circle without looking. Read the feelers.",
+        "begin": _("Begin with your `stroll` of 06.1: it has to stay on the plate, and to get on."),
+        "brake": _("It falls. Where there is no floor *ahead*, it must not drive at all."),
+        "towards": _(
+            "It turns towards the edge. Where the left feeler reads 0, turn to the right, "
+            "and the other way round."
+        ),
+        "dithers": _(
+            "It stays on the plate, but in a corner it turns left, right, left. Always turn "
+            "the same way, until all feelers read 1."
+        ),
+        "stops": _(
+            "It stays on the plate. But it loses metres each time that it stops in order to "
+            "turn. When the edge is only beside the robot, it can drive and turn."
+        ),
+        "blind": _("It drives in a circle without looking. Read the feelers."),
     },
 )
 def strolls_fast(quick_stroll: Any) -> Done:
@@ -133,11 +152,17 @@ def strolls_fast(quick_stroll: Any) -> Done:
         shortest = min(shortest, _length(done))
         if shortest < GOLD_M:
             raise done.not_yet(
-                f"In 30 seconds the robot covered {shortest:.1f} m, not {GOLD_M:g} ({{where}}).",
+                _(
+                    "In 30 seconds the robot covered {shortest:.1f} m, not {gold_m:g} ({where}).",
+                    shortest=shortest,
+                    gold_m=GOLD_M,
+                    where=done.where,
+                ),
                 "stops" if shortest > 15 else "dithers" if len(turns) > 1 else "begin",
             )
     return Done(
-        f"Gold: at least {shortest:.1f} m in each of 10 worlds, and no fall.", done.picture()
+        _("Gold: at least {shortest:.1f} m in each of 10 worlds, and no fall.", shortest=shortest),
+        done.picture(),
     )
 
 
@@ -192,36 +217,58 @@ def _strolls(stroll: Any, exercise_id: str) -> Iterator[tuple[Drive, set[bool]]]
             is_aware = len(turns) > 1 or _turns_away(stroll)
             hint = "begin" if not turns else "brake" if is_aware else "towards"
             raise done.not_yet(
-                "The robot fell off the plate ({where}).", "blind" if steady else hint
+                _("The robot fell off the plate ({where}).", where=done.where),
+                "blind" if steady else hint,
             )
         yield done, turns
         widest = max(math.dist(one, two) for one in done.trail[::6] for two in done.trail[::6])
         if widest < FAR_M:
             raise done.not_yet(
-                f"The robot saw little of the plate: its way is {widest:.1f} m wide, expected "
-                f"{FAR_M:g} ({{where}}).",
+                _(
+                    "The robot saw little of the plate: its way is {widest:.1f} m wide, "
+                    "expected {far_m:g} ({where}).",
+                    widest=widest,
+                    far_m=FAR_M,
+                    where=done.where,
+                ),
                 "blind",
             )
 
 
 @exercise(
     "06.2",
-    "Patrol",
+    _("Patrol"),
     hints={
-        "begin": "It gets to one post, and stays there. When it has rested, set `self.goal` to "
-        "the other post; and drive to the post that `self.goal` names.",
-        "pushes": "It gets to a post and goes on pushing for more than a second. It rests where it "
-        "*touches* the post, not after a number of decisions: the way is longer in some worlds.",
-        "turns": "It turns a little while it should stand still. Standing still means an action of "
-        "zeros.",
-        "empty": "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
-        "To stand still, return an action of zeros.",
-        "short": "It does not rest. Count the decisions in which it stands still, in "
-        "`self.waited`: 2 seconds are 24 of them.",
-        "forgets": "It never rests anywhere for 2 seconds, nor does it get from post to post. What "
-        "has to last until the next decision belongs in `self`, with a value at the beginning.",
-        "back": "It stays at the second post: resting there has to change the goal as well. And "
-        "the count has to start again each time.",
+        "begin": _(
+            "It gets to one post, and stays there. When it has rested, set `self.goal` to "
+            "the other post; and drive to the post that `self.goal` names."
+        ),
+        "pushes": _(
+            "It gets to a post and goes on pushing for more than a second. It rests where it "
+            "*touches* the post, not after a number of decisions: the way is longer in some "
+            "worlds."
+        ),
+        "turns": _(
+            "It turns a little while it should stand still. Standing still means an action "
+            "of zeros."
+        ),
+        "empty": _(
+            "`{}` leaves the motor as it is: it starts no robot, and one in motion rolls on. "
+            "To stand still, return an action of zeros."
+        ),
+        "short": _(
+            "It does not rest. Count the decisions in which it stands still, in "
+            "`self.waited`: 2 seconds are 24 of them."
+        ),
+        "forgets": _(
+            "It never rests anywhere for 2 seconds, nor does it get from post to post. What "
+            "has to last until the next decision belongs in `self`, with a value at the "
+            "beginning."
+        ),
+        "back": _(
+            "It stays at the second post: resting there has to change the goal as well. And "
+            "the count has to start again each time."
+        ),
     },
 )
 def patrols(patrol: Any) -> Done:
@@ -246,12 +293,16 @@ def patrols(patrol: Any) -> Done:
         if len(visits.rested) < ENOUGH:
             shown = ", ".join(visits.rested) or "no post"
             raise done.not_yet(
-                f"In a minute the robot rested 2 s at {shown}; it touched "
-                f"{', '.join(visits.touched[:8]) or 'none'} ({{where}}).",
+                _(
+                    "In a minute the robot rested 2 s at {shown}; it touched {touched} ({where}).",
+                    shown=shown,
+                    touched=", ".join(visits.touched[:8]) or _("none"),
+                    where=done.where,
+                ),
                 visits.why(),
             )
     rested = ", ".join(visits.rested[:6])
-    return Done(f"In 8 worlds the robot rested at {rested} ...", done.picture())
+    return Done(_("In 8 worlds the robot rested at {rested} ...", rested=rested), done.picture())
 
 
 class _Visits:
@@ -314,22 +365,37 @@ class _Visits:
 
 @exercise(
     "06.3",
-    "Three bumps",
+    _("Three bumps"),
     hints={
-        "begin": "It pushes against the first wall and never leaves it. When it bumps, the speed "
-        "has to change, and stay changed: `self.speed = -self.speed`.",
-        "back": "It gets to the second wall and stays there. -1 means backward, however often you "
-        "set it: take the opposite of the speed that it had. And is it three bumps that you wait "
-        "for?",
-        "still": "It rests for a moment at the third bump, and then drives on. While it rests at "
-        "the wall, the bumper still reads 1, so the count goes on: ask for 3 *or more*.",
-        "pushes": "It goes on pushing against a wall. Ask the bumper at each decision, and change "
-        "the direction at once where it reads 1: in each world the walls are somewhere else.",
-        "spins": "After the third bump it turns on the spot. To rest, both numbers have to be 0.",
-        "early": "It rests too early. Count the bumps, in `self.bumps`, and only where the bumper "
-        "reads 1.",
-        "on": "It drives on after the third bump. Count the bumps in `self.bumps`, and return an "
-        "action of zeros as soon as there were three.",
+        "begin": _(
+            "It pushes against the first wall and never leaves it. When it bumps, the speed "
+            "has to change, and stay changed: `self.speed = -self.speed`."
+        ),
+        "back": _(
+            "It gets to the second wall and stays there. -1 means backward, however often "
+            "you set it: take the opposite of the speed that it had. And is it three bumps "
+            "that you wait for?"
+        ),
+        "still": _(
+            "It rests for a moment at the third bump, and then drives on. While it rests at "
+            "the wall, the bumper still reads 1, so the count goes on: ask for 3 *or more*."
+        ),
+        "pushes": _(
+            "It goes on pushing against a wall. Ask the bumper at each decision, and change "
+            "the direction at once where it reads 1: in each world the walls are somewhere "
+            "else."
+        ),
+        "spins": _(
+            "After the third bump it turns on the spot. To rest, both numbers have to be 0."
+        ),
+        "early": _(
+            "It rests too early. Count the bumps, in `self.bumps`, and only where the bumper "
+            "reads 1."
+        ),
+        "on": _(
+            "It drives on after the third bump. Count the bumps in `self.bumps`, and return "
+            "an action of zeros as soon as there were three."
+        ),
     },
 )
 def rests_after_three_bumps(machine: Any) -> Done:
@@ -357,21 +423,39 @@ def rests_after_three_bumps(machine: Any) -> Done:
         rests = is_still and all(pauses[-REST_DECISIONS:])
         move = [*done.agent.last_action.get("move", ()), 0.0, 0.0]
         if touched == ["ahead", "behind", "ahead"] and is_still and move[1] and not move[0]:
-            raise done.not_yet("The robot turns on the spot, and does not rest ({where}).", "spins")
+            raise done.not_yet(
+                _("The robot turns on the spot, and does not rest ({where}).", where=done.where),
+                "spins",
+            )
         if touched == ["ahead", "behind", "ahead"] and longest_push > MAX_BUMP_DECISIONS:
             raise done.not_yet(
-                f"The robot pushed against a wall for {longest_push} decisions ({{where}}); "
-                f"{MAX_BUMP_DECISIONS} are enough to notice it.",
+                _(
+                    "The robot pushed against a wall for {longest_push} decisions ({where}); "
+                    "{max_bump_decisions} are enough to notice it.",
+                    longest_push=longest_push,
+                    where=done.where,
+                    max_bump_decisions=MAX_BUMP_DECISIONS,
+                ),
                 "pushes",
             )
         if touched != ["ahead", "behind", "ahead"] or not rests:
             shown = ", ".join(touched[:6]) or "none"
             raise done.not_yet(
-                f"Expected bumps ahead, behind, ahead, and then a rest; got {shown}"
-                f"{', and no rest' if not rests else ''} ({{where}}).",
+                _(
+                    "Expected bumps ahead, behind, ahead, and then a rest; got {shown} ({where}).",
+                    shown=shown,
+                    where=done.where,
+                )
+                if rests
+                else _(
+                    "Expected bumps ahead, behind, ahead, and then a rest; got {shown}, and "
+                    "no rest ({where}).",
+                    shown=shown,
+                    where=done.where,
+                ),
                 _bump_mistake(touched, done, rests, any(pauses)),
             )
-    return Done("In 8 worlds the robot rested after the third bump.", done.picture())
+    return Done(_("In 8 worlds the robot rested after the third bump."), done.picture())
 
 
 def _corridor(seed: int) -> World:
@@ -403,25 +487,35 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "Nobody told the robot what is urgent. The first rule that fits decides, and the "
-            "battery stands first.",
-            "c": "`return` ends the function. Only one of the two rules can answer in a decision.",
+            "a": _(
+                "Nobody told the robot what is urgent. The first rule that fits decides, and "
+                "the battery stands first."
+            ),
+            "c": _(
+                "`return` ends the function. Only one of the two rules can answer in a decision."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "The distance to the wall is in the percept. A rule can compare it at each "
-            "decision.",
-            "b": "The feelers say on which side the edge is. Nothing has to be remembered.",
+            "a": _(
+                "The distance to the wall is in the percept. A rule can compare it at each "
+                "decision."
+            ),
+            "b": _("The feelers say on which side the edge is. Nothing has to be remembered."),
         },
     ),
     Question(
         "a",
         {
-            "b": "Whatever it is, it is gone when the method returns. In fact Python stops at "
-            "once, as there is no such variable yet.",
-            "c": "Methods compute like other functions. The question is where the result is kept.",
+            "b": _(
+                "Whatever it is, it is gone when the method returns. In fact Python stops at "
+                "once, as there is no such variable yet."
+            ),
+            "c": _(
+                "Methods compute like other functions. The question is where the result is kept."
+            ),
         },
     ),
 )

@@ -23,6 +23,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import ANYWHERE
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, BoxShape, CircleShape, Variation, World, WorldView
 
 PLACES = ("station", "site")
@@ -133,18 +134,29 @@ def robot_with(brain: Any, sensors: list[Sensor], *rewards: TouchRewardFunc) -> 
 
 @exercise(
     "07.1",
-    "Around the wall",
+    _("Around the wall"),
     hints={
-        "begin": "It pushes against the wall and never leaves it. When the bumper reads 1, change "
-        "the state; in the state `back off`, drive backward.",
-        "again": "It backs off and drives at the same place of the wall again. It needs a third "
-        "state: turn aside and drive for a while, before it seeks.",
-        "pushes": "It gets there, but pushes against the wall for more than a second before it "
-        "does something. Ask the bumper at each decision.",
-        "detour": "No wall is in the way here, and it drives a detour all the same. Only the "
-        "bumper can tell whether there is a wall: leave the state `seek` where it reads 1.",
-        "forever": "It leaves the wall and does not come back. Count the decisions that are left "
-        "in a state, and change the state when there are none.",
+        "begin": _(
+            "It pushes against the wall and never leaves it. When the bumper reads 1, change "
+            "the state; in the state `back off`, drive backward."
+        ),
+        "again": _(
+            "It backs off and drives at the same place of the wall again. It needs a third "
+            "state: turn aside and drive for a while, before it seeks."
+        ),
+        "pushes": _(
+            "It gets there, but pushes against the wall for more than a second before it "
+            "does something. Ask the bumper at each decision."
+        ),
+        "detour": _(
+            "No wall is in the way here, and it drives a detour all the same. Only the "
+            "bumper can tell whether there is a wall: leave the state `seek` where it reads "
+            "1."
+        ),
+        "forever": _(
+            "It leaves the wall and does not come back. Count the decisions that are left in "
+            "a state, and change the state when there are none."
+        ),
     },
 )
 def gets_around(machine: Any) -> Done:
@@ -175,21 +187,32 @@ def gets_around(machine: Any) -> Done:
             hint = "again" if any(gap > 1 for gap in gaps) else "begin"
             if done.fell or (bumps and done.steps - bumps[-1] > 60):
                 hint = "forever"
-            raise done.not_yet("The robot did not get to the box ({where}).", hint)
+            raise done.not_yet(
+                _("The robot did not get to the box ({where}).", where=done.where), hint
+            )
         if longest_push > MAX_PUSHING_DECISIONS:
             raise done.not_yet(
-                f"The robot pushed against the wall for {longest_push} decisions ({{where}}).",
+                _(
+                    "The robot pushed against the wall for {longest_push} decisions ({where}).",
+                    longest_push=longest_push,
+                    where=done.where,
+                ),
                 "pushes",
             )
         straight = math.dist(done.trail[0], done.trail[-1])
         way = sum(math.dist(*step) for step in pairwise(done.trail))
         if is_straight and way > MAX_DETOUR * straight:
             raise done.not_yet(
-                f"No wall was in the way, and the robot drove {way:.1f} m for {straight:.1f} m "
-                "({where}).",
+                _(
+                    "No wall was in the way, and the robot drove {way:.1f} m for "
+                    "{straight:.1f} m ({where}).",
+                    way=way,
+                    straight=straight,
+                    where=done.where,
+                ),
                 "detour",
             )
-    return Done("In 10 worlds the robot got to the box.", done.picture())
+    return Done(_("In 10 worlds the robot got to the box."), done.picture())
 
 
 def wall_world(seed: int, *, has_arm: bool, is_aside: bool = False) -> World:
@@ -225,22 +248,34 @@ def wall_world(seed: int, *, has_arm: bool, is_aside: bool = False) -> World:
 
 @exercise(
     "07.2",
-    "The battery",
+    _("The battery"),
     hints={
-        "begin": "Two states: `work` and `charge`. Two arrows: in the state `work`, if the battery "
-        "is low, change to `charge`; in the state `charge`, if it is nearly full, change to "
-        "`work`. The state says where to drive.",
-        "between": "It leaves the station as soon as it has a little charge, and has to turn back "
-        "at once. Going to the station and leaving it need two different numbers.",
-        "late": "The battery is empty before the robot gets to the station. The way there costs up "
-        "to a quarter of the battery: leave earlier.",
-        "stays": "It stays at the station. In the state `charge`, ask whether the battery is "
-        "nearly full; a reading of more than 1 never comes.",
-        "percent": "It drives to the station although the battery is not low. The battery reads "
-        "from 0 to 1: 30 percent are 0.3.",
-        "clock": "It stays at the station although the battery is full. Don't count decisions: "
-        "stations charge at different speeds, and only the battery says when it is full.",
-        "seldom": "It works too little. How full does the battery have to be before it leaves?",
+        "begin": _(
+            "Two states: `work` and `charge`. Two arrows: in the state `work`, if the "
+            "battery is low, change to `charge`; in the state `charge`, if it is nearly "
+            "full, change to `work`. The state says where to drive."
+        ),
+        "between": _(
+            "It leaves the station as soon as it has a little charge, and has to turn back "
+            "at once. Going to the station and leaving it need two different numbers."
+        ),
+        "late": _(
+            "The battery is empty before the robot gets to the station. The way there costs "
+            "up to a quarter of the battery: leave earlier."
+        ),
+        "stays": _(
+            "It stays at the station. In the state `charge`, ask whether the battery is "
+            "nearly full; a reading of more than 1 never comes."
+        ),
+        "percent": _(
+            "It drives to the station although the battery is not low. The battery reads "
+            "from 0 to 1: 30 percent are 0.3."
+        ),
+        "clock": _(
+            "It stays at the station although the battery is full. Don't count decisions: "
+            "stations charge at different speeds, and only the battery says when it is full."
+        ),
+        "seldom": _("It works too little. How full does the battery have to be before it leaves?"),
     },
 )
 def works_and_charges(worker: Any) -> Done:
@@ -264,22 +299,34 @@ def works_and_charges(worker: Any) -> Done:
                 is_early = not at_site and low > NOT_LOW
                 why = "clock" if visits > 1 else "percent" if is_early else "stays"
                 raise done.not_yet(
-                    f"The robot stayed at the station for {full // 12} s with a full battery "
-                    "({where}).",
+                    _(
+                        "The robot stayed at the station for {full} s with a full battery "
+                        "({where}).",
+                        full=full // 12,
+                        where=done.where,
+                    ),
                     why,
                 )
 
         done = drive(sim, sim.agents[0], seed, LIMIT, watch)
         if empty:
-            raise done.not_yet("The battery was empty ({where}).", "late" if visits else "begin")
+            raise done.not_yet(
+                _("The battery was empty ({where}).", where=done.where),
+                "late" if visits else "begin",
+            )
         if at_site < ENOUGH_WORK:
             why = "stays" if visits == 1 else "between" if visits > SHORT_VISITS else "seldom"
             raise done.not_yet(
-                f"In 2 minutes the robot was at the site for {at_site / 12:.0f} s, not 30; it came "
-                f"to the station {visits} times ({{where}}).",
+                _(
+                    "In 2 minutes the robot was at the site for {at_site:.0f} s, not 30; it "
+                    "came to the station {visits} times ({where}).",
+                    at_site=at_site / 12,
+                    visits=visits,
+                    where=done.where,
+                ),
                 why,
             )
-    return Done("In 8 worlds the robot worked, and its battery was never empty.", done.picture())
+    return Done(_("In 8 worlds the robot worked, and its battery was never empty."), done.picture())
 
 
 STATES = ("patrol", "listen", "chase")
@@ -296,17 +343,22 @@ ARROWS = {
 
 @exercise(
     "07.3",
-    "A machine as a table",
+    _("A machine as a table"),
     hints={
-        "begin": "One line for each arrow of the drawing: where it begins, what happens, and where "
-        "it ends. There are five arrows.",
-        "swapped": "In the brackets the state comes first, then the event.",
-        "extra": "Your table has an arrow that is not in the drawing.",
-        "target": "One of your arrows ends in another state than in the drawing.",
-        "names": "A state or an event has another name in the drawing. Copy the words letter by "
-        "letter.",
-        "pairs": 'Each line has the form `("patrol", "noise"): "listen",`: a pair in brackets, a '
-        "colon, and a word.",
+        "begin": _(
+            "One line for each arrow of the drawing: where it begins, what happens, and "
+            "where it ends. There are five arrows."
+        ),
+        "swapped": _("In the brackets the state comes first, then the event."),
+        "extra": _("Your table has an arrow that is not in the drawing."),
+        "target": _("One of your arrows ends in another state than in the drawing."),
+        "names": _(
+            "A state or an event has another name in the drawing. Copy the words letter by letter."
+        ),
+        "pairs": _(
+            'Each line has the form `("patrol", "noise"): "listen",`: a pair in brackets, a '
+            "colon, and a word."
+        ),
     },
 )
 def is_the_drawing(arrows: Any) -> Done:
@@ -317,13 +369,18 @@ def is_the_drawing(arrows: Any) -> Done:
             wanted, got = _end(ARROWS, events), _end(table, events)
             if wanted != got:
                 raise NotYet(
-                    f"After {', '.join(events)} the robot should be in the state `{wanted}`; with "
-                    f"your table it is in `{got}`.",
+                    _(
+                        "After {listed} the robot should be in the state `{wanted}`; with "
+                        "your table it is in `{got}`.",
+                        listed=", ".join(events),
+                        wanted=wanted,
+                        got=got,
+                    ),
                     hint=_table_mistake(table),
                 )
     if table != ARROWS:
-        raise NotYet("It works, but your table has more lines than the drawing.", hint="extra")
-    return Done("Five arrows, and your machine does what the drawing says.")
+        raise NotYet(_("It works, but your table has more lines than the drawing."), hint="extra")
+    return Done(_("Five arrows, and your machine does what the drawing says."))
 
 
 def _table_of(given: Any) -> dict[tuple[str, str], str]:
@@ -333,16 +390,27 @@ def _table_of(given: Any) -> dict[tuple[str, str], str]:
         NotYet: it is none, or it has other states or events.
     """
     if not isinstance(given, Mapping):
-        raise NotYet(f"Expected a table in curly brackets, got {named(given)}.", hint="pairs")
+        raise NotYet(
+            _("Expected a table in curly brackets, got {got}.", got=named(given)), hint="pairs"
+        )
     for key, state in given.items():
         if not isinstance(key, tuple) or len(key) != 2:
-            raise NotYet(f"Expected a state and an event, got {named(key)}.", hint="pairs")
+            raise NotYet(
+                _("Expected a state and an event, got {got}.", got=named(key)), hint="pairs"
+            )
         if key[0] in EVENTS and key[1] in STATES:
-            raise NotYet(f"{key!r}: the state comes first, then the event.", hint="swapped")
+            raise NotYet(
+                _("{key}: the state comes first, then the event.", key=repr(key)), hint="swapped"
+            )
         for name, known in ((key[0], STATES), (key[1], EVENTS), (state, STATES)):
             if not isinstance(name, str) or name not in known:
                 raise NotYet(
-                    f"Expected one of {', '.join(known)}; got {named(name)}.", hint="names"
+                    _(
+                        "Expected one of {listed}; got {got}.",
+                        listed=", ".join(known),
+                        got=named(name),
+                    ),
+                    hint="names",
                 )
     return dict(given)
 
@@ -368,26 +436,34 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "With closed doors the same button means: drive. The percept alone does not say "
-            "which.",
-            "c": "That number changes nothing: with open doors it must not drive.",
+            "a": _(
+                "With closed doors the same button means: drive. The percept alone does not "
+                "say which."
+            ),
+            "c": _("That number changes nothing: with open doors it must not drive."),
         },
     ),
     Question(
         "a",
         {
-            "b": "An exact thermometer notices even smaller changes, so the heater clicks even "
-            "more often.",
-            "c": "Then it clicks at 25 degrees. A single number is always the place where it "
-            "changes to and fro.",
+            "b": _(
+                "An exact thermometer notices even smaller changes, so the heater clicks "
+                "even more often."
+            ),
+            "c": _(
+                "Then it clicks at 25 degrees. A single number is always the place where it "
+                "changes to and fro."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "There is such an arrow: the robot does back off.",
-            "b": "The robot was in that state before it bumped. The question is how it leaves the "
-            "one in which it is.",
+            "a": _("There is such an arrow: the robot does back off."),
+            "b": _(
+                "The robot was in that state before it bumped. The question is how it leaves "
+                "the one in which it is."
+            ),
         },
     ),
 )

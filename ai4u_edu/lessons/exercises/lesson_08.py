@@ -14,6 +14,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drive
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 LAZY = 16
@@ -52,16 +53,24 @@ def _go(_: Percept) -> dict[str, list[float]]:
 
 @function_exercise(
     "08.1",
-    "Blind",
+    _("Blind"),
     hints={
-        "begin": "From one decision to the next skip_frame + 1 ticks pass, and a tick is 1/60 of a "
-        "second. How far does the robot get in that time?",
-        "one-more": "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for "
-        "one tick in between: it is one tick more than you count.",
-        "seconds": "A tick is not a second: there are 60 of them in a second.",
-        "twelve": "Twelve decisions a second are right only for `skip_frame=4`. With another "
-        "number, a decision takes more or less time.",
-        "ticks": "That is the number of ticks or seconds. How far does the robot get in that time?",
+        "begin": _(
+            "From one decision to the next skip_frame + 1 ticks pass, and a tick is 1/60 of "
+            "a second. How far does the robot get in that time?"
+        ),
+        "one-more": _(
+            "Nearly. With `skip_frame=0` the agent decides at every tick, and drives for one "
+            "tick in between: it is one tick more than you count."
+        ),
+        "seconds": _("A tick is not a second: there are 60 of them in a second."),
+        "twelve": _(
+            "Twelve decisions a second are right only for `skip_frame=4`. With another "
+            "number, a decision takes more or less time."
+        ),
+        "ticks": _(
+            "That is the number of ticks or seconds. How far does the robot get in that time?"
+        ),
     },
 )
 def computes_the_blind_way(chance: np.random.Generator) -> Calls:
@@ -75,18 +84,25 @@ def computes_the_blind_way(chance: np.random.Generator) -> Calls:
         if not is_close(found, done.moved, 0.005):
             ticks = skip_frame + 1
             slips = {
-                "one-more": ("one tick less than there are", speed * skip_frame / 60),
-                "seconds": ("right if a tick were a second", speed * ticks),
-                "twelve": ("right only for `skip_frame=4`", speed / 12),
-                "ticks": ("the time in seconds, not the way", ticks / 60),
+                "one-more": (_("one tick less than there are"), speed * skip_frame / 60),
+                "seconds": (_("right if a tick were a second"), speed * ticks),
+                "twelve": (_("right only for `skip_frame=4`"), speed / 12),
+                "ticks": (_("the time in seconds, not the way"), ticks / 60),
             }
             slip = difference(found, slips, 1e-4)
             raise done.not_yet(
-                f"At {speed:g} m/s with skip_frame={skip_frame} the robot drove "
-                f"{done.moved:.3f} m in one decision; your function says {found:.3f}{slip.words}.",
+                _(
+                    "At {speed:g} m/s with skip_frame={skip_frame} the robot drove "
+                    "{moved:.3f} m in one decision; your function says {found:.3f}{words}.",
+                    speed=speed,
+                    skip_frame=skip_frame,
+                    moved=done.moved,
+                    found=found,
+                    words=slip.words,
+                ),
                 slip.name if found else "begin",
             )
-    return Done("Six speeds, six ways, and each was right.")
+    return Done(_("Six speeds, six ways, and each was right."))
 
 
 def _careful(percept: Percept) -> dict[str, list[float]]:
@@ -95,14 +111,20 @@ def _careful(percept: Percept) -> dict[str, list[float]]:
 
 @exercise(
     "08.2",
-    "As lazy as possible",
+    _("As lazy as possible"),
     hints={
-        "lazier": "It never falls, and could be lazier. The feeler sees 0.98 m ahead of the "
-        "robot's middle. How many ticks does it take to drive a metre?",
-        "whole": "A tick is the smallest piece of time in the world. Round your result: which of "
-        "the two numbers is safe?",
-        "falls": "It drives too far before it looks again. The blind way has to be shorter than "
-        "the 0.98 m that the feeler sees ahead.",
+        "lazier": _(
+            "It never falls, and could be lazier. The feeler sees 0.98 m ahead of the "
+            "robot's middle. How many ticks does it take to drive a metre?"
+        ),
+        "whole": _(
+            "A tick is the smallest piece of time in the world. Round your result: which of "
+            "the two numbers is safe?"
+        ),
+        "falls": _(
+            "It drives too far before it looks again. The blind way has to be shorter than "
+            "the 0.98 m that the feeler sees ahead."
+        ),
     },
 )
 def is_lazy(skip_frame: Any) -> Done:
@@ -111,48 +133,79 @@ def is_lazy(skip_frame: Any) -> Done:
     if given != round(given):
         low = math.floor(given)
         raise NotYet(
-            f"`skip_frame` counts ticks, so it is a whole number: is it {low} or {low + 1}?",
+            _(
+                "`skip_frame` counts ticks, so it is a whole number: is it {low} or {low2}?",
+                low=low,
+                low2=low + 1,
+            ),
             hint="whole",
         )
     skip_frame = round(given)
     if not 0 <= skip_frame <= 600:
-        raise NotYet(f"Expected a number from 0 to 600, got {skip_frame}.", hint="falls")
+        raise NotYet(
+            _("Expected a number from 0 to 600, got {skip_frame}.", skip_frame=skip_frame),
+            hint="falls",
+        )
     for number in range(40):
         sim = feeler_runway(_careful, skip_frame, start=-9.0 + 0.05 * number)
         done = drive(sim, sim.agents[0], number, limit=480 // (skip_frame + 1) + 2)
         if done.fell:
             raise done.not_yet(
-                f"With skip_frame={skip_frame} the robot fell when it started at "
-                f"x = {-9.0 + 0.05 * number:.2f}.",
+                _(
+                    "With skip_frame={skip_frame} the robot fell when it started at x = "
+                    "{value:.2f}.",
+                    skip_frame=skip_frame,
+                    value=-9.0 + 0.05 * number,
+                ),
                 "falls",
             )
     if skip_frame < LAZY:
         raise NotYet(
-            f"With skip_frame={skip_frame} it never fell in 40 runs. It can be lazier.",
+            _(
+                "With skip_frame={skip_frame} it never fell in 40 runs. It can be lazier.",
+                skip_frame=skip_frame,
+            ),
             hint="lazier",
             picture=done.picture(),
         )
     return Done(
-        f"With skip_frame={skip_frame} the robot never fell, from 40 places.", done.picture()
+        _(
+            "With skip_frame={skip_frame} the robot never fell, from 40 places.",
+            skip_frame=skip_frame,
+        ),
+        done.picture(),
     )
 
 
 @exercise(
     "08.3",
-    "A diary",
+    _("A diary"),
     hints={
-        "begin": "Connect a function that appends to `notes`, like `agent.end_of_step.connect("
-        'lambda agent: notes.append("decision"))`.',
-        "copy": "Your functions were called, but what they wrote is not in the list that you "
-        "returned. Return `notes` itself, and no copy of it; and don't make a new list later.",
-        "late": "All notes say the same. A function that is made in a loop looks at the loop's "
-        "variable when it is called, and by then the loop is over. Write a line for each event.",
-        "begins": 'The first note has to be "begin": connect with `begin_of_episode`.',
-        "counted": "It is right as long as an episode takes as many decisions as you thought. This "
-        "one ended earlier: connect a function, so that each note is written when it happens.",
-        "ticks": "You wrote more than once for a decision. `begin_of_apply_action` comes at each "
-        "tick; `end_of_step` comes once a decision.",
-        "end": 'The last note of an episode has to be "end": connect with `end_of_episode`.',
+        "begin": _(
+            "Connect a function that appends to `notes`, like "
+            '`agent.end_of_step.connect(lambda agent: notes.append("decision"))`.'
+        ),
+        "copy": _(
+            "Your functions were called, but what they wrote is not in the list that you "
+            "returned. Return `notes` itself, and no copy of it; and don't make a new list "
+            "later."
+        ),
+        "late": _(
+            "All notes say the same. A function that is made in a loop looks at the loop's "
+            "variable when it is called, and by then the loop is over. Write a line for each "
+            "event."
+        ),
+        "begins": _('The first note has to be "begin": connect with `begin_of_episode`.'),
+        "counted": _(
+            "It is right as long as an episode takes as many decisions as you thought. This "
+            "one ended earlier: connect a function, so that each note is written when it "
+            "happens."
+        ),
+        "ticks": _(
+            "You wrote more than once for a decision. `begin_of_apply_action` comes at each "
+            "tick; `end_of_step` comes once a decision."
+        ),
+        "end": _('The last note of an episode has to be "end": connect with `end_of_episode`.'),
     },
 )
 def keeps_a_diary(diary: Any) -> Done:
@@ -167,7 +220,10 @@ def keeps_a_diary(diary: Any) -> Done:
         if notes is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(notes, list):
-            raise NotYet(f"Expected that `diary` returns a list, got {named(notes)}.", hint="begin")
+            raise NotYet(
+                _("Expected that `diary` returns a list, got {got}.", got=named(notes)),
+                hint="begin",
+            )
         done = drive(sim, agent, 1)
         wanted = ["begin", *["decision"] * done.steps, "end"]
         if notes != wanted:
@@ -183,12 +239,18 @@ def keeps_a_diary(diary: Any) -> Done:
                 hint = "ticks"
             elif count == done.steps:
                 hint = "end" if notes[:1] == ["begin"] else "begins"
+            said = f"{notes[:12]!r}{' ...' if len(notes) > 12 else ''}"
+            expected = repr(wanted[:12])
             raise NotYet(
-                f"In an episode of {done.steps} decisions your diary says {notes[:12]!r}"
-                f"{' ...' if len(notes) > 12 else ''}, not {wanted[:12]!r}.",
+                _(
+                    "In an episode of {steps} decisions your diary says {said}, not {expected}.",
+                    steps=done.steps,
+                    said=said,
+                    expected=expected,
+                ),
                 hint=hint,
             )
-    return Done("Three episodes, three diaries without a mistake.")
+    return Done(_("Three episodes, three diaries without a mistake."))
 
 
 def _listens(agent: BasicAgent) -> bool:
@@ -202,23 +264,25 @@ exit_ticket(
     Question(
         "c",
         {
-            "a": "Nearly: a decision takes skip_frame + 1 ticks.",
-            "b": "A tick is not a second. 30 ticks are half a second.",
+            "a": _("Nearly: a decision takes skip_frame + 1 ticks."),
+            "b": _("A tick is not a second. 30 ticks are half a second."),
         },
     ),
     Question(
         "b",
         {
-            "a": "Then the blind way would be twice as long.",
-            "c": "Then the blind way would be four times as long.",
+            "a": _("Then the blind way would be twice as long."),
+            "c": _("Then the blind way would be four times as long."),
         },
     ),
     Question(
         "c",
         {
-            "a": "`end_of_step` comes once for each decision. An event for each tick is "
-            "`begin_of_apply_action`.",
-            "b": "Once for the whole episode comes `end_of_episode`.",
+            "a": _(
+                "`end_of_step` comes once for each decision. An event for each tick is "
+                "`begin_of_apply_action`."
+            ),
+            "b": _("Once for the whole episode comes `end_of_episode`."),
         },
     ),
 )

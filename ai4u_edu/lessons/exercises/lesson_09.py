@@ -27,6 +27,7 @@ from ai4u_edu.lessons.numeric import chance_for, finite_number
 from ai4u_edu.lessons.rollouts import drive, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 Action = dict[str, list[float]]
@@ -79,7 +80,9 @@ def character(name: str, rewards: Sequence[RewardFunc] = ()) -> ControlRequestor
         rewards: its reward functions.
     """
     if name not in CHARACTERS:
-        raise NotYet(f"Expected one of {', '.join(CHARACTERS)}; got `{name!r}`.")
+        raise NotYet(
+            _("Expected one of {listed}; got `{name!r}`.", listed=", ".join(CHARACTERS), name=name)
+        )
     agent = BasicAgent(
         body="robot",
         sensors=[BearingSensor(target="box"), OrientationSensor(target="box", normalized=False)],
@@ -154,37 +157,53 @@ WELL_MEANT: dict[str, Callable[[], list[RewardFunc]]] = {
 
 @exercise(
     "09.1",
-    "Who wins?",
+    _("Who wins?"),
     hints={
-        "near": "With `near` the touch pays 10, once, and ends the episode. Being near pays a "
-        "little at each of 120 decisions. Which sum is larger?",
-        "quick": "With `quick` everybody pays 1 at each decision until the episode is over. What "
-        "ends the episode here? Read the first line of `quick` once more.",
-        "name": "Write one of the six names in quotes, for each of the three rewards.",
-        "closer": "With `closer` a step towards the box pays, and a step away costs nothing. Which "
-        "of them takes most steps towards it?",
+        "near": _(
+            "With `near` the touch pays 10, once, and ends the episode. Being near pays a "
+            "little at each of 120 decisions. Which sum is larger?"
+        ),
+        "quick": _(
+            "With `quick` everybody pays 1 at each decision until the episode is over. What "
+            "ends the episode here? Read the first line of `quick` once more."
+        ),
+        "name": _("Write one of the six names in quotes, for each of the three rewards."),
+        "closer": _(
+            "With `closer` a step towards the box pays, and a step away costs nothing. Which "
+            "of them takes most steps towards it?"
+        ),
     },
 )
 def predicts(winners: Any, well_meant: Any) -> Done:
     """Check the predicted winner with each of three rewards."""
     if not isinstance(winners, Mapping):
-        raise NotYet(f"Expected a name for each reward, got `{winners!r}`.")
+        raise NotYet(_("Expected a name for each reward, got `{winners!r}`.", winners=winners))
     if not isinstance(well_meant, Mapping) or set(well_meant) != set(WELL_MEANT):
-        raise NotYet("Run the cell with the three well-meant rewards once more.")
+        raise NotYet(_("Run the cell with the three well-meant rewards once more."))
     for name, rewards in WELL_MEANT.items():
         said = winners.get(name)
         found = contest(rewards(), seeds_of("09.1", 5))
         if not isinstance(said, str) or said not in found:
             raise NotYet(
-                f"For `{name}` expected one of {', '.join(found)}; got {named(said)}.",
+                _(
+                    "For `{name}` expected one of {listed}; got {got}.",
+                    name=name,
+                    listed=", ".join(found),
+                    got=named(said),
+                ),
                 hint="name",
             )
         if said != _best(found):
             raise NotYet(
-                f"With `{name}` the {said} gets {found[said]:.1f}, and somebody else gets more.",
+                _(
+                    "With `{name}` the {said} gets {found:.1f}, and somebody else gets more.",
+                    name=name,
+                    said=said,
+                    found=found[said],
+                ),
                 hint=name,
             )
-    return Done("You saw all three winners coming.")
+    return Done(_("You saw all three winners coming."))
 
 
 def _made(make: Any) -> list[RewardFunc]:
@@ -193,17 +212,23 @@ def _made(make: Any) -> list[RewardFunc]:
 
 @exercise(
     "09.2",
-    "A trail that can't be tricked",
+    _("A trail that can't be tricked"),
     hints={
-        "linger": "Somebody gets more than the runner by staying near, or by dancing. A trail must "
-        "pay for *getting* nearer, and take it back when the robot goes away again: "
-        "`ProgressReward`.",
-        "patience": "In ten seconds the runner wins. In a minute another one wins, which is paid "
-        "for staying near: every reward for *being* somewhere can be collected without end.",
-        "nothing": "Nobody is paid anything yet.",
-        "lost": "The runner does not win. What does it get for the touch?",
-        "trail": "The runner wins, but until the touch it gets nothing: a beginner would not know "
-        "where to go. Add a reward for progress.",
+        "linger": _(
+            "Somebody gets more than the runner by staying near, or by dancing. A trail must "
+            "pay for *getting* nearer, and take it back when the robot goes away again: "
+            "`ProgressReward`."
+        ),
+        "patience": _(
+            "In ten seconds the runner wins. In a minute another one wins, which is paid for "
+            "staying near: every reward for *being* somewhere can be collected without end."
+        ),
+        "nothing": _("Nobody is paid anything yet."),
+        "lost": _("The runner does not win. What does it get for the touch?"),
+        "trail": _(
+            "The runner wins, but until the touch it gets nothing: a beginner would not know "
+            "where to go. Add a reward for progress."
+        ),
     },
 )
 def has_a_trail(make: Any) -> Done:
@@ -211,19 +236,25 @@ def has_a_trail(make: Any) -> Done:
     seeds = seeds_of("09.2", 5)
     found = contest(_made(make), seeds)
     if not any(found.values()):
-        raise NotYet(f"Nobody gets anything: {_shown(found)}.", hint="nothing")
+        raise NotYet(_("Nobody gets anything: {shown}.", shown=_shown(found)), hint="nothing")
     others = max(paid for name, paid in found.items() if name not in ("runner", "stroller"))
     if found["runner"] < others + 1 or found["runner"] < found["stroller"] - 1:
         stays = max(found["lingerer"], found["dancer"]) >= found["runner"] - 1
         raise NotYet(
-            f"The runner does not win clearly: {_shown(found)}.", hint="linger" if stays else "lost"
+            _("The runner does not win clearly: {shown}.", shown=_shown(found)),
+            hint="linger" if stays else "lost",
         )
     for name in ("lingerer", "dancer"):
         paid_in_a_minute = _in_a_minute(name, _made(make), seeds[:2])
         if paid_in_a_minute > found["runner"] - 1:
             raise NotYet(
-                f"In ten seconds the runner wins. In a minute the {name} gets "
-                f"{paid_in_a_minute:.1f}, more than the runner's {found['runner']:.1f}.",
+                _(
+                    "In ten seconds the runner wins. In a minute the {name} gets "
+                    "{paid_in_a_minute:.1f}, more than the runner's {found:.1f}.",
+                    name=name,
+                    paid_in_a_minute=paid_in_a_minute,
+                    found=found["runner"],
+                ),
                 hint="patience",
             )
     sim = character("runner", _made(make))
@@ -234,11 +265,17 @@ def has_a_trail(make: Any) -> Done:
         good = sum(each > 0 for each in paid[1:])
         if good < 0.5 * (len(paid) - 1):
             raise done.not_yet(
-                f"The runner was paid above 0 for {good} of {len(paid) - 1} decisions ({{where}}).",
+                _(
+                    "The runner was paid above 0 for {good} of {count} decisions ({where}).",
+                    good=good,
+                    count=len(paid) - 1,
+                    where=done.where,
+                ),
                 "trail",
             )
     return Done(
-        f"Who drives to the box wins, and the way is paid: {_shown(found)}.", done.picture()
+        _("Who drives to the box wins, and the way is paid: {shown}.", shown=_shown(found)),
+        done.picture(),
     )
 
 
@@ -255,45 +292,63 @@ def _in_a_minute(name: str, rewards: list[RewardFunc], seeds: Sequence[int]) -> 
 
 @exercise(
     "09.3",
-    "Quick, but not at any price",
+    _("Quick, but not at any price"),
     hints={
-        "time": "Runner and stroller get the same. Let each decision cost a little: "
-        "the `reward` for restlessness below 0.",
-        "jump": "The jumper is not the last: a fall ends the episode, and after that nothing costs "
-        "any more. The fall has to cost more than all the time that it saves.",
-        "pays": "Time pays, but it should cost: the `reward` for restlessness has to be below 0.",
-        "dear": "Time costs so much that the runner, too, gets less than nothing: make it cheaper.",
-        "runner": "The runner has to get the most of all.",
+        "time": _(
+            "Runner and stroller get the same. Let each decision cost a little: the `reward` "
+            "for restlessness below 0."
+        ),
+        "jump": _(
+            "The jumper is not the last: a fall ends the episode, and after that nothing "
+            "costs any more. The fall has to cost more than all the time that it saves."
+        ),
+        "pays": _(
+            "Time pays, but it should cost: the `reward` for restlessness has to be below 0."
+        ),
+        "dear": _(
+            "Time costs so much that the runner, too, gets less than nothing: make it cheaper."
+        ),
+        "runner": _("The runner has to get the most of all."),
     },
 )
 def is_quick(make: Any) -> Done:
     """Check that the runner beats the stroller, and the jumper is last."""
     found = contest(_made(make), seeds_of("09.3", 5))
     if found["sleeper"] > 0.1:
-        raise NotYet(f"The sleeper is paid for sleeping: {_shown(found)}.", hint="pays")
+        raise NotYet(
+            _("The sleeper is paid for sleeping: {shown}.", shown=_shown(found)), hint="pays"
+        )
     if found["runner"] < 0:
-        raise NotYet(f"The runner gets less than nothing: {_shown(found)}.", hint="dear")
+        raise NotYet(
+            _("The runner gets less than nothing: {shown}.", shown=_shown(found)), hint="dear"
+        )
     if found["runner"] <= found["stroller"] + 0.1:
-        raise NotYet(f"Time costs nothing yet: {_shown(found)}.", hint="time")
+        raise NotYet(_("Time costs nothing yet: {shown}.", shown=_shown(found)), hint="time")
     if _best(found) != "runner":
-        raise NotYet(f"The runner does not win: {_shown(found)}.", hint="runner")
+        raise NotYet(_("The runner does not win: {shown}.", shown=_shown(found)), hint="runner")
     if min(found, key=lambda name: found[name]) != "jumper":
-        raise NotYet(f"The jumper is not the last: {_shown(found)}.", hint="jump")
-    return Done(f"Quick, and jumping does not pay: {_shown(found)}.")
+        raise NotYet(_("The jumper is not the last: {shown}.", shown=_shown(found)), hint="jump")
+    return Done(_("Quick, and jumping does not pay: {shown}.", shown=_shown(found)))
 
 
 @exercise(
     "09.4",
-    "What paid most?",
+    _("What paid most?"),
     hints={
-        "first": "That is the first name. Add up what each term paid over all decisions, and "
-        "compare the sums.",
-        "rows": "`told.amounts[n]` is what all terms paid in decision n. Term n is the n-th number "
-        "of each row: `row[n] for row in told.amounts`.",
-        "once": "That term paid the largest single amount. Another one paid less at a time, but "
-        "more in all: add the amounts up.",
-        "size": "A term can cost a lot: then its sum is far below 0, and it did not pay.",
-        "name": "Return one of the names in `told.terms`.",
+        "first": _(
+            "That is the first name. Add up what each term paid over all decisions, and "
+            "compare the sums."
+        ),
+        "rows": _(
+            "`told.amounts[n]` is what all terms paid in decision n. Term n is the n-th "
+            "number of each row: `row[n] for row in told.amounts`."
+        ),
+        "once": _(
+            "That term paid the largest single amount. Another one paid less at a time, but "
+            "more in all: add the amounts up."
+        ),
+        "size": _("A term can cost a lot: then its sum is far below 0, and it did not pay."),
+        "name": _("Return one of the names in `told.terms`."),
     },
 )
 def finds_what_paid(paid_most: Any) -> str:
@@ -316,7 +371,10 @@ def finds_what_paid(paid_most: Any) -> str:
         if got is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(got, str) or got not in terms:
-            raise NotYet(f"Expected one of {terms!r}, got {named(got)}.", hint="name")
+            raise NotYet(
+                _("Expected one of {terms}, got {got}.", terms=repr(terms), got=named(got)),
+                hint="name",
+            )
         if got != winner:
             rows = [float(row.sum()) for row in told.amounts[: len(terms)]]
             if got == terms[rows.index(max(rows))]:
@@ -326,8 +384,16 @@ def finds_what_paid(paid_most: Any) -> str:
             else:
                 hint = mistakes[parts[terms.index(got)]]
             sums = dict(zip(terms, told.totals.round(1).tolist(), strict=True))
-            raise NotYet(f"Expected '{winner}', got {got!r}. The sums are {sums}.", hint=hint)
-    return "You found the term that paid most in four episodes."
+            raise NotYet(
+                _(
+                    "Expected '{winner}', got {got!r}. The sums are {sums}.",
+                    winner=winner,
+                    got=got,
+                    sums=str(sums),
+                ),
+                hint=hint,
+            )
+    return _("You found the term that paid most in four episodes.")
 
 
 exit_ticket(
@@ -335,25 +401,29 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "That pays 10, once. How much do a hundred decisions near the box pay?",
-            "c": "The touch ends the episode. There is no time after it.",
+            "a": _("That pays 10, once. How much do a hundred decisions near the box pay?"),
+            "c": _("The touch ends the episode. There is no time after it."),
         },
     ),
     Question(
         "a",
         {
-            "b": "It pays for every metre. But a metre back costs as much as a metre forward "
-            "brings.",
-            "c": "A reward function knows nothing about intentions. It computes a number from what"
-            " happened.",
+            "b": _(
+                "It pays for every metre. But a metre back costs as much as a metre forward brings."
+            ),
+            "c": _(
+                "A reward function knows nothing about intentions. It computes a number from "
+                "what happened."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "Searching costs 1 at each decision, up to 120 in all. Is there something "
-            "cheaper?",
-            "b": "Standing still costs 1 at each decision as well.",
+            "a": _(
+                "Searching costs 1 at each decision, up to 120 in all. Is there something cheaper?"
+            ),
+            "b": _("Standing still costs 1 at each decision as well."),
         },
     ),
 )

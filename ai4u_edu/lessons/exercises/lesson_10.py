@@ -16,6 +16,7 @@ from ai4u_edu.lessons.numeric import Slip, chance_for, difference, finite_number
 from ai4u_edu.lessons.rollouts import drive, driven_by, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.lessons.wrong_reward import OUTCOMES, Hacker, outcomes
+from ai4u_edu.locale import gettext as _
 
 if TYPE_CHECKING:
     import gymnasium
@@ -115,7 +116,7 @@ def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[f
     chance = np.random.default_rng(seed)
     values = np.zeros((CELLS, 2))
     history = []
-    for _ in range(episodes):
+    for _number in range(episodes):
         cell = START
         while 0 < cell < CELLS - 1:
             tries = chance.random() < TRIES or values[cell, 0] == values[cell, 1]
@@ -132,18 +133,30 @@ def corridor(update: "Update", episodes: int = 40, seed: int = 0) -> list[list[f
 
 @exercise(
     "10.1",
-    "What later is worth now",
+    _("What later is worth now"),
     hints={
-        "undiscounted": "Every reward counts in full. Later ones have to count less: multiply the "
-        "reward number n by `discount ** n`.",
-        "later": "Rewards that come later have to count less. `enumerate(rewards)` gives each "
-        "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`.",
-        "linear": "The discount is applied once per reward, not once per step: it is a power, "
-        "`discount ** n`, and not a product.",
-        "once": "The whole sum is discounted once. Each reward has its own power of the discount.",
-        "backward": "The order is turned round: the first reward comes now, the last one latest.",
-        "first": "The first reward comes now: it counts in full. Its number is 0, and "
-        "`discount ** 0` is 1.",
+        "undiscounted": _(
+            "Every reward counts in full. Later ones have to count less: multiply the reward "
+            "number n by `discount ** n`."
+        ),
+        "later": _(
+            "Rewards that come later have to count less. `enumerate(rewards)` gives each "
+            "reward with its number n: 0, 1, 2 ... Multiply each by `discount ** n`."
+        ),
+        "linear": _(
+            "The discount is applied once per reward, not once per step: it is a power, "
+            "`discount ** n`, and not a product."
+        ),
+        "once": _(
+            "The whole sum is discounted once. Each reward has its own power of the discount."
+        ),
+        "backward": _(
+            "The order is turned round: the first reward comes now, the last one latest."
+        ),
+        "first": _(
+            "The first reward comes now: it counts in full. Its number is 0, and `discount "
+            "** 0` is 1."
+        ),
     },
 )
 def discounts(worth: Any) -> str:
@@ -156,54 +169,75 @@ def discounts(worth: Any) -> str:
         got = finite_number(a_function(worth)(list(rewards), discount))
         if not is_close(got, right, 1e-6):
             slips = {
-                "first": ("the right sum, discounted once more", discount * right),
-                "undiscounted": ("the sum without the discount", sum(rewards)),
+                "first": (_("the right sum, discounted once more"), discount * right),
+                "undiscounted": (_("the sum without the discount"), sum(rewards)),
                 "linear": (
-                    "right for `discount * n` in place of `discount ** n`",
+                    _("right for `discount * n` in place of `discount ** n`"),
                     sum(reward * discount * n for n, reward in enumerate(rewards)),
                 ),
-                "once": ("the whole sum, discounted once", discount * sum(rewards)),
+                "once": (_("the whole sum, discounted once"), discount * sum(rewards)),
                 "backward": (
-                    "right for the list turned round",
+                    _("right for the list turned round"),
                     sum(reward * discount**n for n, reward in enumerate(reversed(rewards))),
                 ),
             }
             slip = difference(got, slips, 1e-6) if length > 1 else Slip("", "")
             raise NotYet(
-                f"With the rewards {rewards[:6]} and a discount of {discount} expected "
-                f"{right:.3f}, got {got:.3f}{slip.words}.",
+                _(
+                    "With the rewards {rewards} and a discount of {discount} expected "
+                    "{right:.3f}, got {got:.3f}{words}.",
+                    rewards=str(rewards[:6]),
+                    discount=discount,
+                    right=right,
+                    got=got,
+                    words=slip.words,
+                ),
                 hint=slip.name or ("later" if is_close(got, 0, 0) else ""),
             )
-    return "Five lists of rewards, all of them worth what they should be."
+    return _("Five lists of rewards, all of them worth what they should be.")
 
 
 @exercise(
     "10.2",
-    "One step of learning",
+    _("One step of learning"),
     hints={
-        "stays": "`value` comes back as it was: nothing is learned. What has the step brought? The "
-        "reward, and what can still be had from there: `reward + discount * best_next`. Move the "
-        "value a part of the way to that.",
-        "jump": "The value jumps all the way to what happened last. Once is no proof: go only the "
-        "part `rate` of the way, `value + rate * (target - value)`.",
-        "undiscounted": "What comes later counts less than what is paid now: multiply "
-        "`best_next` by `discount`.",
-        "minus-value": "The value grows and grows. Move it by a part of the *difference* between "
-        "target and value: `rate * (target - value)`.",
-        "bracket": "Without brackets the rate multiplies only the target: "
-        "`value + rate * (target - value)`.",
-        "other-side": "A rate of 0 should change nothing, a rate of 1 everything. With yours it is "
-        "the other way round.",
-        "all-discounted": "The reward of this step is paid now: only `best_next` is discounted.",
-        "future": "Only the reward of this very step counts with you. The goal pays at the last "
-        "step alone, so no cell before it would ever be worth anything: add "
-        "`discount * best_next`.",
+        "stays": _(
+            "`value` comes back as it was: nothing is learned. What has the step brought? "
+            "The reward, and what can still be had from there: `reward + discount * "
+            "best_next`. Move the value a part of the way to that."
+        ),
+        "jump": _(
+            "The value jumps all the way to what happened last. Once is no proof: go only "
+            "the part `rate` of the way, `value + rate * (target - value)`."
+        ),
+        "undiscounted": _(
+            "What comes later counts less than what is paid now: multiply `best_next` by "
+            "`discount`."
+        ),
+        "minus-value": _(
+            "The value grows and grows. Move it by a part of the *difference* between target "
+            "and value: `rate * (target - value)`."
+        ),
+        "bracket": _(
+            "Without brackets the rate multiplies only the target: `value + rate * (target - "
+            "value)`."
+        ),
+        "other-side": _(
+            "A rate of 0 should change nothing, a rate of 1 everything. With yours it is the "
+            "other way round."
+        ),
+        "all-discounted": _("The reward of this step is paid now: only `best_next` is discounted."),
+        "future": _(
+            "Only the reward of this very step counts with you. The goal pays at the last "
+            "step alone, so no cell before it would ever be worth anything: add `discount * "
+            "best_next`."
+        ),
     },
 )
 def learns_a_step(update: Any) -> str:
     """Check the update of a value, and a walker that learns by it."""
     chance = chance_for("10.2", update)
-    for _ in range(20):
+    for _number in range(20):
         value, reward, best, rate, discount = (
             round(float(each), 2) for each in chance.uniform(0.1, 0.9, 5)
         )
@@ -212,53 +246,68 @@ def learns_a_step(update: Any) -> str:
         got = finite_number(a_function(update)(value, reward, best, rate, discount))
         if not is_close(got, right, 1e-6):
             slips = {
-                "stays": ("the value as it was: nothing is learned", value),
-                "jump": ("the target itself, as if the rate were 1", target),
+                "stays": (_("the value as it was: nothing is learned"), value),
+                "jump": (_("the target itself, as if the rate were 1"), target),
                 "future": (
-                    "right without the rewards from there on",
+                    _("right without the rewards from there on"),
                     value + rate * (reward - value),
                 ),
                 "undiscounted": (
-                    "right without the discount",
+                    _("right without the discount"),
                     value + rate * (reward + best - value),
                 ),
-                "minus-value": ("right without `- value`", value + rate * target),
+                "minus-value": (_("right without `- value`"), value + rate * target),
                 "bracket": (
-                    "right but for a bracket: the rate has to multiply the whole difference",
+                    _("right but for a bracket: the rate has to multiply the whole difference"),
                     value + rate * target - value,
                 ),
                 "other-side": (
-                    "right with the rate on the wrong side",
+                    _("right with the rate on the wrong side"),
                     rate * value + (1 - rate) * target,
                 ),
                 "all-discounted": (
-                    "right if the reward were discounted too",
+                    _("right if the reward were discounted too"),
                     value + rate * (discount * (reward + best) - value),
                 ),
             }
             slip = difference(got, slips, 1e-6)
             raise NotYet(
-                f"A value of {value:.2f}, a reward of {reward:.2f}, {best:.2f} to be had from "
-                f"there, a rate of {rate:.2f} and a discount of {discount:.2f}: expected "
-                f"{right:.3f}, got {got:.3f}{slip.words}.",
+                _(
+                    "A value of {value:.2f}, a reward of {reward:.2f}, {best:.2f} to be had "
+                    "from there, a rate of {rate:.2f} and a discount of {discount:.2f}: "
+                    "expected {right:.3f}, got {got:.3f}{words}.",
+                    value=value,
+                    reward=reward,
+                    best=best,
+                    rate=rate,
+                    discount=discount,
+                    right=right,
+                    got=got,
+                    words=slip.words,
+                ),
                 hint=slip.name,
             )
     learned = [corridor(update, seed=seed)[-1][START] for seed in seeds_of("10.2", 10)]
-    return (
-        "A walker who learns by it knew its way after 40 walks: in the cell where it begins, the "
-        f"better step was worth {np.mean(learned):.2f}."
+    return _(
+        "A walker who learns by it knew its way after 40 walks: in the cell where it "
+        "begins, the better step was worth {mean:.2f}.",
+        mean=float(np.mean(learned)),
     )
 
 
 @exercise(
     "10.3",
-    "Long enough",
+    _("Long enough"),
     hints={
-        "longer": "A decision takes the robot 1/6 s here, so 400 decisions are about a minute of "
-        "life, and in the first 500 it only tries things out. Let it learn from 5,000 or 10,000; "
-        "it stops by itself when it is good.",
-        "again": "It is nearly there. Chance plays a part in learning: look at the curve, let it "
-        "learn from more decisions, or take another `seed`.",
+        "longer": _(
+            "A decision takes the robot 1/6 s here, so 400 decisions are about a minute of "
+            "life, and in the first 500 it only tries things out. Let it learn from 5,000 or "
+            "10,000; it stops by itself when it is good."
+        ),
+        "again": _(
+            "It is nearly there. Chance plays a part in learning: look at the curve, let it "
+            "learn from more decisions, or take another `seed`."
+        ),
     },
 )
 def has_learned(trained: Any) -> Done:
@@ -275,67 +324,95 @@ def has_learned(trained: Any) -> Done:
     for done in (drive(sim, agent, seed, LIMIT) for seed in seeds_of("10.3", episodes)):
         won, lost = won + done.won, lost + (not done.won)
         if lost > (1 - NEEDED / EPISODES) * episodes:
-            how = "it fell" if done.fell else "it did not get there in time"
+            how = _("it fell") if done.fell else _("it did not get there in time")
             raise done.not_yet(
-                f"In {lost} of {won + lost} worlds it failed; in the last of them {how} "
-                f"({{where}}).",
+                _(
+                    "In {lost} of {won} worlds it failed; in the last of them {how} ({where}).",
+                    lost=lost,
+                    won=won + lost,
+                    how=how,
+                    where=done.where,
+                ),
                 "again" if won > 4 * lost else "longer",
             )
-    return Done(f"It reached the box in {won} of {episodes} worlds that it never saw.")
+    return Done(
+        _(
+            "It reached the box in {won} of {episodes} worlds that it never saw.",
+            won=won,
+            episodes=episodes,
+        )
+    )
 
 
 def _expect_trained(trained: Any) -> None:
     from ai4u_edu.learn.training.run import Trained
 
     if not isinstance(trained, Trained):
-        raise NotYet(f"Expected what `learn(...)` returned, got {named(trained)}.")
+        raise NotYet(_("Expected what `learn(...)` returned, got {got}.", got=named(trained)))
 
 
 @exercise(
     "10.4",
-    "The wrong reward, learned",
+    _("The wrong reward, learned"),
     hints={
-        "name": 'Write your guess into `prediction`: "touches", "lingers" or "falls".',
-        "touches": "A touch pays 10, once, and ends the episode. Being near pays up to 3 at each "
-        "of 60 decisions. Which sum is larger?",
-        "falls": "A fall costs 1 and ends the payments. What is there to be had on the plate?",
-        "untrained": "`hacked` has to be what `learn_wrong_reward()` returns.",
+        "name": _('Write your guess into `prediction`: "touches", "lingers" or "falls".'),
+        "touches": _(
+            "A touch pays 10, once, and ends the episode. Being near pays up to 3 at each of "
+            "60 decisions. Which sum is larger?"
+        ),
+        "falls": _("A fall costs 1 and ends the payments. What is there to be had on the plate?"),
+        "untrained": _("`hacked` has to be what `learn_wrong_reward()` returns."),
     },
 )
 def predicts_the_learner(prediction: Any, hacked: Any) -> Done:
     """Check the predicted behaviour of a robot that learned with a well-meant reward."""
     if not isinstance(hacked, Hacker):
         raise NotYet(
-            f"Expected what `learn_wrong_reward()` returned, got {named(hacked)}.",
+            _("Expected what `learn_wrong_reward()` returned, got {got}.", got=named(hacked)),
             hint="untrained",
         )
     if not isinstance(prediction, str) or prediction not in OUTCOMES:
         raise NotYet(
-            f"Expected one of {', '.join(OUTCOMES)} as your guess, got {named(prediction)}.",
+            _(
+                "Expected one of {listed} as your guess, got {got}.",
+                listed=", ".join(OUTCOMES),
+                got=named(prediction),
+            ),
             hint="name",
         )
     worlds = 20
     counts, last = outcomes(hacked, seeds_of("10.4", worlds))
-    told = (
-        f"In {worlds} worlds it touched the box in {counts['touches']}, fell in {counts['falls']}, "
-        f"and was still on the plate when time was up in {counts['lingers']}."
+    touches, lingers, falls = (counts[each] for each in OUTCOMES)
+    told = _(
+        "In {worlds} worlds it touched the box in {touches}, fell in {falls}, and was "
+        "still on the plate when time was up in {lingers}.",
+        worlds=worlds,
+        touches=touches,
+        falls=falls,
+        lingers=lingers,
     )
     if counts[prediction] < max(counts.values()):
         raise NotYet(told, hint=prediction, picture=last.picture())
-    return Done(f"You saw it coming. {told}", last.picture())
+    return Done(_("You saw it coming. {told}", told=told), last.picture())
 
 
 @exercise(
     "10.5",
-    "What does it look at most?",
+    _("What does it look at most?"),
     hints={
-        "first": "That is the first slot. Compare them all: `told.shift[n]` is a list, and its "
-        "largest number, without its sign, says how far slot n moves the action.",
-        "sign": "To the left or to the right: both are movements. Compare the sizes, as "
-        "`abs(...)` gives them.",
-        "sum": "Movements to both sides do not cancel, and small ones do not add up: for each slot "
-        "only the largest one counts.",
-        "name": "Return one of the names in `told.names`.",
+        "first": _(
+            "That is the first slot. Compare them all: `told.shift[n]` is a list, and its "
+            "largest number, without its sign, says how far slot n moves the action."
+        ),
+        "sign": _(
+            "To the left or to the right: both are movements. Compare the sizes, as "
+            "`abs(...)` gives them."
+        ),
+        "sum": _(
+            "Movements to both sides do not cancel, and small ones do not add up: for each "
+            "slot only the largest one counts."
+        ),
+        "name": _("Return one of the names in `told.names`."),
     },
 )
 def finds_what_matters(looks_most_at: Any) -> str:
@@ -358,13 +435,21 @@ def finds_what_matters(looks_most_at: Any) -> str:
         if got is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(got, str) or got not in names:
-            raise NotYet(f"Expected one of {told.names!r}, got {named(got)}.", hint="name")
+            raise NotYet(
+                _("Expected one of {names}, got {got}.", names=repr(told.names), got=named(got)),
+                hint="name",
+            )
         if got != winner:
             hint = "first" if got == told.names[0] else mistakes[named_by.index(got)]
             raise NotYet(
-                f"Expected '{winner}', which moves a number by -0.8, got {got!r}.", hint=hint
+                _(
+                    "Expected '{winner}', which moves a number by -0.8, got {got!r}.",
+                    winner=winner,
+                    got=got,
+                ),
+                hint=hint,
             )
-    return "You found the slot that matters most in four explanations."
+    return _("You found the slot that matters most in four explanations.")
 
 
 exit_ticket(
@@ -372,26 +457,37 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "Only the touch pays much here, and each decision before it makes it count less.",
-            "c": "Without a discount that would be so. With one, 100 counts less for each decision"
-            " that it comes later.",
+            "a": _(
+                "Only the touch pays much here, and each decision before it makes it count less."
+            ),
+            "c": _(
+                "Without a discount that would be so. With one, 100 counts less for each "
+                "decision that it comes later."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "An update looks one step ahead. On the earlier steps the best value ahead was "
-            "still 0.",
-            "b": "The last step brought a reward, so its value moved at once, by the learning "
-            "rate.",
+            "a": _(
+                "An update looks one step ahead. On the earlier steps the best value ahead "
+                "was still 0."
+            ),
+            "b": _(
+                "The last step brought a reward, so its value moved at once, by the learning rate."
+            ),
         },
     ),
     Question(
         "a",
         {
-            "b": "It may have learned these worlds by heart. Only a test on other seeds can tell.",
-            "c": "It may have learned them by heart, or it may have understood. Only a test can "
-            "tell.",
+            "b": _(
+                "It may have learned these worlds by heart. Only a test on other seeds can tell."
+            ),
+            "c": _(
+                "It may have learned them by heart, or it may have understood. Only a test "
+                "can tell."
+            ),
         },
     ),
 )

@@ -15,6 +15,8 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drives, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext, translate
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:
@@ -77,8 +79,14 @@ def my_drives(folder: str | Path = "drives", count: int = ENOUGH) -> "list[Episo
     won = [each for each in yours if each.scene.name == "box_chase" and each.success][-count:]
     if len(won) < count:
         print(  # noqa: T201 - for the notebook
-            f"{len(won)} drives of yours reached the box; a scripted player drove the other "
-            f"{count - len(won)}."
+            translate(
+                _(
+                    "{won} drives of yours reached the box; a scripted player drove the other "
+                    "{others}.",
+                    won=len(won),
+                    others=count - len(won),
+                )
+            )
         )
     return [*won, *_shown(count - len(won))]
 
@@ -139,16 +147,20 @@ def _driver(who: Any, agent: BasicAgent) -> Brain:
 
 @exercise(
     "11.1",
-    "Good enough to learn from",
+    _("Good enough to learn from"),
     hints={
-        "all": "Drives in which the robot fell are among them too, and it would learn to fall. An "
-        "episode knows whether the goal was reached: `episode.success`.",
-        "parts": "The list has to hold the episodes, not their seeds or seconds.",
-        "twice": "Each episode belongs in the list once.",
-        "some": "You left some out that reached the box: go through the whole list.",
-        "none": "Your list is empty.",
-        "quick": "A fall can be quick too, and a good drive may be long, when the way is. Ask "
-        "whether the goal was reached: `episode.success`.",
+        "all": _(
+            "Drives in which the robot fell are among them too, and it would learn to fall. "
+            "An episode knows whether the goal was reached: `episode.success`."
+        ),
+        "parts": _("The list has to hold the episodes, not their seeds or seconds."),
+        "twice": _("Each episode belongs in the list once."),
+        "some": _("You left some out that reached the box: go through the whole list."),
+        "none": _("Your list is empty."),
+        "quick": _(
+            "A fall can be quick too, and a good drive may be long, when the way is. Ask "
+            "whether the goal was reached: `episode.success`."
+        ),
     },
 )
 def chooses(good: Any) -> str:
@@ -172,25 +184,42 @@ def chooses(good: Any) -> str:
     if not isinstance(got, list | tuple) or not all(any(e is g for g in given) for e in got):
         part = named(got[0]) if isinstance(got, list | tuple) and got else named(got)
         raise NotYet(
-            f"Expected a list with some of the episodes themselves, and found {part} in it.",
+            _(
+                "Expected a list with some of the episodes themselves, and found {part} in it.",
+                part=part,
+            ),
             hint="parts",
         )
     if len({id(each) for each in got}) < len(got):
-        raise NotYet("The same episode is in your list more than once.", hint="twice")
+        raise NotYet(_("The same episode is in your list more than once."), hint="twice")
     bad = [each for each in got if not each.success]
     if bad:
         raise NotYet(
-            f"Of {len(given)} episodes {len(right)} reached the box. You chose {len(got)}, and in "
-            f"{len(bad)} of those the robot did not.",
+            _(
+                "Of {count} episodes {count2} reached the box. You chose {count3}, and in "
+                "{count4} of those the robot did not.",
+                count=len(given),
+                count2=len(right),
+                count3=len(got),
+                count4=len(bad),
+            ),
             hint="all" if len(got) == len(given) else "quick",
         )
     if len(got) != len(right):
         raise NotYet(
-            f"Of {len(given)} episodes {len(right)} reached the box, and you chose {len(got)} of "
-            "them.",
+            _(
+                "Of {count} episodes {count2} reached the box, and you chose {count3} of them.",
+                count=len(given),
+                count2=len(right),
+                count3=len(got),
+            ),
             hint="some" if got else "none",
         )
-    return f"Of {len(given)} episodes you chose the {len(right)} that reached the box."
+    return _(
+        "Of {count} episodes you chose the {count2} that reached the box.",
+        count=len(given),
+        count2=len(right),
+    )
 
 
 def _tired(percept: Percept) -> dict[str, list[float]]:
@@ -204,55 +233,80 @@ def _slowly(percept: Percept) -> dict[str, list[float]]:
 
 @exercise(
     "11.2",
-    "Show it",
+    _("Show it"),
     hints={
-        "few": "It was shown a single way, from a single place. Elsewhere it only guesses. Let it "
-        "learn from five drives that began in different places: `clone(my_drives(), ...)`.",
-        "sloppy": "It does what it was shown, detours and falls too. Leave those out, or record "
-        "new drives, each of them as you would want it to drive: turn until you look at the box, "
-        "then go.",
+        "few": _(
+            "It was shown a single way, from a single place. Elsewhere it only guesses. Let "
+            "it learn from five drives that began in different places: `clone(my_drives(), "
+            "...)`."
+        ),
+        "sloppy": _(
+            "It does what it was shown, detours and falls too. Leave those out, or record "
+            "new drives, each of them as you would want it to drive: turn until you look at "
+            "the box, then go."
+        ),
     },
 )
 def is_shown(cloned: Any) -> Done:
     """Check for success in half of the worlds, from demonstrations."""
     path = getattr(cloned, "path", None)
     if not isinstance(path, Path) or not hasattr(cloned, "decisions"):
-        raise NotYet(f"Expected what `clone(...)` returned, got {named(cloned)}.")
+        raise NotYet(_("Expected what `clone(...)` returned, got {got}.", got=named(cloned)))
     controller = NeuralNetController(model_path=str(path))
     about = controller.network.about
     brain = LocalBrain(controller=controller, **controller.network.rhythm)
     count = int(about.get("demonstrations", 0))
-    shown = "1 drive" if count == 1 else f"{count} drives"
+    shown = ngettext("{n} drive", "{n} drives", count)
     won = lost = 0
     for done in drives("box_chase", brain, seeds_of("11.2", WORLDS), limit=LIMIT):
         won, lost = won + done.won, lost + (not done.won)
         if lost > WORLDS - NEEDED:
             raise done.not_yet(
-                f"It reached the box in {won} of {won + lost} worlds; expected "
-                f"{NEEDED / WORLDS:.0%}. It was shown {shown} with {cloned.decisions} decisions. "
-                "The last one that failed: {where}.",
+                _(
+                    "It reached the box in {won} of {won2} worlds; expected {needed:.0%}. It "
+                    "was shown {shown} with {decisions} decisions. The last one that failed: "
+                    "{where}.",
+                    won=won,
+                    won2=won + lost,
+                    needed=NEEDED / WORLDS,
+                    shown=shown,
+                    decisions=cloned.decisions,
+                    where=done.where,
+                ),
                 "few" if count < ENOUGH else "sloppy",
             )
     return Done(
-        f"It reached the box in {won} of {WORLDS} worlds, after {shown} with "
-        f"{cloned.decisions} decisions.",
+        _(
+            "It reached the box in {won} of {worlds} worlds, after {shown} with {decisions} "
+            "decisions.",
+            won=won,
+            worlds=WORLDS,
+            shown=shown,
+            decisions=cloned.decisions,
+        ),
         done.picture(),
     )
 
 
 @exercise(
     "11.3",
-    "The referee",
+    _("The referee"),
     call_limit_s=30,
     hints={
-        "begin": "Nobody has run yet. Begin with `sim.reset(seed)`, call `sim.step()` until one of "
-        "the two is `done`, and then look who it is.",
-        "draw": "Both are still on their way: nobody has won yet. Go on until one of the two is "
-        "`done`.",
-        "fell": "The first to be done has not always won: it may have fallen. `touched(agent)` "
-        "says whether it was the box; if it was not, the other one has won.",
-        "time": "Two who never arrive would keep you waiting for ever. After 300 steps return "
-        "`None`.",
+        "begin": _(
+            "Nobody has run yet. Begin with `sim.reset(seed)`, call `sim.step()` until one "
+            "of the two is `done`, and then look who it is."
+        ),
+        "draw": _(
+            "Both are still on their way: nobody has won yet. Go on until one of the two is `done`."
+        ),
+        "fell": _(
+            "The first to be done has not always won: it may have fallen. `touched(agent)` "
+            "says whether it was the box; if it was not, the other one has won."
+        ),
+        "time": _(
+            "Two who never arrive would keep you waiting for ever. After 300 steps return `None`."
+        ),
     },
 )
 def referees(race: Any) -> Done:
@@ -284,17 +338,27 @@ def referees(race: Any) -> Done:
         got = race(track(drivers[blue], _patient(drivers[purple], seed)), seed)
         if isinstance(got, BasicAgent):
             raise NotYet(
-                f"You returned the agent {got.id!r} itself. Return its name in quotes, or None."
+                _(
+                    "You returned the agent {id!r} itself. Return its name in quotes, or None.",
+                    id=got.id,
+                )
             )
         if not (got is None or isinstance(got, str)) or got != right:
             hint = "fell" if "falls" in blue + purple else "time" if right is None else "begin"
             raise NotYet(
-                f"Blue, {blue}, against purple, {purple}, with seed {seed}: "
-                f"expected `{right!r}`, got {named(got)}.",
+                _(
+                    "Blue, {blue}, against purple, {purple}, with seed {seed}: expected "
+                    "`{right}`, got {got}.",
+                    blue=blue,
+                    purple=purple,
+                    seed=seed,
+                    right=repr(right),
+                    got=named(got),
+                ),
                 hint=hint,
                 picture=drive.picture(),
             )
-    return Done("Ten races, and you saw who won each of them.", shown)
+    return Done(_("Ten races, and you saw who won each of them."), shown)
 
 
 def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:
@@ -306,7 +370,11 @@ def _patient(driver: Callable[..., Any], seed: int) -> Callable[[Percept], Any]:
         left -= 1
         if left < 0:
             raise NotYet(
-                f"The race with seed {seed} was not over after {5 * MAX_RACE_STEPS} decisions.",
+                _(
+                    "The race with seed {seed} was not over after {max_race_steps} decisions.",
+                    seed=seed,
+                    max_race_steps=5 * MAX_RACE_STEPS,
+                ),
                 hint="time",
             )
         return driver(percept)
@@ -332,7 +400,7 @@ def _result(sim: ControlRequestor, seed: int) -> tuple[str | None, Drive]:
     return None, drive
 
 
-exercise("11.4", "What does it not look at?", hints=HINTS)(is_blind)
+exercise("11.4", _("What does it not look at?"), hints=HINTS)(is_blind)
 
 
 exit_ticket(
@@ -340,23 +408,25 @@ exit_ticket(
     Question(
         "c",
         {
-            "a": "It never compares ways. It is trained to answer each percept as you did.",
-            "b": "A clone needs no reward. It copies the actions that you took.",
+            "a": _("It never compares ways. It is trained to answer each percept as you did."),
+            "b": _("A clone needs no reward. It copies the actions that you took."),
         },
     ),
     Question(
         "a",
         {
-            "b": "It is the other way round: cloning needs somebody who shows it.",
-            "c": "Right answers for each percept are what cloning learns from. A reward only says "
-            "how good something was.",
+            "b": _("It is the other way round: cloning needs somebody who shows it."),
+            "c": _(
+                "Right answers for each percept are what cloning learns from. A reward only "
+                "says how good something was."
+            ),
         },
     ),
     Question(
         "b",
         {
-            "a": "However long it trains, these drives say nothing about the edge.",
-            "c": "From those it would learn to fall: it copies whatever it is shown.",
+            "a": _("However long it trains, these drives say nothing about the edge."),
+            "c": _("From those it would learn to fall: it copies whatever it is shown."),
         },
     ),
 )

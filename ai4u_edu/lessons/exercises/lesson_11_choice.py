@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import NeuralNetController, trained_brain
 from ai4u_edu.lessons.exercises.lesson_11 import scripted_drives, straight_on
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 if TYPE_CHECKING:
     from ai4u_edu.learn.training.demonstrations import Cloned
@@ -75,9 +77,17 @@ def show_choice(good: Callable[[list[Any]], list[Any]]) -> None:
     drives = last_drives()
     chosen = {id(each) for each in good(drives)}
     for number, each in enumerate(drives, 1):
-        mark = "chosen  " if id(each) in chosen else "left out"
-        how = "reached the box" if each.success else "did not reach it"
-        print(f"{mark}  drive {number}: {each.seconds:.1f} s, {how}")  # noqa: T201 - a notebook's
+        mark = translate(_("chosen") if id(each) in chosen else _("left out"))
+        text = _(
+            "drive {number}: {seconds:.1f} s, did not reach it", number=number, seconds=each.seconds
+        )
+        if each.success:
+            text = _(
+                "drive {number}: {seconds:.1f} s, reached the box",
+                number=number,
+                seconds=each.seconds,
+            )
+        print(f"{mark:8}  {translate(text)}")  # noqa: T201 - a notebook's
 
 
 def clone_of(**times: float) -> "Cloned":

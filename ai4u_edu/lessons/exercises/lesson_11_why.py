@@ -11,6 +11,7 @@ from ai4u_edu.blocks import Percept
 from ai4u_edu.lessons.exercise import NotYet, a_function, named
 from ai4u_edu.lessons.numeric import chance_for
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:
@@ -18,9 +19,9 @@ if TYPE_CHECKING:
 
 Lamp = Literal["behind", "elsewhere", "anywhere"]
 PLACES: dict[Lamp, str] = {
-    "behind": "position: [4.8, 0.8]",
-    "elsewhere": "position: [0, -5.5]",
-    "anywhere": "random: {x: [-5, 5.5], y: [-5.5, 5.5]}",
+    "behind": _("position: [4.8, 0.8]"),
+    "elsewhere": _("position: [0, -5.5]"),
+    "anywhere": _("random: {x: [-5, 5.5], y: [-5.5, 5.5]}"),
 }
 """Places of the lamp: always behind the box, somewhere else, or somewhere new each time."""
 
@@ -50,18 +51,26 @@ LITTLE = 0.015
 POLICIES = 12
 """Policies on which the exercise is checked."""
 HINTS = {
-    "begin": '`told = explain.occlusion(policy, percept, baseline=baseline, groups="sensor")` '
-    "leaves out one reading after the other. `told.names` are their names, and "
-    "`told.importance` says how far each of them moved the action: 0 for one that it does not "
-    "look at.",
-    "used": "Those are the readings that it looks at. You are looking for the others.",
-    "side": "A reading may move the action to either side: below 0 counts too. "
-    "`told.importance` is never below 0.",
-    "little": "A policy that looks at a reading a little looks at it. It does not look at those "
-    "that move the action by 0.",
-    "slots": 'Names of readings are wanted, as `told.names` has them with `groups="sensor"`, and '
-    "not names of single numbers.",
-    "one": "There may be several, or none at all: go through all names.",
+    "begin": _(
+        '`told = explain.occlusion(policy, percept, baseline=baseline, groups="sensor")` '
+        "leaves out one reading after the other. `told.names` are their names, and "
+        "`told.importance` says how far each of them moved the action: 0 for one that it "
+        "does not look at."
+    ),
+    "used": _("Those are the readings that it looks at. You are looking for the others."),
+    "side": _(
+        "A reading may move the action to either side: below 0 counts too. "
+        "`told.importance` is never below 0."
+    ),
+    "little": _(
+        "A policy that looks at a reading a little looks at it. It does not look at those "
+        "that move the action by 0."
+    ),
+    "slots": _(
+        'Names of readings are wanted, as `told.names` has them with `groups="sensor"`, '
+        "and not names of single numbers."
+    ),
+    "one": _("There may be several, or none at all: go through all names."),
 }
 """Hints of the exercise by diagnosis."""
 
@@ -128,7 +137,7 @@ def is_blind(blind: Any) -> str:
         got = _names(blind(policy, percept, baseline))
         if sorted(got) != sorted(right):
             raise _wrong(number, used, right, got, little)
-    return f"You found what {POLICIES} policies do not look at."
+    return _("You found what {policies} policies do not look at.", policies=POLICIES)
 
 
 def _pattern(number: int) -> tuple[bool, ...]:
@@ -154,7 +163,7 @@ def _names(given: Any) -> list[str]:
     if given is None:
         raise NotYet(NOTHING_RETURNED, hint="no-return")
     if not isinstance(given, list | tuple | set) or not all(isinstance(e, str) for e in given):
-        raise NotYet(f"Expected a list of names, got {named(given)}.", hint="begin")
+        raise NotYet(_("Expected a list of names, got {got}.", got=named(given)), hint="begin")
     return list(given)
 
 
@@ -169,7 +178,12 @@ def _wrong(number: int, used: list[str], right: list[str], got: list[str], littl
     elif set(right) < set(got):
         hint = "little" if set(got) - set(right) == {little} else "side"
     return NotYet(
-        f"Policy {number + 1} looks at {', '.join(used) or 'nothing'}. Expected {right!r}, got "
-        f"{got!r}.",
+        _(
+            "Policy {number} looks at {used}. Expected {right}, got {got}.",
+            number=number + 1,
+            used=", ".join(used) or _("nothing"),
+            right=repr(right),
+            got=repr(got),
+        ),
         hint=hint,
     )

@@ -31,6 +31,7 @@ from ai4u_edu.lessons.numeric import (
 )
 from ai4u_edu.lessons.rollouts import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 Array = npt.NDArray[np.float64]
@@ -61,7 +62,7 @@ def layers_of(path: str = ZOO) -> list[Layer]:
             continue
         needed.update(node.input)
         if node.op_type == "Gemm":
-            _, weights, bias = node.input
+            _inputs, weights, bias = node.input
             layers.append((np.array(numbers[weights], float), np.array(numbers[bias], float)))
     return layers[::-1]
 
@@ -143,23 +144,31 @@ def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
     except (TypeError, ValueError, OverflowError):
         found = np.array(np.nan)
     if found.shape != shape or not np.isfinite(found).all():
-        rows = "two rows of two numbers" if len(shape) == 2 else f"{shape[0]} numbers"
-        raise NotYet(f"`{name}`: expected {rows}, got {named(given)}.")
+        rows = _("{count} numbers", count=shape[0])
+        if len(shape) == 2:
+            rows = _("two rows of two numbers")
+        raise NotYet(
+            _("`{name}`: expected {rows}, got {got}.", name=name, rows=rows, got=named(given))
+        )
     return found
 
 
 @exercise(
     "12.1",
-    "One neuron",
+    _("One neuron"),
     hints={
-        "sum": "Multiply each input by its weight, and add all that up: "
-        "`sum(w * x for w, x in zip(weights, inputs))`. Then the bias, then `math.tanh`.",
-        "bias": "The bias is missing: add it to the sum, before `math.tanh`.",
-        "late-bias": "The bias is added once, to the sum, before `math.tanh`.",
-        "each": "The bias is added once, not once for each input: it stands outside the loop.",
-        "weights": "Each input counts as much as its weight says: multiply it by its weight.",
-        "squash": "The sum itself can be any number. A neuron's output lies between -1 and 1: "
-        "`math.tanh(...)` of the whole.",
+        "sum": _(
+            "Multiply each input by its weight, and add all that up: `sum(w * x for w, x in "
+            "zip(weights, inputs))`. Then the bias, then `math.tanh`."
+        ),
+        "bias": _("The bias is missing: add it to the sum, before `math.tanh`."),
+        "late-bias": _("The bias is added once, to the sum, before `math.tanh`."),
+        "each": _("The bias is added once, not once for each input: it stands outside the loop."),
+        "weights": _("Each input counts as much as its weight says: multiply it by its weight."),
+        "squash": _(
+            "The sum itself can be any number. A neuron's output lies between -1 and 1: "
+            "`math.tanh(...)` of the whole."
+        ),
     },
 )
 def is_a_neuron(neuron: Any) -> str:
@@ -172,43 +181,59 @@ def is_a_neuron(neuron: Any) -> str:
         got = finite_number(a_function(neuron)(list(inputs), list(weights), bias))
         if not is_close(got, np.tanh(total + bias), CLOSE):
             slips = {
-                "sum": ("the same whatever comes in", 0.0),
-                "squash": ("right without `math.tanh`", total + bias),
-                "bias": ("right without the bias", float(np.tanh(total))),
-                "late-bias": ("right if the bias came last", float(np.tanh(total)) + bias),
+                "sum": (_("the same whatever comes in"), 0.0),
+                "squash": (_("right without `math.tanh`"), total + bias),
+                "bias": (_("right without the bias"), float(np.tanh(total))),
+                "late-bias": (_("right if the bias came last"), float(np.tanh(total)) + bias),
                 "each": (
-                    "right if the bias were added for each input",
+                    _("right if the bias were added for each input"),
                     float(np.tanh(total + count * bias)),
                 ),
                 "weights": (
-                    "right without the weights",
+                    _("right without the weights"),
                     float(np.tanh(sum(inputs) + bias)),
                 ),
             }
             slip = difference(got, slips, CLOSE)
             raise NotYet(
-                f"Inputs {inputs}, weights {weights}, bias {bias}: expected "
-                f"{np.tanh(total + bias):.3f}, got {got:.3f}{slip.words}.",
+                _(
+                    "Inputs {inputs}, weights {weights}, bias {bias}: expected {tanh:.3f}, "
+                    "got {got:.3f}{words}.",
+                    inputs=inputs,
+                    weights=weights,
+                    bias=bias,
+                    tanh=np.tanh(total + bias),
+                    got=got,
+                    words=slip.words,
+                ),
                 hint=slip.name,
             )
-    return "Five neurons of different sizes, all of them right."
+    return _("Five neurons of different sizes, all of them right.")
 
 
 @exercise(
     "12.2",
-    "Two neurons by hand",
+    _("Two neurons by hand"),
     hints={
-        "begin": "All weights are 0, so whatever it senses, it does the same. Begin with the "
-        "forward neuron: a bias of 1 makes it drive, always. Then let the turn neuron look at the "
-        "sine.",
-        "swapped": "The turn neuron does not look at the sine: has a row changed places with a "
-        "column? A row is a neuron (forward, turn), a column an input (sine, cosine).",
-        "blind": "The turn neuron does not look at the sine, so it can't know the box's side: the "
-        "first number of the second row.",
-        "still": "It never drives: give the forward neuron a bias above 0.",
-        "weak": "The signs are right. Let it turn more for the same sine, or drive more slowly.",
-        "mirrored": "It turns away from the box. The sine is above 0 when the box is on the left, "
-        "and turn above 0 is to the right: the weight between them has to be below 0.",
+        "begin": _(
+            "All weights are 0, so whatever it senses, it does the same. Begin with the "
+            "forward neuron: a bias of 1 makes it drive, always. Then let the turn neuron "
+            "look at the sine."
+        ),
+        "swapped": _(
+            "The turn neuron does not look at the sine: has a row changed places with a "
+            "column? A row is a neuron (forward, turn), a column an input (sine, cosine)."
+        ),
+        "blind": _(
+            "The turn neuron does not look at the sine, so it can't know the box's side: the "
+            "first number of the second row."
+        ),
+        "still": _("It never drives: give the forward neuron a bias above 0."),
+        "weak": _("The signs are right. Let it turn more for the same sine, or drive more slowly."),
+        "mirrored": _(
+            "It turns away from the box. The sine is above 0 when the box is on the left, "
+            "and turn above 0 is to the right: the weight between them has to be below 0."
+        ),
     },
 )
 def drives_by_hand(weights: Any, bias: Any = None) -> Done:
@@ -218,9 +243,13 @@ def drives_by_hand(weights: Any, bias: Any = None) -> Done:
     worlds = 20
     for done in drives(lambda: by_hand(weights, bias), None, seeds_of("12.2", worlds), limit=300):
         if not done.won:
-            how = "fell" if done.fell else "did not get there"
-            raise done.not_yet(f"The robot {how} ({{where}}).", _wiring(weights, bias))
-    return Done(f"With six numbers it found the box in {worlds} worlds.", done.picture())
+            how = _("fell") if done.fell else _("did not get there")
+            raise done.not_yet(
+                _("The robot {how} ({where}).", how=how, where=done.where), _wiring(weights, bias)
+            )
+    return Done(
+        _("With six numbers it found the box in {worlds} worlds.", worlds=worlds), done.picture()
+    )
 
 
 def _wiring(weights: Any, bias: Any) -> str:
@@ -239,15 +268,21 @@ def _wiring(weights: Any, bias: Any) -> str:
 
 @exercise(
     "12.3",
-    "All of it",
+    _("All of it"),
     hints={
-        "begin": "Go through the layers: `for weights, bias in layers`. What comes out of one goes "
-        "into the next: `signal = weights @ signal + bias`.",
-        "between": "Without `np.tanh` between the layers all of them together can do no more than "
-        "one. Squash what comes out of each layer but the last.",
-        "biases": "The biases are missing: `weights @ signal + bias`.",
-        "last": "The last layer is not squashed here: what it says is the action as it is. Leave "
-        "`np.tanh` out after it.",
+        "begin": _(
+            "Go through the layers: `for weights, bias in layers`. What comes out of one "
+            "goes into the next: `signal = weights @ signal + bias`."
+        ),
+        "between": _(
+            "Without `np.tanh` between the layers all of them together can do no more than "
+            "one. Squash what comes out of each layer but the last."
+        ),
+        "biases": _("The biases are missing: `weights @ signal + bias`."),
+        "last": _(
+            "The last layer is not squashed here: what it says is the action as it is. Leave "
+            "`np.tanh` out after it."
+        ),
     },
 )
 def thinks(think: Any) -> Done:
@@ -270,8 +305,14 @@ def thinks(think: Any) -> Done:
             }
             near = (name for name, each in slips.items() if is_close(got, each, CLOSE))
             raise NotYet(
-                f"A network with {len(layers)} layers, {sizes[0]} inputs: expected "
-                f"{right.round(2).tolist()}, got {got.round(2).tolist()}.",
+                _(
+                    "A network with {count} layers, {sizes} inputs: expected {tolist}, got "
+                    "{tolist2}.",
+                    count=len(layers),
+                    sizes=sizes[0],
+                    tolist=right.round(2).tolist(),
+                    tolist2=got.round(2).tolist(),
+                ),
                 hint=next(near, ""),
             )
     layers = layers_of()
@@ -282,8 +323,13 @@ def thinks(think: Any) -> Done:
     brain = LocalBrain(controller=drive, skip_frame=9)
     for done in drives("box_chase", brain, seeds_of("12.3", 5), limit=100):
         if not done.won:
-            raise done.not_yet("With the weights of the box chase it did not get there ({where}).")
-    return Done("Your lines do what the network does, and drive to the box.", done.picture())
+            raise done.not_yet(
+                _(
+                    "With the weights of the box chase it did not get there ({where}).",
+                    where=done.where,
+                )
+            )
+    return Done(_("Your lines do what the network does, and drive to the box."), done.picture())
 
 
 def _through(
@@ -302,24 +348,26 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "The sum doubles, and then `tanh` squashes it: the output stays below 1.",
-            "c": "`tanh` squashes a larger sum to a larger output, as long as there is room below "
-            "1.",
+            "a": _("The sum doubles, and then `tanh` squashes it: the output stays below 1."),
+            "c": _(
+                "`tanh` squashes a larger sum to a larger output, as long as there is room below 1."
+            ),
         },
     ),
     Question(
         "a",
         {
-            "b": "Each row is one neuron, and gives one output. So how many come out?",
-            "c": "The table has 15 weights. Each row is multiplied by the same inputs.",
+            "b": _("Each row is one neuron, and gives one output. So how many come out?"),
+            "c": _("The table has 15 weights. Each row is multiplied by the same inputs."),
         },
     ),
     Question(
         "c",
         {
-            "a": "Without squashing, two tables can be multiplied into one. Something is lost.",
-            "b": "The numbers still fit, so Python does not complain. That makes it hard to "
-            "notice.",
+            "a": _("Without squashing, two tables can be multiplied into one. Something is lost."),
+            "b": _(
+                "The numbers still fit, so Python does not complain. That makes it hard to notice."
+            ),
         },
     ),
 )

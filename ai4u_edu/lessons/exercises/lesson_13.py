@@ -10,7 +10,7 @@ import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.base.errors import BlockError
+from ai4u_edu.base.errors import BlockError, text_of
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks import (
     FallReward,
@@ -29,6 +29,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import from_plain
 
@@ -80,17 +81,25 @@ def blinded(*keys: str) -> LocalBrain:
 
 @exercise(
     "13.1",
-    "A brain for each file",
+    _("A brain for each file"),
     hints={
-        "controller": "A controller alone does not decide when it is asked. Put it into a brain: "
-        "`LocalBrain(controller=...)`.",
-        "begin": "A brain is needed, with a controller in it that asks the network: "
-        "`LocalBrain(controller=NeuralNetController(model_path=path))`.",
-        "default": "It is asked more or less often than it learned to be: you left `skip_frame` as "
-        'it is. `controller.network.about["skip_frame"]` is the one of its training.',
-        "fixed": "The number of ticks fits one network and not the others. Ask each network: "
-        '`controller.network.about["skip_frame"]`.',
-        "path": "It is the same network for each robot. Use the `path` that you are given.",
+        "controller": _(
+            "A controller alone does not decide when it is asked. Put it into a brain: "
+            "`LocalBrain(controller=...)`."
+        ),
+        "begin": _(
+            "A brain is needed, with a controller in it that asks the network: "
+            "`LocalBrain(controller=NeuralNetController(model_path=path))`."
+        ),
+        "default": _(
+            "It is asked more or less often than it learned to be: you left `skip_frame` as "
+            'it is. `controller.network.about["skip_frame"]` is the one of its training.'
+        ),
+        "fixed": _(
+            "The number of ticks fits one network and not the others. Ask each network: "
+            '`controller.network.about["skip_frame"]`.'
+        ),
+        "path": _("It is the same network for each robot. Use the `path` that you are given."),
     },
 )
 def is_a_brain(driver: Any) -> Done:
@@ -99,7 +108,9 @@ def is_a_brain(driver: Any) -> Done:
     interval = int(chance_for("13.1", driver).integers(10, 30))
     with TemporaryDirectory() as folder:
         told = _told_of_brains(make, _network_of_interval(interval, Path(folder)))
-    return Done(f"Each at the interval of its training. Worlds won: {', '.join(told)}.")
+    return Done(
+        _("Each at the interval of its training. Worlds won: {listed}.", listed=", ".join(told))
+    )
 
 
 def _told_of_brains(make: Callable[..., Any], unknown: Path) -> list[str]:
@@ -109,7 +120,7 @@ def _told_of_brains(make: Callable[..., Any], unknown: Path) -> list[str]:
         make: a student's function.
         unknown: a network whose interval no message has told.
     """
-    told = []
+    told: list[str] = []
     for scene in (*SCENES, ""):
         path = f"zoo:{scene}" if scene else str(unknown)
         wanted = NeuralNetController(model_path=path).network.about["skip_frame"]
@@ -117,20 +128,27 @@ def _told_of_brains(make: Callable[..., Any], unknown: Path) -> list[str]:
         if brain.skip_frame != wanted:
             if not scene:
                 raise NotYet(
-                    "A fourth network, which is in no library, decided at another interval when it "
-                    "learned than your brain asks it.",
+                    _(
+                        "A fourth network, which is in no library, decided at another "
+                        "interval when it learned than your brain asks it."
+                    ),
                     hint="fixed",
                 )
             default = brain.skip_frame == LocalBrain(controller=lambda _: {}).skip_frame
             raise NotYet(
-                f"The network {path} decided every {wanted + 1} ticks when it learned. Your brain "
-                f"asks it every {brain.skip_frame + 1} ticks.",
+                _(
+                    "The network {path} decided every {wanted} ticks when it learned. Your "
+                    "brain asks it every {skip_frame} ticks.",
+                    path=path,
+                    wanted=wanted + 1,
+                    skip_frame=brain.skip_frame + 1,
+                ),
                 hint="default" if default and scene == SCENES[0] else "fixed",
             )
         if scene:
             worlds = seeds_of("13.1", 5)
             won = sum(each.won for each in drives(scene, brain, worlds, limit=200))
-            told.append(f"{scene} {won} of {len(worlds)}")
+            told.append(_("{scene} {won} of {count}", scene=scene, won=won, count=len(worlds)))
     return told
 
 
@@ -157,38 +175,51 @@ def _brain_of(given: Any, path: str) -> LocalBrain:
     """Return a student's brain, if it asks the network at a path."""
     if given is None:
         raise NotYet(
-            "Your function returned nothing (None). Is `return` missing?", hint="no-return"
+            _("Your function returned nothing (None). Is `return` missing?"), hint="no-return"
         )
     if isinstance(given, NeuralNetController):
-        raise NotYet(f"For {path} you returned a controller alone.", hint="controller")
+        raise NotYet(_("For {path} you returned a controller alone.", path=path), hint="controller")
     if not isinstance(given, LocalBrain):
-        raise NotYet(f"Expected a `LocalBrain`, got {named(given)}.", hint="begin")
+        raise NotYet(_("Expected a `LocalBrain`, got {got}.", got=named(given)), hint="begin")
     controller = given.controller
     if not isinstance(controller, NeuralNetController):
         raise NotYet(
-            f"The brain for {path} asks no `NeuralNetController`, but something else.",
+            _("The brain for {path} asks no `NeuralNetController`, but something else.", path=path),
             hint="begin",
         )
     if controller.model_path != path:
-        raise NotYet(f"The brain for {path} asks the network {controller.model_path}.", hint="path")
+        raise NotYet(
+            _(
+                "The brain for {path} asks the network {model_path}.",
+                path=path,
+                model_path=controller.model_path,
+            ),
+            hint="path",
+        )
     return given
 
 
 @exercise(
     "13.2",
-    "What it looks at",
+    _("What it looks at"),
     hints={
-        "same": "Both times it is asked about the same percept. The second time the reading `key` "
-        "should be zeros: `{**percept, key: 0 * percept[key]}` is such a percept.",
-        "begin": "That is the turn without the reading. By how much does it differ from the turn "
-        "with it?",
-        "spoiled": "You changed the percept that you were given: it is not yours alone. Make a new "
-        "one: `{**percept, key: ...}`.",
-        "forward": "That is how much *forward* changes. Turn is the second number: `[1]`.",
-        "signed": "A change to the left counts as much as one to the right: `abs(...)`.",
-        "part": "All numbers of the reading have to be 0, not only the first one.",
-        "ones": "Zeros are asked for, not ones.",
-        "other": "Everything but `key` is zeros in your percept. Only `key` should be.",
+        "same": _(
+            "Both times it is asked about the same percept. The second time the reading "
+            "`key` should be zeros: `{**percept, key: 0 * percept[key]}` is such a percept."
+        ),
+        "begin": _(
+            "That is the turn without the reading. By how much does it differ from the turn "
+            "with it?"
+        ),
+        "spoiled": _(
+            "You changed the percept that you were given: it is not yours alone. Make a new "
+            "one: `{**percept, key: ...}`."
+        ),
+        "forward": _("That is how much *forward* changes. Turn is the second number: `[1]`."),
+        "signed": _("A change to the left counts as much as one to the right: `abs(...)`."),
+        "part": _("All numbers of the reading have to be 0, not only the first one."),
+        "ones": _("Zeros are asked for, not ones."),
+        "other": _("Everything but `key` is zeros in your percept. Only `key` should be."),
     },
 )
 def measures_influence(influence: Any) -> str:
@@ -208,16 +239,18 @@ def measures_influence(influence: Any) -> str:
         key = list(shapes)[case % 3]
         given = {name: each.copy() for name, each in percept.items()}
         got = finite_number(measure(ask, given, key))
-        _compare_influence(ask, percept, key, got, f"`{key}` of {shapes[key]} numbers")
+        _compare_influence(
+            ask, percept, key, got, _("`{key}` of {shape} numbers", key=key, shape=str(shapes[key]))
+        )
         if any(not np.array_equal(given[name], each) for name, each in percept.items()):
-            raise NotYet("After the call the percept is another one.", hint="spoiled")
+            raise NotYet(_("After the call the percept is another one."), hint="spoiled")
     percepts = percepts_of(count=10)
     found = {
         key: np.mean([finite_number(measure(decide, dict(each), key)) for each in percepts])
         for key in ("vision", "orientation", "last_action")
     }
     told = ", ".join(f"{key} {each:.2f}" for key, each in found.items())
-    return f"Six percepts, all right. For the box chase's network: {told}."
+    return _("Six percepts, all right. For the box chase's network: {told}.", told=told)
 
 
 def _compare_influence(
@@ -238,42 +271,56 @@ def _compare_influence(
     first_row[0] = 0
     others = {name: 0 * each for name, each in percept.items() if name != key}
     slips = {
-        "same": ("no change at all", 0.0),
-        "signed": ("right but for its sign", -right),
-        "forward": ("the change of the first number, forward", abs(after[0] - before[0])),
+        "same": (_("no change at all"), 0.0),
+        "signed": (_("right but for its sign"), -right),
+        "forward": (_("the change of the first number, forward"), abs(after[0] - before[0])),
         "part": (
-            "right if only its first number were 0",
+            _("right if only its first number were 0"),
             abs(asked(**{key: first})[1] - before[1]),
         ),
         "ones": (
-            "right if the reading were ones",
+            _("right if the reading were ones"),
             abs(asked(**{key: 0 * percept[key] + 1})[1] - before[1]),
         ),
-        "other": ("right if all others were zeros", abs(asked(**others)[1] - before[1])),
-        "begin": ("the turn without the reading", after[1]),
+        "other": (_("right if all others were zeros"), abs(asked(**others)[1] - before[1])),
+        "begin": (_("the turn without the reading"), after[1]),
     }
     slip = difference(got, slips, 1e-6)
     name = slip.name
     if not name and is_close(got, abs(asked(**{key: first_row})[1] - before[1]), 1e-6):
         name = "part"
     raise NotYet(
-        f"Without {which} the turn goes from {before[1]:.3f} to {after[1]:.3f}: expected "
-        f"{right:.3f}, got {got:.3f}{slip.words}.",
+        _(
+            "Without {which} the turn goes from {before:.3f} to {after:.3f}: expected "
+            "{right:.3f}, got {got:.3f}{words}.",
+            which=which,
+            before=before[1],
+            after=after[1],
+            right=right,
+            got=got,
+            words=slip.words,
+        ),
         hint=name,
     )
 
 
 @exercise(
     "13.3",
-    "Sensors that fit",
+    _("Sensors that fit"),
     hints={
-        "missing": "The message says which sensor is missing, and of which type it was. Add it to "
-        "the list, with the perception key that stands in quotes: `perception_key=...`.",
-        "shape": "A sensor has the right name, but gives another number of readings. The network's "
-        "inputs are (4, 2, 3, 5): 4 moments (`stacked_observations`), 2 numbers a ray (with "
-        "`return_distance`), 3 rows, 5 columns.",
-        "meaning": "The shapes fit, and yet it does not get there: the numbers mean something else "
-        "than they did when it learned.",
+        "missing": _(
+            "The message says which sensor is missing, and of which type it was. Add it to "
+            "the list, with the perception key that stands in quotes: `perception_key=...`."
+        ),
+        "shape": _(
+            "A sensor has the right name, but gives another number of readings. The "
+            "network's inputs are (4, 2, 3, 5): 4 moments (`stacked_observations`), 2 "
+            "numbers a ray (with `return_distance`), 3 rows, 5 columns."
+        ),
+        "meaning": _(
+            "The shapes fit, and yet it does not get there: the numbers mean something else "
+            "than they did when it learned."
+        ),
     },
 )
 def fits(senses: Any) -> Done:
@@ -287,9 +334,13 @@ def fits(senses: Any) -> Done:
             won += done.won
     except BlockError as error:
         hint = "shape" if "has the shape" in str(error) else "missing"
-        raise NotYet(f"It does not fit: {error}", hint=hint) from None
+        raise NotYet(_("It does not fit: {error}", error=text_of(error)), hint=hint) from None
     return Done(
-        f"The same readings as where it learned; it finds the box in {won} of {worlds} worlds.",
+        _(
+            "The same readings as where it learned; it finds the box in {won} of {worlds} worlds.",
+            won=won,
+            worlds=worlds,
+        ),
         done.picture(),
     )
 
@@ -308,16 +359,20 @@ def _compare(sensors: Sequence[Sensor]) -> None:
     for seed in seeds_of("13.3", 6):
         theirs.reset(seed)
         yours.reset(seed)
-        for _ in range(6):
+        for _number in range(6):
             for key in described:
                 wanted, got = (each.agents[0].percept.get(key) for each in (theirs, yours))
                 if got is None or wanted is None or np.shape(got) != np.shape(wanted):
                     return  # the network itself says so, with the type of the sensor
                 if not is_close(got, wanted, 1e-4):
                     raise NotYet(
-                        f"It fits, and nobody complains. But with seed {seed} `{key}` reads other "
-                        "numbers than the sensor with which the network learned: it is told "
-                        "something else than it believes.",
+                        _(
+                            "It fits, and nobody complains. But with seed {seed} `{key}` "
+                            "reads other numbers than the sensor with which the network "
+                            "learned: it is told something else than it believes.",
+                            seed=seed,
+                            key=key,
+                        ),
                         hint="meaning",
                     )
             if theirs.agents[0].done:
@@ -331,23 +386,25 @@ exit_ticket(
     Question(
         "c",
         {
-            "a": "Shapes are checked, and they fit. The rhythm is not checked.",
-            "b": "Nothing in the file changes while it drives: it has stopped learning.",
+            "a": _("Shapes are checked, and they fit. The rhythm is not checked."),
+            "b": _("Nothing in the file changes while it drives: it has stopped learning."),
         },
     ),
     Question(
         "a",
         {
-            "b": "It compares names and shapes. Swapped codes have the same shape.",
-            "c": "A network multiplies and adds whatever comes in. It can't refuse anything.",
+            "b": _("It compares names and shapes. Swapped codes have the same shape."),
+            "c": _("A network multiplies and adds whatever comes in. It can't refuse anything."),
         },
     ),
     Question(
         "b",
         {
-            "a": "A large influence is not yet a need: the box chase's network usually got along "
-            "without it.",
-            "c": "You have not measured the others. Several readings can matter at once.",
+            "a": _(
+                "A large influence is not yet a need: the box chase's network usually got "
+                "along without it."
+            ),
+            "c": _("You have not measured the others. Several readings can matter at once."),
         },
     ),
 )

@@ -22,6 +22,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for, finite_number, is_close
 from ai4u_edu.lessons.rollouts import seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
 
 WALKERS, GOOD_WALKERS = 20, 10
 LAST, GOOD = 20, 0.9
@@ -32,18 +33,25 @@ LATE = 0.05
 
 @exercise(
     "14.1",
-    "Explore, then use it",
+    _("Explore, then use it"),
     call_limit_s=30,
     hints={
-        "none": "It never tries anything new, so it stays with the reward that it found first. "
-        "Begin with a large probability.",
-        "always": "It still tries things when it knows the way. Let the probability fall to 0, or "
-        "nearly, before the last walks.",
-        "short": "It stops trying before it has found the far reward, in too many of the worlds. "
-        "Begin with more, or let it fall more slowly.",
-        "reversed": "It tries more and more. It should be the other way round: try while nothing "
-        "is known.",
-        "percent": "A probability lies between 0 and 1.",
+        "none": _(
+            "It never tries anything new, so it stays with the reward that it found first. "
+            "Begin with a large probability."
+        ),
+        "always": _(
+            "It still tries things when it knows the way. Let the probability fall to 0, or "
+            "nearly, before the last walks."
+        ),
+        "short": _(
+            "It stops trying before it has found the far reward, in too many of the worlds. "
+            "Begin with more, or let it fall more slowly."
+        ),
+        "reversed": _(
+            "It tries more and more. It should be the other way round: try while nothing is known."
+        ),
+        "percent": _("A probability lies between 0 and 1."),
     },
 )
 def explores(epsilon: Any) -> Done | str:
@@ -52,15 +60,19 @@ def explores(epsilon: Any) -> Done | str:
     chances = [finite_number(schedule(walk, WALKS)) for walk in range(WALKS)]
     outside = [each for each in chances if not 0 <= each <= 1]
     if outside:
-        raise NotYet(f"Your function gave {outside[0]:g}.", hint="percent")
+        raise NotYet(_("Your function gave {outside:g}.", outside=outside[0]), hint="percent")
     good = found = 0
     for seed in seeds_of("14.1", WALKERS):
         walks = explore(schedule, seed)
         good += float(np.mean(walks.returns[-LAST:])) >= GOOD * BEST
         found += bool(walks.values[2, 1] > walks.values[2, 0])
-    told = (
-        f"{found} of {WALKERS} walkers learned that the far reward is better; {good} went straight "
-        f"to it in their last {LAST} walks."
+    told = _(
+        "{found} of {walkers} walkers learned that the far reward is better; {good} went "
+        "straight to it in their last {last} walks.",
+        found=found,
+        walkers=WALKERS,
+        good=good,
+        last=LAST,
     )
     if good >= GOOD_WALKERS:
         return told
@@ -69,29 +81,44 @@ def explores(epsilon: Any) -> Done | str:
         hint = "reversed" if late > 1.5 * early and late > early + 0.1 else "always"
     else:
         hint = "short" if any(chances) else "none"
-    raise NotYet(f"{told} {GOOD_WALKERS} are needed.", hint=hint)
+    raise NotYet(
+        _("{told} {good_walkers} are needed.", told=told, good_walkers=GOOD_WALKERS), hint=hint
+    )
 
 
 @exercise(
     "14.2",
-    "Policy gradient",
+    _("Policy gradient"),
     hints={
-        "begin": "The preferences come back as they were. Go through the episode from its end: "
-        "`for cell, action, reward in reversed(episode)`.",
-        "sign": "It goes the wrong way: what paid becomes less probable. Add the step.",
-        "onehot": "Only the action that was taken is changed. All preferences of the cell go down "
-        "by `rate * worth * probability`, and the one of the taken action goes up by "
-        "`rate * worth` besides.",
-        "reward": "Only the reward of the step itself counts with you. In this corridor all steps "
-        "but the last one have none: count what came after, too, discounted.",
-        "undiscounted": "Later rewards count as much as early ones: `worth = reward + discount * "
-        "worth`, from the end of the episode to its beginning.",
-        "past": "You multiply each step by the whole episode's return. That learns as well, only "
-        "with more noise: a step can't change what was paid before it. Count from this step on.",
-        "forward": "The returns are summed up from the wrong end. Begin with the last step.",
-        "probability": "You multiply by the probability of the action. The gradient of its "
-        "*logarithm* is wanted: 1 minus the probability, for the action that was taken.",
-        "rate": "The learning rate is missing.",
+        "begin": _(
+            "The preferences come back as they were. Go through the episode from its end: "
+            "`for cell, action, reward in reversed(episode)`."
+        ),
+        "sign": _("It goes the wrong way: what paid becomes less probable. Add the step."),
+        "onehot": _(
+            "Only the action that was taken is changed. All preferences of the cell go down "
+            "by `rate * worth * probability`, and the one of the taken action goes up by "
+            "`rate * worth` besides."
+        ),
+        "reward": _(
+            "Only the reward of the step itself counts with you. In this corridor all steps "
+            "but the last one have none: count what came after, too, discounted."
+        ),
+        "undiscounted": _(
+            "Later rewards count as much as early ones: `worth = reward + discount * worth`, "
+            "from the end of the episode to its beginning."
+        ),
+        "past": _(
+            "You multiply each step by the whole episode's return. That learns as well, only "
+            "with more noise: a step can't change what was paid before it. Count from this "
+            "step on."
+        ),
+        "forward": _("The returns are summed up from the wrong end. Begin with the last step."),
+        "probability": _(
+            "You multiply by the probability of the action. The gradient of its *logarithm* "
+            "is wanted: 1 minus the probability, for the action that was taken."
+        ),
+        "rate": _("The learning rate is missing."),
     },
 )
 def follows_the_gradient(reinforce: Any) -> str:
@@ -120,14 +147,25 @@ def follows_the_gradient(reinforce: Any) -> str:
         if not any(is_close(got, each, 1e-6) for each in right):
             cell = int(np.abs(got - right[0]).sum(axis=1).argmax())
             raise NotYet(
-                f"An episode of {length} steps, rate {rate}, discount {discount}: the preferences "
-                f"of cell {cell} should become {_rounded(right[0][cell])}, and become "
-                f"{_rounded(got[cell])}.",
+                _(
+                    "An episode of {length} steps, rate {rate}, discount {discount}: the "
+                    "preferences of cell {cell} should become {expected}, and become "
+                    "{found}.",
+                    length=length,
+                    rate=rate,
+                    discount=discount,
+                    cell=cell,
+                    expected=str(_rounded(right[0][cell])),
+                    found=str(_rounded(got[cell])),
+                ),
                 hint=_gradient_mistake(before, episode, rate, discount, got),
             )
     returns = [np.mean(learn(update, seed=seed)[0][-50:]) for seed in seeds_of("14.2", 5)]
     told = ", ".join(f"{each:.0f}" for each in returns)
-    return f"Four episodes, all right. Five trainings ended at {told} percent of the best return."
+    return _(
+        "Four episodes, all right. Five trainings ended at {told} percent of the best return.",
+        told=told,
+    )
 
 
 CALMS, MAX_FALSE = 200, 24
@@ -163,7 +201,7 @@ def _updated(
     after = preferences.copy()
     steps = list(range(len(episode)))
     for number in reversed(steps) if order == "backward" else steps:
-        cell, action, _ = episode[number]
+        cell, action, _reward = episode[number]
         worth = (worth_of or _worth)(episode, number, discount)
         chances = softmax((preferences if order == "once" else after)[cell])
         step = (gradient or _gradient)(chances, action)
@@ -191,7 +229,7 @@ def _gradient_mistake(
 
     def sums_forward(steps: Episode, number: int, discount: float) -> float:
         worth = 0.0
-        for _, _, reward in steps[: number + 1]:
+        for *_steps, reward in steps[: number + 1]:
             worth = reward + discount * worth
         return worth
 
@@ -225,18 +263,24 @@ def _gradient_mistake(
 
 @exercise(
     "14.3",
-    "May you claim it?",
+    _("May you claim it?"),
     hints={
-        "mean": "The larger mean is not enough: two equally good methods never have the same mean. "
-        "How large is the difference, compared with its noise?",
-        "timid": "It misses a difference that many runs show. The mean of n runs varies less than "
-        "a single run: by the standard deviation divided by the square root of n.",
-        "reversed": "It claims the one with the lower results.",
-        "one-sided": "Sometimes the second one is better. Say `second` then.",
-        "few": "With few runs your function claims too much. Count how often it claims something "
-        "about two equally good methods: at most about one time in ten.",
-        "name": 'Return "first", "second" or "unclear".',
-        "idle": '"unclear" alone is never wrong, and never of any use.',
+        "mean": _(
+            "The larger mean is not enough: two equally good methods never have the same "
+            "mean. How large is the difference, compared with its noise?"
+        ),
+        "timid": _(
+            "It misses a difference that many runs show. The mean of n runs varies less than "
+            "a single run: by the standard deviation divided by the square root of n."
+        ),
+        "reversed": _("It claims the one with the lower results."),
+        "one-sided": _("Sometimes the second one is better. Say `second` then."),
+        "few": _(
+            "With few runs your function claims too much. Count how often it claims "
+            "something about two equally good methods: at most about one time in ten."
+        ),
+        "name": _('Return "first", "second" or "unclear".'),
+        "idle": _('"unclear" alone is never wrong, and never of any use.'),
     },
 )
 def claims(claim: Any) -> str:
@@ -248,10 +292,16 @@ def claims(claim: Any) -> str:
     for name, runs, distance in (("large", 5, 5.0), ("small", 50, 1.0)):
         found[name] = _counts(judge, chance, CLEAR, [runs], distance)
     claimed = false["right"] + false["wrong"]
-    told = (
-        f"Two equally good methods: {claimed} claims in {CALMS} comparisons. A difference of 5 "
-        f"standard deviations, 5 runs each: found in {found['large']['right']} of {CLEAR}. Of 1, "
-        f"with 50 runs each: found in {found['small']['right']} of {CLEAR}."
+    large, small = found["large"]["right"], found["small"]["right"]
+    told = _(
+        "Two equally good methods: {claimed} claims in {calms} comparisons. A difference "
+        "of 5 standard deviations, 5 runs each: found in {large} of {clear}. Of 1, with "
+        "50 runs each: found in {small} of {clear}.",
+        claimed=claimed,
+        calms=CALMS,
+        large=large,
+        clear=CLEAR,
+        small=small,
     )
     if claimed > MAX_FALSE:
         raise NotYet(told, hint="mean" if claimed > CALMS / 2 else "few")
@@ -287,7 +337,7 @@ def _counts(
         distance: between the methods' means, in standard deviations.
     """
     counts = {"right": 0, "wrong": 0, "second": 0}
-    for _ in range(comparisons):
+    for _number in range(comparisons):
         count, deviation, middle = (
             chance.choice(runs),
             chance.uniform(3, 12),
@@ -300,7 +350,14 @@ def _counts(
         if said is None:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not isinstance(said, str) or said not in CLAIMS:
-            raise NotYet(f"Expected one of {', '.join(CLAIMS)}, got {named(said)}.", hint="name")
+            raise NotYet(
+                _(
+                    "Expected one of {listed}, got {got}.",
+                    listed=", ".join(CLAIMS),
+                    got=named(said),
+                ),
+                hint="name",
+            )
         better = "first" if ahead > 0 else "second"
         counts["second"] += said == "second"
         if said != "unclear":
@@ -310,22 +367,32 @@ def _counts(
 
 @exercise(
     "14.4",
-    "A game of several agents",
+    _("A game of several agents"),
     hints={
-        "begin": "Begin with `env.reset(seed=seed)`. Then, as long as `env.agents` is not empty, "
-        "give `env.step` an action for each of them, and add up the rewards.",
-        "first": "You stop when the first agent is out. The others go on: play until `env.agents` "
-        "is empty.",
-        "over": "You look at the terminations only. An agent can also be cut off by time: that is "
-        "a truncation. `env.agents` has those that are left, whatever the reason.",
-        "actions": "`step` needs an action for each agent in `env.agents`.",
-        "stale": "The actions answer old observations. `step` returns new ones: keep them.",
-        "policy": "Each agent has its own policy: `policies[name](observations[name])`.",
-        "seed": "The game has to begin with the seed that you are given: `env.reset(seed=seed)`.",
-        "lost": "The last reward of an agent that is out is missing. After `step`, `env.agents` "
-        "has only those that are left: go through `rewards` in place of it.",
-        "last": "That is the reward of the last step. Add up the rewards of all steps.",
-        "all": "One number for all is not enough: a dictionary with the total of each agent.",
+        "begin": _(
+            "Begin with `env.reset(seed=seed)`. Then, as long as `env.agents` is not empty, "
+            "give `env.step` an action for each of them, and add up the rewards."
+        ),
+        "first": _(
+            "You stop when the first agent is out. The others go on: play until `env.agents` "
+            "is empty."
+        ),
+        "over": _(
+            "You look at the terminations only. An agent can also be cut off by time: that "
+            "is a truncation. `env.agents` has those that are left, whatever the reason."
+        ),
+        "actions": _("`step` needs an action for each agent in `env.agents`."),
+        "stale": _("The actions answer old observations. `step` returns new ones: keep them."),
+        "policy": _("Each agent has its own policy: `policies[name](observations[name])`."),
+        "seed": _(
+            "The game has to begin with the seed that you are given: `env.reset(seed=seed)`."
+        ),
+        "lost": _(
+            "The last reward of an agent that is out is missing. After `step`, `env.agents` "
+            "has only those that are left: go through `rewards` in place of it."
+        ),
+        "last": _("That is the reward of the last step. Add up the rewards of all steps."),
+        "all": _("One number for all is not enough: a dictionary with the total of each agent."),
     },
 )
 def plays(play: Any) -> str:
@@ -344,8 +411,10 @@ def plays(play: Any) -> str:
     got = _totals(run(env, policies, seed), list(env.possible_agents))
     wanted = _reference(parallel_env("tag", max_cycles=60), policies, seed)
     if not all(is_close(got[name], wanted[name], 1e-4) for name in wanted):
-        raise NotYet(f"A game of tag: expected {wanted}, got {got}.")
-    return "Six games with three agents, and a game of tag: all totals are right."
+        raise NotYet(
+            _("A game of tag: expected {wanted}, got {got}.", wanted=str(wanted), got=str(got))
+        )
+    return _("Six games with three agents, and a game of tag: all totals are right.")
 
 
 def _still(_: Any) -> Any:
@@ -354,10 +423,10 @@ def _still(_: Any) -> Any:
 
 def _reference(env: Any, policies: Mapping[str, Callable[[Any], Any]], seed: int) -> dict[str, Any]:
     totals = dict.fromkeys(env.possible_agents, 0.0)
-    observations, _ = env.reset(seed=seed)
+    observations, _info = env.reset(seed=seed)
     while env.agents:
         actions = {name: policies[name](observations[name]) for name in env.agents}
-        observations, rewards, _, _, _ = env.step(actions)
+        observations, rewards, *_more = env.step(actions)
         for name, reward in rewards.items():
             totals[name] += float(reward)
     return totals
@@ -382,8 +451,11 @@ def _totals(given: Any, names: list[str]) -> dict[str, float]:
         raise NotYet(NOTHING_RETURNED, hint="no-return")
     if not isinstance(given, Mapping) or set(given) != set(names):
         raise NotYet(
-            f"Expected a dictionary with a total for each of {', '.join(names)}, got "
-            f"{named(given)}.",
+            _(
+                "Expected a dictionary with a total for each of {listed}, got {got}.",
+                listed=", ".join(names),
+                got=named(given),
+            ),
             hint="all",
         )
     return {name: finite_number(given[name]) for name in names}
@@ -392,13 +464,16 @@ def _totals(given: Any, names: list[str]) -> dict[str, float]:
 def _expect_totals(given: Any, game: Watched, seed: int) -> None:
     """Raise NotYet if the totals of a game are not right, or the game was not played to its end."""
     if not game.totals:
-        raise NotYet("The game has not begun: `reset` was not called.", hint="begin")
+        raise NotYet(_("The game has not begun: `reset` was not called."), hint="begin")
     if game.seed != seed:
-        raise NotYet(f"The game began with the seed {game.seed}, not {seed}.", hint="seed")
+        raise NotYet(
+            _("The game began with the seed {seed}, not {seed2}.", seed=str(game.seed), seed2=seed),
+            hint="seed",
+        )
     if game.agents:
         out = len(game.possible_agents) - len(game.agents)
         raise NotYet(
-            f"The game was not over: {', '.join(game.agents)} still took part.",
+            _("The game was not over: {listed} still took part.", listed=", ".join(game.agents)),
             hint="first" if out else "begin",
         )
     got = _totals(given, game.possible_agents)
@@ -413,8 +488,13 @@ def _expect_totals(given: Any, game: Watched, seed: int) -> None:
     elif all(is_close(got[name], game.totals[name], 1e-6) for name in wanted):
         hint = "policy" if game.totals[game.possible_agents[0]] > 0 else "stale"
     raise NotYet(
-        f"Seed {seed}: with your actions right at each step the totals are {wanted}; you got "
-        f"{got}.",
+        _(
+            "Seed {seed}: with your actions right at each step the totals are {wanted}; you "
+            "got {got}.",
+            seed=seed,
+            wanted=str(wanted),
+            got=str(got),
+        ),
         hint=hint,
     )
 
@@ -424,23 +504,29 @@ exit_ticket(
     Question(
         "c",
         {
-            "a": "What looks best is the small reward, from the first time on. Why should it ever "
-            "go elsewhere?",
-            "b": "It does learn from what it does. It finds the small reward, and stays with it.",
+            "a": _(
+                "What looks best is the small reward, from the first time on. Why should it "
+                "ever go elsewhere?"
+            ),
+            "b": _(
+                "It does learn from what it does. It finds the small reward, and stays with it."
+            ),
         },
     ),
     Question(
         "b",
         {
-            "a": "The step is the return times the gradient. What is the return here?",
-            "c": "That would need a return above 0.",
+            "a": _("The step is the return times the gradient. What is the return here?"),
+            "c": _("That would need a return above 0."),
         },
     ),
     Question(
         "a",
         {
-            "b": "The means differ by less than 4, the runs of one method by more than 20.",
-            "c": "Three runs can't show that either: a real difference may be hidden in the noise.",
+            "b": _("The means differ by less than 4, the runs of one method by more than 20."),
+            "c": _(
+                "Three runs can't show that either: a real difference may be hidden in the noise."
+            ),
         },
     ),
 )

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from ai4u_edu.lessons.exercise import NotYet
 from ai4u_edu.lessons.numeric import finite_number
+from ai4u_edu.locale import gettext as _
 
 Array = npt.NDArray[np.float64]
 Episode = list[tuple[int, int, float]]
@@ -100,7 +101,7 @@ def learn(
     chance = np.random.default_rng(seed)
     preferences: Array = np.zeros((CELLS, 2))
     returns = []
-    for _ in range(EPISODES):
+    for _number in range(EPISODES):
         episode = walked(preferences, chance, near)
         total = sum(reward * DISCOUNT**n for n, (_, _, reward) in enumerate(episode))
         returns.append(100 * total / BEST)
@@ -149,16 +150,22 @@ def as_preferences(given: Any, shape: tuple[int, ...]) -> Array:
     """
     if given is None:
         raise NotYet(
-            "Your function returned nothing (None). Is `return` missing?", hint="no-return"
+            _("Your function returned nothing (None). Is `return` missing?"), hint="no-return"
         )
     try:
         found = np.array(given, float)
     except (TypeError, ValueError, OverflowError):
         found = np.zeros(0)
     if found.shape != shape or isinstance(given, bool | str):
-        raise NotYet(f"Expected the table of preferences, {shape[0]} rows with {shape[1]} numbers.")
+        raise NotYet(
+            _(
+                "Expected the table of preferences, {shape} rows with {shape2} numbers.",
+                shape=shape[0],
+                shape2=shape[1],
+            )
+        )
     if not np.isfinite(found).all():
-        raise NotYet("There are numbers in the table that are not finite.", hint="not-finite")
+        raise NotYet(_("There are numbers in the table that are not finite."), hint="not-finite")
     return found
 
 
@@ -196,13 +203,18 @@ class Game:
         """Run one step; an action is right if it is the agent's observation, times two."""
         if not self.agents:
             raise NotYet(
-                "You called `step` although no agent takes part any more (`env.agents` is empty).",
+                _(
+                    "You called `step` although no agent takes part any more (`env.agents` "
+                    "is empty)."
+                ),
                 hint="over",
             )
         acting = list(self.agents)
         missing = [name for name in acting if name not in actions]
         if missing:
-            raise NotYet(f"`step` got no action for {missing[0]!r}.", hint="actions")
+            raise NotYet(
+                _("`step` got no action for {missing!r}.", missing=missing[0]), hint="actions"
+            )
         rewards = {name: self._reward(name, actions[name]) for name in acting}
         for name in acting:
             self._left[name] -= 1

@@ -30,6 +30,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import chance_for, finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.ai4u import decode_request
 from ai4u_edu.world import Body
@@ -184,13 +185,17 @@ def _short(name: str, high: Sequence[float] = (3.0, 0.5, 0.25)) -> ControlReques
 
 @exercise(
     "15.1",
-    "A script drives",
+    _("A script drives"),
     call_limit_s=15,
     hints={
-        "loop": "One action is one decision, 1/12 s. Go on until the episode is over: "
-        "`for percept in robot:`, and in the loop one `robot.act(move=...)`.",
-        "look": 'It acts again and again, but never looks. `percept["orientation"][0]` is the '
-        "cosine of the direction to the box: turn until it is above 0.99, then go.",
+        "loop": _(
+            "One action is one decision, 1/12 s. Go on until the episode is over: `for "
+            "percept in robot:`, and in the loop one `robot.act(move=...)`."
+        ),
+        "look": _(
+            'It acts again and again, but never looks. `percept["orientation"][0]` is the '
+            "cosine of the direction to the box: turn until it is above 0.99, then go."
+        ),
     },
 )
 def drives_from_afar(script: Any) -> Done:
@@ -206,30 +211,39 @@ def drives_from_afar(script: Any) -> Done:
             percept = robot.percept if robot.percept and robot.percept.done else robot.sense()
             if percept.reward_terms.get("touch", 0.0) <= 0:
                 how = (
-                    f"The robot's episode ended without the box, after {percept.step} decisions"
+                    _(
+                        "The robot's episode ended without the box, after {step} decisions",
+                        step=percept.step,
+                    )
                     if percept.done
-                    else f"Your script ended after {percept.step} decisions, before the episode did"
+                    else _(
+                        "Your script ended after {step} decisions, before the episode did",
+                        step=percept.step,
+                    )
                 )
                 raise NotYet(
-                    f"{how} (seed {seed}).",
+                    _("{how} (seed {seed}).", how=how, seed=seed),
                     hint="look" if percept.done else "loop",
                     picture=done.picture(),
                 )
             done.trail.append(agent.body.position)
-    return Done("Over the network it found the box, in three worlds.", done.picture())
+    return Done(_("Over the network it found the box, in three worlds."), done.picture())
 
 
 @exercise(
     "15.2",
-    "Late news",
+    _("Late news"),
     hints={
-        "fast": "It turns on what was true a quarter of a second ago, and by then it looks "
-        "elsewhere. Turn less for the same sine, and drive more slowly: late news is less wrong "
-        "about a slow robot.",
-        "blind": "It does the same whatever it senses: look at the bearing.",
-        "away": "It turns away from the box: for a box on the left (sine above 0) turn left (below "
-        "0).",
-        "still": "It never drives. Where the box is ahead, drive slowly.",
+        "fast": _(
+            "It turns on what was true a quarter of a second ago, and by then it looks "
+            "elsewhere. Turn less for the same sine, and drive more slowly: late news is "
+            "less wrong about a slow robot."
+        ),
+        "blind": _("It does the same whatever it senses: look at the bearing."),
+        "away": _(
+            "It turns away from the box: for a box on the left (sine above 0) turn left (below 0)."
+        ),
+        "still": _("It never drives. Where the box is ahead, drive slowly."),
     },
 )
 def copes_with_lag(careful: Any) -> Done:
@@ -238,13 +252,19 @@ def copes_with_lag(careful: Any) -> Done:
     drive_late = a_function(careful)
     for done in drives(lambda: late(drive_late), None, seeds_of("15.2", worlds), limit=LIMIT):
         if not done.won:
-            how = "fell" if done.fell else "did not get there in time"
+            how = _("fell") if done.fell else _("did not get there in time")
             raise done.not_yet(
-                f"With percepts {LAG_DECISIONS} decisions old the robot {how} ({{where}}).",
+                _(
+                    "With percepts {lag_decisions} decisions old the robot {how} ({where}).",
+                    lag_decisions=LAG_DECISIONS,
+                    how=how,
+                    where=done.where,
+                ),
                 _why(drive_late),
             )
     return Done(
-        f"A quarter of a second late, and it found the box in {worlds} worlds.", done.picture()
+        _("A quarter of a second late, and it found the box in {worlds} worlds.", worlds=worlds),
+        done.picture(),
     )
 
 
@@ -265,14 +285,20 @@ def _why(careful: Callable[..., Any]) -> str:
 
 @exercise(
     "15.3",
-    "A robot that you don't know",
+    _("A robot that you don't know"),
     hints={
-        "ask": "Robots differ: this one takes another number of numbers, or another range. Ask it: "
-        "`robot.spaces.action.high` are the highest numbers that it takes.",
-        "one": "It gives 1 for each number. Not every robot's range ends at 1: ask for the highest "
-        "numbers.",
-        "full": "The robot takes that, but it is not full power: each number should be the highest "
-        "that its range allows.",
+        "ask": _(
+            "Robots differ: this one takes another number of numbers, or another range. Ask "
+            "it: `robot.spaces.action.high` are the highest numbers that it takes."
+        ),
+        "one": _(
+            "It gives 1 for each number. Not every robot's range ends at 1: ask for the "
+            "highest numbers."
+        ),
+        "full": _(
+            "The robot takes that, but it is not full power: each number should be the "
+            "highest that its range allows."
+        ),
     },
 )
 def asks_the_robot(full_power: Any) -> str:
@@ -286,17 +312,22 @@ def asks_the_robot(full_power: Any) -> str:
         with served(sim) as robot:
             robot.reset()
             high = np.ravel(robot.spaces.action.high)  # type: ignore[attr-defined]
-            takes = f"The robot of `{name}` takes {len(high)} numbers"
+            takes = _("The robot of `{name}` takes {count} numbers", name=name, count=len(high))
             got = finite_numbers(ask(robot), len(high), expected=takes, hint="ask")
             if not is_close(got, high, 1e-5):
                 raise NotYet(
-                    f"For the robot of `{name}` full power is {high.tolist()}, and it got {got}.",
+                    _(
+                        "For the robot of `{name}` full power is {power}, and it got {got}.",
+                        name=name,
+                        power=str(high.tolist()),
+                        got=str(got),
+                    ),
                     hint="one" if set(got) == {1.0} else "full",
                 )
             robot.sense()
             robot.act({output: got})
             robot.sense()
-    return "Five different robots, each at full power."
+    return _("Five different robots, each at full power.")
 
 
 exit_ticket(
@@ -304,26 +335,34 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "In realtime nobody waits, and by default nothing stops the robot: see the three "
-            'ways in "When the script falls silent".',
-            "c": "The world stands still in lockstep. In realtime it goes on.",
+            "a": _(
+                "In realtime nobody waits, and by default nothing stops the robot: see the "
+                'three ways in "When the script falls silent".'
+            ),
+            "c": _("The world stands still in lockstep. In realtime it goes on."),
         },
     ),
     Question(
         "c",
         {
-            "a": "A faster robot turns farther in 0.25 s, so it overshoots even more.",
-            "b": "It would decide more often about the same old news: each percept is still 0.25 s"
-            " late.",
+            "a": _("A faster robot turns farther in 0.25 s, so it overshoots even more."),
+            "b": _(
+                "It would decide more often about the same old news: each percept is still "
+                "0.25 s late."
+            ),
         },
     ),
     Question(
         "a",
         {
-            "b": "In lockstep the world waits until the receive time-out is over, which is 2 "
-            "seconds if you say nothing. Then it goes on.",
-            "c": "In realtime the world's time goes on while the program computes, even if the "
-            "robot stands still.",
+            "b": _(
+                "In lockstep the world waits until the receive time-out is over, which is 2 "
+                "seconds if you say nothing. Then it goes on."
+            ),
+            "c": _(
+                "In realtime the world's time goes on while the program computes, even if "
+                "the robot stands still."
+            ),
         },
     ),
 )

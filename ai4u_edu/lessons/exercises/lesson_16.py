@@ -10,6 +10,7 @@ from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
 
 CHASE_DECISIONS = 450
 """Decisions of a round in 16.1; one that takes the nearest runner needs at most 300 or so."""
@@ -49,14 +50,20 @@ def fights_won(plan: str, fights: int = 20) -> int:
 
 @exercise(
     "16.1",
-    "The chaser",
+    _("The chaser"),
     hints={
-        "begin": "It chases the first runner only. Go through all three, and take the nearest one "
-        "that is still free.",
-        "caught": "It drives to where it caught somebody. Whom you caught still has a place: "
-        '`percept["free"]` says who is free.',
-        "luck": "Turn to a runner that is free, at every decision: `go_to` does that.",
-        "none": "It caught nobody. `go_to` gets how far ahead and how far to the left a runner is.",
+        "begin": _(
+            "It chases the first runner only. Go through all three, and take the nearest one "
+            "that is still free."
+        ),
+        "caught": _(
+            "It drives to where it caught somebody. Whom you caught still has a place: "
+            '`percept["free"]` says who is free.'
+        ),
+        "luck": _("Turn to a runner that is free, at every decision: `go_to` does that."),
+        "none": _(
+            "It caught nobody. `go_to` gets how far ahead and how far to the left a runner is."
+        ),
     },
 )
 def catches_all(chase: Any) -> Done:
@@ -77,26 +84,38 @@ def catches_all(chase: Any) -> Done:
         if not is_won and reason is None:
             free = sum(done.agent.percept["free"])
             hint = "none" if free == 3 else "caught" if _looks_around(chase, done) else "begin"
-            how = f"{3 - free:.0f} of three were caught when the time was up"
+            how = _("{free:.0f} of three were caught when the time was up", free=3 - free)
             if done.won:
-                how = "It stayed for more than two seconds where it had caught somebody"
+                how = _("It stayed for more than two seconds where it had caught somebody")
                 hint = "caught"
-            reason = done.not_yet(f"{how} ({{where}}).", hint)
+            reason = done.not_yet(_("{how} ({where}).", how=how, where=done.where), hint)
         if played - won > rounds - needed:
             break
     faces = [is_facing for each in lingers for is_facing in each.faces]
     if won >= needed and sum(faces) < FACES * len(faces):
         raise done.not_yet(
-            f"It caught them all, but by driving about: when one was left, it faced that one in "
-            f"{sum(faces)} of {len(faces)} decisions ({{where}}).",
+            _(
+                "It caught them all, but by driving about: when one was left, it faced that "
+                "one in {faces} of {count} decisions ({where}).",
+                faces=sum(faces),
+                count=len(faces),
+                where=done.where,
+            ),
             "luck",
         )
     if won < needed and reason is not None:
-        reason.text = (
-            f"{won} of {played} rounds won; {needed} of {rounds} are needed. {reason.text}"
+        reason.text = _(
+            "{won} of {played} rounds won; {needed} of {rounds} are needed. {text}",
+            won=won,
+            played=played,
+            needed=needed,
+            rounds=rounds,
+            text=reason.text,
         )
         raise reason
-    return Done(f"All three caught, in {won} of {rounds} rounds.", done.picture())
+    return Done(
+        _("All three caught, in {won} of {rounds} rounds.", won=won, rounds=rounds), done.picture()
+    )
 
 
 class _Lingering:
@@ -144,15 +163,21 @@ def _looks_around(chase: Any, done: Drive) -> bool:
 
 @exercise(
     "16.2",
-    "Stay in the ring",
+    _("Stay in the ring"),
     hints={
-        "edge": "It falls out by itself. Turn to the opponent before you drive: `go_to` with the "
-        "first two numbers of `opponent`.",
-        "away": "It turns away from the opponent. `go_to` gets how far ahead, then how far to the "
-        "left: in that order.",
-        "careful": "It wins more often than not, and loses fights by being careful: while it turns "
-        "to the middle, the other one pushes. Try what happens if it just attacks.",
-        "shy": "It does not attack: nobody wins by waiting. Drive at the opponent.",
+        "edge": _(
+            "It falls out by itself. Turn to the opponent before you drive: `go_to` with the "
+            "first two numbers of `opponent`."
+        ),
+        "away": _(
+            "It turns away from the opponent. `go_to` gets how far ahead, then how far to "
+            "the left: in that order."
+        ),
+        "careful": _(
+            "It wins more often than not, and loses fights by being careful: while it turns "
+            "to the middle, the other one pushes. Try what happens if it just attacks."
+        ),
+        "shy": _("It does not attack: nobody wins by waiting. Drive at the opponent."),
     },
 )
 def wins_fights(fight: Any) -> Done:
@@ -162,18 +187,28 @@ def wins_fights(fight: Any) -> Done:
     for played, done in enumerate(drives("sumo", fight, seeds_of("16.2", fights)), 1):
         won += done.won
         if not done.won and reason is None:
-            how = "fell out of the ring" if done.fell else "did not win"
-            reason = done.not_yet(f"Your robot {how} ({{where}}).", _fight_mistake(fight, done))
+            words = _("Your robot did not win ({where}).", where=done.where)
+            if done.fell:
+                words = _("Your robot fell out of the ring ({where}).", where=done.where)
+            reason = done.not_yet(
+                words,
+                _fight_mistake(fight, done),
+            )
         if played - won > fights - needed:
             break
     if won < needed and reason is not None:
         if won > 6 and reason.hint == "edge":
             reason.hint = "careful"
-        reason.text = (
-            f"{won} of {played} fights won; {needed} of {fights} are needed. {reason.text}"
+        reason.text = _(
+            "{won} of {played} fights won; {needed} of {fights} are needed. {text}",
+            won=won,
+            played=played,
+            needed=needed,
+            fights=fights,
+            text=reason.text,
         )
         raise reason
-    return Done(f"{won} of {fights} fights won.", done.picture())
+    return Done(_("{won} of {fights} fights won.", won=won, fights=fights), done.picture())
 
 
 def _fight_mistake(fight: Any, done: Drive) -> str:
@@ -192,16 +227,21 @@ def _fight_mistake(fight: Any, done: Drive) -> str:
 
 @exercise(
     "16.3",
-    "A fair contest",
+    _("A fair contest"),
     hints={
-        "few": "One game says little: the worse player may be lucky in it. Let both play twenty "
-        "games: `sum(play(one, seed) for seed in range(20))`.",
-        "seeds": "They did not play the same games. Some seeds are easier than others, and then "
-        "the one with the easy seeds looks better. Use the same seeds for both.",
-        "reversed": "That is the one with fewer points.",
-        "best": "The best game of each is compared. That is luck as well: compare all points, "
-        "added up.",
-        "name": "Return the player itself, without quotes: `return one`.",
+        "few": _(
+            "One game says little: the worse player may be lucky in it. Let both play twenty "
+            "games: `sum(play(one, seed) for seed in range(20))`."
+        ),
+        "seeds": _(
+            "They did not play the same games. Some seeds are easier than others, and then "
+            "the one with the easy seeds looks better. Use the same seeds for both."
+        ),
+        "reversed": _("That is the one with fewer points."),
+        "best": _(
+            "The best game of each is compared. That is luck as well: compare all points, added up."
+        ),
+        "name": _("Return the player itself, without quotes: `return one`."),
     },
 )
 def judges_a_contest(better: Any) -> str:
@@ -217,15 +257,19 @@ def judges_a_contest(better: Any) -> str:
             raise NotYet(NOTHING_RETURNED, hint="no-return")
         if not (got is players.one or got is players.other):
             raise NotYet(
-                f"Expected one of the two players, `one` or `other`, got {named(got)}.",
+                _("Expected one of the two players, `one` or `other`, got {got}.", got=named(got)),
                 hint="name",
             )
         players.look_at_games()
         right = players.one if ahead > 0 else players.other
         if got is not right:
             reason = NotYet(
-                f"In pair {pair + 1} `{right.__name__}` is better: it has 0.7 points more on "
-                "average. You chose the other one.",
+                _(
+                    "In pair {pair} `{name}` is better: it has 0.7 points more on average. "
+                    "You chose the other one.",
+                    pair=pair + 1,
+                    name=right.__name__,
+                ),
                 hint=players.mistake(got),
             )
             reasons.append(reason)
@@ -233,7 +277,7 @@ def judges_a_contest(better: Any) -> str:
         reasons[0].hint = "reversed"
     if reasons:
         raise reasons[0]
-    return f"You found the better one of {PAIRS} pairs."
+    return _("You found the better one of {pairs} pairs.", pairs=PAIRS)
 
 
 class PlayedPair:
@@ -259,7 +303,7 @@ class PlayedPair:
         name = getattr(player, "__name__", "")
         if name not in self.games or not isinstance(seed, int | np.integer) or seed < 0:
             raise NotYet(
-                "`play` takes one of the two players, and a seed: a whole number from 0 on.",
+                _("`play` takes one of the two players, and a seed: a whole number from 0 on."),
                 hint="few",
             )
         numbers = [self._pair, int(seed)]
@@ -275,12 +319,17 @@ class PlayedPair:
         one, other = self.games["one"], self.games["other"]
         if min(len(one), len(other)) < MIN_GAMES:
             raise NotYet(
-                f"Your contest had {len(one)} and {len(other)} games; at least {MIN_GAMES} each "
-                "are needed.",
+                _(
+                    "Your contest had {count} and {count2} games; at least {min_games} each "
+                    "are needed.",
+                    count=len(one),
+                    count2=len(other),
+                    min_games=MIN_GAMES,
+                ),
                 hint="few",
             )
         if set(one) != set(other):
-            raise NotYet("The two players did not play the same games.", hint="seeds")
+            raise NotYet(_("The two players did not play the same games."), hint="seeds")
 
     def mistake(self, chosen: Any) -> str:
         """Return the diagnosis that fits a wrong choice."""
@@ -297,22 +346,22 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "They win or lose together. In a zero-sum game one wins what the other loses.",
-            "c": "Your marks take nothing away from the others'.",
+            "a": _("They win or lose together. In a zero-sum game one wins what the other loses."),
+            "c": _("Your marks take nothing away from the others'."),
         },
     ),
     Question(
         "c",
         {
-            "a": "Ben's games may have been easier, and five games are few.",
-            "b": "Different seeds and few games can hide a large difference, too.",
+            "a": _("Ben's games may have been easier, and five games are few."),
+            "b": _("Different seeds and few games can hide a large difference, too."),
         },
     ),
     Question(
         "a",
         {
-            "b": "It was counted against one opponent only. Another one may be different.",
-            "c": "Both plans fought the same twenty fights. What sounds wise has to win, too.",
+            "b": _("It was counted against one opponent only. Another one may be different."),
+            "c": _("Both plans fought the same twenty fights. What sounds wise has to win, too."),
         },
     ),
 )

@@ -22,6 +22,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
+from ai4u_edu.locale import gettext as _
 
 GOAL_OF_BLUE_X_M = -7
 DECISIONS_A_SECOND = 12
@@ -56,20 +57,30 @@ ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
 
 @function_exercise(
     "17.1",
-    "The same direction",
+    _("The same direction"),
     hints={
-        "begin": "It gives the same answer to everything. `math.atan2(ball[1], ball[0])` is the "
-        "direction to the ball, in radians; the goal's is computed in the same way.",
-        "wrap": "Two directions that are hardly different can have numbers such as 3.1 and -3.1, "
-        "which are 6.2 apart. `math.remainder(a - b, math.tau)` brings a difference of angles back "
-        "to the range from -3.14 to 3.14.",
-        "sign": "A difference can be below 0, too: then it is always less than 0.5. Take `abs`.",
-        "atan": "`math.atan` can't tell ahead from behind. `math.atan2(left, ahead)` can: left is "
-        "the first of its two numbers.",
-        "side": "You ask whether both are on the same side. That is not enough: one may be on the "
-        "left, the other almost behind. Compare the directions.",
-        "near": "Ball and goal may be far from each other, and lie in the same direction all the "
-        "same. Compare directions, not places.",
+        "begin": _(
+            "It gives the same answer to everything. `math.atan2(ball[1], ball[0])` is the "
+            "direction to the ball, in radians; the goal's is computed in the same way."
+        ),
+        "wrap": _(
+            "Two directions that are hardly different can have numbers such as 3.1 and -3.1, "
+            "which are 6.2 apart. `math.remainder(a - b, math.tau)` brings a difference of "
+            "angles back to the range from -3.14 to 3.14."
+        ),
+        "sign": _("A difference can be below 0, too: then it is always less than 0.5. Take `abs`."),
+        "atan": _(
+            "`math.atan` can't tell ahead from behind. `math.atan2(left, ahead)` can: left "
+            "is the first of its two numbers."
+        ),
+        "side": _(
+            "You ask whether both are on the same side. That is not enough: one may be on "
+            "the left, the other almost behind. Compare the directions."
+        ),
+        "near": _(
+            "Ball and goal may be far from each other, and lie in the same direction all the "
+            "same. Compare directions, not places."
+        ),
     },
 )
 def same_direction(chance: np.random.Generator) -> Calls:
@@ -87,11 +98,17 @@ def same_direction(chance: np.random.Generator) -> Calls:
             )
             apart = math.degrees(abs(math.remainder(_angle(ball) - _angle(goal), math.tau)))
             raise NotYet(
-                f"The ball at {_shown(ball)}, the goal at {_shown(goal)}: they are {apart:.0f} "
-                f"degrees apart, and your function says {got}.",
+                _(
+                    "The ball at {shown}, the goal at {shown2}: they are {apart:.0f} degrees "
+                    "apart, and your function says {got}.",
+                    shown=_shown(ball),
+                    shown2=_shown(goal),
+                    apart=apart,
+                    got=got,
+                ),
                 hint=next(fits, ""),
             )
-    return f"{len(cases)} pairs of directions, all of them right."
+    return _("{count} pairs of directions, all of them right.", count=len(cases))
 
 
 def _directions(chance: np.random.Generator) -> list[tuple[Place, Place]]:
@@ -122,32 +139,38 @@ def _truth(given: Any) -> bool:
     if given is None:
         raise NotYet(NOTHING_RETURNED, hint="no-return")
     if not isinstance(given, bool | np.bool_):
-        raise NotYet(f"Expected True or False, got {named(given)}.", hint="begin")
+        raise NotYet(_("Expected True or False, got {got}.", got=named(given)), hint="begin")
     return bool(given)
 
 
 def _shown(place: Place) -> str:
-    return f"({place[0]:g} ahead, {place[1]:g} left)"
+    return _("({place:g} ahead, {place2:g} left)", place=place[0], place2=place[1])
 
 
 @function_exercise(
     "17.2",
-    "Behind the ball",
+    _("Behind the ball"),
     hints={
-        "begin": "Begin with the way from the ball to the goal: `x = goal[0] - ball[0]`, and the "
-        "same for left. From the ball, go that way backwards.",
-        "front": "That is before the ball, on the side of the goal. Subtract.",
-        "long": "The way from the ball to the goal has its own length. Divide it by its length "
-        "first, `math.hypot(x, y)`; then `gap` times that is as long as `gap`.",
-        "robot": "That is behind the ball as the robot sees it. It should be behind the ball as "
-        "the goal sees it: on the line from the goal through the ball.",
-        "goal": "That is a place near the goal. Begin at the ball.",
-        "swapped": "Ahead comes first, then left.",
+        "begin": _(
+            "Begin with the way from the ball to the goal: `x = goal[0] - ball[0]`, and the "
+            "same for left. From the ball, go that way backwards."
+        ),
+        "front": _("That is before the ball, on the side of the goal. Subtract."),
+        "long": _(
+            "The way from the ball to the goal has its own length. Divide it by its length "
+            "first, `math.hypot(x, y)`; then `gap` times that is as long as `gap`."
+        ),
+        "robot": _(
+            "That is behind the ball as the robot sees it. It should be behind the ball as "
+            "the goal sees it: on the line from the goal through the ball."
+        ),
+        "goal": _("That is a place near the goal. Begin at the ball."),
+        "swapped": _("Ahead comes first, then left."),
     },
 )
 def is_behind(chance: np.random.Generator) -> Calls:
     """Check the place behind the ball."""
-    for _ in range(8):
+    for _number in range(8):
         ball, goal = chance.uniform(-0.3, 0.3, 2).round(2), chance.uniform(-0.4, 0.4, 2).round(2)
         gap = round(float(chance.uniform(0.05, 0.12)), 2)
         got = finite_numbers((yield *_places(ball, goal), gap), 2)
@@ -164,23 +187,31 @@ def is_behind(chance: np.random.Generator) -> Calls:
             }
             fits = (name for name, each in slips.items() if is_close(got, list(each), 1e-4))
             raise NotYet(
-                f"The ball at {_shown(ball)}, the goal at {_shown(goal)}, a gap of {gap:g}: "
-                f"expected {_shown((round(x, 3), round(y, 3)))}, got "
-                f"{_shown([round(each, 3) for each in got])}.",
+                _(
+                    "The ball at {shown}, the goal at {shown2}, a gap of {gap:g}: expected "
+                    "{shown3}, got {shown4}.",
+                    shown=_shown(ball),
+                    shown2=_shown(goal),
+                    gap=gap,
+                    shown3=_shown((round(x, 3), round(y, 3))),
+                    shown4=_shown([round(each, 3) for each in got]),
+                ),
                 hint=next(fits, ""),
             )
-    return "Eight balls, and each time the place behind it."
+    return _("Eight balls, and each time the place behind it.")
 
 
 @exercise(
     "17.3",
-    "Around the ball",
+    _("Around the ball"),
     hints={
-        "pushes": "It runs into the ball on its way. Where ball and place lie in the same "
-        "direction and the ball is nearer, go past the ball first: towards a direction that is 70 "
-        "degrees (1.2 radians) to its side.",
-        "elsewhere": "It does not get behind the ball. Go to `behind(ball, goal)`.",
-        "crawls": "The way is right. Drive faster: there are 150 decisions, 12.5 seconds.",
+        "pushes": _(
+            "It runs into the ball on its way. Where ball and place lie in the same "
+            "direction and the ball is nearer, go past the ball first: towards a direction "
+            "that is 70 degrees (1.2 radians) to its side."
+        ),
+        "elsewhere": _("It does not get behind the ball. Go to `behind(ball, goal)`."),
+        "crawls": _("The way is right. Drive faster: there are 150 decisions, 12.5 seconds."),
     },
 )
 def goes_around(get_behind: Any) -> Done:
@@ -194,18 +225,28 @@ def goes_around(get_behind: Any) -> Done:
         won += watch.is_there
         if not watch.is_there:
             if watch.ball_moved > MAX_BALL_MOVE_M:
-                how, hint = f"It pushed the ball {watch.ball_moved:.1f} m away", "pushes"
+                how, hint = (
+                    _("It pushed the ball {metres:.1f} m away", metres=watch.ball_moved),
+                    "pushes",
+                )
             elif watch.is_on_its_way:
-                how, hint = "It was still on its way when the time was up", "crawls"
+                how, hint = _("It was still on its way when the time was up"), "crawls"
             else:
-                how, hint = "It did not get behind the ball", "elsewhere"
-            reasons.append(done.not_yet(f"{how} ({{where}}).", hint))
+                how, hint = _("It did not get behind the ball"), "elsewhere"
+            reasons.append(done.not_yet(_("{how} ({where}).", how=how, where=done.where), hint))
     if won < needed:
-        (frequent, _), *_ = Counter(each.hint for each in reasons).most_common(1)
+        (frequent, _count), *_others = Counter(each.hint for each in reasons).most_common(1)
         reason = next(each for each in reasons if each.hint == frequent)
-        reason.text = f"Behind the ball in {won} of {worlds} worlds. {reason.text}"
+        reason.text = _(
+            "Behind the ball in {won} of {worlds} worlds. {text}",
+            won=won,
+            worlds=worlds,
+            text=reason.text,
+        )
         raise reason
-    return Done(f"Behind the ball in {won} of {worlds} worlds.", done.picture())
+    return Done(
+        _("Behind the ball in {won} of {worlds} worlds.", won=won, worlds=worlds), done.picture()
+    )
 
 
 class _Practice:
@@ -247,14 +288,20 @@ def _in_line(ball: Place, goal: Place) -> bool:
 
 @exercise(
     "17.4",
-    "The striker",
+    _("The striker"),
     hints={
-        "begin": "Running at the ball is not enough: it flies off the way you were running. First "
-        "get behind it, as in exercise 17.3.",
-        "through": "It gets behind the ball, and then? When ball and goal lie in the same "
-        "direction, `lined_up(ball, goal)`, run through the ball.",
-        "around": "It scores sometimes. On its way to the place behind the ball it runs into the "
-        "ball: go around it, as in exercise 17.3.",
+        "begin": _(
+            "Running at the ball is not enough: it flies off the way you were running. First "
+            "get behind it, as in exercise 17.3."
+        ),
+        "through": _(
+            "It gets behind the ball, and then? When ball and goal lie in the same "
+            "direction, `lined_up(ball, goal)`, run through the ball."
+        ),
+        "around": _(
+            "It scores sometimes. On its way to the place behind the ball it runs into the "
+            "ball: go around it, as in exercise 17.3."
+        ),
     },
 )
 def scores(strike: Any) -> Done:
@@ -267,14 +314,23 @@ def scores(strike: Any) -> Done:
         won += done.won
         if not done.won and reason is None:
             own = done.sim.world["ball"].position[0] < GOAL_OF_BLUE_X_M
-            how = "An own goal" if own else "No goal"
-            reason = done.not_yet(f"{how} ({{where}}).", _striker_mistake(strike, done))
+            how = _("An own goal") if own else _("No goal")
+            reason = done.not_yet(
+                _("{how} ({where}).", how=how, where=done.where), _striker_mistake(strike, done)
+            )
         if played - won > games - needed:
             break
     if won < needed and reason is not None:
-        reason.text = f"{won} goals in {played} games; {needed} in {games} needed. {reason.text}"
+        reason.text = _(
+            "{won} goals in {played} games; {needed} in {games} needed. {text}",
+            won=won,
+            played=played,
+            needed=needed,
+            games=games,
+            text=reason.text,
+        )
         raise reason
-    return Done(f"{won} goals in {played} games.", done.picture())
+    return Done(_("{won} goals in {played} games.", won=won, played=played), done.picture())
 
 
 def _striker_mistake(strike: Any, done: Drive) -> str:
@@ -299,13 +355,18 @@ def _striker_mistake(strike: Any, done: Drive) -> str:
 
 @exercise(
     "17.5",
-    "Gold: quick goals",
+    _("Gold: quick goals"),
     hints={
-        "begin": "First it has to score at all: begin with your `strike` of 17.4.",
-        "turns": "Where a place is 45 degrees to its side, it stops and turns. Write a `go_to` of "
-        "your own that turns faster, and drives on while it turns.",
-        "far": "It turns well. Where are decisions lost now? Try a place nearer behind the ball, "
-        'and pass the ball more closely. Watch it: `film("soccer", quick_strike, seed=3)`.',
+        "begin": _("First it has to score at all: begin with your `strike` of 17.4."),
+        "turns": _(
+            "Where a place is 45 degrees to its side, it stops and turns. Write a `go_to` of "
+            "your own that turns faster, and drives on while it turns."
+        ),
+        "far": _(
+            "It turns well. Where are decisions lost now? Try a place nearer behind the "
+            'ball, and pass the ball more closely. Watch it: `film("soccer", quick_strike, '
+            "seed=3)`."
+        ),
     },
 )
 def scores_quickly(quick_strike: Any) -> Done:
@@ -317,18 +378,29 @@ def scores_quickly(quick_strike: Any) -> Done:
         quick += done.won and done.steps <= QUICK_DECISIONS
         if played - won > GAMES - QUICK_GOALS:
             break
-    told = (
-        f"{won} goals in {played} games, {quick} of them within {QUICK_DECISIONS} decisions (10 "
-        "seconds)"
+    told = _(
+        "{won} goals in {played} games, {quick} of them within {quick_decisions} "
+        "decisions (10 seconds)",
+        won=won,
+        played=played,
+        quick=quick,
+        quick_decisions=QUICK_DECISIONS,
     )
     if quick < QUICK_GOALS:
         hint = "begin"
         if won >= 0.6 * played:
             hint = "turns" if _stops_to_turn(quick_strike, done) else "far"
         raise NotYet(
-            f"{told}; gold is {QUICK_GOALS} of {GAMES}.", hint=hint, picture=done.picture()
+            _(
+                "{told}; gold is {quick_goals} of {games}.",
+                told=told,
+                quick_goals=QUICK_GOALS,
+                games=GAMES,
+            ),
+            hint=hint,
+            picture=done.picture(),
         )
-    return Done(f"Gold: {told}.", done.picture())
+    return Done(_("Gold: {told}.", told=told), done.picture())
 
 
 def _stops_to_turn(strike: Any, done: Drive) -> bool:
@@ -346,22 +418,22 @@ exit_ticket(
     Question(
         "a",
         {
-            "b": "The ball flies off the way the robot was running. Which way is that?",
-            "c": "A ball that is hit straight on flies off straight ahead of the robot.",
+            "b": _("The ball flies off the way the robot was running. Which way is that?"),
+            "c": _("A ball that is hit straight on flies off straight ahead of the robot."),
         },
     ),
     Question(
         "c",
         {
-            "a": "3.14 and -3.14 are both straight behind.",
-            "b": "Far on the left is 1.57, a quarter turn. 3.1 is nearly a half turn.",
+            "a": _("3.14 and -3.14 are both straight behind."),
+            "b": _("Far on the left is 1.57, a quarter turn. 3.1 is nearly a half turn."),
         },
     ),
     Question(
         "b",
         {
-            "a": "The computer has the same to compute. It is for you, not for the computer.",
-            "c": "A controller may be as long as you like.",
+            "a": _("The computer has the same to compute. It is for you, not for the computer."),
+            "c": _("A controller may be as long as you like."),
         },
     ),
 )

@@ -23,6 +23,7 @@ from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import difference, finite_number, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
 DECISIONS_PER_MINUTE = 720
@@ -39,9 +40,9 @@ DRY, DRY_WELL = (4.0, 6.0), 0.83
 """Losses of energy and water in a dry summer, and the share of decisions for gold."""
 WELL = 0.6
 """Share of the decisions in which both levels have to be in the zone."""
-HUNDRED = (
-    "In the percept the levels go from 0 to 1: what the panel shows as 40 is 0.4 here. Compare "
-    "with 0.4, not with 40."
+HUNDRED = _(
+    "In the percept the levels go from 0 to 1: what the panel shows as 40 is 0.4 here. "
+    "Compare with 0.4, not with 40."
 )
 ROOM = Variation(x=(-4, 4), y=(-4, 4), heading_deg=(-180, 180), clearance=0.3)
 
@@ -145,14 +146,14 @@ def _needs(levels: tuple[float, float], losses: tuple[float, float]) -> list[Hom
 
 @function_exercise(
     "18.1",
-    "How long?",
+    _("How long?"),
     hints={
-        "begin": "How much is there to lose until 40? And how much of it goes in a second?",
-        "empty": "That is how long it takes until nothing is left. Comfort ends at 40.",
-        "whole": "A time need not be a whole number of seconds: divide with `/`.",
-        "up": "A time need not be a whole number of seconds: do not count, divide.",
-        "product": "The larger the loss, the shorter the time: divide by it.",
-        "below": "Below 40 there is no comfort left: the answer is 0, not less.",
+        "begin": _("How much is there to lose until 40? And how much of it goes in a second?"),
+        "empty": _("That is how long it takes until nothing is left. Comfort ends at 40."),
+        "whole": _("A time need not be a whole number of seconds: divide with `/`."),
+        "up": _("A time need not be a whole number of seconds: do not count, divide."),
+        "product": _("The larger the loss, the shorter the time: divide by it."),
+        "below": _("Below 40 there is no comfort left: the answer is 0, not less."),
     },
 )
 def computes_comfort(chance: np.random.Generator) -> Calls:
@@ -166,20 +167,27 @@ def computes_comfort(chance: np.random.Generator) -> Calls:
         wanted = max(0.0, (level - 40) / loss)
         if not is_close(found, wanted, 0.01):
             slips = {
-                "empty": ("the time until nothing is left", level / loss),
-                "below": ("below 0", (level - 40) / loss),
-                "whole": ("right, but cut off to a whole number", float(int(wanted))),
-                "up": ("right, but rounded up", float(math.ceil(wanted))),
-                "product": ("the loss times what there is to lose", (level - 40) * loss),
-                "begin": ("the level itself", level),
+                "empty": (_("the time until nothing is left"), level / loss),
+                "below": (_("below 0"), (level - 40) / loss),
+                "whole": (_("right, but cut off to a whole number"), float(int(wanted))),
+                "up": (_("right, but rounded up"), float(math.ceil(wanted))),
+                "product": (_("the loss times what there is to lose"), (level - 40) * loss),
+                "begin": (_("the level itself"), level),
             }
             slip = difference(found, slips, 0.01)
             raise NotYet(
-                f"With a level of {level:g} and a loss of {loss:g} a second it takes {wanted:.2f} "
-                f"s, your function says {found:.2f}{slip.words}.",
+                _(
+                    "With a level of {level:g} and a loss of {loss:g} a second it takes "
+                    "{wanted:.2f} s, your function says {found:.2f}{words}.",
+                    level=level,
+                    loss=loss,
+                    wanted=wanted,
+                    found=found,
+                    words=slip.words,
+                ),
                 hint=slip.name,
             )
-    return Done("Eight levels, eight times right.")
+    return Done(_("Eight levels, eight times right."))
 
 
 def _life(
@@ -206,13 +214,16 @@ def _levels(agent: BasicAgent) -> tuple[float, ...]:
 
 @exercise(
     "18.2",
-    "Stay alive",
+    _("Stay alive"),
     hints={
-        "thirst": "It dies although there is enough of both. It has to go for what it has less of: "
-        "compare `energy` and `water`.",
+        "thirst": _(
+            "It dies although there is enough of both. It has to go for what it has less of: "
+            "compare `energy` and `water`."
+        ),
         "hundred": HUNDRED,
-        "reversed": "It goes for what it has more of. Where energy is the smaller one, food is "
-        "needed.",
+        "reversed": _(
+            "It goes for what it has more of. Where energy is the smaller one, food is needed."
+        ),
     },
 )
 def stays_alive(live: Any) -> Done:
@@ -220,20 +231,28 @@ def stays_alive(live: Any) -> Done:
     worlds: list[tuple[int, dict[str, Any]]] = [(seed, {}) for seed in seeds_of("18.2", MINUTES)]
     worlds += _short_worlds("18.2", 8)
     for seed, begins in worlds:
-        done, _, ran_out = _life(live, seed, **begins)
+        done, _needs, ran_out = _life(live, seed, **begins)
         if ran_out >= 0:
             name = ("energy", "water")[ran_out]
             other = ("water", "energy")[ran_out]
             level = _levels(done.agent)[1 - ran_out]
             hint = "reversed" if _goes_for_more(live, done) else "thirst"
             hint = "hundred" if _hundred(live, done) else hint
-            told = "It began with little of one. " if begins else ""
+            told = _("It began with little of one. ") if begins else ""
             raise done.not_yet(
-                f"{told}After {done.steps / 12:.0f} seconds its {name} had run out, with {other} "
-                f"at {100 * level:.0f} ({{where}}).",
+                _(
+                    "{told}After {steps:.0f} seconds its {name} had run out, with {other} at "
+                    "{level:.0f} ({where}).",
+                    told=told,
+                    steps=done.steps / 12,
+                    name=name,
+                    other=other,
+                    level=100 * level,
+                    where=done.where,
+                ),
                 hint,
             )
-    return Done(f"It lived, in {len(worlds)} worlds.", done.picture())
+    return Done(_("It lived, in {count} worlds.", count=len(worlds)), done.picture())
 
 
 def _short_worlds(exercise_id: str, count: int) -> list[tuple[int, dict[str, Any]]]:
@@ -290,15 +309,20 @@ _LEVELS = ((0.1, 0.9), (0.9, 0.1), (0.6, 0.6), (0.1, 0.1), (0.9, 0.9))
 
 @exercise(
     "18.3",
-    "Live well",
+    _("Live well"),
     hints={
-        "begin": "Three cases: all is well, then rest; energy is lower, then food; water is lower, "
-        "then water.",
+        "begin": _(
+            "Three cases: all is well, then rest; energy is lower, then food; water is "
+            "lower, then water."
+        ),
         "hundred": HUNDRED,
-        "greedy": "It has too much most of the time. Eat when a level has sunk towards 40, not "
-        "before.",
-        "late": "It waits too long. On the way to the food the levels go on sinking: start a bit "
-        "above 40.",
+        "greedy": _(
+            "It has too much most of the time. Eat when a level has sunk towards 40, not before."
+        ),
+        "late": _(
+            "It waits too long. On the way to the food the levels go on sinking: start a bit "
+            "above 40."
+        ),
     },
 )
 def lives_well(live: Any) -> Done:
@@ -311,30 +335,44 @@ def lives_well(live: Any) -> Done:
         if ran_out >= 0:
             why = "begin" if done.moved < 0.1 else "late"
             raise done.not_yet(
-                f"It died after {done.steps / 12:.0f} seconds ({{where}}).",
+                _(
+                    "It died after {steps:.0f} seconds ({where}).",
+                    steps=done.steps / 12,
+                    where=done.where,
+                ),
                 "hundred" if _hundred(live, done) else why,
             )
         if well < WELL:
             why = "greedy" if mean > 0.6 else "late"
             raise done.not_yet(
-                f"It felt well in {100 * well:.0f} of 100 decisions, not {100 * WELL:.0f}; at the "
-                f"end its mean level was {100 * mean:.0f} ({{where}}).",
+                _(
+                    "It felt well in {well:.0f} of 100 decisions, not {well2:.0f}; at the "
+                    "end its mean level was {mean:.0f} ({where}).",
+                    well=100 * well,
+                    well2=100 * WELL,
+                    mean=100 * mean,
+                    where=done.where,
+                ),
                 "hundred" if _hundred(live, done) else why,
             )
     share = 100 * sum(shares) / len(shares)
-    return Done(f"It felt well in {share:.0f} of 100 decisions.", done.picture())
+    return Done(_("It felt well in {share:.0f} of 100 decisions.", share=share), done.picture())
 
 
 @exercise(
     "18.4",
-    "Gold: a dry summer",
+    _("Gold: a dry summer"),
     hints={
-        "begin": "First it has to live. Begin with your `live_well` of 18.3.",
-        "rest": "While it rests it looks anywhere. It could already turn towards what it will need "
-        "next: then the way is shorter when it is time.",
-        "early": "It has too much most of the time: wait until a level is lower.",
-        "late": "Levels fall on the way, and here they fall faster. Go a bit earlier; and which of "
-        "the two will reach 40 first?",
+        "begin": _("First it has to live. Begin with your `live_well` of 18.3."),
+        "rest": _(
+            "While it rests it looks anywhere. It could already turn towards what it will "
+            "need next: then the way is shorter when it is time."
+        ),
+        "early": _("It has too much most of the time: wait until a level is lower."),
+        "late": _(
+            "Levels fall on the way, and here they fall faster. Go a bit earlier; and which "
+            "of the two will reach 40 first?"
+        ),
         "hundred": HUNDRED,
     },
 )
@@ -345,18 +383,26 @@ def lives_in_a_dry_summer(live: Any) -> Done:
         done, well, ran_out = _life(live, seed, losses=DRY)
         if ran_out >= 0:
             raise done.not_yet(
-                f"It died after {done.steps / 12:.0f} seconds ({{where}}).",
+                _(
+                    "It died after {steps:.0f} seconds ({where}).",
+                    steps=done.steps / 12,
+                    where=done.where,
+                ),
                 "hundred" if _hundred(live, done) else "begin",
             )
         shares.append(well)
         levels.append(sum(_levels(done.agent)) / 2)
     share = sum(shares) / len(shares)
-    told = f"It felt well in {100 * share:.1f} of 100 decisions"
+    told = _("It felt well in {share:.1f} of 100 decisions", share=100 * share)
     if share < DRY_WELL:
         hint = "early" if sum(levels) / len(levels) > 0.65 else "late"
         hint = "rest" if _rests(live, done) else hint
-        raise NotYet(f"{told}; gold is {100 * DRY_WELL:.0f}.", hint=hint, picture=done.picture())
-    return Done(f"Gold: {told}.", done.picture())
+        raise NotYet(
+            _("{told}; gold is {dry_well:.0f}.", told=told, dry_well=100 * DRY_WELL),
+            hint=hint,
+            picture=done.picture(),
+        )
+    return Done(_("Gold: {told}.", told=told), done.picture())
 
 
 def _rests(live: Any, done: Drive) -> bool:
@@ -373,22 +419,24 @@ exit_ticket(
     Question(
         "c",
         {
-            "a": "Too much is outside the comfort zone as well.",
-            "b": "Its energy leaves the comfort zone, at the upper end.",
+            "a": _("Too much is outside the comfort zone as well."),
+            "b": _("Its energy leaves the comfort zone, at the upper end."),
         },
     ),
     Question(
         "a",
         {
-            "b": "In the percept the levels go from 0 to 1.",
-            "c": "Then its energy would be above the zone, not below.",
+            "b": _("In the percept the levels go from 0 to 1."),
+            "c": _("Then its energy would be above the zone, not below."),
         },
     ),
     Question(
         "b",
         {
-            "a": "A creature that is full is not paid for food. What is it about food that counts?",
-            "c": "A creature can stay alive, and feel worse and worse.",
+            "a": _(
+                "A creature that is full is not paid for food. What is it about food that counts?"
+            ),
+            "c": _("A creature can stay alive, and feel worse and worse."),
         },
     ),
 )

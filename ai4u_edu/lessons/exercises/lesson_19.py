@@ -5,13 +5,14 @@ from typing import Any, TypeVar
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Actuator, Block, LocalBrain, RBMoveActuator, RewardFunc, Sensor
 from ai4u_edu.check import Report, check_actuator, check_reward, check_sensor
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import is_close
 from ai4u_edu.lessons.rollouts import drive
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BoxShape, CircleShape, World
 
 B = TypeVar("B", bound=Block)
@@ -21,8 +22,11 @@ def _made(cls: Any, kind: type[B], **parameters: Any) -> B:
     """Make one of a student's blocks."""
     if not isinstance(cls, type) or not issubclass(cls, kind):
         raise NotYet(
-            f"Expected a class that is a {kind.__name__}: `class ...({kind.__name__}):`. Got "
-            f"{named(cls)}.",
+            _(
+                "Expected a class that is a {name}: `class ...({name}):`. Got {got}.",
+                name=kind.__name__,
+                got=named(cls),
+            ),
             hint="no-base",
         )
     return cls(**parameters)
@@ -36,7 +40,7 @@ def _always(name: str, *action: float) -> LocalBrain:
 def _examined(report: Report) -> None:
     """Raise NotYet with the checker's first finding."""
     if report.failed:
-        raise NotYet(f"The examiner says: {report.failed[0]}")
+        raise NotYet(_("The examiner says: {failed}", failed=str(report.failed[0])))
 
 
 def _world(box: tuple[float, float], heading_deg: float = 0.0, name: str = "box") -> World:
@@ -50,16 +54,22 @@ def _world(box: tuple[float, float], heading_deg: float = 0.0, name: str = "box"
 
 @exercise(
     "19.1",
-    "Nearness",
+    _("Nearness"),
     hints={
-        "begin": "Divide the distance by the reach: 0 at the target, 1 at the reach. One minus "
-        "that is what is wanted.",
-        "reversed": "Near and far are mixed up: at the target it has to be 1.",
-        "beyond": "Beyond the reach your reading is below 0. `max(0.0, ...)` takes the larger one "
-        "of two numbers.",
-        "target": "It looks for a body that is always called the same. Which body is meant says "
-        "the parameter: `view[self.target]`.",
-        "reach": "With another `reach` the reading is wrong. Use the parameter: `self.reach`.",
+        "begin": _(
+            "Divide the distance by the reach: 0 at the target, 1 at the reach. One minus "
+            "that is what is wanted."
+        ),
+        "reversed": _("Near and far are mixed up: at the target it has to be 1."),
+        "beyond": _(
+            "Beyond the reach your reading is below 0. `max(0.0, ...)` takes the larger one "
+            "of two numbers."
+        ),
+        "target": _(
+            "It looks for a body that is always called the same. Which body is meant says "
+            "the parameter: `view[self.target]`."
+        ),
+        "reach": _("With another `reach` the reading is wrong. Use the parameter: `self.reach`."),
     },
 )
 def senses_nearness(cls: Any) -> Done:
@@ -74,12 +84,22 @@ def senses_nearness(cls: Any) -> Done:
             except AI4UError as error:
                 if target != "box":
                     raise NotYet(
-                        f"With `target={target!r}`: {error}. Use `self.target`.", hint="target"
+                        _(
+                            "With `target={target!r}`: {error}. Use `self.target`.",
+                            target=target,
+                            error=text_of(error),
+                        ),
+                        hint="target",
                     ) from error
                 if away < reach:
                     raise
                 raise NotYet(
-                    f"With a reach of {reach:g} m and the target {away:g} m away: {error}",
+                    _(
+                        "With a reach of {reach:g} m and the target {away:g} m away: {error}",
+                        reach=reach,
+                        away=away,
+                        error=text_of(error),
+                    ),
                     hint="beyond",
                 ) from error
             found = float(agent.percept[sensor.perception_key][0])
@@ -93,25 +113,34 @@ def senses_nearness(cls: Any) -> Done:
                 elif reach != 8.0:
                     hint = "reach"
                 raise NotYet(
-                    f"With a reach of {reach:g} m and the target {away:g} m away, the reading is "
-                    f"{found:.2f}, not {wanted:.2f}.",
+                    _(
+                        "With a reach of {reach:g} m and the target {away:g} m away, the "
+                        "reading is {found:.2f}, not {wanted:.2f}.",
+                        reach=reach,
+                        away=away,
+                        found=found,
+                        wanted=wanted,
+                    ),
                     hint=hint,
                 )
     _examined(check_sensor(_made(cls, Sensor, target="box"), decisions=40))
-    return Done("Fifteen distances, and the examiner has nothing to complain about.")
+    return Done(_("Fifteen distances, and the examiner has nothing to complain about."))
 
 
 @exercise(
     "19.2",
-    "Calm",
+    _("Calm"),
     hints={
-        "begin": "`on_update` returns what is paid: `-self.cost` if the robot turns too fast, "
-        "else 0.",
-        "limit": "The limit is a parameter: compare with `self.limit`.",
-        "always": "It costs even to turn slowly.",
-        "side": "To one side it costs, to the other it does not. `abs` makes every number a "
-        "positive one.",
-        "sign": "It pays for turning fast. A cost is below 0.",
+        "begin": _(
+            "`on_update` returns what is paid: `-self.cost` if the robot turns too fast, else 0."
+        ),
+        "limit": _("The limit is a parameter: compare with `self.limit`."),
+        "always": _("It costs even to turn slowly."),
+        "side": _(
+            "To one side it costs, to the other it does not. `abs` makes every number a "
+            "positive one."
+        ),
+        "sign": _("It pays for turning fast. A cost is below 0."),
     },
 )
 def pays_for_calm(cls: Any) -> Done:
@@ -135,26 +164,39 @@ def pays_for_calm(cls: Any) -> Done:
                 elif limit != 1.0 and turn > 0 and found == 0:
                     hint = "limit"
                 raise NotYet(
-                    f"With limit {limit:g} and cost {cost:g}, a robot that turns at {turn:g} rad/s "
-                    f"is paid {found:g}, not {wanted:g}.",
+                    _(
+                        "With limit {limit:g} and cost {cost:g}, a robot that turns at "
+                        "{turn:g} rad/s is paid {found:g}, not {wanted:g}.",
+                        limit=limit,
+                        cost=cost,
+                        turn=turn,
+                        found=found,
+                        wanted=wanted,
+                    ),
                     hint=hint,
                 )
     _examined(check_reward(_made(cls, RewardFunc), decisions=60))
-    return Done("It costs to turn fast, to the left and to the right.")
+    return Done(_("It costs to turn fast, to the left and to the right."))
 
 
 @exercise(
     "19.3",
-    "A crab",
+    _("A crab"),
     hints={
-        "begin": "`body.apply_force(forward, left)`: no push forward, and to the left "
-        "`self.newtons * action[0]`.",
-        "forward": "It goes forward. The second number of `apply_force` is the push to the left.",
-        "right": "Left and right are mixed up: above 0 is a push to the left.",
-        "strength": "Multiply the newtons by the number in the action: `action[0]`.",
-        "speed": "It sets a speed. `apply_force` pushes, and a push makes a body ever faster.",
-        "world": "It goes up on the screen, wherever it looks. Left of the robot is somewhere else "
-        "when it has turned: `apply_force` knows that.",
+        "begin": _(
+            "`body.apply_force(forward, left)`: no push forward, and to the left "
+            "`self.newtons * action[0]`."
+        ),
+        "forward": _(
+            "It goes forward. The second number of `apply_force` is the push to the left."
+        ),
+        "right": _("Left and right are mixed up: above 0 is a push to the left."),
+        "strength": _("Multiply the newtons by the number in the action: `action[0]`."),
+        "speed": _("It sets a speed. `apply_force` pushes, and a push makes a body ever faster."),
+        "world": _(
+            "It goes up on the screen, wherever it looks. Left of the robot is somewhere "
+            "else when it has turned: `apply_force` knows that."
+        ),
     },
 )
 def walks_sideways(cls: Any) -> Done:
@@ -181,28 +223,41 @@ def walks_sideways(cls: Any) -> Done:
                 elif done.moved > 0.1:
                     hint = "world"
                 raise done.not_yet(
-                    f"With the action {push:g} and a heading of {heading:g} degrees the body went "
-                    f"{forward:.1f} m forward and {left:.1f} m to its left.",
+                    _(
+                        "With the action {push:g} and a heading of {heading:g} degrees the "
+                        "body went {forward:.1f} m forward and {left:.1f} m to its left.",
+                        push=push,
+                        heading=heading,
+                        forward=forward,
+                        left=left,
+                    ),
                     hint,
                 )
     half, full = (_pushed(cls, 10.0, push) for push in (0.5, 1.0))
     if not is_close(half / full, 0.5, 0.1):
         raise NotYet(
-            f"With the action 0.5 the body went {half:.2f} m, with 1 {full:.2f} m: the number in "
-            "the action says how strong the push is.",
+            _(
+                "With the action 0.5 the body went {half:.2f} m, with 1 {full:.2f} m: the "
+                "number in the action says how strong the push is.",
+                half=half,
+                full=full,
+            ),
             hint="strength",
         )
     if _pushed(cls, 10.0, decisions=12) < 2.5 * full:
         raise NotYet(
-            "In twice the time the body got only twice as far. A push makes it faster and faster.",
+            _(
+                "In twice the time the body got only twice as far. A push makes it faster "
+                "and faster."
+            ),
             hint="speed",
         )
     weak = _pushed(cls, 5.0)
     strong = _pushed(cls, 20.0)
     if strong < 2 * weak:
-        raise NotYet("With more `newtons` it does not go faster.", hint="begin")
+        raise NotYet(_("With more `newtons` it does not go faster."), hint="begin")
     _examined(check_actuator(_made(cls, Actuator), decisions=40))
-    return Done("It walks sideways, wherever it looks.", done.picture())
+    return Done(_("It walks sideways, wherever it looks."), done.picture())
 
 
 def _pushed(cls: Any, newtons: float, push: float = 1.0, decisions: int = 6) -> float:
@@ -218,23 +273,27 @@ exit_ticket(
     Question(
         "c",
         {
-            "a": "`read` does not look at the parameter at all: it divides by 8.",
-            "b": "A parameter may have any value. It is just not used.",
+            "a": _("`read` does not look at the parameter at all: it divides by 8."),
+            "b": _("A parameter may have any value. It is just not used."),
         },
     ),
     Question(
         "a",
         {
-            "b": "A space is not a place here. It says what a reading looks like: how many "
-            "numbers, from where to where.",
-            "c": "Time has nothing to do with it. A space says from where to where the numbers go.",
+            "b": _(
+                "A space is not a place here. It says what a reading looks like: how many "
+                "numbers, from where to where."
+            ),
+            "c": _(
+                "Time has nothing to do with it. A space says from where to where the numbers go."
+            ),
         },
     ),
     Question(
         "b",
         {
-            "a": "A scene file is data. It can describe a world, and nothing else.",
-            "c": "A class with functions is a program, and a program can do anything.",
+            "a": _("A scene file is data. It can describe a world, and nothing else."),
+            "c": _("A class with functions is a program, and a program can do anything."),
         },
     ),
 )

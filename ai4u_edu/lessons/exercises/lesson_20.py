@@ -14,6 +14,7 @@ from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, drive, drives, seeds_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 
@@ -28,10 +29,10 @@ def _scene(text: Any) -> Scene:
     if isinstance(text, Scene):
         return text
     if not isinstance(text, str):
-        raise NotYet(f"Expected the text of a scene, got {named(text)}.")
+        raise NotYet(_("Expected the text of a scene, got {got}.", got=named(text)))
     if not text.strip():
         raise NotYet(
-            "There is no scene yet: write `my_scene` in exercise 20.1, and run its cell.",
+            _("There is no scene yet: write `my_scene` in exercise 20.1, and run its cell."),
             hint="unfinished",
         )
     try:
@@ -42,16 +43,24 @@ def _scene(text: Any) -> Scene:
 
 @exercise(
     "20.1",
-    "A complete scene",
+    _("A complete scene"),
     hints={
-        "complete": "Look at a scene of the library: `print(Scene.load('box_chase').dumps())`. "
-        "What has it got that yours has not?",
-        "yaml": "Every name is followed by a colon and a space. What belongs to something stands "
-        "two spaces further to the right; in a list each thing begins with a dash.",
-        "success": "`success: touch` at the top level says which reward term means that the task "
-        "is done. A reward function's `name` is its term.",
-        "random": "`random: {x: [-4, 4], y: [-4, 4]}` at a body lets it begin somewhere else in "
-        "each episode.",
+        "complete": _(
+            "Look at a scene of the library: `print(Scene.load('box_chase').dumps())`. What "
+            "has it got that yours has not?"
+        ),
+        "yaml": _(
+            "Every name is followed by a colon and a space. What belongs to something stands "
+            "two spaces further to the right; in a list each thing begins with a dash."
+        ),
+        "success": _(
+            "`success: touch` at the top level says which reward term means that the task is "
+            "done. A reward function's `name` is its term."
+        ),
+        "random": _(
+            "`random: {x: [-4, 4], y: [-4, 4]}` at a body lets it begin somewhere else in "
+            "each episode."
+        ),
     },
 )
 def is_complete(text: Any) -> Done:
@@ -60,7 +69,7 @@ def is_complete(text: Any) -> Done:
     told = scene.description
     missing = [name for name in WANTED if len(getattr(told, name).strip()) < 8]
     if missing:
-        raise NotYet(f"There is no {missing[0]} in words yet.", hint="complete")
+        raise NotYet(_("There is no {missing} in words yet.", missing=missing[0]), hint="complete")
     sim = scene.build()
     sim.reset(1)
     agent = sim.agents[0]
@@ -71,11 +80,18 @@ def is_complete(text: Any) -> Done:
     ):
         if count < least:
             raise NotYet(
-                f"The first agent has {count} {name}; at least {least} are needed.",
+                _(
+                    "The first agent has {count} {name}; at least {least} are needed.",
+                    count=count,
+                    name=name,
+                    least=least,
+                ),
                 hint="complete",
             )
     if not told.success:
-        raise NotYet("Nothing says when the task is done: `success:` is missing.", hint="success")
+        raise NotYet(
+            _("Nothing says when the task is done: `success:` is missing."), hint="success"
+        )
     taking_part = _taking_part(agent)
     places = []
     for seed in seeds_of("20.1", 10):
@@ -85,11 +101,19 @@ def is_complete(text: Any) -> Done:
     if not any(_differs(poses) for poses in zip(*places, strict=True)):
         names = " and ".join(f"`{name}`" for name in taking_part)
         raise NotYet(
-            f"All episodes begin in nearly the same way for {names}: in 10 of them no place is "
-            f"{MIN_SPREAD_M:g} m from another one, and no heading {MIN_SPREAD_DEG:g} degrees.",
+            _(
+                "All episodes begin in nearly the same way for {names}: in 10 of them no "
+                "place is {min_spread_m:g} m from another one, and no heading "
+                "{min_spread_deg:g} degrees.",
+                names=names,
+                min_spread_m=MIN_SPREAD_M,
+                min_spread_deg=MIN_SPREAD_DEG,
+            ),
             hint="random",
         )
-    return Done(f"{told.title or told.name}: complete.", picture(capture_snapshot(sim)))
+    return Done(
+        _("{title}: complete.", title=told.title or told.name), picture(capture_snapshot(sim))
+    )
 
 
 def _differs(poses: Sequence[tuple[float, float, float]]) -> bool:
@@ -113,75 +137,100 @@ def _taking_part(agent: BasicAgent) -> list[str]:
 
 @exercise(
     "20.2",
-    "Solved",
+    _("Solved"),
     hints={
-        "begin": "Write `solve` for your scene. What did you do in lessons 03 and 06?",
-        "never": "It moves, and never gets there. Watch an episode: `film(Scene.loads(my_scene), "
-        "solve, seed=...)`. What should it do at the moment in which it goes wrong?",
-        "seldom": "It works sometimes. Watch an episode that failed: `film(Scene.loads(my_scene), "
-        "solve, seed=...)`.",
-        "idle": "The robot begins where it should get to. Put it farther away.",
-        "yaml": "The scene itself is not in order yet: first solve exercise 20.1.",
+        "begin": _("Write `solve` for your scene. What did you do in lessons 03 and 06?"),
+        "never": _(
+            "It moves, and never gets there. Watch an episode: `film(Scene.loads(my_scene), "
+            "solve, seed=...)`. What should it do at the moment in which it goes wrong?"
+        ),
+        "seldom": _(
+            "It works sometimes. Watch an episode that failed: `film(Scene.loads(my_scene), "
+            "solve, seed=...)`."
+        ),
+        "idle": _("The robot begins where it should get to. Put it farther away."),
+        "yaml": _("The scene itself is not in order yet: first solve exercise 20.1."),
     },
 )
 def is_solved(text: Any, solve: Any) -> Done:
     """Check for success on 8 of 10 seeds."""
     scene, won = _scene(text), 0
     if not scene.description.success:
-        raise NotYet("The scene does not say what success is: see exercise 20.1.", hint="begin")
+        raise NotYet(_("The scene does not say what success is: see exercise 20.1."), hint="begin")
     idle = sum(done.won for done in drives(scene, _idle, seeds_of("20.2", 10), limit=100))
     if idle > 2:
         raise NotYet(
-            f"In {idle} of 10 episodes it succeeds without doing anything: the task is done before "
-            "it begins.",
+            _(
+                "In {idle} of 10 episodes it succeeds without doing anything: the task is "
+                "done before it begins.",
+                idle=idle,
+            ),
             hint="idle",
         )
     reason = None
     for done in drives(scene, solve, seeds_of("20.2", 10)):
         won += done.won
         if not done.won and reason is None:
-            reason = done.not_yet("No success ({where}).", "seldom" if done.moved else "begin")
+            reason = done.not_yet(
+                _("No success ({where}).", where=done.where), "seldom" if done.moved else "begin"
+            )
     if won < 8 and reason is not None:
-        reason.text = f"{won} of 10 episodes succeeded, 8 are needed. {reason.text}"
+        reason.text = _(
+            "{won} of 10 episodes succeeded, 8 are needed. {text}", won=won, text=reason.text
+        )
         if not won and reason.hint == "seldom":
             reason.hint = "never"
         raise reason
-    return Done(f"{won} of 10 episodes succeeded.", done.picture())
+    return Done(_("{won} of 10 episodes succeeded.", won=won), done.picture())
 
 
 @exercise(
     "20.3",
-    "Worth something",
+    _("Worth something"),
     hints={
-        "easy": "Chance succeeds too often. Put the target farther away, behind something, near an "
-        "edge; give less time; or ask for two things in turn.",
-        "impossible": "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
-        "better; it is the one of exercise 20.2.",
-        "yaml": "The scene itself is not in order yet: first solve exercise 20.1.",
+        "easy": _(
+            "Chance succeeds too often. Put the target farther away, behind something, near "
+            "an edge; give less time; or ask for two things in turn."
+        ),
+        "impossible": _(
+            "Chance fails, and so does your `solve`. Make the world easier, or `solve` "
+            "better; it is the one of exercise 20.2."
+        ),
+        "yaml": _("The scene itself is not in order yet: first solve exercise 20.1."),
     },
 )
 def is_no_chance(text: Any, solve: Any) -> Done:
     """Check that a solver succeeds in most episodes, and chance in fewer than 3 of 10."""
     scene = _scene(text)
     if not scene.description.success:
-        raise NotYet("The scene does not say what success is: see exercise 20.1.", hint="easy")
+        raise NotYet(_("The scene does not say what success is: see exercise 20.1."), hint="easy")
     drives_by_chance = [_driven_by_chance(scene, seed) for seed in seeds_of("20.3", 10)]
     won, done = sum(each.won for each in drives_by_chance), drives_by_chance[-1]
     if won >= 3:
         raise NotYet(
-            f"With random actions {won} of 10 episodes succeeded.",
+            _("With random actions {won} of 10 episodes succeeded.", won=won),
             hint="easy",
             picture=done.picture(),
         )
     solved = sum(done.won for done in drives(scene, solve, seeds_of("20.3", 10)))
     if solved < SOLVED:
         raise NotYet(
-            f"With random actions {won} of 10 episodes succeeded, with your `solve` {solved}. A "
-            f"world that nobody can solve is not worth much: {SOLVED} are needed.",
+            _(
+                "With random actions {won} of 10 episodes succeeded, with your `solve` "
+                "{solved}. A world that nobody can solve is not worth much: {solved2} are "
+                "needed.",
+                won=won,
+                solved=solved,
+                solved2=SOLVED,
+            ),
             hint="impossible",
         )
     return Done(
-        f"With random actions {won} of 10 episodes succeeded, with `solve` {solved}.",
+        _(
+            "With random actions {won} of 10 episodes succeeded, with `solve` {solved}.",
+            won=won,
+            solved=solved,
+        ),
         done.picture(),
     )
 
@@ -226,24 +275,27 @@ exit_ticket(
     Question(
         "b",
         {
-            "a": "The same seed gives the same episode: it was tried once, ten times over.",
-            "c": "With one episode it may have been luck. Chance succeeds now and then, too.",
+            "a": _("The same seed gives the same episode: it was tried once, ten times over."),
+            "c": _("With one episode it may have been luck. Chance succeeds now and then, too."),
         },
     ),
     Question(
         "a",
         {
-            "b": "Compare it with what chance achieves.",
-            "c": "One episode more of ten is easily luck. Many more episodes, or a harder task, "
-            "would tell.",
+            "b": _("Compare it with what chance achieves."),
+            "c": _(
+                "One episode more of ten is easily luck. Many more episodes, or a harder "
+                "task, would tell."
+            ),
         },
     ),
     Question(
         "c",
         {
-            "a": "You changed it until it fitted these ten. Other worlds tell how good it really "
-            "is.",
-            "b": "It was fitted to these as well.",
+            "a": _(
+                "You changed it until it fitted these ten. Other worlds tell how good it really is."
+            ),
+            "b": _("It was fitted to these as well."),
         },
     ),
 )

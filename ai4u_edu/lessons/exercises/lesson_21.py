@@ -26,6 +26,7 @@ from ai4u_edu.lessons.exercise import Done, NotYet, exercise
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
@@ -89,21 +90,31 @@ def road(paint: Any, seed: int = 0) -> ControlRequestor:
 
 @exercise(
     "21.1",
-    "Ink the orange stripes",
+    _("Ink the orange stripes"),
     hints={
-        "begin": "The pen is up all the time. `pen` gets 1 where it should be down: choose by "
-        '`percept["colour"]`.',
-        "always": "The pen is down wherever it drives. Put it down over orange alone.",
-        "bright": "It inks the blue stripes, too. Both colours are about equally bright, so "
-        "brightness can't tell them apart. How much *blue* is in each of them?",
-        "paper": "It inks the white paper. White has as much red in it as orange: white is all "
-        "three colours together. Which of the three has orange none of?",
-        "reversed": "It inks what it should leave, and leaves what it should ink.",
-        "other": "It inks the blue stripes, and not the orange ones.",
-        "stands": "It does not get to the end of the road. Drive straight on all the time: "
-        '`"move": [1, 0, 0, 0]`.',
-        "away": "It leaves the middle of the road. Drive straight on: the second number of `move` "
-        "stays 0.",
+        "begin": _(
+            "The pen is up all the time. `pen` gets 1 where it should be down: choose by "
+            '`percept["colour"]`.'
+        ),
+        "always": _("The pen is down wherever it drives. Put it down over orange alone."),
+        "bright": _(
+            "It inks the blue stripes, too. Both colours are about equally bright, so "
+            "brightness can't tell them apart. How much *blue* is in each of them?"
+        ),
+        "paper": _(
+            "It inks the white paper. White has as much red in it as orange: white is all "
+            "three colours together. Which of the three has orange none of?"
+        ),
+        "reversed": _("It inks what it should leave, and leaves what it should ink."),
+        "other": _("It inks the blue stripes, and not the orange ones."),
+        "stands": _(
+            "It does not get to the end of the road. Drive straight on all the time: "
+            '`"move": [1, 0, 0, 0]`.'
+        ),
+        "away": _(
+            "It leaves the middle of the road. Drive straight on: the second number of "
+            "`move` stays 0."
+        ),
     },
 )
 def inks_orange(paint: Any) -> Done:
@@ -123,17 +134,30 @@ def inks_orange(paint: Any) -> Done:
         share = {place: inked[place] / points[place] for place in points}
         elsewhere = (inked["sky blue"] + inked["paper"]) / (points["sky blue"] + points["paper"])
         if max(abs(y) for _, y in done.trail) > 0.3:
-            raise done.not_yet("It did not stay in the middle of the road ({where}).", "away")
-        if not done.won:
-            raise done.not_yet("It did not get to the end of the road ({where}).", "stands")
-        if share["orange"] < LEAST_INKED or elsewhere > MOST_ELSEWHERE:
             raise done.not_yet(
-                f"There is ink on {share['orange']:.0%} of the orange stripes, on "
-                f"{share['sky blue']:.0%} of the blue ones and on {share['paper']:.0%} of the "
-                "paper ({where}).",
+                _("It did not stay in the middle of the road ({where}).", where=done.where), "away"
+            )
+        if not done.won:
+            raise done.not_yet(
+                _("It did not get to the end of the road ({where}).", where=done.where), "stands"
+            )
+        if share["orange"] < LEAST_INKED or elsewhere > MOST_ELSEWHERE:
+            orange, blue, paper = (share[each] for each in ("orange", "sky blue", "paper"))
+            raise done.not_yet(
+                _(
+                    "There is ink on {orange:.0%} of the orange stripes, on {blue:.0%} of "
+                    "the blue ones and on {paper:.0%} of the paper ({where}).",
+                    orange=orange,
+                    blue=blue,
+                    paper=paper,
+                    where=done.where,
+                ),
                 _ink_mistake(share),
             )
-    return Done(f"Orange stripes have ink, and nothing else: {len(seeds)} roads.", done.picture())
+    return Done(
+        _("Orange stripes have ink, and nothing else: {count} roads.", count=len(seeds)),
+        done.picture(),
+    )
 
 
 def _ink_mistake(share: dict[str, float]) -> str:
@@ -227,16 +251,22 @@ def trail(follow: Any, seed: int = 0) -> ControlRequestor:
 
 @exercise(
     "21.2",
-    "Follow the trail",
+    _("Follow the trail"),
     hints={
-        "begin": "It does the same whatever its eyes see. If the left eyes see the trail, turn to "
-        "the left; if the right ones see it, turn to the right.",
-        "mirrored": "It turns away from the trail. The first eye is the leftmost one, and a turn "
-        "below 0 goes to the left.",
-        "late": "It turns too little, so it runs off where the trail bends. Turn more, or drive "
-        "more slowly.",
-        "slow": "It stays on the trail, and is too slow: the time was up before it was there.",
-        "stands": "It does not move on. While no eye sees the trail, drive straight on.",
+        "begin": _(
+            "It does the same whatever its eyes see. If the left eyes see the trail, turn to "
+            "the left; if the right ones see it, turn to the right."
+        ),
+        "mirrored": _(
+            "It turns away from the trail. The first eye is the leftmost one, and a turn "
+            "below 0 goes to the left."
+        ),
+        "late": _(
+            "It turns too little, so it runs off where the trail bends. Turn more, or drive "
+            "more slowly."
+        ),
+        "slow": _("It stays on the trail, and is too slow: the time was up before it was there."),
+        "stands": _("It does not move on. While no eye sees the trail, drive straight on."),
     },
 )
 def follows_the_trail(follow: Any) -> Done:
@@ -252,12 +282,19 @@ def follows_the_trail(follow: Any) -> Done:
         done = drive(sim, sim.agents[0], seed, FOLLOW_DECISIONS, watch)
         if not done.won:
             off = max(min(math.dist(here, each) for each in scouts_way) for here in done.trail)
-            how = "lost the trail" if off > LOST_M else "did not get to its end in time"
+            how = _("lost the trail") if off > LOST_M else _("did not get to its end in time")
             raise done.not_yet(
-                f"The robot {how} ({{where}}). On {count} trails before that it got there.",
+                _(
+                    "The robot {how} ({where}). On {count} trails before that it got there.",
+                    how=how,
+                    where=done.where,
+                    count=count,
+                ),
                 _trail_mistake(follow, done, off),
             )
-    return Done(f"It found the scout at the end of {len(seeds)} trails.", done.picture())
+    return Done(
+        _("It found the scout at the end of {count} trails.", count=len(seeds)), done.picture()
+    )
 
 
 def _trail_mistake(follow: Any, done: Drive, off: float) -> str:
@@ -303,16 +340,22 @@ def _places(chance: np.random.Generator) -> list[tuple[list[float], list[float]]
 
 @function_exercise(
     "21.3",
-    "Zero, or silence?",
+    _("Zero, or silence?"),
     hints={
-        "begin": "`heard` is the first number of the reading. If it is 1, the place is 10 times "
-        "the other two numbers; else it is the place known before.",
-        "silence": "When nobody speaks, all numbers are 0. That does not mean that the flag is in "
-        "the middle: ask for `heard` first.",
-        "flag": "A 0 may have been said: the middle of the field is a place, too. Only `heard` "
-        "says whether somebody spoke.",
-        "scale": "The numbers of a message go from -1 to 1. Here 1 stands for 10 metres.",
-        "swapped": "x comes first, then y.",
+        "begin": _(
+            "`heard` is the first number of the reading. If it is 1, the place is 10 times "
+            "the other two numbers; else it is the place known before."
+        ),
+        "silence": _(
+            "When nobody speaks, all numbers are 0. That does not mean that the flag is in "
+            "the middle: ask for `heard` first."
+        ),
+        "flag": _(
+            "A 0 may have been said: the middle of the field is a place, too. Only `heard` "
+            "says whether somebody spoke."
+        ),
+        "scale": _("The numbers of a message go from -1 to 1. Here 1 stands for 10 metres."),
+        "swapped": _("x comes first, then y."),
     },
 )
 def hears_a_place(chance: np.random.Generator) -> Calls:
@@ -320,17 +363,22 @@ def hears_a_place(chance: np.random.Generator) -> Calls:
     asked = []
     for hear, before in _places(chance):
         given = yield (np.array(hear), list(before))
-        asked.append((hear, before, finite_numbers(given, 2, expected="Expected two numbers")))
+        asked.append((hear, before, finite_numbers(given, 2, expected=_("Expected two numbers"))))
     for hear, before, got in asked:
         wanted = _told(hear, before)
         if not is_close(got, wanted, 1e-6):
             said = f"[{hear[0]:g}, {hear[1]:g}, {hear[2]:g}]"
             raise NotYet(
-                f"Heard {said}, known before {before}: expected {_shown(wanted)}, got "
-                f"{_shown(got)}.",
+                _(
+                    "Heard {said}, known before {before}: expected {shown}, got {shown2}.",
+                    said=said,
+                    before=str(before),
+                    shown=_shown(wanted),
+                    shown2=_shown(got),
+                ),
                 hint=_message_mistake(asked),
             )
-    return f"{len(asked)} readings, and it always knew the place that was told last."
+    return _("{count} readings, and it always knew the place that was told last.", count=len(asked))
 
 
 def _told(hear: Sequence[float], before: list[float]) -> list[float]:
@@ -404,18 +452,24 @@ def tower(spot: Any, run: Any, *, reach: float = 30.0) -> ControlRequestor:
 
 @exercise(
     "21.4",
-    "A tower that tells",
+    _("A tower that tells"),
     hints={
-        "begin": "The tower says two numbers from -1 to 1: the flag's x and y, divided by 10. The "
-        "robot multiplies what it heard by 10, and goes there.",
-        "silent": "The tower does not speak: the first number of `speak` has to be above 0.5.",
-        "deaf": 'The robot does the same whatever it hears: read `percept["hear"]`.',
-        "range": "A message has numbers from -1 to 1 alone. Metres are too large: divide them.",
-        "code": "The two don't mean the same by their numbers. What the tower divides by, the "
-        "robot has to multiply by; and x comes first for both, or y does.",
-        "slow": "It goes to the right place, and does not get there in time.",
-        "elsewhere": "It finds the flag without hearing a word: the robot knows from elsewhere "
-        "where it is. Two robots share no variables; the tower has to *say* it.",
+        "begin": _(
+            "The tower says two numbers from -1 to 1: the flag's x and y, divided by 10. The "
+            "robot multiplies what it heard by 10, and goes there."
+        ),
+        "silent": _("The tower does not speak: the first number of `speak` has to be above 0.5."),
+        "deaf": _('The robot does the same whatever it hears: read `percept["hear"]`.'),
+        "range": _("A message has numbers from -1 to 1 alone. Metres are too large: divide them."),
+        "code": _(
+            "The two don't mean the same by their numbers. What the tower divides by, the "
+            "robot has to multiply by; and x comes first for both, or y does."
+        ),
+        "slow": _("It goes to the right place, and does not get there in time."),
+        "elsewhere": _(
+            "It finds the flag without hearing a word: the robot knows from elsewhere where "
+            "it is. Two robots share no variables; the tower has to *say* it."
+        ),
     },
 )
 def finds_by_messages(spot: Any, run: Any) -> Done:
@@ -433,14 +487,20 @@ def finds_by_messages(spot: Any, run: Any) -> Done:
         done = drive(sim, sim.agents[0], seed, FIND_DECISIONS, listen)
         if not done.won:
             raise done.not_yet(
-                f"The robot did not get to the flag ({{where}}). In {count} worlds before that it "
-                "did.",
+                _(
+                    "The robot did not get to the flag ({where}). In {count} worlds before "
+                    "that it did.",
+                    where=done.where,
+                    count=count,
+                ),
                 _telling_mistake(run, said, done),
             )
     unheard = tower(spot, run, reach=0.1)
     if all(drive(unheard, unheard.agents[0], seed, FIND_DECISIONS).won for seed in seeds[:4]):
-        raise NotYet("It finds the flag where nobody can hear the tower, too.", hint="elsewhere")
-    return Done(f"The tower told, and the robot went: {len(seeds)} worlds.", done.picture())
+        raise NotYet(_("It finds the flag where nobody can hear the tower, too."), hint="elsewhere")
+    return Done(
+        _("The tower told, and the robot went: {count} worlds.", count=len(seeds)), done.picture()
+    )
 
 
 def _telling_mistake(run: Any, said: Sequence[Sequence[float]], done: Drive) -> str:
@@ -486,24 +546,28 @@ exit_ticket(
     Question(
         "a",
         {
-            "b": "The other robot was there long ago. It need not be there any more, nor hear "
-            "anything.",
-            "c": "Ink stays until it is wiped away or the world begins anew.",
+            "b": _(
+                "The other robot was there long ago. It need not be there any more, nor hear "
+                "anything."
+            ),
+            "c": _("Ink stays until it is wiped away or the world begins anew."),
         },
     ),
     Question(
         "c",
         {
-            "a": "Silence reads 0 as well, and so does the middle of a field when it is said.",
-            "b": "The number after it may be anything, in a message too.",
+            "a": _("Silence reads 0 as well, and so does the middle of a field when it is said."),
+            "b": _("The number after it may be anything, in a message too."),
         },
     ),
     Question(
         "b",
         {
-            "a": "It hears all robots in reach, whatever they mean by their numbers.",
-            "c": "Numbers have no meaning of their own: whoever speaks and whoever hears have to "
-            "agree on it.",
+            "a": _("It hears all robots in reach, whatever they mean by their numbers."),
+            "c": _(
+                "Numbers have no meaning of their own: whoever speaks and whoever hears have "
+                "to agree on it."
+            ),
         },
     ),
 )
