@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 Lamp = Literal["behind", "elsewhere", "anywhere"]
 PLACES: dict[Lamp, str] = {
-    "behind": _("position: [4.8, 0.8]"),
-    "elsewhere": _("position: [0, -5.5]"),
-    "anywhere": _("random: {x: [-5, 5.5], y: [-5.5, 5.5]}"),
+    "behind": "position: [4.8, 0.8]",
+    "elsewhere": "position: [0, -5.5]",
+    "anywhere": "random: {x: [-5, 5.5], y: [-5.5, 5.5]}",
 }
 """Places of the lamp: always behind the box, somewhere else, or somewhere new each time."""
 
