@@ -16,7 +16,7 @@ from ai4u_edu.lessons.notebook_output import cells_so_far, tell
 from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
 from ai4u_edu.lessons.student_errors import Mistake, line_of, mistake_in
 from ai4u_edu.lessons.time_limit import TimeLimit, TimeLimitError
-from ai4u_edu.lessons.translation import translated_code
+from ai4u_edu.lessons.translation import translated_code, translated_title
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join, translate
 
@@ -174,7 +174,7 @@ def progress() -> None:
         passed, total = passed + sum(marks), total + len(marks)
         named = list(zip(each.exercises, marks, strict=True))
         signs = "   ".join(f"{name} {YES if mark else NO}" for name, mark in named)
-        rows.append(f"{each.title}: {signs}")
+        rows.append(f"{translated_title(each)}: {signs}")
     line = _("{passed} of {total} exercises are solved.", passed=passed, total=total)
     trouble = [progress.trouble] if progress.trouble else []
     tell("blue", _("Progress."), [line, *rows, *trouble])

@@ -15,6 +15,7 @@ from ai4u_edu.lessons.notebook import EXERCISE
 from ai4u_edu.lessons.notebook_output import address, card, put
 from ai4u_edu.lessons.prediction_values import Prediction, shown
 from ai4u_edu.lessons.progress_file import ExerciseProgress, ProgressFile
+from ai4u_edu.lessons.translation import translated_title
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import ngettext, translate
 
@@ -49,7 +50,7 @@ def page(progress: ProgressFile, name: str = "") -> str:
                 (find(each), entries[each], code.get(each), _picture(progress, each))
                 for each in begun
             ]
-            work.append((lesson.title, exercises, guessed))
+            work.append((translated_title(lesson), exercises, guessed))
     return render_html(
         "lessons/report_page.html",
         title=translate(_title(name)),

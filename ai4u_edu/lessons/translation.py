@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import groupby
 
-from ai4u_edu.lessons.course import lesson
+from ai4u_edu.lessons.course import Lesson, lesson
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, catalogue
 
@@ -68,6 +68,11 @@ def translated_lesson(name: str, cells: list[Cell], language: str) -> list[Cell]
     source = f"{translated[setup].source}\n\n{LANGUAGE_CELL.format(code=language)}"
     translated[setup] = replace(translated[setup], source=source)
     return translated
+
+
+def translated_title(lesson: Lesson) -> str:
+    """Return a lesson's title in the reader's language."""
+    return Catalogue(catalogue().language, f"{LESSONS}/{lesson.name}").message(lesson.title)
 
 
 def translated_code(exercise: str, code: str) -> str:

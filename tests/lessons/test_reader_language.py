@@ -1,0 +1,54 @@
+"""Checks in the language of a notebook; what is saved is English."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ai4u_edu.lessons import check, hint, progress, report, solution
+from ai4u_edu.lessons.progress_file import ProgressFile
+from ai4u_edu.locale import reader
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def stay(percept: Any) -> Any:
+    return {"move": [0, 0, 0, 0]}
+
+
+def test_a_check_speaks_portuguese_and_saves_english(capsys: pytest.CaptureFixture[str]) -> None:
+    with reader("pt_BR"):
+        check("00.1", stay)
+        hint("00.1")
+        progress()
+    out = capsys.readouterr().out
+    assert "Ainda não. " in out
+    assert "semente" in out
+    assert "Dica. " in out
+    assert "Progresso. " in out
+    assert "Not yet" not in out
+    assert "Start here" not in out
+    assert ProgressFile().entries()["00.1"].text.startswith("Your robot hardly moved")
+
+
+def test_a_report_is_written_in_portuguese(tmp_path: Path) -> None:
+    check("00.1", stay)
+    with reader("pt_BR"):
+        report("Ana")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Ana" in page
+    assert "ainda não" in page
+    assert "not yet" not in page
+
+
+def test_comments_of_a_solution_are_translated(capsys: pytest.CaptureFixture[str]) -> None:
+    solution("03.5")
+    assert "# its back to the box" in capsys.readouterr().out
+    with reader("pt_BR"):
+        solution("03.5")
+    translated = capsys.readouterr().out
+    assert "its back to the box" not in translated
+    assert 'return {"move": [-1, side, 0, 0]}  # de costas' in translated
