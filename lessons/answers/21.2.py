@@ -53,7 +53,7 @@ def follow(percept):
     return {"move": [1, 0, 0, 0]}
 
 
-# %% tags=["wrong", "slow"]
+# %% tags=["wrong", "too-slow"]
 def follow(percept):
     left, half_left, middle, half_right, right = percept["line"]
     turn = right + 0.5 * half_right - 0.5 * half_left - left

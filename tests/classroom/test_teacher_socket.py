@@ -161,7 +161,7 @@ def test_a_switch_is_told_to_rooms_and_wall_and_to_whoever_comes_later(
         ("switch", {"name": "sound", "on": 7}, "on"),
         ("assign", {"rooms": ["nowhere"], "scene": "maze"}, "no room 'nowhere'"),
         ("assign", {"rooms": "all", "scene": "../x"}, "scene of the library"),
-        ("assign", {"rooms": "all", "scene": {"lesson": "99"}}, "expected a number from 00 to 20"),
+        ("assign", {"rooms": "all", "scene": {"lesson": "99"}}, "expected a number from 00 to 21"),
         ("assign", {"rooms": "all", "scene": {"yaml": "<script>"}}, "scene: "),
         ("assign", {"rooms": "some", "scene": "maze"}, "rooms"),
         ("attention", {"kind": "loud"}, "kind"),

@@ -265,7 +265,7 @@ def trail(follow: Any, seed: int = 0) -> ControlRequestor:
             "It turns too little, so it runs off where the trail bends. Turn more, or drive "
             "more slowly."
         ),
-        "slow": _("It stays on the trail, and is too slow: the time was up before it was there."),
+        "too-slow": _("It stays on the trail, and is too slow: the time was up before it was there."),
         "stands": _("It does not move on. While no eye sees the trail, drive straight on."),
     },
 )
@@ -311,7 +311,7 @@ def _trail_mistake(follow: Any, done: Drive, off: float) -> str:
         are_actions = isinstance(left, dict) and isinstance(right, dict)
         if are_actions and float(left["move"][1]) > float(right["move"][1]):
             return "mirrored"
-    return "late" if off > LOST_M else "slow"
+    return "late" if off > LOST_M else "too-slow"
 
 
 # -- messages --------------------------------------------------------------------------------------
@@ -465,7 +465,7 @@ def tower(spot: Any, run: Any, *, reach: float = 30.0) -> ControlRequestor:
             "The two don't mean the same by their numbers. What the tower divides by, the "
             "robot has to multiply by; and x comes first for both, or y does."
         ),
-        "slow": _("It goes to the right place, and does not get there in time."),
+        "too-slow": _("It goes to the right place, and does not get there in time."),
         "elsewhere": _(
             "It finds the flag without hearing a word: the robot knows from elsewhere where "
             "it is. Two robots share no variables; the tower has to *say* it."
@@ -520,7 +520,7 @@ def _telling_mistake(run: Any, said: Sequence[Sequence[float]], done: Drive) -> 
         return "deaf"
     place = done.sim.world["flag"].position
     nearer = math.dist(done.trail[0], place) - math.dist(done.trail[-1], place)
-    return "slow" if nearer > 0.5 * math.dist(done.trail[0], place) else "code"
+    return "too-slow" if nearer > 0.5 * math.dist(done.trail[0], place) else "code"
 
 
 def loads_home(*, has_ink: bool) -> int:
